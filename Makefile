@@ -1,0 +1,66 @@
+# Two commands do everything on Debian and Ubuntu, packages included: make demo, make test.
+#   make demo        build, run the double cantilever beam, compare with the paper
+#   make test        every test: release, sanitizers, fuzzers
+#   make build       the program, build/bin/scabo
+#   make fuzz        the fuzzers, FUZZ_SECONDS each
+#   make bench       against CalculiX and GetFEM
+#   make packages    everything that apt can bring
+#   make install     to PREFIX (/usr/local)
+#   make clean       removes build/ and build-*/
+# PYTHON=... names the interpreter (or SCABO_PYTHON in the environment), JOBS=... the number of parallel jobs.
+# SCABO_PACKAGES=no installs no packages.
+PYTHON = $(SCABO_PYTHON)
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 60
+
+configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
+with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
+
+.PHONY: help demo build test test-release test-asan fuzz bench packages install clean
+help:
+	@sed -n 's/^#   //p' Makefile
+
+demo:
+	@cmake/install_packages.sh build
+	@$(MAKE) --no-print-directory build
+	@$(with_python) examples/01_double_cantilever/compare.py --scabo build/bin/scabo
+
+build:
+	@$(configure) release
+	@cmake --build --preset release --target product --parallel $(JOBS)
+
+test:
+	@cmake/install_packages.sh build test
+	@cmake/timed.sh "Release build and tests" $(MAKE) --no-print-directory test-release
+	@cmake/timed.sh "Sanitizer build and tests" $(MAKE) --no-print-directory test-asan
+	@cmake/timed.sh "Fuzzers" $(MAKE) --no-print-directory fuzz
+
+test-release:
+	@$(configure) release
+	@cmake --build --preset release --parallel $(JOBS)
+	@ctest --preset release --parallel $(JOBS)
+
+test-asan:
+	@$(configure) asan
+	@cmake --build --preset asan --parallel $(JOBS)
+	@ctest --preset asan --parallel $(JOBS)
+
+fuzz:
+	@cmake --preset fuzz
+	@cmake --build --preset fuzz --parallel $(JOBS)
+	@cmake/run_fuzzers.sh build-fuzz $(FUZZ_SECONDS)
+
+bench:
+	@cmake/install_packages.sh build bench
+	@$(MAKE) --no-print-directory build
+	@$(with_python) benchmarks/peers/run.py --scabo build/bin/scabo
+
+packages:
+	@cmake/install_packages.sh build test bench
+
+install: build
+	@cmake --install build --prefix "$(PREFIX)"
+
+clean:
+	rm -rf build build-*

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Solves the double cantilever beam of Zhu et al. (2017) with GetFEM and prints its contact force.
+
+    getfem_beams.py [--size 0.1875] [--friction 0.2]
+
+Two beams 6 x 1.5 m, the upper lying on the lower, both fixed at x = 0, plane stress, thickness 1 m,
+E = 10 GPa, nu = 0.3, 100 kN downwards on the corner (6, 3).
+Source: Zhu, Gao, Hu, Lin, Lu, The Open Civil Engineering Journal 11 (2017) 896-905.
+
+8-node elements; GetFEM's integral contact brick, an augmented Lagrangian (Alart and Curnier 1991,
+not symmetrised) whose multiplier, the traction on the lower beam's top, is continuous and linear.
+
+Units: m, GN, GPa. In N and Pa the contact rows of the residual, of size pressure / r, would be ten orders
+of magnitude smaller than the forces, and Newton's method would stop before it has found the contact.
+
+Output, one line of JSON: normal_force and tangential_force (kN, on the upper beam, upwards and along
++x positive), newton_iterations, dofs (multipliers included). Exit status 1 if not converged.
+"""
+import argparse
+import json
+import sys
+
+import getfem
+import numpy as np
+
+LENGTH, HEIGHT = 6.0, 1.5       # of one beam, m
+YOUNG, POISSON = 10.0, 0.3      # GPa, -
+LOAD = 1e-4                     # GN, downwards on the corner (6, 3)
+TOLERANCE = 1e-12               # on the residual: 1e-8 of the load
+KILONEWTON = 1e-6               # GN
+FIXED, JOINT = 1, 2             # numbers of the two regions on either mesh
+EPSILON = 1e-9                  # m, for finding nodes by their place
+
+
+def beam_mesh(y0, size):
+    """A regular mesh of the beam between y0 and y0 + HEIGHT, with its regions FIXED and JOINT."""
+    x = np.linspace(0.0, LENGTH, round(LENGTH / size) + 1)
+    y = np.linspace(y0, y0 + HEIGHT, round(HEIGHT / size) + 1)
+    mesh = getfem.Mesh("cartesian", x, y)
+    points = mesh.pts()
+    mesh.set_region(FIXED, mesh.faces_from_pid(np.flatnonzero(points[0] < EPSILON)))
+    mesh.set_region(JOINT, mesh.faces_from_pid(np.flatnonzero(abs(points[1] - HEIGHT) < EPSILON)))
+    return mesh
+
+
+def vector_field(mesh, element):
+    field = getfem.MeshFem(mesh, 2)
+    field.set_fem(getfem.Fem(element))
+    return field
+
+
+def solve(size, friction):
+    """The figures to print, and whether Newton's method converged."""
+    model = getfem.Model("real")
+    # GetFEM's Lame constant is that of plane strain; this value of it gives plane stress.
+    model.add_initialized_data("lambda", [YOUNG * POISSON / (1.0 - POISSON**2)])
+    model.add_initialized_data("G", [YOUNG / (2.0 * (1.0 + POISSON))])
+    meshes = {"lower": beam_mesh(0.0, size), "upper": beam_mesh(HEIGHT, size)}
+    fields = {}
+    for beam, mesh in meshes.items():
+        fields[beam] = vector_field(mesh, "FEM_Q2_INCOMPLETE(2)")
+        gauss = getfem.MeshIm(mesh, getfem.Integ("IM_GAUSS_PARALLELEPIPED(2, 4)"))   # 3 x 3 points
+        model.add_fem_variable(beam, fields[beam])
+        model.add_isotropic_linearized_elasticity_brick(gauss, beam, "lambda", "G")
+        model.add_Dirichlet_condition_with_simplification(beam, FIXED)
+
+    x, y = fields["upper"].basic_dof_nodes()
+    corner = np.flatnonzero((x > LENGTH - EPSILON) & (y > 2 * HEIGHT - EPSILON))     # dofs x, y
+    force = np.zeros(fields["upper"].nbdof())
+    force[corner[1]] = -LOAD
+    model.add_explicit_rhs("upper", force)
+
+    model.add_filtered_fem_variable("traction", vector_field(meshes["lower"], "FEM_QK(2, 1)"), JOINT)
+    model.add_initialized_data("r", [YOUNG])             # close to E, as the manual advises
+    model.add_initialized_data("mu", [friction])
+    # Five points to an edge: the integrand has kinks where contact ends.
+    gauss = getfem.MeshIm(meshes["lower"], getfem.Integ("IM_GAUSS_PARALLELEPIPED(2, 8)"))
+    model.add_integral_contact_between_nonmatching_meshes_brick(
+        gauss, "lower", "upper", "traction", "r", "mu", JOINT, JOINT)
+
+    # MUMPS by name: SuperLU, the alternative, crashes in Debian 12's build of GetFEM.
+    iterations, converged = model.solve("max_res", TOLERANCE, "max_iter", 50,
+                                        "lsearch", "simplest", "lsolver", "mumps")
+    on_lower = getfem.asm("generic", gauss, 0, "traction", JOINT, model)
+    figures = {"normal_force": -on_lower[1] / KILONEWTON, "tangential_force": -on_lower[0] / KILONEWTON,
+               "newton_iterations": int(iterations), "dofs": int(model.nbdof())}
+    return figures, bool(converged)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--size", type=float, default=0.1875, help="edge of an element, m")
+    parser.add_argument("--friction", type=float, default=0.2, help="Coulomb's mu")
+    arguments = parser.parse_args()
+    getfem.util_trace_level(0)
+    figures, converged = solve(arguments.size, arguments.friction)
+    print(json.dumps(figures))
+    if not converged:
+        sys.exit("getfem_beams.py: Newton's method did not converge")
+
+
+if __name__ == "__main__":
+    main()

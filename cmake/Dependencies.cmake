@@ -1,0 +1,28 @@
+# Everything Scabo is built on, all from Debian packages (cmake/packages.txt). Reports all that is missing at once.
+set(missing "")
+foreach(package "Eigen3 3.4" fmt spdlog yaml-cpp nlohmann_json CLI11)
+  separate_arguments(package)
+  list(GET package 0 name)
+  find_package(${package} QUIET CONFIG)
+  if(NOT ${name}_FOUND)
+    list(APPEND missing ${name})
+  endif()
+endforeach()
+
+include(${CMAKE_CURRENT_LIST_DIR}/NumericalLibraries.cmake)
+list(APPEND missing ${SCABO_NUMERICAL_LIBRARIES_MISSING})
+
+find_path(SCABO_SUITESPARSE_INCLUDE cholmod.h PATH_SUFFIXES suitesparse)
+mark_as_advanced(SCABO_SUITESPARSE_INCLUDE)
+if(SCABO_SUITESPARSE_INCLUDE AND TARGET scabo::cholmod)
+  set_target_properties(scabo::cholmod PROPERTIES
+                        INTERFACE_INCLUDE_DIRECTORIES ${SCABO_SUITESPARSE_INCLUDE})
+else()
+  list(APPEND missing cholmod.h)
+endif()
+
+if(missing)
+  list(JOIN missing ", " missing)
+  message(FATAL_ERROR "Scabo needs what was not found: ${missing}.\n"
+                      "On Debian and Ubuntu, 'make packages' installs everything (cmake/packages.txt).")
+endif()

@@ -1,0 +1,39 @@
+# What `make build` builds and `cmake --install` installs:
+#   bin/scabo, lib/libscabo, include/scabo/<part>/*.hpp, lib/cmake/scabo (find_package(scabo)),
+#   share/scabo/model.schema.json, share/scabo/examples, share/doc/scabo.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/scabo)
+
+install(TARGETS scabo EXPORT scaboTargets)
+install(DIRECTORY src/scabo TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp")
+
+# A static library hands its own dependencies on; a shared one only Eigen, which its headers include.
+get_target_property(library_type scabo TYPE)
+if(library_type STREQUAL STATIC_LIBRARY)
+  set(SCABO_STATIC ON)
+  install(FILES cmake/NumericalLibraries.cmake DESTINATION ${package_dir})
+else()
+  set(SCABO_STATIC OFF)
+endif()
+install(EXPORT scaboTargets NAMESPACE scabo:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/scaboConfig.cmake.in ${PROJECT_BINARY_DIR}/cmake/scaboConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/scaboConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/cmake/scaboConfig.cmake
+              ${PROJECT_BINARY_DIR}/cmake/scaboConfigVersion.cmake DESTINATION ${package_dir})
+
+# The program finds a shared library beside itself.
+file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set_target_properties(scabo_program PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
+install(TARGETS scabo_program)
+
+set(schema ${PROJECT_BINARY_DIR}/model.schema.json)
+add_custom_command(OUTPUT ${schema} COMMAND scabo_program schema > ${schema} DEPENDS scabo_program VERBATIM)
+add_custom_target(product ALL DEPENDS scabo scabo_program ${schema})
+install(FILES ${schema} DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo)
+
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo
+        PATTERN "*.results" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY docs/ TYPE DOC)
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)

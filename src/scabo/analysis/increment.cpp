@@ -1,0 +1,325 @@
+#include "scabo/analysis/increment.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "scabo/contact/solve.hpp"
+#include "scabo/system/loads.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::ContactSystem::Pair& at) {
+  return prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
+}
+
+std::vector<Vector> applied_forces(const Prepared& prepared, const std::vector<double>& factors) {
+  std::vector<Vector> forces;
+  for (const auto& body : prepared.structure.bodies) forces.push_back(Vector::Zero(body->size()));
+  for (std::size_t load = 0; load < factors.size(); ++load)
+    for (std::size_t b = 0; b < forces.size(); ++b)
+      if (prepared.structure.loads[load][b].size() > 0) forces[b] += factors[load] * prepared.structure.loads[load][b];
+  return forces;
+}
+
+std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vector<double>& factors) {
+  std::vector<Vector> values;
+  for (const auto& body : prepared.structure.bodies) {
+    Vector value(static_cast<Eigen::Index>(body->constraints().size()));
+    for (std::size_t c = 0; c < body->constraints().size(); ++c) {
+      const system::Constraint& constraint = body->constraints()[c];
+      value[static_cast<Eigen::Index>(c)] = constraint.value * factors[static_cast<std::size_t>(constraint.support)];
+    }
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+/// Supports on both sides may hold a pair; they must not press its points into each other.
+void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
+  const system::ContactSystem& contact = prepared.contact;
+  if (contact.held.empty()) return;
+  Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
+  for (std::size_t b = 0; b < u.size(); ++b) motion += contact.held_motion[b] * u[b];
+  for (std::size_t i = 0; i < contact.held.size(); ++i) {
+    const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
+    const double gap = pair.gap + motion[static_cast<Eigen::Index>(2 * i)];
+    double size = 0.0;
+    for (const Vec2& x : {pair.point_a, pair.point_b}) size = std::max(size, x.norm());
+    if (gap >= -1e-12 * std::max(size, std::abs(pair.gap))) continue;
+    const model::Contact& named = prepared.model.contacts[static_cast<std::size_t>(contact.held[i].contact)];
+    throw InputError(prepared.model.file,
+                     {{named.source, fmt::format("supports on both sides hold the pair at ({:.6g}, {:.6g}) {:.3g} inside "
+                                                 "each other, and no force can part it: free one side there",
+                                                 pair.point_a.x(), pair.point_a.y(), -gap)}});
+  }
+}
+
+/// Work done on the way between two accepted states, by the trapezoidal rule.
+Energy energy_between(const Prepared& prepared, const State& from, const State& to) {
+  Energy energy = from.energy;
+  energy.elastic = 0.0;
+  for (std::size_t b = 0; b < to.u.size(); ++b) {
+    energy.external += 0.5 * (from.forces[b] + to.forces[b]).dot(to.u[b] - from.u[b]);
+    energy.external += 0.5 * (from.reactions[b] + to.reactions[b]).dot(to.prescribed[b] - from.prescribed[b]);
+    energy.elastic += prepared.structure.bodies[b]->elastic_energy(to.u[b]);
+  }
+  for (Eigen::Index i = 0; i < to.slip.size(); ++i)
+    energy.friction -= 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]) * (to.slip[i] - from.slip[i]);
+  return energy;
+}
+
+/// Force and moment of everything that acts on a body, as [F_x, F_y, M / L] about its reference point.
+Eigen::Vector3d resultant(const system::BodySystem& body, const std::vector<Vec2>& nodes, const Vector& forces) {
+  if (nodes.empty()) return forces;  // a rigid body's forces are resultants
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    sum += system::rigid_point(nodes[i], body.reference(), body.lever()).transpose() *
+           forces.segment<2>(static_cast<Eigen::Index>(2 * i));
+  return sum;
+}
+
+/// Completes the certificate with what only the whole structure can tell: equilibrium of every node and of every body.
+void certify_structure(const Prepared& prepared, const State& state, contact::Certificate& certificate) {
+  double scale = state.p.size() > 0 ? state.p.lpNorm<Eigen::Infinity>() : 0.0;
+  for (std::size_t b = 0; b < state.u.size(); ++b) {
+    if (state.forces[b].size() > 0) scale = std::max(scale, state.forces[b].lpNorm<Eigen::Infinity>());
+    if (state.reactions[b].size() > 0) scale = std::max(scale, state.reactions[b].lpNorm<Eigen::Infinity>());
+  }
+  if (scale == 0.0) return;
+  for (std::size_t b = 0; b < state.u.size(); ++b) {
+    const system::BodySystem& body = *prepared.structure.bodies[b];
+    Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
+    certificate.equilibrium = std::max(certificate.equilibrium, body.imbalance(state.u[b], forces) / scale);
+    if (prepared.model.bodies[b].rigid) continue;  // imbalance() is its balance
+    for (std::size_t c = 0; c < body.constraints().size(); ++c)
+      forces[body.constraints()[c].dof] += state.reactions[b][static_cast<Eigen::Index>(c)];
+    const double unbalanced = resultant(body, prepared.mesh.bodies[b].nodes, forces).lpNorm<Eigen::Infinity>();
+    certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / scale);
+  }
+}
+
+/// Displacement along [n, t] of the point of a pair that belongs to body `b`.
+Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int node, const Vec2& point,
+                     const Vec2& normal) {
+  const auto b = static_cast<std::size_t>(body);
+  const Vec2 u = node >= 0 ? Vec2(state.u[b].segment<2>(2 * node))
+                           : Vec2(system::rigid_point(point, prepared.structure.bodies[b]->reference(),
+                                                      prepared.structure.bodies[b]->lever()) * state.u[b]);
+  return {u.dot(normal), u.dot(tangent_of(normal))};
+}
+
+/// Pressure and shear at the pairs in contact, from their nodal forces on the edge's shape functions: int N_i N_j ds
+/// p_j = F_i / thickness over the pairs in contact; open pairs carry none.
+void recover_pressure(const Prepared& prepared, std::size_t contact, ContactResult& result,
+                      const std::vector<int>& index_of_pair) {
+  const mesh::Interface& interface = prepared.mesh.interfaces[contact];
+  const bool a_rigid = prepared.model.bodies[static_cast<std::size_t>(prepared.model.contacts[contact].a.body)].rigid;
+  std::vector<Vec2> points;
+  for (const mesh::ContactPair& pair : interface.pairs) points.push_back(a_rigid ? pair.point_b : pair.point_a);
+  const Eigen::SparseMatrix<double> mass = system::line_mass(interface.elements, points);
+  std::vector<int> active(points.size(), -1);
+  int count = 0;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    const int at = index_of_pair[i];
+    if (result.pairs[i].state != contact::ContactState::open && mass.coeff(at, at) > 0.0)
+      active[static_cast<std::size_t>(at)] = count++;
+  }
+  if (count == 0) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index column = 0; column < mass.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(mass, column); it; ++it) {
+      const int row = active[static_cast<std::size_t>(it.row())], col = active[static_cast<std::size_t>(it.col())];
+      if (row >= 0 && col >= 0) entries.emplace_back(row, col, it.value());
+    }
+  Eigen::SparseMatrix<double> reduced(count, count);
+  reduced.setFromTriplets(entries.begin(), entries.end());
+  Matrix forces = Matrix::Zero(count, 2);
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    const int row = active[static_cast<std::size_t>(index_of_pair[i])];
+    if (row >= 0) forces.row(row) << result.pairs[i].normal_force, result.pairs[i].tangential_force;
+  }
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(reduced);
+  ensure(solver.info() == Eigen::Success, "the mass matrix of a contact edge is not positive definite");
+  const Matrix tractions = solver.solve(forces) / prepared.model.analysis.thickness;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    const int row = active[static_cast<std::size_t>(index_of_pair[i])];
+    if (row < 0) continue;
+    result.pairs[i].pressure = tractions(row, 0);
+    result.pairs[i].shear = tractions(row, 1);
+  }
+}
+
+void add_totals(ContactResult& result) {
+  for (const PairResult& pair : result.pairs) {
+    result.normal_force += pair.normal_force;
+    result.tangential_force += pair.tangential_force;
+    result.open += pair.state == contact::ContactState::open;
+    result.stick += pair.state == contact::ContactState::stick;
+    result.slip += pair.state == contact::ContactState::slip;
+    result.max_gap = std::max(result.max_gap, pair.gap);
+    result.max_pressure = std::max(result.max_pressure, pair.pressure);
+    if (pair.state == contact::ContactState::open) continue;
+    if (!result.first_in_contact) result.first_in_contact = pair.pair;
+    result.last_in_contact = pair.pair;
+  }
+}
+
+std::vector<ContactResult> contact_results(const Prepared& prepared, const State& state) {
+  std::vector<ContactResult> results(prepared.model.contacts.size());
+  std::vector<std::vector<int>> index_of_pair(results.size());
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
+    const mesh::ContactPair& pair = mesh_pair(prepared, at);
+    const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(at.contact)];
+    const auto k = static_cast<Eigen::Index>(i);
+    PairResult row;
+    row.pair = at.number;
+    row.position = pair.point_a;
+    row.gap = state.gap[k];
+    row.slip = state.slip[k];
+    row.normal_force = state.p[2 * k];
+    row.tangential_force = state.p[2 * k + 1];
+    row.state = state.states[i];
+    row.displacement_a = displacement_at(prepared, state, contact.a.body, pair.node_a, pair.point_a, pair.normal);
+    row.displacement_b = displacement_at(prepared, state, contact.b.body, pair.node_b, pair.point_b, pair.normal);
+    results[static_cast<std::size_t>(at.contact)].pairs.push_back(row);
+    index_of_pair[static_cast<std::size_t>(at.contact)].push_back(at.index);
+  }
+  for (std::size_t c = 0; c < results.size(); ++c) {
+    results[c].name = prepared.model.contacts[c].name;
+    recover_pressure(prepared, c, results[c], index_of_pair[c]);
+    add_totals(results[c]);
+  }
+  return results;
+}
+
+}  // namespace
+
+Factors between(const Factors& from, const Factors& to, double part) {
+  if (part == 1.0) return to;
+  Factors factors = to;
+  for (std::size_t i = 0; i < to.loads.size(); ++i) factors.loads[i] = from.loads[i] + part * (to.loads[i] - from.loads[i]);
+  for (std::size_t i = 0; i < to.supports.size(); ++i)
+    factors.supports[i] = from.supports[i] + part * (to.supports[i] - from.supports[i]);
+  return factors;
+}
+
+State initial_state(const Prepared& prepared) {
+  State state;
+  state.factors = {std::vector<double>(prepared.model.loads.size(), 0.0),
+                   std::vector<double>(prepared.model.supports.size(), 0.0)};
+  const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
+  state.p = Vector::Zero(2 * N);
+  state.a = Vector::Zero(prepared.contact.rigid_motions());
+  state.gap = prepared.contact.gap;
+  state.slip = Vector::Zero(N);
+  state.states.assign(prepared.contact.pairs.size(), contact::ContactState::open);
+  state.forces = applied_forces(prepared, state.factors.loads);
+  state.prescribed = prescribed_values(prepared, state.factors.supports);
+  for (const auto& body : prepared.structure.bodies) {
+    state.u.push_back(Vector::Zero(body->size()));
+    state.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(body->constraints().size())));
+  }
+  return state;
+}
+
+Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
+  const auto& bodies = prepared.structure.bodies;
+  const system::ContactSystem& system = prepared.contact;
+  const auto N = static_cast<Eigen::Index>(system.pairs.size());
+  Attempt result;
+  State& to = result.state;
+  to.factors = factors;
+  to.forces = applied_forces(prepared, factors.loads);
+  to.prescribed = prescribed_values(prepared, factors.supports);
+
+  contact::Problem problem{system.W, Vector::Zero(2 * N), system.mu, system.G, Vector::Zero(system.rigid_motions())};
+  for (Eigen::Index i = 0; i < N; ++i) {
+    problem.q[2 * i] = system.gap[i];
+    problem.q[2 * i + 1] = -from.slip[i];
+  }
+  contact::SolverOptions options;
+  options.tolerance = prepared.model.solver.tolerance;
+  options.iterations = prepared.model.solver.iterations;
+  std::vector<Vector> free;  // without contact
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
+    problem.q += system.motion[b] * free[b];
+    const Matrix& rigid = bodies[b]->rigid_motions();
+    problem.f.segment(system.first_rigid[b], rigid.cols()) = rigid.transpose() * to.forces[b];
+    if (to.forces[b].size() > 0)
+      options.force_scale = std::max(options.force_scale, to.forces[b].lpNorm<Eigen::Infinity>());
+  }
+  check_held_pairs(prepared, free);
+
+  result.solution = contact::solve(problem, {from.p, from.a}, options);
+  to.p = result.solution.p;
+  to.a = result.solution.a;
+  to.gap = result.solution.gap;
+  to.slip = from.slip + result.solution.slip_increment;
+  to.states = result.solution.states;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Vector forces = to.forces[b] + system.motion[b].transpose() * to.p;
+    Vector u = N > 0 ? bodies[b]->displacement(forces, to.prescribed[b]) : free[b];
+    const Matrix& rigid = bodies[b]->rigid_motions();
+    if (rigid.cols() > 0) u += rigid * to.a.segment(system.first_rigid[b], rigid.cols());
+    to.reactions.push_back(bodies[b]->reactions(u, forces));
+    to.u.push_back(std::move(u));
+  }
+  to.energy = energy_between(prepared, from, to);
+  result.certificate = result.solution.certificate;
+  certify_structure(prepared, to, result.certificate);
+  result.accepted = result.solution.status == contact::Status::solved &&
+                    result.certificate.worst() <= prepared.model.solver.tolerance;
+  return result;
+}
+
+IncrementResult describe(const Prepared& prepared, const State& state) {
+  IncrementResult result;
+  for (std::size_t i = 0; i < prepared.model.loads.size(); ++i)
+    result.factors[prepared.model.loads[i].name] = state.factors.loads[i];
+  for (std::size_t i = 0; i < prepared.model.supports.size(); ++i) {
+    const model::Support& support = prepared.model.supports[i];
+    if (support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0)
+      result.factors[support.name] = state.factors.supports[i];
+  }
+  result.contacts = contact_results(prepared, state);
+  result.energy = state.energy;
+  result.displacements = state.u;
+  result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
+  result.body_forces.assign(state.u.size(), Vec2::Zero());
+  for (std::size_t b = 0; b < state.u.size(); ++b) {
+    const system::BodySystem& body = *prepared.structure.bodies[b];
+    if (prepared.model.bodies[b].rigid) result.displacements[b][2] /= body.lever();
+    for (std::size_t c = 0; c < body.constraints().size(); ++c) {
+      const system::Constraint& constraint = body.constraints()[c];
+      if (constraint.rotation) continue;
+      result.reactions[static_cast<std::size_t>(constraint.support)][constraint.component] +=
+          state.reactions[b][static_cast<Eigen::Index>(c)];
+    }
+    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
+      result.body_forces[b] += state.factors.loads[load] * prepared.structure.body_forces[load][b];
+  }
+  return result;
+}
+
+std::string describe_motions(const Prepared& prepared, const Vector& a) {
+  std::string text;
+  for (std::size_t b = 0; b < prepared.structure.bodies.size(); ++b) {
+    const system::BodySystem& body = *prepared.structure.bodies[b];
+    const Eigen::Index m = body.rigid_motions().cols();
+    if (m == 0) continue;
+    const Eigen::Vector3d motion = body.rigid_coordinates() * a.segment(prepared.contact.first_rigid[b], m);
+    if (motion.norm() < 1e-6 * a.norm()) continue;
+    if (!text.empty()) text += "; ";
+    text += fmt::format("body '{}': {}", prepared.model.bodies[b].name,
+                        system::describe_motion(motion, body.reference(), body.lever()));
+  }
+  return text;
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,54 @@
+// One load increment: from an accepted state to the next, halved where contact does not converge.
+#pragma once
+
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/system/contact_system.hpp"
+
+namespace scabo::analysis {
+
+/// Everything an increment needs, made once.
+struct Prepared {
+  const model::Model& model;
+  const mesh::Mesh& mesh;
+  const system::Structure& structure;
+  const system::ContactSystem& contact;
+};
+
+/// Factors of loads and supports at one time.
+struct Factors {
+  std::vector<double> loads, supports;
+};
+Factors between(const Factors& from, const Factors& to, double part);
+
+/// An accepted state: the history that the next increment starts from. A value: an increment that fails leaves none of
+/// itself behind.
+struct State {
+  Factors factors;
+  Vector p;                        // 2N, contact forces on B
+  Vector a;                        // m, rigid motions
+  Vector gap, slip;                // N; slip since the start
+  std::vector<contact::ContactState> states;
+  std::vector<Vector> u;           // per body
+  std::vector<Vector> forces;      // per body: applied forces without contact
+  std::vector<Vector> reactions;   // per body, one for each constraint
+  std::vector<Vector> prescribed;  // per body, one for each constraint
+  Energy energy;
+};
+State initial_state(const Prepared& prepared);
+
+/// Result of trying to reach `factors` from `from`, certificate included.
+struct Attempt {
+  State state;
+  contact::Solution solution;
+  contact::Certificate certificate;
+  bool accepted = false;
+};
+Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors);
+
+/// What users see of an accepted state.
+IncrementResult describe(const Prepared& prepared, const State& state);
+
+/// `body 'upper': translation along (1, 0)` for rigid motions `a`.
+std::string describe_motions(const Prepared& prepared, const Vector& a);
+
+}  // namespace scabo::analysis

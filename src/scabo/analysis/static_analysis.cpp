@@ -1,0 +1,172 @@
+#include "scabo/analysis/static_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "scabo/analysis/increment.hpp"
+#include "scabo/analysis/super_elements.hpp"
+#include "scabo/linalg/dense.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Adds the time it lives to a figure.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+template <typename Function>
+auto timed(double& seconds, Function function) {
+  const Stopwatch stopwatch(seconds);
+  return function();
+}
+
+/// Where the last increment went.
+struct Reached {
+  State state;
+  contact::Certificate certificate;
+  int iterations = 0, halvings = 0;
+  double residual = 0.0;
+  Matrix undetermined;
+  std::string reason;  ///< empty: there
+};
+
+/// From `from` to `target`, halving the way where an attempt is not accepted; every part starts from the last accepted
+/// state.
+Reached reach(const Prepared& prepared, const State& from, const Factors& target, const std::atomic<bool>* stop) {
+  Reached reached;
+  reached.state = from;
+  const Factors start = from.factors;
+  double done = 0.0, part = 1.0;
+  while (done < 1.0) {
+    const double next = std::min(1.0, done + part);
+    Attempt tried = attempt(prepared, reached.state, between(start, target, next));
+    reached.iterations += tried.solution.iterations;
+    if (tried.accepted) {
+      reached.state = std::move(tried.state);
+      reached.certificate = tried.certificate;
+      reached.residual = tried.solution.residual;
+      reached.undetermined = std::move(tried.solution.undetermined);
+      done = next;
+      continue;
+    }
+    if (reached.halvings == prepared.model.solver.halvings || (stop && *stop)) {
+      reached.residual = tried.solution.residual;
+      reached.certificate = tried.certificate;
+      if (tried.solution.status == contact::Status::mechanism)
+        reached.reason = fmt::format("mechanism: {}; {}", describe_motions(prepared, tried.solution.motion),
+                                     tried.solution.reason);
+      else if (tried.solution.status == contact::Status::solved)
+        reached.reason = fmt::format("the certificate's worst figure, {:.3g}, is above the tolerance {:.3g}",
+                                     tried.certificate.worst(), prepared.model.solver.tolerance);
+      else
+        reached.reason = fmt::format("contact did not converge after {} halvings: {}", reached.halvings,
+                                     tried.solution.reason);
+      return reached;
+    }
+    ++reached.halvings;
+    part *= 0.5;
+  }
+  return reached;
+}
+
+void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
+  State state = initial_state(prepared);
+  for (std::size_t s = 0; s < solution.model.steps.size(); ++s) {
+    const model::Step& step = solution.model.steps[s];
+    const Factors start = state.factors, end{step.load_factors, step.support_factors};
+    for (int k = 1; k <= step.increments; ++k) {
+      if (options.stop && *options.stop) {
+        solution.outcome = Outcome::interrupted;
+        solution.reason = "interrupted: the increments finished so far are kept";
+        return;
+      }
+      if (options.on_stage) options.on_stage(fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
+      Reached reached = timed(solution.timing.newton, [&] {
+        return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options.stop);
+      });
+      const bool there = reached.reason.empty();
+      const Stopwatch recovering(solution.timing.recover);
+      IncrementResult result = there ? describe(prepared, reached.state) : IncrementResult{};
+      result.step = static_cast<int>(s) + 1;
+      result.step_name = step.name;
+      result.increment = k;
+      result.converged = there;
+      result.newton_iterations = reached.iterations;
+      result.halvings = reached.halvings;
+      result.residual = reached.residual;
+      result.certificate = reached.certificate;
+      result.reason = reached.reason;
+      if (there && reached.undetermined.cols() > 0 && solution.warnings.empty())
+        for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column)
+          solution.warnings.push_back(
+              fmt::format("step {}, increment {}: neither supports, friction nor load fix {}; the smallest such motion was "
+                          "taken: add a support if the position matters",
+                          step.name, k, describe_motions(prepared, reached.undetermined.col(column))));
+      solution.increments.push_back(std::move(result));
+      if (!there) {
+        solution.outcome = Outcome::not_converged;
+        solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);
+        if (options.on_increment) options.on_increment(solution, solution.increments.back());
+        return;
+      }
+      state = std::move(reached.state);
+      if (options.on_increment) options.on_increment(solution, solution.increments.back());
+    }
+  }
+}
+
+std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolution& solution) {
+  std::vector<const element::SuperElementSolution*> pointers;
+  for (const auto& super_element : solution.super_elements)
+    pointers.push_back(super_element ? &super_element->solution : nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+mesh::Mesh check(const model::Model& model) {
+  mesh::Mesh mesh = mesh::make_mesh(model);
+  system::check_supports(model, mesh);
+  return mesh;
+}
+
+StaticSolution solve_static(model::Model model, const Options& options) {
+  const auto stage = [&](const char* what) {
+    if (options.on_stage) options.on_stage(what);
+  };
+  linalg::set_blas_threads(options.threads);
+  StaticSolution solution;
+  solution.model = std::move(model);
+  Timing& timing = solution.timing;
+
+  stage("mesh");
+  solution.mesh = timed(timing.mesh, [&] { return check(solution.model); });
+  stage("super-elements");
+  solution.super_elements = timed(timing.super_elements, [&] {
+    return solve_super_elements(solution.model, solution.mesh, options.threads);
+  });
+  stage("factorisation");
+  const auto pointers = solutions_of(solution);
+  system::Structure structure =
+      timed(timing.factorise, [&] { return system::make_structure(solution.model, solution.mesh, pointers); });
+  timed(timing.assemble, [&] { system::add_loads(structure, solution.model, solution.mesh, pointers); });
+  stage("condensation to the contact pairs");
+  const system::ContactSystem contact =
+      timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh); });
+  if (options.on_mesh) options.on_mesh(solution);
+  run_steps({solution.model, solution.mesh, structure, contact}, solution, options);
+  return solution;
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,118 @@
+// The whole journey of a static analysis: Model -> Mesh -> super-elements -> systems -> contact -> results of every
+// increment. Nothing is written to files here (result/).
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scabo/contact/solution.hpp"
+#include "scabo/element/modal_solution.hpp"
+#include "scabo/mesh/mesh.hpp"
+#include "scabo/model/model.hpp"
+
+namespace scabo::analysis {
+
+/// One pair of contact points after an increment. Numbered from 1 along its contact.
+struct PairResult {
+  int pair = 0;
+  Vec2 position = Vec2::Zero();        ///< undeformed, on A
+  double gap = 0.0;                    ///< length, > 0 open
+  double slip = 0.0;                   ///< length, since the start, of B relative to A along t
+  double normal_force = 0.0;           ///< on B along n, >= 0: compression
+  double tangential_force = 0.0;       ///< on B along t
+  double pressure = 0.0;               ///< force / length^2, recovered on the edge's shape functions
+  double shear = 0.0;                  ///< force / length^2, on B along t
+  contact::ContactState state = contact::ContactState::open;
+  Vec2 displacement_a = Vec2::Zero();  ///< of the point of A, along [n, t]
+  Vec2 displacement_b = Vec2::Zero();  ///< of the point of B, along [n, t]
+};
+
+struct ContactResult {
+  std::string name;
+  std::vector<PairResult> pairs;
+  double normal_force = 0.0;      ///< sum of the pairs' normal forces
+  double tangential_force = 0.0;  ///< sum of the pairs' tangential forces
+  int open = 0, stick = 0, slip = 0;
+  double max_gap = 0.0;
+  double max_pressure = 0.0;
+  std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; nothing when all are open
+};
+
+/// Work since the start, force times length.
+struct Energy {
+  double external = 0.0;   ///< of loads and of reactions at prescribed displacements
+  double elastic = 0.0;    ///< stored
+  double friction = 0.0;   ///< dissipated
+};
+
+struct IncrementResult {
+  int step = 0;        ///< from 1
+  std::string step_name;
+  int increment = 0;   ///< from 1 within the step
+  std::map<std::string, double> factors;  ///< of loads and of supports with prescribed displacements
+  bool converged = false;
+  int newton_iterations = 0;
+  int halvings = 0;          ///< how often the increment was halved
+  double residual = 0.0;
+  std::vector<ContactResult> contacts;
+  std::vector<Vec2> reactions;            ///< one for each support of the model, in its order: force on the body
+  contact::Certificate certificate;
+  Energy energy;
+  std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
+  std::vector<Vec2> body_forces;          ///< per body: density times gravity times factor, force / length^3
+  std::string reason;                     ///< why it did not converge
+};
+
+/// Seconds.
+struct Timing {
+  double read = 0.0, mesh = 0.0, super_elements = 0.0, assemble = 0.0, factorise = 0.0, condense = 0.0,
+         newton = 0.0, recover = 0.0, write = 0.0, total = 0.0;
+};
+
+/// A super-element solved once for all bodies that are alike.
+struct SolvedSuperElement {
+  element::Ring ring;
+  element::Mat3 D;
+  double thickness = 1.0;
+  element::SuperElementSolution solution;
+  /// Modes for the interior, found when they are asked for first.
+  const element::ModalSolution& modes() const;
+
+ private:
+  mutable std::unique_ptr<element::ModalSolution> modes_;
+};
+
+enum class Outcome { solved, not_converged, interrupted };
+
+struct StaticSolution {
+  model::Model model;
+  mesh::Mesh mesh;
+  std::vector<std::shared_ptr<const SolvedSuperElement>> super_elements;  ///< per body; null for rigid and FE bodies
+  std::vector<IncrementResult> increments;  ///< converged ones, then at most one that is not
+  std::vector<std::string> warnings;
+  Outcome outcome = Outcome::solved;
+  std::string reason;  ///< when not solved
+  Timing timing;
+};
+
+struct Options {
+  int threads = 1;  ///< for BLAS and for super-elements that differ
+  const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
+  std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
+  std::function<void(const StaticSolution&)> on_mesh;  ///< once super-elements and systems stand
+  std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
+};
+
+/// Meshes the model and looks whether every body is held, without solving anything. Throws InputError.
+mesh::Mesh check(const model::Model& model);
+
+/// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of
+/// the result.
+StaticSolution solve_static(model::Model model, const Options& options = {});
+
+}  // namespace scabo::analysis

@@ -1,0 +1,85 @@
+#include "scabo/analysis/super_elements.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+
+#include "scabo/linalg/dense.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+bool alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
+  if (a.thickness != b.thickness || a.D != b.D || a.ring.nodes.size() != b.ring.nodes.size() ||
+      a.ring.elements.size() != b.ring.elements.size())
+    return false;
+  for (std::size_t e = 0; e < a.ring.elements.size(); ++e)
+    if (a.ring.elements[e].nodes != b.ring.elements[e].nodes) return false;
+  double size = 0.0;
+  for (const Vec2& x : a.ring.nodes) size = std::max(size, x.squaredNorm());
+  // Coordinates about their centres differ by rounding only.
+  for (std::size_t i = 0; i < a.ring.nodes.size(); ++i)
+    if ((a.ring.nodes[i] - b.ring.nodes[i]).squaredNorm() > 1e-26 * size) return false;
+  return true;
+}
+
+void solve(SolvedSuperElement& super_element) {
+  super_element.solution =
+      element::solve_super_element(super_element.ring, super_element.D, super_element.thickness);
+}
+
+/// Solves the elements on `threads` threads; the first exception is thrown again.
+void solve_all(const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct, int threads) {
+  const int workers = std::min<int>(threads, static_cast<int>(distinct.size()));
+  if (workers <= 1) {
+    for (const auto& super_element : distinct) solve(*super_element);
+    return;
+  }
+  linalg::set_blas_threads(1);
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(workers));
+  {
+    std::vector<std::jthread> pool;
+    for (std::exception_ptr& failure : failures)
+      pool.emplace_back([&] {
+        try {
+          for (std::size_t i = next++; i < distinct.size(); i = next++) solve(*distinct[i]);
+        } catch (...) {
+          failure = std::current_exception();
+        }
+      });
+  }
+  linalg::set_blas_threads(threads);
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+const element::ModalSolution& SolvedSuperElement::modes() const {
+  if (!modes_) modes_ = std::make_unique<element::ModalSolution>(element::modal_solution(solution));
+  return *modes_;
+}
+
+std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(const model::Model& model,
+                                                                            const mesh::Mesh& mesh, int threads) {
+  std::vector<std::shared_ptr<SolvedSuperElement>> distinct;
+  std::vector<std::shared_ptr<const SolvedSuperElement>> of_body(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (mesh.bodies[b].super_elements.empty()) continue;
+    auto wanted = std::make_shared<SolvedSuperElement>();
+    wanted->ring = element::ring_of(mesh.bodies[b].super_elements.front(), mesh.bodies[b].nodes);
+    wanted->D = element::elasticity_matrix(model.materials[static_cast<std::size_t>(model.bodies[b].material)],
+                                           model.analysis.plane);
+    wanted->thickness = model.analysis.thickness;
+    const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto& other) { return alike(*wanted, *other); });
+    of_body[b] = same == distinct.end() ? wanted : *same;
+    if (same == distinct.end()) distinct.push_back(wanted);
+  }
+  solve_all(distinct, threads);
+  return of_body;
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,35 @@
+// What is checked of every increment before it counts as solved. All figures are free of units: forces are divided
+// by the largest force at work, lengths by the largest motion that these forces cause.
+#pragma once
+
+#include <algorithm>
+
+#include "scabo/contact/problem.hpp"
+
+namespace scabo::contact {
+
+struct Certificate {
+  double equilibrium = 0.0;      ///< largest residual force of a node (set by the analysis)
+  double penetration = 0.0;      ///< most negative gap
+  double tension = 0.0;          ///< most negative normal force
+  double friction_excess = 0.0;  ///< largest |p_t| - mu p_n
+  double complementarity = 0.0;  ///< largest p_n g
+  double slip_direction = 0.0;   ///< largest slip along friction, or slip below the friction bound
+  double rigid_balance = 0.0;    ///< force and moment balance of a body (contact part; completed by the analysis)
+
+  double worst() const {
+    return std::max({equilibrium, penetration, tension, friction_excess, complementarity, slip_direction,
+                     rigid_balance});
+  }
+};
+
+/// Scales by which a certificate is made free of units.
+struct Scales {
+  double force = 1.0;   ///< > 0
+  double length = 1.0;  ///< > 0
+};
+
+/// The part of the certificate that the discrete problem knows, for forces `p` (2N) and rigid motions `a` (m).
+Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales);
+
+}  // namespace scabo::contact

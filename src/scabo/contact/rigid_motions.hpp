@@ -1,0 +1,19 @@
+// What can be said of the rigid motions of a problem before and after it is solved.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scabo/contact/problem.hpp"
+
+namespace scabo::contact {
+
+/// A rigid motion v (m) that nothing holds although the loads drive it, f'v > 0: no forces in the friction cones
+/// balance f. Nothing where the loads can be balanced.
+std::optional<Vector> find_mechanism(const Problem& problem);
+
+/// Rigid motions (columns, m x k) that change no gap in contact and no tangent that sticks: the forces are known, the
+/// position along these is not.
+Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
+
+}  // namespace scabo::contact

@@ -1,0 +1,25 @@
+// Solves a discrete contact problem: attempts in order, each honest about its end.
+#pragma once
+
+#include "scabo/contact/solution.hpp"
+
+namespace scabo::contact {
+
+struct SolverOptions {
+  double tolerance = 1e-10;   ///< every figure of the certificate, free of units
+  int iterations = 50;        ///< of Newton in one attempt, > 0
+  double r_factor = 1.0;      ///< r = r_factor / W_ii; the solution does not depend on it
+  double force_scale = 0.0;   ///< largest applied force, >= 0: part of the scale by which forces are judged
+};
+
+/// The first accepted state to start from: forces and rigid motions of the increment before (empty: from nothing).
+struct Start {
+  Vector p, a;
+};
+
+/// Newton on the B-differentiable equations; where it stalls, other starts: the frictionless solution, growing
+/// friction, Gauss-Seidel sweeps; for bodies that contact alone holds, the proximal-point iteration. The result is
+/// solved and certified, or says what it is instead.
+Solution solve(const Problem& problem, const Start& start = {}, const SolverOptions& options = {});
+
+}  // namespace scabo::contact

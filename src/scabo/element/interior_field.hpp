@@ -1,0 +1,34 @@
+// Displacement, strain and stress inside a super-element, from the displacements of its boundary.
+#pragma once
+
+#include <optional>
+
+#include "scabo/element/modal_solution.hpp"
+
+namespace scabo::element {
+
+struct PointValues {
+  Vec2 displacement = Vec2::Zero();
+  Vec3 strain = Vec3::Zero();  ///< [xx, yy, gamma_xy]
+  Vec3 stress = Vec3::Zero();  ///< [xx, yy, xy]
+};
+
+/// Scaled boundary coordinates of a point: on the ray through `element` at eta, at the fraction xi of the way from
+/// the scaling centre (0) to the boundary (1).
+struct ScaledPoint {
+  double xi = 0.0;
+  int element = 0;
+  double eta = 0.0;
+};
+
+/// The point of boundary element `element` at eta, relative to the scaling centre.
+Vec2 boundary_position(const Ring& ring, int element, double eta);
+
+/// (x, y), relative to the scaling centre, in scaled boundary coordinates; nothing when it lies outside.
+std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x);
+
+/// Values at a point of a ring: `values` = RadialField::at(xi).
+PointValues point_values(const Ring& ring, const RadialField::Values& values, const Mat3& D, int element,
+                         double eta);
+
+}  // namespace scabo::element

@@ -1,0 +1,27 @@
+// The 8-node serendipity element (PLANE82, CPS8 of other programs) with full 3 x 3 Gauss integration: the
+// independent comparator of super-elements, which goes through the same contact.
+#pragma once
+
+#include <array>
+
+#include "scabo/element/interior_field.hpp"
+
+namespace scabo::element {
+
+using Corners8 = std::array<Vec2, 8>;  ///< four corners counter-clockwise, then the middles of sides 12, 23, 34, 41
+using Matrix16 = Eigen::Matrix<double, 16, 16>;
+using Vector16 = Eigen::Matrix<double, 16, 1>;
+
+/// Stiffness, force / length; `D` force / length^2.
+Matrix16 plane_element8_stiffness(const Corners8& x, const Mat3& D, double thickness);
+
+/// int N_i dA for every node: a body force is this times force / length^3 times thickness.
+std::array<double, 8> plane_element8_areas(const Corners8& x);
+
+/// Values at natural coordinates (r, s) in [-1, 1]^2.
+PointValues plane_element8_values(const Corners8& x, const Vector16& u, const Mat3& D, double r, double s);
+
+/// Natural coordinates of the eight nodes.
+extern const std::array<Vec2, 8> plane_element8_nodes;
+
+}  // namespace scabo::element

@@ -1,0 +1,58 @@
+// Static stiffness of a bounded super-element by ring doubling.
+//
+// In s = ln xi the scaled boundary equation has constant coefficients, so all rings [xi, xi e^d] are alike. One
+// midpoint (Cayley) step gives the symmetric stiffness of a ring on its inner (1) and outer (2) nodes,
+//
+//     K22 = E0/d + (E1 + E1')/2 + d/4 E2                                                                    (1)
+//     K11 = E0/d - (E1 + E1')/2 + d/4 E2
+//     K12 = -E0/d + (E1 - E1')/2 + d/4 E2
+//
+// and two equal rings joined eliminate their common nodes, with B = K11 + K22 symmetric positive definite:
+//
+//     K22 <- K22 - K12' B^-1 K12,   K11 <- K11 - K12 B^-1 K12',   K12 <- -K12 B^-1 K12                      (2)
+//
+// K22 tends to K, quadratically. The Cayley step keeps invariant subspaces, so the limit is exact although the
+// ring is not. Only Cholesky factors, triangular solves and symmetric products are used.
+//
+// The translations R (E1' R = 0, E2 R = 0) carry no force, R'q = 0, and are taken out first: with M = R'E0R,
+// G = M^-1 R'E0, H = M^-1 R'E1' and u = R a + v, v = 0 in as many rows J as there are translations,
+//
+//     xi a,xi = -(G xi v,xi + H v)                                                                          (3)
+//     E0 -> P'E0P,  E1 -> E1P,  E2 -> E2 - H'MH,   P = 1 - RG, without rows and columns J                   (4)
+//
+// and they are put back exactly: K of the rows J follows from K R = 0.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "scabo/element/coefficient_matrices.hpp"
+
+namespace scabo::element {
+
+/// What is known of one symmetry block (the whole super-element where there is no symmetry). Within a block,
+/// u = E v + R a: v are the rows I, a the m translations of the block.
+struct Block {
+  Eigen::SparseMatrix<double> T;  // n x n_k: boundary displacement u = sum of T u_k over the blocks
+  std::vector<int> I, J;          // rows of v, rows taken out; |I| + |J| = n_k
+  Matrix R;                       // n_k x m: the translations in this block, scaled so that R_J = 1
+  Matrix E0;                      // n_k x n_k, not deflated
+  Matrix S;                       // (n_k - m) x (n_k - m): xi v,xi = S v
+  Matrix A;                       // m x (n_k - m): xi a,xi = A v                                          (3)
+};
+
+/// Stiffness of a super-element and what its interior is recovered from.
+struct SuperElementSolution {
+  Matrix K;                   // n x n, force / length per unit displacement of the boundary nodes; symmetric
+  std::vector<Block> blocks;
+  int doublings = 0;          ///< largest number over the blocks
+};
+
+/// Solves the super-element. Throws BrokenInvariant when a ring is not positive definite or the doubling does not
+/// end, which positive definite material and a boundary that the centre sees rule out.
+SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness);
+
+/// Stiffness of the bounded domain from E0, E1, E2 without zero exponents, by eqs. (1) and (2).
+Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& doublings);
+
+}  // namespace scabo::element

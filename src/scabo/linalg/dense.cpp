@@ -1,0 +1,79 @@
+#include "scabo/linalg/dense.hpp"
+
+#include <cblas.h>
+#include <lapacke.h>
+
+#include <algorithm>
+
+#include "scabo/base/error.hpp"
+
+namespace scabo::linalg {
+
+extern "C" void openblas_set_num_threads(int threads);
+
+void set_blas_threads(int threads) { openblas_set_num_threads(threads); }
+
+namespace {
+
+int rows(const Matrix& A) { return static_cast<int>(A.rows()); }
+int cols(const Matrix& A) { return static_cast<int>(A.cols()); }
+int stride(const Matrix& A) { return std::max(1, rows(A)); }
+
+void mirror_lower(Matrix& A) {
+  A.triangularView<Eigen::StrictlyUpper>() = A.transpose().triangularView<Eigen::StrictlyUpper>();
+}
+
+}  // namespace
+
+bool cholesky_in_place(Matrix& A) {
+  ensure(A.rows() == A.cols(), "cholesky_in_place needs a square matrix");
+  if (A.rows() == 0) return true;
+  return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', rows(A), A.data(), stride(A)) == 0;
+}
+
+void solve_lower_in_place(const Matrix& L, Matrix& B, bool transposed) {
+  ensure(L.rows() == L.cols() && L.rows() == B.rows(), "solve_lower_in_place: sizes differ");
+  if (B.size() == 0) return;
+  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed ? CblasTrans : CblasNoTrans, CblasNonUnit,
+              rows(B), cols(B), 1.0, L.data(), stride(L), B.data(), stride(B));
+}
+
+void add_gram(Matrix& C, const Matrix& A, double alpha, double beta) {
+  ensure(C.rows() == A.cols() && C.cols() == A.cols(), "add_gram: sizes differ");
+  if (C.size() == 0) return;
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, cols(A), rows(A), alpha, A.data(), stride(A), beta,
+              C.data(), stride(C));
+  mirror_lower(C);
+}
+
+Matrix multiply_transposed(const Matrix& A, const Matrix& B, double alpha) {
+  ensure(A.rows() == B.rows(), "multiply_transposed: sizes differ");
+  Matrix C = Matrix::Zero(A.cols(), B.cols());
+  if (C.size() == 0 || A.rows() == 0) return C;
+  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, cols(A), cols(B), rows(A), alpha, A.data(), stride(A),
+              B.data(), stride(B), 0.0, C.data(), stride(C));
+  return C;
+}
+
+Matrix multiply(const Matrix& A, const Matrix& B) {
+  ensure(A.cols() == B.rows(), "multiply: sizes differ");
+  Matrix C = Matrix::Zero(A.rows(), B.cols());
+  if (C.size() == 0 || A.cols() == 0) return C;
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows(A), cols(B), cols(A), 1.0, A.data(), stride(A),
+              B.data(), stride(B), 0.0, C.data(), stride(C));
+  return C;
+}
+
+RealSchur real_schur(Matrix A) {
+  const int n = rows(A);
+  RealSchur schur{std::move(A), Matrix(n, n)};
+  if (n == 0) return schur;
+  Vector real(n), imaginary(n);
+  lapack_int sorted = 0;
+  const int info = LAPACKE_dgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, n, schur.T.data(), n, &sorted,
+                                 real.data(), imaginary.data(), schur.U.data(), n);
+  ensure(info == 0, "the real Schur form did not converge");
+  return schur;
+}
+
+}  // namespace scabo::linalg

@@ -1,0 +1,33 @@
+// Dense matrix operations of LAPACK and BLAS level 3, by name. All matrices are column-major (Eigen's default).
+#pragma once
+
+#include "scabo/base/types.hpp"
+
+namespace scabo::linalg {
+
+/// Number of threads BLAS and LAPACK may use in this process.
+void set_blas_threads(int threads);
+
+/// A <- lower Cholesky factor of the symmetric positive definite A (n x n, lower triangle read; the strict
+/// upper triangle is left as it was). False when A is not positive definite.
+[[nodiscard]] bool cholesky_in_place(Matrix& A);
+
+/// B <- L^-1 B, or L^-T B when `transposed`; L lower triangular, n x n; B n x m.
+void solve_lower_in_place(const Matrix& L, Matrix& B, bool transposed = false);
+
+/// C <- beta C + alpha A' A, the full symmetric matrix.
+void add_gram(Matrix& C, const Matrix& A, double alpha, double beta);
+
+/// alpha A' B.
+Matrix multiply_transposed(const Matrix& A, const Matrix& B, double alpha = 1.0);
+
+/// A B.
+Matrix multiply(const Matrix& A, const Matrix& B);
+
+/// A = U T U', U orthogonal, T upper quasi-triangular (2 x 2 blocks for complex pairs).
+struct RealSchur {
+  Matrix T, U;
+};
+RealSchur real_schur(Matrix A);
+
+}  // namespace scabo::linalg

@@ -1,0 +1,40 @@
+// exp(S s) applied to vectors, for matrices whose eigenvalues lie in the right half plane and s <= 0.
+//
+// S = U T U' (real Schur form), and with A = s T, in the left half plane,
+//
+//     exp(A) c = 1/(2 pi i) int e^z (z - A)^-1 c dz
+//
+// along a hyperbola z = m (1 + sin(i theta - alpha)) around a sector of the negative axis, by the midpoint rule,
+// which converges geometrically (Weideman and Trefethen, Math. Comp. 76 (2007) 1341; the constants here were found
+// by search for a sector of +-55 degrees: error below 2e-14 with 32 pairs of points). Every point costs one triangular
+// solve. Eigenvectors are not used: S of a slender super-element is far from normal (their condition passes 1e16), and
+// repeated or defective eigenvalues do no harm.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "scabo/linalg/dense.hpp"
+
+namespace scabo::linalg {
+
+class SchurExponential {
+ public:
+  SchurExponential() = default;
+  /// S: n x n, eigenvalues with positive real part.
+  explicit SchurExponential(const Matrix& S);
+
+  const Matrix& U() const { return schur_.U; }  // n x n, orthogonal
+  const Matrix& T() const { return schur_.T; }  // n x n, upper quasi-triangular
+  const std::vector<std::complex<double>>& eigenvalues() const { return eigenvalues_; }
+
+  /// psi(s) with psi' = T psi - e^(2s) w, psi(0) = c, for s <= 0: exp(T s) c where w = 0.
+  Vector propagate(const Vector& c, const Vector& w, double s) const;
+
+ private:
+  RealSchur schur_;
+  std::vector<std::complex<double>> eigenvalues_;
+  bool in_sector_ = true;  ///< all eigenvalues within +-55 degrees: the contour holds
+};
+
+}  // namespace scabo::linalg

@@ -1,0 +1,44 @@
+// Factorisation of a symmetric positive definite matrix, dense or sparse, whichever is cheaper.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "scabo/base/types.hpp"
+
+namespace scabo::linalg {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;  // compressed columns
+
+/// A = L L'. Dense Cholesky (LAPACK) where a quarter of the entries or more is filled, supernodal CHOLMOD
+/// otherwise: the stiffness of one super-element is full, that of a finite element mesh nearly empty.
+class SymmetricPositiveSolver {
+ public:
+  /// Empty: zero unknowns.
+  SymmetricPositiveSolver();
+  /// `A`: n x n, both triangles stored. Throws NotPositiveDefinite.
+  explicit SymmetricPositiveSolver(const SparseMatrix& A);
+  explicit SymmetricPositiveSolver(Matrix A);
+  SymmetricPositiveSolver(SymmetricPositiveSolver&&) noexcept;
+  SymmetricPositiveSolver& operator=(SymmetricPositiveSolver&&) noexcept;
+  ~SymmetricPositiveSolver();
+
+  /// A^-1 B, B n x m.
+  Matrix solve(const Matrix& B) const;
+
+  /// E' A^-1 E for columns E of the identity given by their indices; symmetric.
+  Matrix inverse_block(const std::vector<int>& indices) const;
+
+ private:
+  struct Factor;
+  std::unique_ptr<Factor> factor_;
+};
+
+/// The matrix given to SymmetricPositiveSolver is not positive definite (to working precision).
+struct NotPositiveDefinite : std::runtime_error {
+  NotPositiveDefinite() : std::runtime_error("the matrix is not positive definite") {}
+};
+
+}  // namespace scabo::linalg

@@ -1,0 +1,18 @@
+// The comparator's mesh: a rectangle in 8-node serendipity elements.
+//
+//     3---6---2      Nodes are numbered row by row from the first corner of the outline, along its first
+//     edge: |       |      2 nx + 1 nodes in a row of corners, nx + 1 in a row of middles. 7       5 | |
+//     0---4---1
+#pragma once
+
+#include "scabo/mesh/mesh.hpp"
+
+namespace scabo::mesh {
+
+/// Nodes that divide_grid would make.
+double count_grid_nodes(const model::Body& body);
+
+/// The rectangle `body`, which may be turned, in nx x ny elements not longer than `size`.
+BodyMesh divide_grid(const model::Body& body);
+
+}  // namespace scabo::mesh

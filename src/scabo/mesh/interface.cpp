@@ -1,0 +1,270 @@
+#include "scabo/mesh/interface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "scabo/mesh/contact_side.hpp"
+#include "scabo/mesh/edge_geometry.hpp"
+#include "scabo/mesh/node_matching.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+/// How far beyond the end of a rigid edge, over its length, a foot still lies on it.
+constexpr double end_tolerance = 1e-9;
+
+using Partners = std::vector<std::array<int, 2>>;  // places in side A, side B; -1 on a rigid side
+
+double largest_coordinate(const std::vector<ContactPair>& pairs) {
+  double largest = 0.0;
+  for (const ContactPair& pair : pairs) {
+    largest = std::max({largest, pair.point_a.cwiseAbs().maxCoeff(), pair.point_b.cwiseAbs().maxCoeff()});
+  }
+  return largest;
+}
+
+std::string text_of(const Vec2& point) { return fmt::format("({:.6g}, {:.6g})", point.x(), point.y()); }
+
+/// Where the middle of the pair lies; the same when A and B are swapped.
+Vec2 middle_of(const ContactPair& pair) { return 0.5 * (pair.point_a + pair.point_b); }
+
+/// Matches one contact; keeps what every step needs.
+class Matching {
+ public:
+  Matching(const model::Model& model, int contact, const std::vector<BodyMesh>& bodies)
+      : contact_(model.contacts[contact]),
+        body_a_(model.bodies[contact_.a.body]),
+        body_b_(model.bodies[contact_.b.body]),
+        edge_a_(body_a_.outline.edges[contact_.a.index]),
+        edge_b_(body_b_.outline.edges[contact_.b.index]) {
+    interface_.contact = contact;
+    if (!body_a_.rigid) side_a_ = side_of(contact_.a, edge_a_, bodies);
+    if (!body_b_.rigid) side_b_ = side_of(contact_.b, edge_b_, bodies);
+  }
+
+  std::variant<Interface, Diagnostic> run() {
+    if (!side_a_ && !side_b_) return mistake("both bodies are rigid: one must be elastic");
+    const std::optional<Diagnostic> wrong = side_a_ && side_b_ ? pair_nodes() : pair_with_rigid();
+    if (wrong) return *wrong;
+    if (const std::optional<Diagnostic> back = back_to_back()) return *back;
+    order_pairs();
+    collect_elements();
+    finish_gaps();
+    return std::move(interface_);
+  }
+
+ private:
+  static ContactSide side_of(const model::Place& place, const model::Edge& edge,
+                             const std::vector<BodyMesh>& bodies) {
+    const BodyMesh& mesh = bodies[place.body];
+    return {edge, mesh.edges[place.index], mesh.nodes};
+  }
+
+  Diagnostic mistake(std::string message) const { return {contact_.source, std::move(message)}; }
+
+  Diagnostic not_facing() const {
+    return mistake(fmt::format("{} and {} do not face each other: name the two edges that touch",
+                               contact_.a.text, contact_.b.text));
+  }
+
+  Diagnostic not_overlapping() const {
+    return mistake(
+        fmt::format("{} and {} do not lie over each other anywhere: move a body, or name other edges",
+                    contact_.a.text, contact_.b.text));
+  }
+
+  std::optional<Diagnostic> pair_nodes() {
+    const ContactSide& a = *side_a_;
+    const ContactSide& b = *side_b_;
+    NodeMatching matching = match_nodes(a, b);
+    const auto some = [&](Lie lie) {
+      return std::count(matching.lies_a.begin(), matching.lies_a.end(), lie) +
+                 std::count(matching.lies_b.begin(), matching.lies_b.end(), lie) >
+             0;
+    };
+    if (matching.lone) return not_matching(*matching.lone);
+    // Bodies of one linear element each meet at the ends of their edges only; two corners alone are no edge.
+    const bool overlap =
+        matching.partners.size() > 1 || (some(Lie::face_to_face) && !matching.partners.empty());
+    if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
+
+    partners_ = std::move(matching.partners);
+    for (const auto& [i, j] : partners_) {
+      interface_.pairs.push_back({.node_a = a.nodes[i],
+                                  .node_b = b.nodes[j],
+                                  .point_a = a.points[i],
+                                  .point_b = b.points[j],
+                                  .normal = common_normal(a.normals[i], b.normals[j])});
+    }
+    return std::nullopt;
+  }
+
+  Diagnostic not_matching(const LoneNode& lone) const {
+    std::string remedy = "give both bodies the same mesh size and order along the contact";
+    const double length = edge_a_.length();
+    if (std::abs(edge_b_.length() - length) > 1e-6 * length) {
+      remedy += ", and let the ends of the shorter edge fall on nodes of the longer one";
+    }
+    const std::string& here = lone.on_a ? contact_.a.text : contact_.b.text;
+    const std::string& there = lone.on_a ? contact_.b.text : contact_.a.text;
+    const ContactSide& side = lone.on_a ? *side_a_ : *side_b_;
+    const ContactSide& other = lone.on_a ? *side_b_ : *side_a_;
+    return mistake(
+        fmt::format("the nodes of {} and {} do not match: first at {} on {}, whose nearest node on {} is {}, "
+                    "{:.3g} away along the edge; {}",
+                    contact_.a.text, contact_.b.text, text_of(side.points[lone.node]), here, there,
+                    text_of(other.points[lone.nearest]), lone.along, remedy));
+  }
+
+  std::optional<Diagnostic> pair_with_rigid() {
+    const bool a_is_rigid = !side_a_;
+    const ContactSide& side = a_is_rigid ? *side_b_ : *side_a_;
+    const model::Edge& edge = a_is_rigid ? edge_a_ : edge_b_;
+    std::vector<std::optional<Foot>> feet(side.size());
+    bool over = false;
+    bool facing = false;
+    for (int i = 0; i < side.size(); ++i) {
+      const std::optional<Foot> foot = foot_on(edge, side.points[i]);
+      if (!foot || foot->t < -end_tolerance || foot->t > 1.0 + end_tolerance) continue;
+      over = true;
+      const double cosine = side.normals[i].dot(foot->normal);
+      facing |= cosine <= facing_cosine;
+      if (cosine <= pairing_cosine) feet[i] = foot;
+    }
+    if (!over) {
+      const auto& [elastic, rigid] =
+          a_is_rigid ? std::tie(contact_.b, contact_.a) : std::tie(contact_.a, contact_.b);
+      return mistake(
+          fmt::format("no node of {} lies over the rigid {}: move a body, name other edges, or use "
+                      "a smaller mesh size",
+                      elastic.text, rigid.text));
+    }
+    if (!facing) return not_facing();
+
+    // A closed edge may be paired across its first node: start after a node without partner.
+    int first = 0;
+    while (side.closed && feet[first] && first + 1 < side.size()) ++first;
+    for (int k = 0; k < side.size(); ++k) {
+      const int i = (first + k) % side.size();
+      if (!feet[i]) continue;
+      partners_.push_back(a_is_rigid ? std::array{-1, i} : std::array{i, -1});
+      ContactPair pair;
+      (a_is_rigid ? pair.node_b : pair.node_a) = side.nodes[i];
+      pair.point_a = a_is_rigid ? feet[i]->point : side.points[i];
+      pair.point_b = a_is_rigid ? side.points[i] : feet[i]->point;
+      pair.normal = a_is_rigid ? feet[i]->normal : Vec2(-feet[i]->normal);
+      interface_.pairs.push_back(pair);
+    }
+    return std::nullopt;
+  }
+
+  /// Where the overlap can be judged: at pairs that are not at an end, where x_B - x_A may run along other
+  /// edges.
+  std::vector<ContactPair> inner_pairs() const {
+    const std::vector<ContactPair>& pairs = interface_.pairs;
+    if (pairs.size() > 2) return {pairs.begin() + 1, pairs.end() - 1};
+    if (pairs.size() < 2 || edge_a_.arc || edge_b_.arc) return {};
+    ContactPair middle = pairs[0];
+    middle.point_a = 0.5 * (pairs[0].point_a + pairs[1].point_a);
+    middle.point_b = 0.5 * (pairs[0].point_b + pairs[1].point_b);
+    return {middle};
+  }
+
+  /// An overlap is only an interference where both bodies have material between the two points. Without it
+  /// the edges are the far sides of the bodies (the bottom of the lower, the top of the upper).
+  std::optional<Diagnostic> back_to_back() const {
+    std::optional<ContactPair> deepest;
+    double depth = matching_tolerance * std::min(edge_a_.length(), edge_b_.length());
+    for (const ContactPair& pair : inner_pairs()) {
+      const double overlap = (pair.point_a - pair.point_b).dot(pair.normal);
+      if (overlap <= depth) continue;
+      depth = overlap;
+      deepest = pair;
+    }
+    if (!deepest) return std::nullopt;
+    for (const double s : {0.25, 0.75}) {
+      const Vec2 point = deepest->point_a + s * (deepest->point_b - deepest->point_a);
+      if (encloses(body_a_.outline, point) && encloses(body_b_.outline, point)) return std::nullopt;
+    }
+    return mistake(
+        fmt::format("{} and {} face away from each other, {:.3g} back to back: name the two edges that "
+                    "touch",
+                    contact_.a.text, contact_.b.text, depth));
+  }
+
+  bool is_closed() const {
+    const ContactSide& side = side_a_ ? *side_a_ : *side_b_;
+    return side.closed && (!side_a_ || !side_b_ || side_b_->closed) && partners_.size() == side.nodes.size();
+  }
+
+  void order_pairs() {
+    std::vector<ContactPair>& pairs = interface_.pairs;
+    bool reverse = runs_backwards(middle_of(pairs.front()), middle_of(pairs.back()));
+    if (is_closed()) {  // counter-clockwise, from the pair with the smallest x
+      double area = 0.0;
+      std::size_t first = 0;
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const Vec2 middle = middle_of(pairs[k]);
+        area += cross(middle, middle_of(pairs[(k + 1) % pairs.size()]));
+        if (middle.x() < middle_of(pairs[first]).x()) first = k;
+      }
+      reverse = area < 0.0;
+      first += reverse ? 1 : 0;
+      std::rotate(pairs.begin(), pairs.begin() + first, pairs.end());
+      std::rotate(partners_.begin(), partners_.begin() + first, partners_.end());
+    }
+    if (!reverse) return;
+    std::reverse(pairs.begin(), pairs.end());
+    std::reverse(partners_.begin(), partners_.end());
+  }
+
+  void collect_elements() {
+    const ContactSide& side = side_a_ ? *side_a_ : *side_b_;
+    const int which = side_a_ ? 0 : 1;
+    std::vector<int> pair_at(side.size(), -1);
+    for (std::size_t k = 0; k < partners_.size(); ++k) pair_at[partners_[k][which]] = static_cast<int>(k);
+    for (const LineElement& element : side.elements) {
+      LineElement paired;
+      for (const int place : element.nodes) {
+        if (pair_at[place] >= 0) paired.nodes.push_back(pair_at[place]);
+      }
+      if (paired.nodes.size() == element.nodes.size()) interface_.elements.push_back(std::move(paired));
+    }
+  }
+
+  void finish_gaps() {
+    // Coordinates carry rounding errors: a touching interface gets gaps of exactly 0, also when it is turned.
+    const double rounding =
+        16.0 * std::numeric_limits<double>::epsilon() * largest_coordinate(interface_.pairs);
+    for (ContactPair& pair : interface_.pairs) {
+      const double gap = (pair.point_b - pair.point_a).dot(pair.normal);
+      pair.gap = (std::abs(gap) <= rounding ? 0.0 : gap) + contact_.gap;
+    }
+  }
+
+  const model::Contact& contact_;
+  const model::Body& body_a_;
+  const model::Body& body_b_;
+  const model::Edge& edge_a_;
+  const model::Edge& edge_b_;
+  std::optional<ContactSide> side_a_;  // nothing when A is rigid
+  std::optional<ContactSide> side_b_;
+  Partners partners_;  // of interface_.pairs
+  Interface interface_;
+};
+
+}  // namespace
+
+std::variant<Interface, Diagnostic> match_interface(const model::Model& model, int contact,
+                                                    const std::vector<BodyMesh>& bodies) {
+  return Matching(model, contact, bodies).run();
+}
+
+}  // namespace scabo::mesh

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/grid.hpp"
+#include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/mesh.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+/// More than this in one model is taken for a mistyped size.
+constexpr double most_nodes = 1e6;
+
+/// What forbids to divide the body, found before anything is allocated.
+std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) {
+  const bool fem = body.mesh.kind == model::MeshKind::fem;
+  if (fem && !body.outline.rectangle) {
+    return {{body.mesh.source,
+             "'kind: fem' divides rectangles only: give the body a 'rectangle' shape, or leave "
+             "out 'kind'"}};
+  }
+  if (fem && body.mesh.order != 2) {
+    return {{body.mesh.source,
+             fmt::format("'kind: fem' has elements of order 2, not {}: leave out 'order'", body.mesh.order)}};
+  }
+  const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
+  if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {
+    return {{body.mesh.source,
+             fmt::format("with this body the model would have {:.3g} nodes, more than the {:.7g} "
+                         "allowed: use larger mesh sizes",
+                         nodes_before + nodes, most_nodes)}};
+  }
+  if (!(nodes <= most_nodes)) {
+    return {{body.mesh.source,
+             fmt::format("size {:.6g} would make {:.3g} nodes, more than the {:.7g} allowed: use "
+                         "a larger 'size'",
+                         body.mesh.size, nodes, most_nodes)}};
+  }
+  return {};
+}
+
+bool is_edge(const model::Place& place) { return place.kind == model::Place::Kind::edge; }
+
+}  // namespace
+
+Mesh make_mesh(const model::Model& model) {
+  Mesh mesh;
+  std::vector<Diagnostic> mistakes;
+  const auto add = [&](std::vector<Diagnostic> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(mistakes));
+    return !more.empty();
+  };
+
+  mesh.bodies.resize(model.bodies.size());
+  double nodes = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    if (body.rigid || add(obstacles(body, nodes))) continue;
+    const bool fem = body.mesh.kind == model::MeshKind::fem;
+    mesh.bodies[b] = fem ? divide_grid(body) : divide_boundary(body);
+    if (!fem) add(unseen_edges(body, mesh.bodies[b]));
+    nodes += static_cast<double>(mesh.bodies[b].nodes.size());
+  }
+
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const model::Contact& contact = model.contacts[c];
+    ensure(is_edge(contact.a) && is_edge(contact.b), "a contact is between two edges");
+    const auto has_mesh = [&](int b) { return model.bodies[b].rigid || !mesh.bodies[b].nodes.empty(); };
+    if (!has_mesh(contact.a.body) || !has_mesh(contact.b.body)) continue;  // its mistake is reported already
+    auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
+    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched)) {
+      mistakes.push_back(*wrong);
+    } else {
+      mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
+    }
+  }
+  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+  return mesh;
+}
+
+int Mesh::nodes() const {
+  std::size_t count = 0;
+  for (const BodyMesh& body : bodies) count += body.nodes.size();
+  return static_cast<int>(count);
+}
+
+}  // namespace scabo::mesh

@@ -1,0 +1,168 @@
+#include "scabo/mesh/node_matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scabo/mesh/edge_geometry.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+using Partners = std::vector<std::array<int, 2>>;
+
+/// For curved edges, offset along the edge in node spacings, and against the gap.
+constexpr double curved_tolerance = 0.02;
+constexpr double curved_slope = 0.5;
+
+/// Part of x_B - x_A along the interface.
+double offset_along(const ContactSide& a, int i, const ContactSide& b, int j) {
+  return (b.points[j] - a.points[i]).dot(tangent_of(common_normal(a.normals[i], b.normals[j])));
+}
+
+bool nodes_match(const ContactSide& a, int i, const ContactSide& b, int j) {
+  if (a.normals[i].dot(b.normals[j]) > pairing_cosine) return false;
+  const Vec2 n = common_normal(a.normals[i], b.normals[j]);
+  const Vec2 t = tangent_of(n);
+  const Vec2 offset = b.points[j] - a.points[i];
+  const double along = offset.dot(t);
+  const double gap = offset.dot(n);
+  const double tolerance = matching_tolerance * std::min(a.element_length, b.element_length);
+  if (std::abs(along) <= tolerance) return true;
+
+  // Between the normals of the two sides, as divided and as they were before?
+  double low = 0.0;
+  double high = 0.0;
+  for (const Vec2& normal :
+       {a.normals[i], a.true_normals[i], Vec2(-b.normals[j]), Vec2(-b.true_normals[j])}) {
+    const double slope = normal.dot(t) / normal.dot(n);
+    low = std::min(low, slope);
+    high = std::max(high, slope);
+  }
+  const auto [least, most] = std::minmax({low * gap, high * gap});
+  if (least - tolerance <= along && along <= most + tolerance) return true;
+
+  const bool curved = a.edge->arc || b.edge->arc;
+  return curved && std::abs(along) <= std::min(curved_tolerance * std::min(a.spacing, b.spacing),
+                                               curved_slope * std::abs(gap));
+}
+
+std::vector<Lie> lies_of(const ContactSide& side, const ContactSide& other) {
+  const double tolerance =
+      matching_tolerance * std::min(side.element_length, other.element_length) / other.edge->length();
+  std::vector<Lie> lies;
+  for (int i = 0; i < side.size(); ++i) {
+    const std::optional<Foot> foot = foot_on(*other.edge, side.points[i]);
+    if (!foot || foot->t < -tolerance || foot->t > 1.0 + tolerance) {
+      lies.push_back(Lie::beyond);
+    } else if (side.normals[i].dot(foot->normal) > facing_cosine - 1e-9) {
+      lies.push_back(Lie::averted);
+    } else if (!other.closed && (foot->t <= tolerance || foot->t >= 1.0 - tolerance)) {
+      lies.push_back(Lie::at_end);
+    } else {
+      lies.push_back(Lie::face_to_face);
+    }
+  }
+  return lies;
+}
+
+/// For each node of `side` the nearest one of `other`.
+std::vector<int> nearest_nodes(const ContactSide& side, const ContactSide& other) {
+  const NearestPoint nearest(other.points);
+  std::vector<int> found;
+  for (const Vec2& point : side.points) found.push_back(nearest(point));
+  return found;
+}
+
+/// The closest pair of nodes that match, if there is one.
+std::optional<std::array<int, 2>> closest_partners(const ContactSide& a, const ContactSide& b,
+                                                   const std::vector<int>& nearest_b,
+                                                   const std::vector<int>& nearest_a) {
+  std::optional<std::array<int, 2>> closest;
+  double shortest = std::numeric_limits<double>::max();
+  const auto consider = [&](int i, int j) {
+    const double distance = (b.points[j] - a.points[i]).squaredNorm();
+    if (!(distance < shortest) || !nodes_match(a, i, b, j)) return;
+    shortest = distance;
+    closest = {i, j};
+  };
+  for (int i = 0; i < a.size(); ++i) consider(i, nearest_b[i]);
+  for (int j = 0; j < b.size(); ++j) consider(nearest_a[j], j);
+  return closest;
+}
+
+/// From the closest pair in both directions, as long as the nodes match. In the order of A's boundary.
+Partners partners_along(const ContactSide& a, const ContactSide& b, const std::array<int, 2>& closest) {
+  const auto step = [&](std::array<int, 2> at, int direction) -> std::optional<std::array<int, 2>> {
+    at[0] += direction;
+    at[1] -= direction;  // both boundaries run counter-clockwise, so against each other
+    if (a.closed) at[0] = (at[0] + a.size()) % a.size();
+    if (b.closed) at[1] = (at[1] + b.size()) % b.size();
+    if (at[0] < 0 || at[0] >= a.size() || at[1] < 0 || at[1] >= b.size()) return std::nullopt;
+    if (!nodes_match(a, at[0], b, at[1])) return std::nullopt;
+    return at;
+  };
+  const std::size_t most = std::min(a.size(), b.size());
+  Partners before;
+  for (auto at = step(closest, -1); at && before.size() + 1 < most; at = step(*at, -1)) before.push_back(*at);
+  Partners partners(before.rbegin(), before.rend());
+  partners.push_back(closest);
+  for (auto at = step(closest, 1); at && partners.size() < most; at = step(*at, 1)) partners.push_back(*at);
+  return partners;
+}
+
+/// The first node of `side`, from its end or `backwards`, that should have a partner and has none, and of
+/// which it is so (`nearest_matches`) or not that it would match the nearest node.
+std::optional<int> first_alone(const ContactSide& side, const std::vector<Lie>& lies,
+                               const std::vector<bool>& paired, const ContactSide& other,
+                               const std::vector<int>& nearest, bool backwards, bool nearest_matches) {
+  for (int k = 0; k < side.size(); ++k) {
+    const int i = backwards ? side.size() - 1 - k : k;
+    if (lies[i] != Lie::face_to_face || paired[i]) continue;
+    if (nodes_match(side, i, other, nearest[i]) == nearest_matches) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+NodeMatching match_nodes(const ContactSide& a, const ContactSide& b) {
+  NodeMatching matching;
+  matching.lies_a = lies_of(a, b);
+  matching.lies_b = lies_of(b, a);
+  const std::vector<int> nearest_b = nearest_nodes(a, b);
+  const std::vector<int> nearest_a = nearest_nodes(b, a);
+  if (const auto closest = closest_partners(a, b, nearest_b, nearest_a)) {
+    matching.partners = partners_along(a, b, *closest);
+  }
+  std::vector<bool> paired_a(a.size(), false);
+  std::vector<bool> paired_b(b.size(), false);
+  for (const auto& [i, j] : matching.partners) {
+    paired_a[i] = true;
+    paired_b[j] = true;
+  }
+
+  // Nodes that do not match their nearest come first: they show the mistake itself, the others what follows.
+  const bool backwards = runs_backwards(a.points.front(), a.points.back());
+  for (const bool nearest_matches : {false, true}) {
+    if (const auto i = first_alone(a, matching.lies_a, paired_a, b, nearest_b, backwards, nearest_matches)) {
+      matching.lone = {true, *i, nearest_b[*i], std::abs(offset_along(a, *i, b, nearest_b[*i]))};
+      break;
+    }
+    if (const auto j = first_alone(b, matching.lies_b, paired_b, a, nearest_a, !backwards, nearest_matches)) {
+      matching.lone = {false, *j, nearest_a[*j], std::abs(offset_along(b, *j, a, nearest_a[*j]))};
+      break;
+    }
+  }
+  return matching;
+}
+
+Vec2 common_normal(const Vec2& normal_a, const Vec2& normal_b) { return (normal_a - normal_b).normalized(); }
+
+bool runs_backwards(const Vec2& first, const Vec2& last) {
+  const Vec2 d = last - first;
+  return std::abs(d.x()) > 1e-6 * std::abs(d.y()) ? d.x() < 0.0 : d.y() < 0.0;
+}
+
+}  // namespace scabo::mesh

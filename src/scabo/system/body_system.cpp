@@ -1,0 +1,246 @@
+#include "scabo/system/body_system.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+namespace scabo::system {
+
+Vector Stiffness::times(const Vector& u) const { return dense ? Vector(*dense * u) : Vector(sparse * u); }
+
+Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever) {
+  const Vec2 arm = (x - reference) / lever;
+  Eigen::Matrix<double, 2, 3> map;
+  map << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
+  return map;
+}
+
+std::string describe_motion(const Eigen::Vector3d& motion, const Vec2& reference, double lever) {
+  const double rotation = motion[2] / lever;
+  const Vec2 shift = motion.head<2>();
+  if (std::abs(motion[2]) <= 1e-6 * shift.norm()) {
+    Vec2 along = shift.normalized();
+    for (Eigen::Index i = 0; i < 2; ++i)
+      if (std::abs(along[i]) < 1e-9) along[i] = 0.0;
+    return fmt::format("translation along ({:.4g}, {:.4g})", along.x(), along.y());
+  }
+  // The point that stays: shift + rotation x arm = 0.
+  const Vec2 pole = reference + Vec2(-shift.y(), shift.x()) / rotation;
+  return fmt::format("rotation about ({:.4g}, {:.4g})", pole.x(), pole.y());
+}
+
+namespace {
+
+/// Basis of the null space of A (rows x columns), its columns orthonormal.
+Matrix null_space(const Matrix& A) {
+  const Eigen::Index n = A.cols();
+  if (A.rows() == 0) return Matrix::Identity(n, n);
+  const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
+    if (svd.singularValues()[k] > 1e-9 * svd.singularValues()[0]) ++rank;
+  return svd.matrixV().rightCols(n - rank);
+}
+
+}  // namespace
+
+Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints, Vec2& reference,
+                    double& lever) {
+  Vec2 low = nodes.front(), high = nodes.front();
+  for (const Vec2& x : nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  reference = 0.5 * (low + high);
+  lever = 0.5 * (high - low).norm();
+  Matrix held(static_cast<Eigen::Index>(constraints.size()), 3);
+  for (std::size_t c = 0; c < constraints.size(); ++c)
+    held.row(static_cast<Eigen::Index>(c)) =
+        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever).row(constraints[c].dof % 2);
+  return null_space(held);
+}
+
+namespace {
+
+class ElasticBody final : public BodySystem {
+ public:
+  ElasticBody(Stiffness stiffness, const std::vector<Vec2>& nodes, std::vector<Constraint> constraints)
+      : stiffness_(std::move(stiffness)), free_(static_cast<std::size_t>(2 * nodes.size()), true) {
+    constraints_ = std::move(constraints);
+    find_rigid_motions(nodes);
+    for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
+    solved_ = free_;
+    for (int dof : further_dofs()) solved_[static_cast<std::size_t>(dof)] = false;
+    place_.assign(solved_.size(), -1);
+    for (std::size_t i = 0; i < solved_.size(); ++i)
+      if (solved_[i]) place_[i] = static_cast<int>(dofs_.size()), dofs_.push_back(static_cast<int>(i));
+    factorise();
+  }
+
+  Eigen::Index size() const override { return stiffness_.size(); }
+
+  Vector displacement(const Vector& f, const Vector& prescribed) const override {
+    Vector u = Vector::Zero(size());
+    for (std::size_t c = 0; c < constraints_.size(); ++c)
+      u[constraints_[c].dof] = prescribed[static_cast<Eigen::Index>(c)];
+    for (int round = 0; round < 2; ++round) {  // the second refines: the certificate is judged at 1e-10
+      const Vector load = f - internal_forces(u);
+      u(dofs_) += solver_.solve(load(dofs_)).col(0);
+    }
+    return u;
+  }
+
+  Matrix flexibility(const std::vector<int>& dofs) const override {
+    std::vector<int> places, at;
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      const int place = place_[static_cast<std::size_t>(dofs[i])];
+      if (place >= 0) places.push_back(place), at.push_back(static_cast<int>(i));
+    }
+    Matrix A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
+    A(at, at) = solver_.inverse_block(places);
+    return A;
+  }
+
+  Vector reactions(const Vector& u, const Vector& f) const override {
+    const Vector remaining = internal_forces(u) - f;
+    Vector forces(static_cast<Eigen::Index>(constraints_.size()));
+    for (std::size_t c = 0; c < constraints_.size(); ++c)
+      forces[static_cast<Eigen::Index>(c)] = remaining[constraints_[c].dof];
+    return forces;
+  }
+
+  double imbalance(const Vector& u, const Vector& f) const override {
+    const Vector remaining = internal_forces(u) - f;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      if (free_[i]) largest = std::max(largest, std::abs(remaining[static_cast<Eigen::Index>(i)]));
+    return largest;
+  }
+
+  double elastic_energy(const Vector& u) const override { return 0.5 * u.dot(internal_forces(u)); }
+
+ private:
+  /// K u, without the part that a translation of the whole body would add by rounding.
+  Vector internal_forces(Vector u) const {
+    const Eigen::Index nodes = size() / 2;
+    auto by_node = u.reshaped(2, nodes);
+    const Vec2 mean = by_node.rowwise().mean();
+    by_node.colwise() -= mean;
+    return stiffness_.times(u);
+  }
+
+  void find_rigid_motions(const std::vector<Vec2>& nodes) {
+    rigid_coordinates_ = free_motions(nodes, constraints_, reference_, lever_);
+    rigid_motions_.resize(size(), rigid_coordinates_.cols());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      rigid_motions_.middleRows<2>(static_cast<Eigen::Index>(2 * i)) =
+          rigid_point(nodes[i], reference_, lever_) * rigid_coordinates_;
+    for (const Constraint& constraint : constraints_) rigid_motions_.row(constraint.dof).setZero();
+  }
+
+  /// As many degrees of freedom as there are rigid motions, chosen so that holding them stops every motion.
+  std::vector<int> further_dofs() const {
+    std::vector<int> chosen;
+    if (rigid_motions_.cols() == 0) return chosen;
+    const Eigen::ColPivHouseholderQR<Matrix> qr(rigid_motions_.transpose());
+    for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) chosen.push_back(qr.colsPermutation().indices()[k]);
+    return chosen;
+  }
+
+  void factorise() {
+    if (stiffness_.dense) {
+      solver_ = linalg::SymmetricPositiveSolver(Matrix((*stiffness_.dense)(dofs_, dofs_)));
+      return;
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(stiffness_.sparse.nonZeros()));
+    for (Eigen::Index column = 0; column < stiffness_.sparse.outerSize(); ++column)
+      for (linalg::SparseMatrix::InnerIterator it(stiffness_.sparse, column); it; ++it) {
+        const int row = place_[static_cast<std::size_t>(it.row())], col = place_[static_cast<std::size_t>(it.col())];
+        if (row >= 0 && col >= 0) entries.emplace_back(row, col, it.value());
+      }
+    const auto n = static_cast<Eigen::Index>(dofs_.size());
+    linalg::SparseMatrix K(n, n);
+    K.setFromTriplets(entries.begin(), entries.end());
+    solver_ = linalg::SymmetricPositiveSolver(K);
+  }
+
+  Stiffness stiffness_;
+  std::vector<bool> free_;    // by supports
+  std::vector<bool> solved_;  // free, and not among the further dofs
+  std::vector<int> dofs_, place_;
+  linalg::SymmetricPositiveSolver solver_;
+};
+
+class RigidBody final : public BodySystem {
+ public:
+  RigidBody(const Vec2& reference, double size, std::vector<Constraint> constraints) {
+    constraints_ = std::move(constraints);
+    reference_ = reference;
+    lever_ = size;
+    held_.resize(static_cast<Eigen::Index>(constraints_.size()), 3);
+    for (std::size_t c = 0; c < constraints_.size(); ++c) {
+      const Constraint& constraint = constraints_[c];
+      held_.row(static_cast<Eigen::Index>(c)) =
+          constraint.rotation ? Eigen::RowVector3d(0.0, 0.0, 1.0)
+                              : Eigen::RowVector3d(rigid_point(constraint.point, reference_, lever_).row(constraint.component));
+    }
+    rigid_motions_ = rigid_coordinates_ = null_space(held_);
+    constrained_.compute(held_);
+  }
+
+  Eigen::Index size() const override { return 3; }
+
+  Vector displacement(const Vector&, const Vector& prescribed) const override {
+    if (held_.rows() == 0) return Vector::Zero(3);
+    return constrained_.solve(prescribed);
+  }
+
+  Matrix flexibility(const std::vector<int>& dofs) const override {
+    const auto n = static_cast<Eigen::Index>(dofs.size());
+    return Matrix::Zero(n, n);
+  }
+
+  Vector reactions(const Vector&, const Vector& f) const override {
+    if (held_.rows() == 0) return Vector();
+    return Matrix(held_.transpose()).completeOrthogonalDecomposition().solve(-f);
+  }
+
+  double imbalance(const Vector& u, const Vector& f) const override {
+    if (held_.rows() == 0) return f.lpNorm<Eigen::Infinity>();
+    return (f + held_.transpose() * reactions(u, f)).lpNorm<Eigen::Infinity>();
+  }
+
+  double elastic_energy(const Vector&) const override { return 0.0; }
+
+  /// Largest amount by which the constraints contradict each other at factor 1, and the constraint.
+  std::pair<double, std::size_t> contradiction() const {
+    Vector values(held_.rows());
+    for (std::size_t c = 0; c < constraints_.size(); ++c) values[static_cast<Eigen::Index>(c)] = constraints_[c].value;
+    if (values.size() == 0) return {0.0, 0};
+    Eigen::Index worst = 0;
+    const double largest = (held_ * constrained_.solve(values) - values).cwiseAbs().maxCoeff(&worst);
+    return {largest / std::max(values.cwiseAbs().maxCoeff(), 1e-300), static_cast<std::size_t>(worst)};
+  }
+
+ private:
+  Matrix held_;  // constraints x 3
+  Eigen::CompleteOrthogonalDecomposition<Matrix> constrained_;
+};
+
+}  // namespace
+
+std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
+                                         std::vector<Constraint> constraints) {
+  return std::make_unique<ElasticBody>(std::move(stiffness), nodes, std::move(constraints));
+}
+
+std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
+                                       std::string& contradiction) {
+  auto body = std::make_unique<RigidBody>(reference, size, std::move(constraints));
+  const auto [amount, which] = body->contradiction();
+  if (amount > 1e-9) contradiction = fmt::format("constraint {} cannot hold together with the others", which + 1);
+  return body;
+}
+
+}  // namespace scabo::system

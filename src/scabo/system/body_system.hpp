@@ -1,0 +1,91 @@
+// One body with its supports: how it moves under nodal forces, prescribed displacements and its own rigid motions.
+//
+// Displacement vectors hold two components per node; of a rigid body three, [u_x, u_y, L rotation] about its centroid,
+// with L half its size so that all three are lengths. For both,
+//
+//     u = u_p(f, d) + A C'p + Nn a
+//
+// u_p: under applied forces f and prescribed displacements d; A: flexibility, zero on the supports and, where supports
+// leave rigid motions Nn free, on as many further degrees of freedom; a: the amplitudes of those motions, found from
+// their equilibrium Nn'(f + C'p) = 0. No springs are added anywhere.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scabo/linalg/symmetric_positive_solver.hpp"
+#include "scabo/mesh/mesh.hpp"
+
+namespace scabo::system {
+
+/// Stiffness of an elastic body: full for one super-element, sparse for finite elements.
+struct Stiffness {
+  std::shared_ptr<const Matrix> dense;
+  linalg::SparseMatrix sparse;
+
+  Eigen::Index size() const { return dense ? dense->rows() : sparse.rows(); }
+  Vector times(const Vector& u) const;
+};
+
+/// A linear combination of degrees of freedom held at a value by a support.
+struct Constraint {
+  int dof = -1;       ///< elastic body: the degree of freedom
+  Vec2 point = Vec2::Zero();  ///< rigid body: the point (absolute)
+  int component = 0;  ///< rigid body: 0 x, 1 y
+  bool rotation = false;      ///< rigid body: the rotation itself, held by a support on the whole body
+  int support = -1;   ///< index into Model::supports
+  double value = 0.0; ///< length, at factor 1
+};
+
+class BodySystem {
+ public:
+  virtual ~BodySystem() = default;
+  virtual Eigen::Index size() const = 0;                      ///< of u
+  const Matrix& rigid_motions() const { return rigid_motions_; }  ///< Nn, size x m
+  const Vec2& reference() const { return reference_; }        ///< centre of rotation
+  double lever() const { return lever_; }                     ///< L
+  /// Columns of Nn as [u_x, u_y, L rotation] at the reference point, 3 x m.
+  const Matrix& rigid_coordinates() const { return rigid_coordinates_; }
+
+  /// u_p for applied forces f and the prescribed values of every constraint.
+  virtual Vector displacement(const Vector& f, const Vector& prescribed) const = 0;
+  /// A on the given degrees of freedom.
+  virtual Matrix flexibility(const std::vector<int>& dofs) const = 0;
+  /// Forces that the constraints exert, one for each, for displacements u under the forces f (contact forces included).
+  virtual Vector reactions(const Vector& u, const Vector& f) const = 0;
+  /// Largest force that remains on a degree of freedom that nothing holds.
+  virtual double imbalance(const Vector& u, const Vector& f) const = 0;
+  /// 1/2 u'K u.
+  virtual double elastic_energy(const Vector& u) const = 0;
+
+  const std::vector<Constraint>& constraints() const { return constraints_; }
+
+ protected:
+  std::vector<Constraint> constraints_;
+  Matrix rigid_motions_, rigid_coordinates_;
+  Vec2 reference_ = Vec2::Zero();
+  double lever_ = 1.0;
+};
+
+/// An elastic body. `nodes` give the rigid motions; constraints have distinct `dof`s.
+std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
+                                         std::vector<Constraint> constraints);
+
+/// A rigid body about `reference`; `size`: its extent. Constraints that contradict each other are the caller's to find:
+/// `contradiction` (of the first that does) is empty otherwise.
+std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
+                                       std::string& contradiction);
+
+/// Rigid motions that constraints leave an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the centre of rotation and
+/// L.
+Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints, Vec2& reference,
+                    double& lever);
+
+/// Displacement of a point `x` of a rigid body per unit [u_x, u_y, L rotation], 2 x 3.
+Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever);
+
+/// `translation along (1, 0)` or `rotation about (x, y)` for [u_x, u_y, L rotation].
+std::string describe_motion(const Eigen::Vector3d& motion, const Vec2& reference, double lever);
+
+}  // namespace scabo::system

@@ -1,0 +1,267 @@
+#include "scabo/system/structure.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/plane_element8.hpp"
+#include "scabo/system/loads.hpp"
+
+namespace scabo::system {
+
+namespace {
+
+constexpr const char* component_name[2] = {"x", "y"};
+
+/// The two supports move alike in every step.
+bool same_history(const model::Model& model, int a, int b) {
+  for (const model::Step& step : model.steps)
+    if (step.support_factors[static_cast<std::size_t>(a)] != step.support_factors[static_cast<std::size_t>(b)])
+      return false;
+  return true;
+}
+
+/// Points of a rigid body that a support holds.
+std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body) {
+  const auto index = static_cast<std::size_t>(place.index);
+  switch (place.kind) {
+    case model::Place::Kind::body: return {body.outline.centroid()};
+    case model::Place::Kind::edge: return {body.outline.edges[index].start, body.outline.edges[index].end};
+    case model::Place::Kind::corner: return {body.outline.corners[index].position};
+    case model::Place::Kind::near: return {place.near};
+  }
+  return {};
+}
+
+double half_size(const model::Outline& outline) {
+  Vec2 low = outline.edges.front().start, high = low;
+  for (const model::Edge& edge : outline.edges)
+    for (double t : {0.0, 0.5}) low = low.cwiseMin(edge.at(t)), high = high.cwiseMax(edge.at(t));
+  return 0.5 * (high - low).norm();
+}
+
+element::Corners8 corners_of(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element) {
+  element::Corners8 x;
+  for (std::size_t i = 0; i < 8; ++i) x[i] = mesh.nodes[static_cast<std::size_t>(element[i])];
+  return x;
+}
+
+class ConstraintCollector {
+ public:
+  ConstraintCollector(const model::Model& model, const mesh::Mesh& mesh)
+      : model_(model), mesh_(mesh), constraints_(model.bodies.size()), held_by_(model.bodies.size()) {}
+
+  void add(int index) {
+    const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
+    const auto body = static_cast<std::size_t>(support.on.body);
+    for (int component = 0; component < 2; ++component) {
+      const auto value = support.displacement[static_cast<std::size_t>(component)];
+      if (!value) continue;
+      if (model_.bodies[body].rigid) {
+        for (const Vec2& point : rigid_points(support.on, model_.bodies[body]))
+          constraints_[body].push_back({-1, point, component, false, index, *value});
+        if (support.on.kind == model::Place::Kind::body && !holds_rotation(body))
+          constraints_[body].push_back({-1, Vec2::Zero(), component, true, index, 0.0});
+        continue;
+      }
+      for (int node : mesh::nodes_of(support.on, mesh_).nodes) add_dof(body, node, component, index, *value);
+    }
+  }
+
+  std::vector<std::vector<Constraint>> finish() {
+    if (!diagnostics_.empty()) throw InputError(model_.file, std::move(diagnostics_));
+    return std::move(constraints_);
+  }
+
+ private:
+  bool holds_rotation(std::size_t body) const {
+    for (const Constraint& constraint : constraints_[body])
+      if (constraint.rotation) return true;
+    return false;
+  }
+
+  void add_dof(std::size_t body, int node, int component, int index, double value) {
+    const int dof = 2 * node + component;
+    const auto [at, added] = held_by_[body].emplace(dof, constraints_[body].size());
+    if (added) {
+      constraints_[body].push_back({dof, Vec2::Zero(), component, false, index, value});
+      return;
+    }
+    const Constraint& other = constraints_[body][at->second];
+    const bool both_zero = value == 0.0 && other.value == 0.0;
+    if (both_zero || (value == other.value && same_history(model_, index, other.support))) return;
+    const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
+    const Vec2& x = mesh_.bodies[body].nodes[static_cast<std::size_t>(node)];
+    diagnostics_.push_back(
+        {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), which support '{}' (line {}) prescribes "
+                                     "otherwise: give the two the same value there, or hold one of them elsewhere",
+                                     component_name[component], x.x(), x.y(),
+                                     model_.supports[static_cast<std::size_t>(other.support)].name,
+                                     model_.supports[static_cast<std::size_t>(other.support)].source.line)});
+  }
+
+  const model::Model& model_;
+  const mesh::Mesh& mesh_;
+  std::vector<std::vector<Constraint>> constraints_;
+  std::vector<std::map<int, std::size_t>> held_by_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const model::Body& body,
+                                            std::vector<Constraint> constraints) {
+  std::string contradiction;
+  const int last_support = constraints.empty() ? -1 : constraints.back().support;
+  auto system = rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), contradiction);
+  if (!contradiction.empty())
+    throw InputError(model.file, {{model.supports[static_cast<std::size_t>(last_support)].source,
+                                   fmt::format("the supports of rigid body '{}' contradict each other: a rigid body can "
+                                               "only move and turn as a whole",
+                                               body.name)}});
+  return system;
+}
+
+bool has_contact(const model::Model& model, const mesh::Mesh& mesh, int body) {
+  for (std::size_t c = 0; c < model.contacts.size(); ++c)
+    if ((model.contacts[c].a.body == body || model.contacts[c].b.body == body) && !mesh.interfaces[c].pairs.empty())
+      return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh) {
+  ConstraintCollector collector(model, mesh);
+  for (std::size_t s = 0; s < model.supports.size(); ++s) collector.add(static_cast<int>(s));
+  return collector.finish();
+}
+
+void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
+  const auto constraints = constraints_of(model, mesh);
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    if (has_contact(model, mesh, static_cast<int>(b))) continue;
+    Vec2 reference;
+    double lever = 0.0;
+    Matrix free;
+    if (body.rigid) {
+      const auto system = make_rigid_body(model, body, constraints[b]);
+      reference = system->reference();
+      lever = system->lever();
+      free = system->rigid_coordinates();
+    } else {
+      free = free_motions(mesh.bodies[b].nodes, constraints[b], reference, lever);
+    }
+    if (free.cols() == 0) continue;
+    std::string motions;
+    for (Eigen::Index k = 0; k < free.cols(); ++k)
+      motions += (k > 0 ? ", " : "") + describe_motion(free.col(k), reference, lever);
+    diagnostics.push_back({body.source, fmt::format("nothing holds this body: it is free to move by {}; add a support "
+                                                    "that stops it, or a contact",
+                                                    motions)});
+  }
+  if (!diagnostics.empty()) throw InputError(model.file, std::move(diagnostics));
+}
+
+linalg::SparseMatrix fem_stiffness(const mesh::BodyMesh& mesh, const element::Mat3& D, double thickness) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(mesh.elements.size() * 256);
+  for (const mesh::PlaneElement8& element : mesh.elements) {
+    const element::Matrix16 K = element::plane_element8_stiffness(corners_of(mesh, element), D, thickness);
+    for (int i = 0; i < 16; ++i)
+      for (int j = 0; j < 16; ++j)
+        entries.emplace_back(2 * element[static_cast<std::size_t>(i / 2)] + i % 2,
+                             2 * element[static_cast<std::size_t>(j / 2)] + j % 2, K(i, j));
+  }
+  const auto n = static_cast<Eigen::Index>(2 * mesh.nodes.size());
+  linalg::SparseMatrix K(n, n);
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
+                         const std::vector<const element::SuperElementSolution*>& super_elements) {
+  auto constraints = constraints_of(model, mesh);
+  Structure structure;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    if (body.rigid) {
+      structure.bodies.push_back(make_rigid_body(model, body, std::move(constraints[b])));
+      continue;
+    }
+    Stiffness stiffness;
+    if (super_elements[b]) {
+      stiffness.dense = std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
+    } else {
+      const auto D = element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)],
+                                                model.analysis.plane);
+      stiffness.sparse = fem_stiffness(mesh.bodies[b], D, model.analysis.thickness);
+    }
+    structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
+  }
+  return structure;
+}
+
+Vector body_load(const mesh::BodyMesh& mesh, const element::SuperElementSolution* super_element, double thickness,
+                 const Vec2& body_force) {
+  Vector f = Vector::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
+  if (super_element) {
+    const Vector weights = element::body_load_weights(element::ring_of(mesh.super_elements.front(), mesh.nodes));
+    for (Eigen::Index i = 0; i < weights.size(); ++i) f.segment<2>(2 * i) = weights[i] * thickness * body_force;
+    return element::equivalent_body_load(*super_element, f);
+  }
+  for (const mesh::PlaneElement8& element : mesh.elements) {
+    const auto areas = element::plane_element8_areas(corners_of(mesh, element));
+    for (std::size_t i = 0; i < 8; ++i) f.segment<2>(2 * element[i]) += areas[i] * thickness * body_force;
+  }
+  return f;
+}
+
+void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
+               const std::vector<const element::SuperElementSolution*>& super_elements) {
+  const double thickness = model.analysis.thickness;
+  for (const model::Load& load : model.loads) {
+    std::vector<Vector> forces(model.bodies.size());
+    std::vector<Vec2> body_forces(model.bodies.size(), Vec2::Zero());
+    if (const auto* gravity = std::get_if<model::Gravity>(&load.kind)) {
+      for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        const model::Body& body = model.bodies[b];
+        if (body.rigid || (load.on && load.on->body != static_cast<int>(b))) continue;
+        body_forces[b] = model.materials[static_cast<std::size_t>(body.material)].density.value_or(0.0) * gravity->value;
+        forces[b] = body_load(mesh.bodies[b], super_elements[b], thickness, body_forces[b]);
+      }
+    } else {
+      const auto b = static_cast<std::size_t>(load.on->body);
+      const mesh::PlaceNodes place = mesh::nodes_of(*load.on, mesh);
+      const std::vector<Vec2>& nodes = mesh.bodies[b].nodes;
+      if (const auto* force = std::get_if<model::Force>(&load.kind)) {
+        if (model.bodies[b].rigid) {
+          const BodySystem& body = *structure.bodies[b];
+          forces[b] = Vector::Zero(3);
+          const std::vector<Vec2> points = rigid_points(*load.on, model.bodies[b]);
+          for (const Vec2& point : points)
+            forces[b] += rigid_point(point, body.reference(), body.lever()).transpose() * force->value /
+                         static_cast<double>(points.size());
+        } else if (!place.elements.empty()) {
+          const Vec2 traction = force->value / (length_of(place.elements, nodes) * thickness);
+          forces[b] = traction_forces(place.elements, nodes, thickness, [&](const Vec2&, const Vec2&) { return traction; });
+        } else {
+          forces[b] = Vector::Zero(static_cast<Eigen::Index>(2 * nodes.size()));
+          forces[b].segment<2>(2 * place.nodes.front()) = force->value;
+        }
+      } else if (const auto* traction = std::get_if<model::Traction>(&load.kind)) {
+        forces[b] = traction_forces(place.elements, nodes, thickness,
+                                    [&](const Vec2&, const Vec2&) { return traction->value; });
+      } else {
+        const double pressure = std::get<model::Pressure>(load.kind).value;
+        forces[b] = traction_forces(place.elements, nodes, thickness,
+                                    [&](const Vec2&, const Vec2& n) { return Vec2(-pressure * n); });
+      }
+    }
+    structure.loads.push_back(std::move(forces));
+    structure.body_forces.push_back(std::move(body_forces));
+  }
+}
+
+}  // namespace scabo::system

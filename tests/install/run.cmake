@@ -1,0 +1,30 @@
+# cmake -D build=... -D scratch=... -P run.cmake: see CMakeLists.txt.
+set(prefix ${scratch}/prefix)
+set(consumer ${scratch}/build)
+file(REMOVE_RECURSE ${scratch})
+
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "failed: ${ARGV}")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
+
+# Moved after it was installed: nothing in it may point to where it was, or to the sources.
+file(RENAME ${prefix} ${scratch}/moved)
+set(prefix ${scratch}/moved)
+
+foreach(file bin/scabo include/scabo/model/read_model.hpp ${libdir}/cmake/scabo/scaboConfig.cmake
+             share/scabo/model.schema.json share/scabo/examples share/doc/scabo/LICENSE)
+  if(NOT EXISTS ${prefix}/${file})
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+run(${prefix}/bin/scabo --version)
+
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${consumer} -G ${generator}
+    -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=${build_type})
+run(${CMAKE_COMMAND} --build ${consumer})
+run(${consumer}/consumer)

@@ -1,0 +1,253 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models.hpp"
+
+namespace scabo::mesh {
+namespace {
+
+using test::arc;
+using test::elastic;
+using test::line;
+using test::message_of;
+using test::pi;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+model::Model with(std::vector<model::Body> bodies) {
+  model::Model model;
+  model.file = "model.yaml";
+  model.bodies = std::move(bodies);
+  return model;
+}
+
+BodyMesh mesh_of(const model::Body& body) { return make_mesh(with({body})).bodies.front(); }
+
+model::Body fem(model::Body body) {
+  body.mesh.kind = model::MeshKind::fem;
+  return body;
+}
+
+model::Outline quarter_disc() {
+  return test::outline(
+      {line("bottom", {0, 0}, {1, 0}), arc("rim", {0, 0}, 1.0, 0.0, pi / 2), line("left", {0, 1}, {0, 0})});
+}
+
+TEST(BoundaryDivision, GivesThePapersBeam80Nodes) {
+  const BodyMesh mesh = mesh_of(elastic("lower", test::rectangle({0, 0}, {6, 1.5}), 0.375));
+  EXPECT_EQ(mesh.nodes.size(), 80u);
+  ASSERT_EQ(mesh.super_elements.size(), 1u);
+  EXPECT_EQ(mesh.super_elements[0].boundary.size(), 40u);
+  EXPECT_EQ(mesh.edges[2].size(), 16u);
+  EXPECT_TRUE(mesh.elements.empty());
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 32, 40, 72));
+  EXPECT_EQ(mesh.nodes[40], Vec2(6.0, 1.5));
+}
+
+TEST(BoundaryDivision, RunsCounterClockwiseAndCloses) {
+  for (const int order : {1, 2, 3, 8}) {
+    const BodyMesh mesh = mesh_of(elastic("disc", quarter_disc(), 0.4, order));
+    int next = 0;
+    for (const LineElement& element : mesh.super_elements[0].boundary) {
+      ASSERT_EQ(element.nodes.size(), order + 1u);
+      for (int i = 0; i <= order; ++i) {
+        EXPECT_EQ(element.nodes[i], (next + i) % static_cast<int>(mesh.nodes.size()));
+      }
+      next += order;
+    }
+    EXPECT_EQ(next, static_cast<int>(mesh.nodes.size()));
+    double area = 0.0;
+    for (int i = 0; i < next; ++i) area += 0.5 * cross(mesh.nodes[i], mesh.nodes[(i + 1) % next]);
+    EXPECT_GT(area, 0.7);
+  }
+}
+
+TEST(BoundaryDivision, TakesTheSizeAsTheLongestElement) {
+  const auto elements = [](double length, double size) {
+    return mesh_of(elastic("bar", test::rectangle({0, 0}, {length, 1}), size)).edges[0].size();
+  };
+  EXPECT_EQ(elements(1.0, 0.3), 4u);
+  EXPECT_EQ(elements(1.0, 7.0), 1u);
+  EXPECT_EQ(elements(6.0, 0.1), 60u);  // 6 / 0.1 rounds to more than 60
+  EXPECT_EQ(elements(0.7, 0.1), 7u);
+}
+
+TEST(BoundaryDivision, PutsNodesOfAnArcOnTheArcAtEqualArcLength) {
+  const BodyMesh mesh = mesh_of(elastic("disc", quarter_disc(), 0.2, 3));
+  const std::vector<LineElement>& rim = mesh.edges[1];
+  ASSERT_EQ(rim.size(), 8u);
+  const std::vector<double> points = lobatto_points(3);
+  for (std::size_t k = 0; k < rim.size(); ++k) {
+    for (int i = 0; i <= 3; ++i) {
+      const Vec2 x = mesh.nodes[rim[k].nodes[i]];
+      const double angle = pi / 2 * (static_cast<double>(k) + 0.5 * (1 + points[i])) / 8;
+      EXPECT_LT((x - test::polar({0, 0}, 1.0, angle)).norm(), 1e-15);
+    }
+  }
+}
+
+TEST(BoundaryDivision, LetsNoElementTurnByMoreThan60Degrees) {
+  const BodyMesh mesh = mesh_of(elastic("disc", quarter_disc(), 100.0));
+  EXPECT_EQ(mesh.edges[0].size(), 1u);
+  EXPECT_EQ(mesh.edges[1].size(), 2u);
+}
+
+TEST(BoundaryDivision, ClosesACircleOfOneEdge) {
+  model::Model model = with({elastic("disc", test::outline({arc("rim", {0, 0}, 1.0, 0.3, 2 * pi)}), 100.0)});
+  model.bodies[0].mesh.centre = {0, 0};
+  const Mesh mesh = make_mesh(model);
+  EXPECT_EQ(mesh.nodes(), 12);
+  model::Place rim = test::edge_of(model, "disc", "rim");
+  EXPECT_EQ(nodes_of(rim, mesh).nodes.size(), 12u);
+  EXPECT_EQ(nodes_of(rim, mesh).elements.size(), 6u);
+}
+
+// The scaling centre lies between the arc and its chord.
+TEST(BoundaryDivision, NamesAnArcThatItsElementsHide) {
+  const Vec2 start = test::polar({0, 0}, 1.0, -pi / 6);
+  const Vec2 end = test::polar({0, 0}, 1.0, pi / 6);
+  model::Body cap = elastic("cap",
+                            test::outline({arc("rim", {0, 0}, 1.0, -pi / 6, pi / 3),
+                                           line("upper", end, {0, 0}), line("lower", {0, 0}, start)}),
+                            100.0, 1);
+  cap.mesh.centre = {0.9, 0.0};
+  const std::string message = message_of(with({cap}));
+  EXPECT_THAT(message,
+              HasSubstr("model.yaml:7:11: bodies.cap.mesh: the arc cap.rim in 1 element of order 1 is not "
+                        "wholly seen from the scaling centre (0.9, 0)"));
+  EXPECT_THAT(message, HasSubstr("use a smaller 'size' or a higher 'order', or set 'centre'"));
+  cap.mesh.size = 0.1;
+  EXPECT_EQ(message_of(with({cap})), "no error");
+}
+
+TEST(BoundaryDivision, NamesAnEdgeThatTheCentreDoesNotSee) {
+  model::Body block = elastic("block", test::rectangle({0, 0}, {1, 1}), 0.5);
+  block.mesh.centre = {1.5, 0.5};
+  EXPECT_THAT(message_of(with({block})),
+              HasSubstr("the edge block.right is not seen from the scaling centre"));
+  block.mesh.centre = {1.0, 0.5};  // on the edge itself
+  EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not seen"));
+}
+
+TEST(BoundaryDivision, RefusesMeshesTooLargeToBeMeant) {
+  const model::Body block = elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-9);
+  EXPECT_EQ(
+      message_of(with({block})),
+      "model.yaml:7:11: bodies.block.mesh: size 1e-09 would make 8e+09 nodes, more than the 1000000 allowed: "
+      "use a larger 'size'");
+  EXPECT_THAT(message_of(with({fem(block)})), HasSubstr("3e+18 nodes"));
+  EXPECT_THAT(message_of(with({elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-300)})),
+              HasSubstr("8e+300"));
+  const model::Body large = elastic("large", test::rectangle({0, 0}, {1, 1}), 1e-5);
+  EXPECT_THAT(message_of(with({large, large})),
+              HasSubstr("with this body the model would have 1.6e+06 nodes"));
+}
+
+TEST(BoundaryDivision, ReportsEveryBodysMistakesAtOnce) {
+  model::Body hidden = elastic("hidden", test::rectangle({0, 0}, {1, 1}), 0.5);
+  hidden.mesh.centre = {2, 2};
+  const model::Body fine = elastic("fine", test::rectangle({0, 0}, {1, 1}), 1e-9);
+  try {
+    make_mesh(with({hidden, fine}));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.file(), "model.yaml");
+    EXPECT_EQ(error.diagnostics().size(), 3u);  // two edges of `hidden`, the size of `fine`
+  }
+}
+
+TEST(Grid, NumbersNodesRowByRow) {
+  const BodyMesh mesh = mesh_of(fem(elastic("plate", test::rectangle({1, 2}, {2, 1}), 1.0)));
+  ASSERT_EQ(mesh.nodes.size(), 13u);
+  ASSERT_EQ(mesh.elements.size(), 2u);
+  EXPECT_TRUE(mesh.super_elements.empty());
+  EXPECT_THAT(mesh.elements[0], ElementsAre(0, 2, 10, 8, 1, 6, 9, 5));
+  EXPECT_THAT(mesh.elements[1], ElementsAre(2, 4, 12, 10, 3, 7, 11, 6));
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 4, 12, 8));
+  EXPECT_THAT(mesh.edges[0][0].nodes, ElementsAre(0, 1, 2));
+  EXPECT_THAT(mesh.edges[0][1].nodes, ElementsAre(2, 3, 4));
+  EXPECT_THAT(mesh.edges[1][0].nodes, ElementsAre(4, 7, 12));
+  EXPECT_THAT(mesh.edges[2][0].nodes, ElementsAre(12, 11, 10));
+  EXPECT_THAT(mesh.edges[2][1].nodes, ElementsAre(10, 9, 8));
+  EXPECT_THAT(mesh.edges[3][0].nodes, ElementsAre(8, 5, 0));
+  EXPECT_EQ(mesh.nodes[12], Vec2(3, 3));
+  EXPECT_EQ(mesh.nodes[6], Vec2(2, 2.5));
+}
+
+TEST(Grid, PutsMidsideNodesInTheMiddleAlsoWhenTurned) {
+  const test::Similarity turn{37 * pi / 180, 1.0, {3, -2}};
+  const model::Model model = turn(with({fem(elastic("plate", test::rectangle({0, 0}, {6, 1.5}), 0.4))}));
+  const BodyMesh mesh = make_mesh(model).bodies[0];
+  EXPECT_EQ(mesh.elements.size(), 15u * 4u);
+  EXPECT_EQ(mesh.nodes.size(), 31u * 5u + 16u * 4u);
+  double area = 0.0;
+  for (const PlaneElement8& e : mesh.elements) {
+    for (int k = 0; k < 4; ++k) {
+      const Vec2 a = mesh.nodes[e[k]];
+      const Vec2 b = mesh.nodes[e[(k + 1) % 4]];
+      EXPECT_LT((mesh.nodes[e[4 + k]] - 0.5 * (a + b)).norm(), 1e-14);
+      area += 0.5 * cross(a, b);
+    }
+  }
+  EXPECT_NEAR(area, 9.0, 1e-13);
+}
+
+TEST(Grid, HasTheEdgeNodesOfASuperElementOfOrderTwo) {
+  const model::Body body = elastic("plate", test::rectangle({0, 0}, {6, 1.5}), 0.4);
+  const BodyMesh boundary = mesh_of(body);
+  const BodyMesh grid = mesh_of(fem(body));
+  for (int e = 0; e < 4; ++e) {
+    ASSERT_EQ(grid.edges[e].size(), boundary.edges[e].size());
+    for (std::size_t k = 0; k < grid.edges[e].size(); ++k) {
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_LT(
+            (grid.nodes[grid.edges[e][k].nodes[i]] - boundary.nodes[boundary.edges[e][k].nodes[i]]).norm(),
+            2e-15);
+      }
+    }
+  }
+}
+
+TEST(Grid, NeedsARectangleAndOrderTwo) {
+  EXPECT_THAT(message_of(with({fem(elastic("disc", quarter_disc(), 0.1))})),
+              HasSubstr("divides rectangles only"));
+  EXPECT_THAT(message_of(with({fem(elastic("plate", test::rectangle({0, 0}, {1, 1}), 0.1, 3))})),
+              HasSubstr("elements of order 2, not 3"));
+}
+
+TEST(Places, NameNodes) {
+  const model::Model model = with({elastic("block", test::rectangle({0, 0}, {2, 1}), 1.0),
+                                   test::rigid("floor", test::rectangle({0, -1}, {2, 1}))});
+  const Mesh mesh = make_mesh(model);
+  EXPECT_EQ(mesh.nodes(), 12);
+
+  model::Place place = test::edge_of(model, "block", "left");
+  EXPECT_THAT(nodes_of(place, mesh).nodes, ElementsAre(10, 11, 0));
+  EXPECT_EQ(nodes_of(place, mesh).elements.size(), 1u);
+  place.kind = model::Place::Kind::corner;
+  place.index = 2;
+  EXPECT_THAT(nodes_of(place, mesh).nodes, ElementsAre(6));
+  EXPECT_TRUE(nodes_of(place, mesh).elements.empty());
+  place.kind = model::Place::Kind::near;
+  place.near = {1.4, 3.0};
+  EXPECT_THAT(nodes_of(place, mesh).nodes, ElementsAre(7));  // (1.5, 1)
+  place.kind = model::Place::Kind::body;
+  EXPECT_EQ(nodes_of(place, mesh).nodes.size(), 12u);
+  place.body = 1;
+  EXPECT_TRUE(nodes_of(place, mesh).nodes.empty());
+  EXPECT_TRUE(nodes_of(test::edge_of(model, "floor", "top"), mesh).nodes.empty());
+}
+
+TEST(Places, NearMeansABoundaryNodeOfAGridToo) {
+  const model::Model model = with({fem(elastic("plate", test::rectangle({0, 0}, {4, 4}), 1.0))});
+  const Mesh mesh = make_mesh(model);
+  model::Place place;
+  place.kind = model::Place::Kind::near;
+  place.body = 0;
+  place.near = {2.0, 1.4};
+  const Vec2 x = mesh.bodies[0].nodes[nodes_of(place, mesh).nodes.at(0)];
+  EXPECT_EQ(x, Vec2(2.0, 0.0));
+}
+
+}  // namespace
+}  // namespace scabo::mesh

@@ -1,0 +1,205 @@
+// An elastic edge against a rigid one: nodes and their feet.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models.hpp"
+
+namespace scabo::mesh {
+namespace {
+
+using test::arc;
+using test::elastic;
+using test::line;
+using test::message_of;
+using test::pair_of;
+using test::pi;
+using test::polar;
+using test::rectangle;
+using test::rigid;
+using test::Similarity;
+using test::swapped;
+using testing::HasSubstr;
+
+Interface match(const model::Model& model) { return make_mesh(model).interfaces.at(0); }
+
+/// A rigid punch of width 1 over the middle of a block of width 4.
+model::Model punch(double gap = 0.0) {
+  return pair_of(elastic("block", rectangle({-2, -2}, {4, 2}), 0.25), "top",
+                 rigid("punch", rectangle({-0.5, gap}, {1, 1})), "bottom");
+}
+
+/// A whole rigid cylinder (two arcs) above the block, lowest at (0, gap).
+model::Model cylinder(double radius, double gap) {
+  const Vec2 centre(0, radius + gap);
+  return pair_of(elastic("block", rectangle({-2, -2}, {4, 2}), 0.25), "top",
+                 rigid("roll", test::outline({arc("lower", centre, radius, pi, pi),
+                                              arc("upper", centre, radius, 0, pi)})),
+                 "lower");
+}
+
+TEST(RigidInterface, PairsOnlyNodesUnderAFlatPunch) {
+  const Interface joint = match(punch(0.1));
+  ASSERT_EQ(joint.pairs.size(), 9u);  // -0.5 ... 0.5, ends included
+  for (std::size_t k = 0; k < joint.pairs.size(); ++k) {
+    const ContactPair& pair = joint.pairs[k];
+    EXPECT_GE(pair.node_a, 0);
+    EXPECT_EQ(pair.node_b, -1);
+    EXPECT_NEAR(pair.point_a.x(), -0.5 + 0.125 * static_cast<double>(k), 1e-14);
+    EXPECT_LT((pair.point_b - pair.point_a - Vec2(0, 0.1)).norm(), 1e-14);
+    EXPECT_LT((pair.normal - Vec2(0, 1)).norm(), 1e-15);
+    EXPECT_NEAR(pair.gap, 0.1, 1e-15);
+  }
+  ASSERT_EQ(joint.elements.size(), 4u);
+  EXPECT_THAT(joint.elements.front().nodes, testing::ElementsAre(8, 7, 6));
+}
+
+TEST(RigidInterface, KeepsOnlyWholeElementsForThePressure) {
+  model::Model model = punch();
+  model.bodies[1].outline = rectangle({-0.4, 0}, {0.8, 1});
+  const Interface joint = match(model);
+  EXPECT_EQ(joint.pairs.size(), 7u);  // -0.375 ... 0.375
+  EXPECT_EQ(joint.elements.size(), 2u);
+}
+
+TEST(RigidInterface, SwapsToTheOppositeNormal) {
+  for (const model::Model& model : {punch(0.1), punch(-0.1), cylinder(3, 0.2), cylinder(3, -0.2),
+                                    Similarity{37 * pi / 180, 1000.0, {5, 6}}(cylinder(3, 0.2))}) {
+    const Interface a = match(model);
+    const Interface b = match(swapped(model));
+    ASSERT_EQ(a.pairs.size(), b.pairs.size());
+    for (std::size_t k = 0; k < a.pairs.size(); ++k) {
+      EXPECT_EQ(a.pairs[k].node_a, b.pairs[k].node_b);
+      EXPECT_EQ(b.pairs[k].node_a, -1);
+      EXPECT_EQ(a.pairs[k].point_b, b.pairs[k].point_a);
+      EXPECT_EQ(a.pairs[k].normal, Vec2(-b.pairs[k].normal));
+      EXPECT_EQ(a.pairs[k].gap, b.pairs[k].gap);
+    }
+    ASSERT_EQ(a.elements.size(), b.elements.size());
+    for (std::size_t e = 0; e < a.elements.size(); ++e) EXPECT_EQ(a.elements[e].nodes, b.elements[e].nodes);
+  }
+}
+
+TEST(RigidInterface, MeasuresTheGapToACylinderRadially) {
+  for (const double gap : {0.3, 0.0, -0.1}) {
+    const double radius = 5.0;
+    const Vec2 centre(0, radius + gap);
+    const Interface joint = match(cylinder(radius, gap));
+    ASSERT_EQ(joint.pairs.size(), 33u);
+    for (const ContactPair& pair : joint.pairs) {
+      EXPECT_NEAR(pair.gap, (pair.point_a - centre).norm() - radius, 2e-14);
+      EXPECT_NEAR((pair.point_b - centre).norm(), radius, 2e-14);
+      EXPECT_LT((pair.normal - (centre - pair.point_a).normalized()).norm(), 1e-14);
+    }
+    EXPECT_NEAR(joint.pairs[16].gap, gap, 1e-14);
+    EXPECT_EQ(joint.pairs[16].gap < 0, gap < 0);
+  }
+}
+
+TEST(RigidInterface, IsTheSameTurnedAndInOtherUnits) {
+  for (const model::Model& model :
+       {punch(0.0), punch(0.1), punch(-0.1), cylinder(5, 0.0), cylinder(1, -0.1)}) {
+    const Interface a = match(model);
+    for (const double scale : {1e-6, 1.0, 1e3}) {
+      const Similarity turn{37 * pi / 180, scale, scale * Vec2(100, -20)};
+      const Interface b = match(turn(model));
+      ASSERT_EQ(a.pairs.size(), b.pairs.size());
+      for (std::size_t k = 0; k < a.pairs.size(); ++k) {
+        EXPECT_EQ(a.pairs[k].node_a, b.pairs[k].node_a);
+        EXPECT_LT((turn.turn(a.pairs[k].normal) - b.pairs[k].normal).norm(), 1e-12);
+        EXPECT_NEAR(a.pairs[k].gap * scale, b.pairs[k].gap, 1e-12 * scale);
+      }
+      EXPECT_EQ(a.elements.size(), b.elements.size());
+    }
+  }
+}
+
+TEST(RigidInterface, TakesAHalfDiscOnAFloor) {
+  const Vec2 centre(0, 5);
+  const model::Model model = pair_of(
+      rigid("floor", rectangle({-10, -1}, {20, 1})), "top",
+      elastic("disc", test::outline({arc("rim", centre, 5, pi, pi), line("diameter", {5, 5}, {-5, 5})}), 0.2),
+      "rim");
+  model::Model lifted = model;
+  lifted.bodies[1].mesh.centre = {0, 3};
+  const Interface joint = match(lifted);
+  EXPECT_GT(joint.pairs.size(), 140u);
+  for (const ContactPair& pair : joint.pairs) {
+    EXPECT_EQ(pair.node_a, -1);
+    EXPECT_EQ(pair.normal, Vec2(0, 1));
+    EXPECT_NEAR(pair.gap, pair.point_b.y(), 1e-14);
+  }
+}
+
+TEST(RigidInterface, PairsTheLowerPartOfAWholeCircleInOneRun) {
+  model::Model model =
+      pair_of(rigid("floor", rectangle({-10, -1}, {20, 1})), "top",
+              elastic("disc", test::outline({arc("rim", {0, 5}, 5, -1.7, 2 * pi)}), 0.2), "rim");
+  model.bodies[1].mesh.centre = {0, 5};
+  const Interface joint = match(model);
+  for (std::size_t k = 1; k < joint.pairs.size(); ++k) {
+    EXPECT_LT(joint.pairs[k - 1].point_b.x(), joint.pairs[k].point_b.x());
+  }
+  // All in whole elements, but for half an element at either end.
+  EXPECT_GE(joint.pairs.size(), joint.elements.size() * 2 + 1);
+  EXPECT_LE(joint.pairs.size(), joint.elements.size() * 2 + 3);
+}
+
+TEST(RigidInterface, HoldsInAConcaveRigidSeat) {
+  // A rigid block with a round seat (radius 1.05, run clockwise) under an elastic disc of radius 1.
+  const double seat = 1.05;
+  const double half = 0.8;
+  const Vec2 centre(0, 1);
+  const Vec2 left = polar(centre, seat, -pi / 2 - half);
+  const Vec2 right = polar(centre, seat, -pi / 2 + half);
+  const model::Model model = pair_of(
+      rigid("seat", test::outline({line("bottom", {-1, -1}, {1, -1}), line("right", {1, -1}, right),
+                                   arc("round", centre, seat, -pi / 2 + half, -2 * half),
+                                   line("left", left, {-1, -1})})),
+      "round",
+      elastic("disc", test::outline({arc("rim", centre, 1.0, -pi, pi), line("diameter", {1, 1}, {-1, 1})}),
+              0.1),
+      "rim");
+  model::Model lowered = model;
+  lowered.bodies[1].mesh.centre = {0, 0.6};
+  const Interface joint = match(lowered);
+  EXPECT_GT(joint.pairs.size(), 30u);
+  for (const ContactPair& pair : joint.pairs) {
+    EXPECT_NEAR(pair.gap, 0.05, 1e-14);
+    EXPECT_LT((pair.normal - (centre - pair.point_a).normalized()).norm(), 1e-14);
+  }
+}
+
+TEST(RigidInterface, CountsNodesWithinRoundingOfTheEndAsOnTheEdge) {
+  model::Model model = punch();
+  model.bodies[1].outline = rectangle({-0.5 + 1e-10, 0}, {1 - 2e-10, 1});
+  EXPECT_EQ(match(model).pairs.size(), 9u);
+  model.bodies[1].outline = rectangle({-0.5 + 1e-7, 0}, {1 - 2e-7, 1});
+  EXPECT_EQ(match(model).pairs.size(), 7u);
+}
+
+TEST(RigidInterfaceMistake, NothingAboveOrBelow) {
+  model::Model model = punch();
+  model.bodies[1].outline = rectangle({3, 0}, {1, 1});
+  EXPECT_EQ(message_of(model),
+            "model.yaml:24:3: contacts.joint: no node of block.top lies over the rigid punch.bottom: "
+            "move a body, name other edges, or use a smaller mesh size");
+  model.bodies[1].outline = rectangle({0.01, 0}, {0.02, 1});  // between two nodes
+  EXPECT_THAT(message_of(swapped(model)), HasSubstr("no node of block.top lies over the rigid punch.bottom"));
+}
+
+TEST(RigidInterfaceMistake, TheWrongEdgeOfThePunch) {
+  model::Model model = punch();
+  model.contacts[0].b = test::edge_of(model, "punch", "top");
+  EXPECT_THAT(message_of(model), HasSubstr("block.top and punch.top do not face each other"));
+  model.contacts[0].a = test::edge_of(model, "block", "bottom");
+  EXPECT_THAT(message_of(model), HasSubstr("face away from each other, 3 back to back"));
+}
+
+TEST(RigidInterfaceMistake, TwoRigidBodies) {
+  model::Model model = punch();
+  model.bodies[0].rigid = true;
+  EXPECT_THAT(message_of(model), HasSubstr("both bodies are rigid: one must be elastic"));
+}
+
+}  // namespace
+}  // namespace scabo::mesh
