@@ -97,8 +97,9 @@ void certify_structure(const Prepared& prepared, const State& state, contact::Ce
     if (prepared.model.bodies[b].rigid) continue;  // imbalance() is its balance
     for (std::size_t c = 0; c < body.constraints().size(); ++c)
       forces[body.constraints()[c].dof] += state.reactions[b][static_cast<Eigen::Index>(c)];
+    // Against all forces on the body: those of a fine mesh are small, and many.
     const double unbalanced = resultant(body, prepared.mesh.bodies[b].nodes, forces).lpNorm<Eigen::Infinity>();
-    certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / scale);
+    certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / std::max(scale, forces.lpNorm<1>()));
   }
 }
 
@@ -112,44 +113,47 @@ Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int
   return {u.dot(normal), u.dot(tangent_of(normal))};
 }
 
-/// Pressure and shear at the pairs in contact, from their nodal forces on the edge's shape functions: int N_i N_j ds
-/// p_j = F_i / thickness over the pairs in contact; open pairs carry none.
+/// Pressure and shear at the pairs in contact, from their nodal forces on the shape functions of the elastic edge (A's when
+/// both are): int N_i N_j ds p_j = F_i / thickness over the pairs in contact; open pairs carry none.
 void recover_pressure(const Prepared& prepared, std::size_t contact, ContactResult& result,
                       const std::vector<int>& index_of_pair) {
-  const mesh::Interface& interface = prepared.mesh.interfaces[contact];
-  const bool a_rigid = prepared.model.bodies[static_cast<std::size_t>(prepared.model.contacts[contact].a.body)].rigid;
-  std::vector<Vec2> points;
-  for (const mesh::ContactPair& pair : interface.pairs) points.push_back(a_rigid ? pair.point_b : pair.point_a);
-  const Eigen::SparseMatrix<double> mass = system::line_mass(interface.elements, points);
-  std::vector<int> active(points.size(), -1);
-  int count = 0;
+  const model::Contact& named = prepared.model.contacts[contact];
+  const bool on_b = prepared.model.bodies[static_cast<std::size_t>(named.a.body)].rigid;
+  const mesh::BodyMesh& body = prepared.mesh.bodies[static_cast<std::size_t>((on_b ? named.b : named.a).body)];
+  const Eigen::SparseMatrix<double> mass =
+      system::line_mass(mesh::nodes_of(on_b ? named.b : named.a, prepared.mesh).elements, body.nodes);
+
+  std::vector<int> unknown_of(body.nodes.size(), -1), nodes;  // of the pairs in contact
+  std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    const int at = index_of_pair[i];
-    if (result.pairs[i].state != contact::ContactState::open && mass.coeff(at, at) > 0.0)
-      active[static_cast<std::size_t>(at)] = count++;
+    if (result.pairs[i].state == contact::ContactState::open) continue;
+    const mesh::ContactPair& pair =
+        prepared.mesh.interfaces[contact].pairs[static_cast<std::size_t>(index_of_pair[i])];
+    const int node = on_b ? pair.node_b : pair.node_a;
+    unknown_of[static_cast<std::size_t>(node)] = static_cast<int>(nodes.size());
+    nodes.push_back(node);
+    rows.push_back(i);
   }
-  if (count == 0) return;
+  if (nodes.empty()) return;
+  const auto count = static_cast<Eigen::Index>(nodes.size());
   std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index column = 0; column < mass.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(mass, column); it; ++it) {
-      const int row = active[static_cast<std::size_t>(it.row())], col = active[static_cast<std::size_t>(it.col())];
-      if (row >= 0 && col >= 0) entries.emplace_back(row, col, it.value());
-    }
+  Matrix forces(count, 2);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const PairResult& pair = result.pairs[rows[static_cast<std::size_t>(k)]];
+    forces.row(k) << pair.normal_force, pair.tangential_force;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(mass, nodes[static_cast<std::size_t>(k)]); it; ++it)
+      if (const int row = unknown_of[static_cast<std::size_t>(it.row())]; row >= 0)
+        entries.emplace_back(row, k, it.value());
+  }
   Eigen::SparseMatrix<double> reduced(count, count);
   reduced.setFromTriplets(entries.begin(), entries.end());
-  Matrix forces = Matrix::Zero(count, 2);
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    const int row = active[static_cast<std::size_t>(index_of_pair[i])];
-    if (row >= 0) forces.row(row) << result.pairs[i].normal_force, result.pairs[i].tangential_force;
-  }
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(reduced);
   ensure(solver.info() == Eigen::Success, "the mass matrix of a contact edge is not positive definite");
   const Matrix tractions = solver.solve(forces) / prepared.model.analysis.thickness;
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    const int row = active[static_cast<std::size_t>(index_of_pair[i])];
-    if (row < 0) continue;
-    result.pairs[i].pressure = tractions(row, 0);
-    result.pairs[i].shear = tractions(row, 1);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    PairResult& pair = result.pairs[rows[static_cast<std::size_t>(k)]];
+    pair.pressure = tractions(k, 0);
+    pair.shear = tractions(k, 1);
   }
 }
 

@@ -60,10 +60,11 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       done = next;
       continue;
     }
-    if (reached.halvings == prepared.model.solver.halvings || (stop && *stop)) {
+    const bool mechanism = tried.solution.status == contact::Status::mechanism;  // no smaller step helps
+    if (mechanism || reached.halvings == prepared.model.solver.halvings || (stop && *stop)) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
-      if (tried.solution.status == contact::Status::mechanism)
+      if (mechanism)
         reached.reason = fmt::format("mechanism: {}; {}", describe_motions(prepared, tried.solution.motion),
                                      tried.solution.reason);
       else if (tried.solution.status == contact::Status::solved)

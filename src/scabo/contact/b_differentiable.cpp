@@ -162,41 +162,52 @@ bool BDifferentiableEquations::line_search(const Vector& d, Vector& p, Vector& a
   return false;
 }
 
+Residual BDifferentiableEquations::other_branch(const Residual& at) const {
+  Residual other = at;
+  for (Branch& branch : other.branches) {
+    if (branch.normal_tie) branch.contact = !branch.contact;
+    if (!branch.tangent_tie || branch.tangent == Branch::Tangent::free) continue;
+    branch.tangent = branch.tangent == Branch::Tangent::stick ? Branch::Tangent::slip : Branch::Tangent::stick;
+  }
+  return other;
+}
+
 NewtonEnd BDifferentiableEquations::newton(Vector p, Vector a, double small, int iterations) const {
   NewtonEnd end;
   Residual at = residual(p, a);
-  while (true) {
+  double best_merit = HUGE_VAL;
+  const auto keep_best = [&] {
+    if (!(at.merit() < best_merit)) return;
+    best_merit = at.merit();
+    end.p = p;
+    end.a = a;
     end.residual = at.H.size() > 0 ? at.H.lpNorm<Eigen::Infinity>() : 0.0;
-    end.history.push_back(end.residual);
+  };
+  int unchecked = 0;  // full steps without descent since the best point
+  while (true) {
+    keep_best();
+    end.history.push_back(at.H.size() > 0 ? at.H.lpNorm<Eigen::Infinity>() : 0.0);
     end.converged = end.residual <= small;
     if (end.converged || end.iterations >= iterations) break;
-    std::optional<Vector> d = direction(at);
+    const std::optional<Vector> d = direction(at);
     ++end.iterations;
-    bool accepted = d && line_search(*d, p, a, at);
-    if (!accepted) {  // the other branch at ties
-      Residual other = at;
-      bool tie_found = false;
-      for (Branch& branch : other.branches) {
-        if (branch.normal_tie) branch.contact = !branch.contact, tie_found = true;
-        if (branch.tangent_tie && branch.tangent != Branch::Tangent::free) {
-          const bool stuck = branch.tangent == Branch::Tangent::stick;
-          branch.tangent = stuck ? Branch::Tangent::slip : Branch::Tangent::stick;
-          tie_found = true;
-        }
-      }
-      if (tie_found) {
-        const std::optional<Vector> second = direction(other);
-        accepted = second && line_search(*second, p, a, at);
-      }
-      if (!d && !accepted) {
-        end.singular = true;
-        break;
-      }
+    if (d && line_search(*d, p, a, at)) continue;
+    const Residual other = other_branch(at);
+    if (other.branches != at.branches) {
+      const std::optional<Vector> second = direction(other);
+      if (second && line_search(*second, p, a, at)) continue;
     }
-    if (!accepted) break;
+    // H is piecewise linear: near a kink the full step may lead on where no shorter one descends. A few are allowed,
+    // and the best point is kept.
+    constexpr int most_unchecked = 8;
+    if (!d || ++unchecked > most_unchecked) {
+      end.singular = !d;
+      break;
+    }
+    p += d->head(p.size());
+    a += d->tail(a.size());
+    at = residual(p, a);
   }
-  end.p = std::move(p);
-  end.a = std::move(a);
   return end;
 }
 

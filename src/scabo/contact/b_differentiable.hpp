@@ -7,7 +7,8 @@
 //     HR = G' p + f
 //
 // The direction d solves H(z) + H'(z; d) = 0 on the branch on which z lies, a linear system; a line search on
-// theta = 1/2 |H|^2 damps it. At a tie of branches the other branch is taken when the first gives no descent.
+// theta = 1/2 |H|^2 damps it. At a tie of branches the other branch is taken when the first gives no descent; where
+// neither does, a few full steps are tried and the best point is kept.
 #pragma once
 
 #include <optional>
@@ -35,7 +36,7 @@ struct Residual {
 };
 
 struct NewtonEnd {
-  Vector p, a;
+  Vector p, a;  ///< the best point
   bool converged = false;
   bool singular = false;  ///< a direction did not exist: forces cannot balance on the branch
   int iterations = 0;
@@ -57,6 +58,8 @@ class BDifferentiableEquations {
   NewtonEnd newton(Vector p, Vector a, double small, int iterations) const;
 
  private:
+  /// `at` with the other branch wherever two meet.
+  Residual other_branch(const Residual& at) const;
   bool line_search(const Vector& d, Vector& p, Vector& a, Residual& at) const;
 
   const Problem& problem_;

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
+#include <optional>
 
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/gauss_seidel.hpp"
+#include "scabo/contact/lemke.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 
 namespace scabo::contact {
 
 namespace {
+
+double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
 /// The problem with motions as forces (W, q scaled by one stiffness), so that all unknowns are forces.
 struct Scaled {
@@ -65,6 +69,7 @@ class Attempts {
     if (!held && better(proximal_point(p, a))) return best;
     if (better(growing_friction(p, a))) return best;
     if (better(after_sweeps(p, a))) return best;
+    if (held && better(after_pivoting(problem_))) return best;
     for (double factor : {0.1, 10.0, 0.01, 100.0})
       if (better(run(problem_, p, a, options_.r_factor * factor))) return best;
     return best;
@@ -76,16 +81,18 @@ class Attempts {
   NewtonEnd proximal_point(Vector p, Vector a) {
     NewtonEnd end;
     end.residual = HUGE_VAL;
-    constexpr double soft = 1e-3;  // of the mean contact stiffness, which the scaling has made 1
+    double soft = 1e-3;  // of the mean contact stiffness, which the scaling has made 1
     for (int round = 0; round < 30; ++round) {
       const Problem held = proximal(problem_, a, soft);
       NewtonEnd inner = run(held, p, Vector(), options_.r_factor);
       if (!inner.converged) inner = run(held, gauss_seidel(held, p, 100), Vector(), options_.r_factor);
+      if (!inner.converged) inner = after_pivoting(held);
       if (!inner.converged) break;
       p = inner.p;
       a += (problem_.G.transpose() * p + problem_.f) / soft;
       end = run(problem_, p, a, options_.r_factor);
       if (end.converged) break;
+      if (end.singular && soft > 1e-8) soft *= 0.1;  // still in the air
     }
     return end;
   }
@@ -111,6 +118,15 @@ class Attempts {
     const double soft = 1e-2;
     const Vector swept = gauss_seidel(proximal(problem_, a, soft), p, 500);
     return run(problem_, swept, a + (problem_.G.transpose() * swept + problem_.f) / soft, options_.r_factor);
+  }
+
+  NewtonEnd after_pivoting(const Problem& held) {
+    constexpr int most = 400;  // pairs: the tableau grows with their square
+    const std::optional<Vector> p = held.pairs() <= most ? lemke(held) : std::nullopt;
+    if (p) return run(held, *p, Vector(), options_.r_factor);
+    NewtonEnd none;
+    none.residual = HUGE_VAL;
+    return none;
   }
 
   const Problem& problem_;
@@ -152,12 +168,13 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
     solution.reason = "a rigid motion is held neither by supports nor by contact and friction";
   }
 
-  const double q_force = scaled_problem.problem.q.size() > 0 ? scaled_problem.problem.q.lpNorm<Eigen::Infinity>() : 0.0;
-  const double applied =
-      std::max({options.force_scale, m > 0 ? problem.f.lpNorm<Eigen::Infinity>() : 0.0, p_start.size() > 0 ? p_start.lpNorm<Eigen::Infinity>() : 0.0});
+  const double q_force = largest_of(scaled_problem.problem.q);
+  const double applied = std::max({options.force_scale, largest_of(problem.f), largest_of(p_start)});
   const double reference = applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
 
-  Attempts attempts(scaled_problem.problem, options, 0.01 * options.tolerance * reference);
+  // Well below the tolerance, but not below the rounding of the gaps themselves (a body that hovers far away).
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q_force;
+  Attempts attempts(scaled_problem.problem, options, std::max(0.01 * options.tolerance * reference, rounding));
   NewtonEnd end;
   if (solution.status != Status::mechanism) {
     end = attempts.climb(p_start, a_start);
@@ -169,7 +186,7 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
 
   Vector motion = problem.q + problem.W * solution.p;
   if (m > 0) motion += problem.G * solution.a;
-  const double largest = std::max(reference, solution.p.size() > 0 ? solution.p.lpNorm<Eigen::Infinity>() : 0.0);
+  const double largest = std::max(reference, largest_of(solution.p));
   const Scales scales{largest, largest / scaled_problem.stiffness};
   solution.residual = end.residual / largest;
   solution.certificate = certify(problem, solution.p, solution.a, scales);

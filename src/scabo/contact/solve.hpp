@@ -18,7 +18,7 @@ struct Start {
 };
 
 /// Newton on the B-differentiable equations; where it stalls, other starts: the frictionless solution, growing
-/// friction, Gauss-Seidel sweeps; for bodies that contact alone holds, the proximal-point iteration. The result is
+/// friction, Gauss-Seidel sweeps, Lemke's pivoting; for bodies that contact alone holds, the proximal-point iteration. The result is
 /// solved and certified, or says what it is instead.
 Solution solve(const Problem& problem, const Start& start = {}, const SolverOptions& options = {});
 

@@ -6,12 +6,20 @@
 #include <algorithm>
 
 #include "scabo/base/error.hpp"
+#include "scabo/linalg/blas_kernels.hpp"
 
 namespace scabo::linalg {
 
-extern "C" void openblas_set_num_threads(int threads);
+extern "C" {
+void openblas_set_num_threads(int threads);
+[[gnu::weak]] void omp_set_num_threads(int threads);  // there when CHOLMOD was built with OpenMP
+}
 
-void set_blas_threads(int threads) { openblas_set_num_threads(threads); }
+void set_blas_threads(int threads) {
+  choose_blas_kernels();
+  openblas_set_num_threads(threads);
+  if (omp_set_num_threads) omp_set_num_threads(threads);
+}
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 namespace scabo::linalg {
 
-/// Number of threads BLAS and LAPACK may use in this process.
+/// Number of threads that BLAS, LAPACK and CHOLMOD may use in this process.
 void set_blas_threads(int threads);
 
 /// A <- lower Cholesky factor of the symmetric positive definite A (n x n, lower triangle read; the strict

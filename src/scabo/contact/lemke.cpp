@@ -1,0 +1,96 @@
+#include "scabo/contact/lemke.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace scabo::contact {
+
+namespace {
+
+/// w - M z - 1 z0 = q as a tableau; columns: w (n), z (n), z0, right-hand side.
+Matrix make_tableau(const Problem& problem) {
+  const Eigen::Index N = problem.pairs(), n = 4 * N;
+  Matrix M = Matrix::Zero(n, n);
+  Vector q = Vector::Zero(n);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    for (Eigen::Index j = 0; j < N; ++j) {
+      const auto W = problem.W.block<2, 2>(2 * i, 2 * j);
+      M(i, j) = W(0, 0);
+      M(i, N + j) = W(0, 1), M(i, 2 * N + j) = -W(0, 1);
+      M(N + i, j) = W(1, 0), M(2 * N + i, j) = -W(1, 0);
+      M(N + i, N + j) = W(1, 1), M(N + i, 2 * N + j) = -W(1, 1);
+      M(2 * N + i, N + j) = -W(1, 1), M(2 * N + i, 2 * N + j) = W(1, 1);
+    }
+    M(N + i, 3 * N + i) = M(2 * N + i, 3 * N + i) = 1.0;
+    M(3 * N + i, i) = problem.mu[i];
+    M(3 * N + i, N + i) = M(3 * N + i, 2 * N + i) = -1.0;
+    q[i] = problem.q[2 * i];
+    q[N + i] = problem.q[2 * i + 1], q[2 * N + i] = -problem.q[2 * i + 1];
+  }
+  Matrix tableau(n, 2 * n + 2);
+  tableau.leftCols(n).setIdentity();
+  tableau.middleCols(n, n) = -M;
+  tableau.col(2 * n).setConstant(-1.0);
+  tableau.col(2 * n + 1) = q;
+  return tableau;
+}
+
+void pivot(Matrix& tableau, Eigen::Index row, Eigen::Index column) {
+  tableau.row(row) /= tableau(row, column);
+  const Vector factors = tableau.col(column);
+  const Eigen::RowVectorXd pivot_row = tableau.row(row);
+  for (Eigen::Index c = 0; c < tableau.cols(); ++c) {
+    if (pivot_row[c] == 0.0) continue;
+    tableau.col(c).noalias() -= factors * pivot_row[c];
+    tableau(row, c) = pivot_row[c];
+  }
+}
+
+}  // namespace
+
+std::optional<Vector> lemke(const Problem& problem) {
+  const Eigen::Index N = problem.pairs(), n = 4 * N;
+  if (N == 0) return Vector();
+  Matrix tableau = make_tableau(problem);
+  const Eigen::Index z0 = 2 * n, right = 2 * n + 1;
+  std::vector<Eigen::Index> basis(static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i) basis[static_cast<std::size_t>(i)] = i;
+  Eigen::Index row = 0;
+  if (tableau.col(right).minCoeff(&row) < 0.0) {
+    Eigen::Index entering = z0;
+    for (Eigen::Index step = 0; step < 20 * n; ++step) {
+      pivot(tableau, row, entering);
+      const Eigen::Index leaving = basis[static_cast<std::size_t>(row)];
+      basis[static_cast<std::size_t>(row)] = entering;
+      if (leaving == z0) break;
+      entering = leaving < n ? leaving + n : leaving - n;  // the complement enters
+      // Smallest ratio; among equals z0 first, then the largest pivot.
+      const double largest = tableau.col(entering).cwiseAbs().maxCoeff();
+      double best = HUGE_VAL;
+      row = -1;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double at = tableau(i, entering);
+        if (at <= 1e-11 * largest) continue;
+        const double ratio = std::max(tableau(i, right), 0.0) / at;
+        const bool equal = row >= 0 && std::abs(ratio - best) <= 1e-12 * best;
+        const bool preferred = equal && basis[static_cast<std::size_t>(row)] != z0 &&
+                               (basis[static_cast<std::size_t>(i)] == z0 || at > tableau(row, entering));
+        if ((!equal && ratio < best) || preferred) best = std::min(best, ratio), row = i;
+      }
+      if (row < 0) return std::nullopt;  // a ray
+    }
+  }
+  Vector z = Vector::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index variable = basis[static_cast<std::size_t>(i)];
+    if (variable >= n && variable < z0) z[variable - n] = std::max(tableau(i, right), 0.0);
+  }
+  Vector p(2 * N);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    p[2 * i] = z[i];
+    p[2 * i + 1] = z[N + i] - z[2 * N + i];
+  }
+  return p;
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,18 @@
+// Lemke's pivoting for plane friction, written as a linear complementarity problem: no start is needed and no iteration
+// can wander, but every pivot costs the square of the number of pairs and rounding piles up. The last start for Newton.
+//
+//     [g; l + ds; l - ds; mu p_n - b+ - b-]  perpendicular to  [p_n; b+; b-; l] >= 0,   p_t = b+ - b-
+//
+// (Klarbring, Ingenieur-Archiv 56 (1986) 529; Stewart and Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
+#pragma once
+
+#include <optional>
+
+#include "scabo/contact/problem.hpp"
+
+namespace scabo::contact {
+
+/// Forces (2N); nothing when the pivoting ends on a ray. The problem has no rigid motions (m = 0).
+std::optional<Vector> lemke(const Problem& problem);
+
+}  // namespace scabo::contact

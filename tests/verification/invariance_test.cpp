@@ -1,0 +1,88 @@
+// The same double cantilever beam told in other ways: the same answer, the same number of iterations.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "run.hpp"
+
+namespace scabo::verification {
+namespace {
+
+/// How the double cantilever beam (Zhu et al. 2017) is written down.
+struct Telling {
+  double length = 1.0;  ///< units of length in a metre
+  double force = 1.0;   ///< units of force in a newton
+  double turned = 0.0;  ///< degrees
+  bool swapped = false, upper_first = false;
+};
+
+std::string double_cantilever(const Telling& telling) {
+  const double angle = telling.turned * std::numbers::pi / 180.0;
+  const auto point = [&](double x, double y) {
+    const double c = std::cos(angle), s = std::sin(angle), m = telling.length;
+    return fmt::format("[{}, {}]", m * (c * x - s * y), m * (s * x + c * y));
+  };
+  const auto body = [&](const char* name, double y) {
+    return fmt::format("  {}: {{material: concrete, shape: {{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, "
+                       "top: edge_3, left: edge_4, tip: vertex_3}}}}}}, mesh: {{size: {}}}}}\n",
+                       name, point(0, y), point(6, y), point(6, y + 1.5), point(0, y + 1.5), 0.375 * telling.length);
+  };
+  const std::string lower = body("lower", 0.0), upper = body("upper", 1.5);
+  const double F = -100e3 * telling.force;
+  return fmt::format(
+      "scabo: 1\nanalysis: {{thickness: {}}}\nmaterials: {{concrete: {{young: {}, poisson: 0.3}}}}\nbodies:\n{}{}"
+      "supports:\n  - {{on: lower.left, fix: [x, y]}}\n  - {{on: upper.left, fix: [x, y]}}\n"
+      "loads:\n  tip: {{on: upper.tip, force: [{}, {}]}}\n"
+      "contacts:\n  joint: {{between: [{}], friction: 0.2}}\n",
+      telling.length, 10e9 * telling.force / (telling.length * telling.length), telling.upper_first ? upper : lower,
+      telling.upper_first ? lower : upper, -std::sin(angle) * F, std::cos(angle) * F,
+      telling.swapped ? "upper.bottom, lower.top" : "lower.top, upper.bottom");
+}
+
+struct Named {
+  const char* name;
+  Telling telling;
+};
+
+class Invariance : public testing::TestWithParam<Named> {};
+
+TEST_P(Invariance, SameAnswerAndSameIterations) {
+  const auto reference_solution = run(double_cantilever({}));
+  const auto solution = run(double_cantilever(GetParam().telling));
+  const analysis::IncrementResult& reference = last(reference_solution);
+  const analysis::IncrementResult& told = last(solution);
+  const analysis::ContactResult &expected = reference.contacts.front(), &contact = told.contacts.front();
+  const double force = GetParam().telling.force, length = GetParam().telling.length;
+  EXPECT_EQ(told.newton_iterations, reference.newton_iterations);
+  EXPECT_NEAR(expected.normal_force, 53.64e3, 10.0);
+  EXPECT_NEAR(contact.normal_force / force, expected.normal_force, 1e-9 * expected.normal_force);
+  ASSERT_EQ(contact.pairs.size(), expected.pairs.size());
+  for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
+    const analysis::PairResult &a = expected.pairs[i], &b = contact.pairs[i];
+    EXPECT_EQ(a.state, b.state) << "pair " << a.pair;
+    EXPECT_NEAR(b.normal_force / force, a.normal_force, 1e-8 * expected.normal_force);
+    EXPECT_NEAR(b.tangential_force / force, a.tangential_force, 1e-8 * expected.normal_force);
+    EXPECT_NEAR(b.gap / length, a.gap, 1e-9 * expected.max_gap);
+    EXPECT_NEAR(b.slip / length, a.slip, 1e-9 * expected.max_gap);
+    EXPECT_NEAR(b.pressure * length * length / force, a.pressure, 1e-8 * expected.max_pressure);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tellings, Invariance,
+                         testing::Values(Named{"millimetres", {.length = 1e3}}, Named{"centimetres_kN", {.length = 1e2, .force = 1e-3}},
+                                         Named{"swapped", {.swapped = true}}, Named{"turned", {.turned = 37.0}},
+                                         Named{"upper_first", {.upper_first = true}},
+                                         Named{"all_at_once", {.length = 1e3, .force = 1e-3, .turned = -143.0, .swapped = true, .upper_first = true}}),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+// Thickness is in the unit of length, and the answer must not depend on how a model is thick: forces do.
+TEST(Invariance, TwiceAsThickUnderTwiceTheLoad) {
+  const std::string model = double_cantilever({});
+  const auto thin = run(model), thick = run(model, {"analysis.thickness=2", "loads.tip.force=[0, -200e3]"});
+  EXPECT_NEAR(last(thick).contacts.front().normal_force, 2.0 * last(thin).contacts.front().normal_force, 1e-4);
+  EXPECT_NEAR(last(thick).contacts.front().max_pressure, last(thin).contacts.front().max_pressure, 1e-4);
+}
+
+}  // namespace
+}  // namespace scabo::verification
