@@ -97,8 +97,8 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
         return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options.stop);
       });
       const bool there = reached.reason.empty();
-      const Stopwatch recovering(solution.timing.recover);
-      IncrementResult result = there ? describe(prepared, reached.state) : IncrementResult{};
+      IncrementResult result;
+      if (there) result = timed(solution.timing.recover, [&] { return describe(prepared, reached.state); });
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
       result.increment = k;

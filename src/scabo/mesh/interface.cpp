@@ -55,7 +55,6 @@ class Matching {
     if (wrong) return *wrong;
     if (const std::optional<Diagnostic> back = back_to_back()) return *back;
     order_pairs();
-    collect_elements();
     finish_gaps();
     return std::move(interface_);
   }
@@ -223,20 +222,6 @@ class Matching {
     if (!reverse) return;
     std::reverse(pairs.begin(), pairs.end());
     std::reverse(partners_.begin(), partners_.end());
-  }
-
-  void collect_elements() {
-    const ContactSide& side = side_a_ ? *side_a_ : *side_b_;
-    const int which = side_a_ ? 0 : 1;
-    std::vector<int> pair_at(side.size(), -1);
-    for (std::size_t k = 0; k < partners_.size(); ++k) pair_at[partners_[k][which]] = static_cast<int>(k);
-    for (const LineElement& element : side.elements) {
-      LineElement paired;
-      for (const int place : element.nodes) {
-        if (pair_at[place] >= 0) paired.nodes.push_back(pair_at[place]);
-      }
-      if (paired.nodes.size() == element.nodes.size()) interface_.elements.push_back(std::move(paired));
-    }
   }
 
   void finish_gaps() {

@@ -49,9 +49,6 @@ struct ContactPair {
 struct Interface {
   int contact = -1;
   std::vector<ContactPair> pairs;
-  /// Line elements that carry the contact pressure: `nodes` are indices into `pairs`. Elements of the elastic
-  /// side (A when both are elastic) of which every node is paired, in the order of that side's boundary.
-  std::vector<LineElement> elements;
 };
 
 /// Nodes meant by a place, without repetition.
