@@ -311,6 +311,19 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   return result;
 }
 
+std::string too_large(const Prepared& prepared, const State& state) {
+  for (std::size_t b = 0; b < state.u.size(); ++b) {
+    if (prepared.model.bodies[b].rigid) continue;
+    const double size = 2.0 * prepared.structure.bodies[b]->lever();
+    const double largest = state.u[b].lpNorm<Eigen::Infinity>();
+    if (largest > 0.1 * size)
+      return fmt::format("displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory holds for small "
+                         "ones; check the units of stiffness and loads",
+                         prepared.model.bodies[b].name, largest);
+  }
+  return {};
+}
+
 std::string describe_motions(const Prepared& prepared, const Vector& a) {
   std::string text;
   for (std::size_t b = 0; b < prepared.structure.bodies.size(); ++b) {

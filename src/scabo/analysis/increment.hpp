@@ -48,6 +48,10 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
 /// What users see of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);
 
+/// Bodies whose displacements pass a tenth of their size, where small displacements are no longer small: a sentence for the
+/// first, empty where there is none.
+std::string too_large(const Prepared& prepared, const State& state);
+
 /// `body 'upper': translation along (1, 0)` for rigid motions `a`.
 std::string describe_motions(const Prepared& prepared, const Vector& a);
 

@@ -81,6 +81,23 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
   return reached;
 }
 
+/// Each kind of warning once, from the increment where it first applies.
+void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
+                  std::vector<std::string>& warnings) {
+  const auto add = [&](const std::string& kind, const std::string& sentence) {
+    for (const std::string& warning : warnings)
+      if (warning.find(kind) != std::string::npos) return;
+    warnings.push_back(fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence));
+  };
+  for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
+    const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
+    add(motion, fmt::format("neither supports, friction nor load fix {}; the smallest such motion was taken: add a support if "
+                            "the position matters",
+                            motion));
+  }
+  if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
+}
+
 void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
   State state = initial_state(prepared);
   for (std::size_t s = 0; s < solution.model.steps.size(); ++s) {
@@ -108,12 +125,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       result.residual = reached.residual;
       result.certificate = reached.certificate;
       result.reason = reached.reason;
-      if (there && reached.undetermined.cols() > 0 && solution.warnings.empty())
-        for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column)
-          solution.warnings.push_back(
-              fmt::format("step {}, increment {}: neither supports, friction nor load fix {}; the smallest such motion was "
-                          "taken: add a support if the position matters",
-                          step.name, k, describe_motions(prepared, reached.undetermined.col(column))));
+      if (there) add_warnings(prepared, reached, result, solution.warnings);
       solution.increments.push_back(std::move(result));
       if (!there) {
         solution.outcome = Outcome::not_converged;

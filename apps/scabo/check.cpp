@@ -1,0 +1,64 @@
+// `scabo check` and `scabo schema`: what can be said of a model without solving it.
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/result/report.hpp"
+#include "settings.hpp"
+#include "sizes.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+std::string bodies_table(const model::Model& model, const mesh::Mesh& mesh) {
+  std::vector<std::vector<std::string>> rows = {{"body", "nodes", "dofs", "mesh"}};
+  for (size_t i = 0; i < model.bodies.size(); ++i) {
+    const mesh::BodyMesh& body = mesh.bodies[i];
+    const std::string kind = model.bodies[i].rigid ? "rigid"
+                             : !body.super_elements.empty()
+                                 ? count(body.super_elements.size(), "super-element")
+                                 : count(body.elements.size(), "finite element");
+    rows.push_back({model.bodies[i].name, fmt::format("{}", body.nodes.size()),
+                    fmt::format("{}", 2 * body.nodes.size()), kind});
+  }
+  return result::table(rows);
+}
+
+std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
+  std::vector<std::vector<std::string>> rows = {{"contact", "between", "friction", "pairs"}};
+  const std::vector<int> pairs = moving_pairs(model, mesh);
+  for (size_t i = 0; i < mesh.interfaces.size(); ++i) {
+    const model::Contact& contact = model.contacts[mesh.interfaces[i].contact];
+    rows.push_back({contact.name, contact.a.text + ", " + contact.b.text,
+                    fmt::format("{:g}", contact.friction), fmt::format("{}", pairs[i])});
+  }
+  return result::table(rows);
+}
+
+std::string steps_table(const model::Model& model) {
+  std::vector<std::vector<std::string>> rows = {{"step", "increments"}};
+  for (const model::Step& step : model.steps) rows.push_back({step.name, fmt::format("{}", step.increments)});
+  return result::table(rows);
+}
+
+}  // namespace
+
+ExitStatus check(const CheckOptions& options) {
+  const model::Model model = model::read_model(options.model, parse_settings(options.settings));
+  const mesh::Mesh mesh = analysis::check(model);
+  std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
+  text += describe_sizes(sizes_of(model, mesh)) + "\n\n" + bodies_table(model, mesh);
+  if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);
+  text += "\n" + steps_table(model) + "\nNo mistakes found.\n";
+  print_output(text);
+  return ExitStatus::solved;
+}
+
+ExitStatus print_schema() {
+  print_output(fmt::format("{}\n", model::model_schema()));
+  return ExitStatus::solved;
+}
+
+}  // namespace scabo::app

@@ -1,0 +1,30 @@
+// What the program does, one function for each subcommand. They throw what the library throws; main.cpp turns
+// that into messages and exit statuses.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "exit_status.hpp"
+
+namespace scabo::app {
+
+struct CheckOptions {
+  std::string model;                  ///< the model file
+  std::vector<std::string> settings;  ///< `path=value`, each replacing one value of the model file
+};
+
+struct RunOptions {
+  std::string model;
+  std::vector<std::string> settings;
+  std::filesystem::path output;  ///< results directory; empty: `model.results` beside `model.yaml`
+  int threads = 1;               ///< 1 or more
+  bool quiet = false;            ///< only errors and warnings
+};
+
+ExitStatus run(const RunOptions& options);
+ExitStatus check(const CheckOptions& options);
+ExitStatus print_schema();
+
+}  // namespace scabo::app

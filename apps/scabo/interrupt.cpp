@@ -1,0 +1,53 @@
+#include "interrupt.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <string_view>
+
+namespace scabo::app {
+
+namespace {
+
+// Signal handlers reach only what is global and lock-free.
+std::atomic<bool> stop_requested{false};
+std::atomic<int> received{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+void restore_default_handlers() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+extern "C" void request_stop(int signal) {
+  received = signal;
+  stop_requested = true;
+  restore_default_handlers();  // the second signal ends the program at once
+  constexpr std::string_view message =
+      "\nInterrupted: ending after the increment at work (Ctrl-C again ends at once)\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  stop_requested = false;
+  received = 0;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction current {};
+    sigaction(signal, nullptr, &current);
+    if (current.sa_handler == SIG_IGN) continue;  // nohup and background jobs of a shell ask for that
+    struct sigaction action {};
+    action.sa_handler = request_stop;
+    action.sa_flags = SA_RESTART;  // files being written must not fail with EINTR
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+Interrupt::~Interrupt() { restore_default_handlers(); }
+
+const std::atomic<bool>& Interrupt::requested() const { return stop_requested; }
+
+int Interrupt::signal() const { return received; }
+
+}  // namespace scabo::app

@@ -1,0 +1,164 @@
+// The command line of Scabo: scabo run | check | schema.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "scabo/result/version.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+constexpr const char* exit_statuses = R"(Exit status:
+  0    solved and certified
+  1    the command line, the model file or a file it names is wrong
+  2    the solve did not converge; the results of the converged increments are kept
+  3    anything else: results cannot be written, not enough memory, a bug
+  130  interrupted by Ctrl-C after an increment (143: by SIGTERM); the finished increments are kept)";
+
+constexpr const char* run_example = R"(Example:
+  scabo run model.yaml -o friction_0.5 --set contacts.joint.friction=0.5
+
+Results: summary.json, contact.csv, fields.pvd (ParaView) and log.txt in DIR.
+Ctrl-C ends the run after the increment at work, a second one at once.)";
+
+constexpr const char* check_example = R"(Example:
+  scabo check model.yaml --set bodies.upper.mesh.size=0.1)";
+
+constexpr const char* schema_example = R"(Example:
+  scabo schema > model.schema.json
+With `# yaml-language-server: $schema=model.schema.json` as its first line, editors complete and check a model.)";
+
+constexpr const char* model_help = "Model file (YAML or JSON)";
+constexpr const char* set_help =
+    "Replaces a value of the model file, or adds it, as in\n"
+    "contacts.joint.friction=0.5; may be repeated";
+
+/// `--set a=1 b=2` becomes `--set a=1 --set b=2`, so that a model file may stand after the settings as well.
+std::vector<std::string> spread_settings(const std::vector<std::string>& words) {
+  std::vector<std::string> spread;
+  bool in_settings = false;  // the last word was the value of a --set
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--set") {
+      spread.push_back(words[i]);
+      if (++i < words.size()) spread.push_back(words[i]);
+      in_settings = true;
+    } else {
+      in_settings = in_settings && !words[i].starts_with("-") && words[i].find('=') != std::string::npos;
+      if (in_settings) spread.push_back("--set");
+      spread.push_back(words[i]);
+    }
+  }
+  return spread;
+}
+
+/// Reads the command line; throws CLI::ParseError for help, version and mistakes.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.set_version_flag("--version", fmt::format("scabo {}", result::version()), "Prints the version");
+    app_.set_help_flag("-h,--help", "Prints help; `scabo run --help` that of `run`");
+    app_.require_subcommand(1);
+    app_.footer(exit_statuses);
+    app_.get_formatter()->column_width(24);
+
+    run_->add_option("MODEL", run_options_.model, model_help)->required()->option_text(" ");
+    run_->add_option("-o,--output", run_options_.output,
+                     "Results directory; without it model.results, beside model.yaml")
+        ->type_name("DIR")
+        ->option_text("DIR");
+    add_settings(*run_, run_options_.settings);
+    run_->add_option("--threads", run_options_.threads, "Number of threads, 1 or more (1)")
+        ->option_text("N")
+        ->check(CLI::Range(1, 1024));
+    run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
+    run_->footer(run_example);
+
+    check_->add_option("MODEL", check_options_.model, model_help)->required()->option_text(" ");
+    add_settings(*check_, check_options_.settings);
+    check_->footer(check_example);
+
+    schema_->footer(schema_example);
+  }
+
+  void parse(std::vector<std::string> words) {
+    std::reverse(words.begin(), words.end());  // as CLI11 wants them
+    app_.parse(std::move(words));
+  }
+
+  ExitStatus execute() const {
+    if (*run_) return run(run_options_);
+    if (*check_) return check(check_options_);
+    return print_schema();
+  }
+
+  /// Prints the help or version asked for; a mistake in one line, with its remedy.
+  ExitStatus explain(const CLI::ParseError& error, const std::vector<std::string>& words) const {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      app_.exit(error);
+      return ExitStatus::solved;
+    }
+    const auto chosen = app_.get_subcommands();
+    const std::string command = chosen.empty() ? "scabo" : "scabo " + chosen.front()->get_name();
+    std::string message = error.what();
+    if (chosen.empty() && error.get_name() == "RequiredError") {
+      const bool named = !words.empty() && !words.front().starts_with("-");
+      message = (named ? fmt::format("no command '{}'", words.front()) : "no command given") +
+                ": there are run, check, schema";
+    }
+    print_error(fmt::format("{} (see `{} --help`)", message, command));
+    return ExitStatus::wrong_input;
+  }
+
+ private:
+  static void add_settings(CLI::App& command, std::vector<std::string>& settings) {
+    command.add_option("--set", settings, set_help)
+        ->type_name("PATH=VALUE")
+        ->option_text("PATH=VALUE ...")
+        ->allow_extra_args(false);
+  }
+
+  CLI::App app_{"Scabo: frictional contact by the scaled boundary finite element method", "scabo"};
+  CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
+  CLI::App* check_ =
+      app_.add_subcommand("check", "Reads and meshes a model, reports its sizes; solves nothing");
+  CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
+  RunOptions run_options_;
+  CheckOptions check_options_;
+};
+
+ExitStatus main_program(const std::vector<std::string>& words) {
+  CommandLine command_line;
+  try {
+    command_line.parse(spread_settings(words));
+  } catch (const CLI::ParseError& error) {
+    return command_line.explain(error, words);
+  }
+  try {
+    return command_line.execute();
+  } catch (const InputError& error) {
+    print_mistakes(error);
+    return ExitStatus::wrong_input;
+  } catch (const std::bad_alloc&) {
+    print_error("not enough memory for this model: make its mesh coarser (`scabo check` prints the sizes)");
+  } catch (const std::exception& error) {
+    print_error(error.what());
+  }
+  return ExitStatus::failure;
+}
+
+}  // namespace
+
+}  // namespace scabo::app
+
+int main(int argc, char** argv) {
+  return scabo::app::main_program(std::vector<std::string>(argv + 1, argv + argc));
+}

@@ -1,0 +1,38 @@
+// What a user sees of a run at work, on standard error. On a terminal one line that is rewritten; piped, one
+// plain line for every increment.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "scabo/analysis/static_analysis.hpp"
+
+namespace scabo::app {
+
+class Progress {
+ public:
+  enum class Style { silent, lines, terminal };
+
+  /// Silent when `quiet`, else as standard error is.
+  explicit Progress(bool quiet);
+  ~Progress();  ///< clears the line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void stage(const std::string& name);
+  void meshed(const analysis::StaticSolution& solution);
+  void increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result);
+  /// Takes the rewritten line away, so that other messages can be printed.
+  void clear();
+
+ private:
+  void show(const std::string& line);
+
+  Style style_;
+  bool line_shown_ = false;
+  int increments_done_ = 0;
+  std::string last_increment_;
+  std::chrono::steady_clock::time_point last_shown_;
+};
+
+}  // namespace scabo::app

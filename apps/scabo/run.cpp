@@ -1,0 +1,117 @@
+// `scabo run`: from the model file to certified results on disk.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/result/report.hpp"
+#include "scabo/result/results_directory.hpp"
+#include "settings.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// `model.results` beside `model.yaml`.
+std::filesystem::path default_output(const std::string& model) {
+  std::filesystem::path path(model);
+  return path.replace_extension("results");
+}
+
+/// Totals of the last converged increment, and where everything lies.
+std::string summary_text(const analysis::StaticSolution& solution, const std::filesystem::path& directory) {
+  int converged = 0;
+  double certificate = 0.0;
+  const analysis::IncrementResult* last = nullptr;
+  for (const analysis::IncrementResult& increment : solution.increments) {
+    if (!increment.converged) continue;
+    ++converged;
+    certificate = std::max(certificate, increment.certificate.worst());
+    last = &increment;
+  }
+  std::string text;
+  if (last) {
+    text = fmt::format("{} solved and certified in {:.3g} s; worst figure of the certificate {:.1e}\n",
+                       count(converged, "increment"), solution.timing.total, certificate);
+    text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
+    text += last->contacts.empty() ? result::report_reactions(solution.model, *last)
+                                   : result::report_contacts(*last);
+  }
+  return text + fmt::format("Results: {}\n", directory.string());
+}
+
+ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {
+  switch (solution.outcome) {
+    case analysis::Outcome::solved:
+      return ExitStatus::solved;
+    case analysis::Outcome::interrupted:
+    case analysis::Outcome::not_converged:
+      break;
+  }
+  // A signal also ends the halving of an increment; what stopped the run is the signal all the same.
+  return signal != 0 ? static_cast<ExitStatus>(ExitStatus::signalled + signal) : ExitStatus::not_converged;
+}
+
+void print_reason(const analysis::StaticSolution& solution, ExitStatus status) {
+  if (status == ExitStatus::solved) return;
+  const auto finished = std::count_if(solution.increments.begin(), solution.increments.end(),
+                                      [](const auto& increment) { return increment.converged; });
+  if (status == ExitStatus::not_converged) {
+    print_error(
+        fmt::format("did not converge: {}\n       {} of the increments before it kept; "
+                    "more increments in its step make each of them easier",
+                    solution.reason, finished == 0 ? "None" : "Results"));
+  } else {
+    print_error(fmt::format("interrupted after {}", count(finished, "finished increment")));
+  }
+}
+
+}  // namespace
+
+ExitStatus run(const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const model::Model model = model::read_model(options.model, parse_settings(options.settings));
+  const double reading = seconds_since(start);
+
+  // Looked through before the directory is made or cleared, and the directory made before the long work: a
+  // mistake in either costs seconds and no results. Meshing twice is a hundredth of a solve.
+  analysis::check(model);
+  const auto output = options.output.empty() ? default_output(options.model) : options.output;
+  result::ResultsDirectory directory(output, model);
+
+  const Interrupt interrupt;
+  Progress progress(options.quiet);
+  analysis::Options analysis_options;
+  analysis_options.threads = options.threads;
+  analysis_options.stop = &interrupt.requested();
+  analysis_options.on_stage = [&](const std::string& stage) { progress.stage(stage); };
+  analysis_options.on_mesh = [&](const auto& solution) { progress.meshed(solution); };
+  analysis_options.on_increment = [&](const auto& solution, const auto& increment) {
+    directory.add(solution, increment);
+    progress.increment(solution, increment);
+  };
+  analysis::StaticSolution solution = analysis::solve_static(model, analysis_options);
+  solution.timing.read = reading;
+  solution.timing.total = seconds_since(start);
+  directory.finish(solution);
+  progress.clear();
+
+  const ExitStatus status = status_of(solution, interrupt.signal());
+  for (const std::string& warning : solution.warnings) print_warning(warning);
+  print_reason(solution, status);
+  if (!options.quiet) print_output(summary_text(solution, directory.path()));
+  return status;
+}
+
+}  // namespace scabo::app

@@ -1,0 +1,14 @@
+// The `--set path=value` of the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scabo/model/read_model.hpp"
+
+namespace scabo::app {
+
+/// Throws InputError with every setting that cannot be understood.
+std::vector<model::Override> parse_settings(const std::vector<std::string>& settings);
+
+}  // namespace scabo::app

@@ -1,0 +1,206 @@
+// `supports`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scabo/model/reading.hpp"
+#include "scabo/model/suggestions.hpp"
+
+namespace scabo::model {
+
+namespace {
+
+using Displacement = std::array<std::optional<double>, 2>;
+
+constexpr const char* support_example = "{on: lower.left, fix: [x, y]}";
+
+std::optional<Displacement> read_fix(Reading& reading, const Value& value) {
+  std::vector<Value> items{value};
+  if (value.node->kind == Node::Kind::sequence) {
+    items = *read_list(reading.report, value, "[x, y]");
+  }
+  Displacement displacement;
+  bool good = !items.empty();
+  for (const Value& item : items) {
+    const Node& node = *item.node;
+    const bool x = node.kind == Node::Kind::scalar && node.text == "x";
+    const bool y = node.kind == Node::Kind::scalar && node.text == "y";
+    if (!x && !y) {
+      reading.report.error(item, fmt::format("must be x, y or [x, y], not {}", describe(node)));
+      return {};
+    }
+    auto& component = displacement[x ? 0 : 1];
+    if (component) {
+      reading.report.error(item, fmt::format("{} is named twice", node.text));
+      return {};
+    }
+    component = 0.0;
+  }
+  if (!good) reading.report.error(value, "must be x, y or [x, y], not an empty list");
+  return good ? std::optional(displacement) : std::nullopt;
+}
+
+std::optional<Displacement> read_displacement(Reading& reading, const Value& value) {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
+    reading.report.error(
+        value, fmt::format("must be [ux, uy], null where it is free, not {}",
+                           node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size())
+                                                             : describe(node)));
+    return {};
+  }
+  Displacement displacement;
+  bool good = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (node.items[i]->kind == Node::Kind::null) continue;
+    displacement[i] = read_number(reading.report, value.item(i));
+    good = good && displacement[i].has_value();
+  }
+  if (!good) return {};
+  if (!displacement[0] && !displacement[1]) {
+    reading.report.error(value, "prescribes nothing: give x or y a number");
+    return {};
+  }
+  return displacement;
+}
+
+/// One support; nothing when it is broken. A name the user gave is known afterwards in any case.
+std::optional<Support> read_support(Reading& reading, const Value& value) {
+  Report& report = reading.report;
+  const std::size_t before = report.count();
+  const MapReader map(report, value, {"on", "fix", "displacement", "name"}, support_example);
+  Support support;
+  support.source = value.source();
+  if (const auto name = map.get("name")) {
+    const auto text = read_text(report, *name);
+    if (text && check_name(report, name->source(), *text)) {
+      support.name = *text;
+      if (!reading.own_support_names.insert(*text).second) {
+        report.error(*name, fmt::format("another support is named '{}' already", *text));
+      }
+    }
+  }
+  const auto on = map.need("on");
+  if (!on) reading.places_known = false;
+  const ReadPlace place = on ? read_place(reading, *on) : ReadPlace{};
+  if (place.body >= 0) reading.state(place.body).held = true;
+  if (!map.is_map()) return {};
+  std::optional<Displacement> displacement;
+  if (map.has("fix") == map.has("displacement")) {
+    if (map.has("fix") || report.count() == before) {
+      report.error(value, map.has("fix") ? "needs one of fix and displacement, not both"
+                                         : "needs fix or displacement");
+    }
+  } else if (const auto fix = map.get("fix")) {
+    displacement = read_fix(reading, *fix);
+  } else {
+    displacement = read_displacement(reading, *map.get("displacement"));
+  }
+  if (report.count() > before || !place.place || !displacement) return {};
+  support.on = *place.place;
+  support.displacement = *displacement;
+  return support;
+}
+
+/// Names without a user's: the place, made unique.
+void name_supports(Reading& reading) {
+  std::set<std::string> taken = reading.own_support_names;
+  for (Support& support : reading.model.supports) {
+    if (!support.name.empty()) continue;
+    std::string name = support.on.text;
+    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{} ({})", support.on.text, k);
+    support.name = name;
+  }
+}
+
+}  // namespace
+
+void read_supports(Reading& reading, const Value& value) {
+  const auto items = read_list(reading.report, value, "[{on: lower.left, fix: [x, y]}]");
+  if (!items) reading.places_known = reading.conditions_known = false;
+  for (const Value& item : items.value_or(std::vector<Value>{})) {
+    if (auto support = read_support(reading, item)) {
+      reading.support_is_named.push_back(!support->name.empty());
+      reading.model.supports.push_back(std::move(*support));
+    } else {
+      reading.conditions_known = false;
+    }
+  }
+  name_supports(reading);
+}
+
+namespace {
+
+/// Whether a corner belongs to a place of the same body.
+bool includes_corner(const Place& place, int corner, int corners) {
+  switch (place.kind) {
+    case Place::Kind::body:
+      return true;
+    case Place::Kind::corner:
+      return place.index == corner;
+    case Place::Kind::edge:
+      return place.index == corner || (place.index + 1) % corners == corner;
+    case Place::Kind::near:
+      return false;  // only the mesh knows
+  }
+  return false;
+}
+
+/// Whether two places of the same body surely share a point.
+bool share_a_point(const Place& a, const Place& b, int corners) {
+  if (a.kind == Place::Kind::near && b.kind == Place::Kind::near) return a.near == b.near;
+  if (a.kind == Place::Kind::near || b.kind == Place::Kind::near) {
+    return a.kind == Place::Kind::body || b.kind == Place::Kind::body;
+  }
+  if (a.kind == Place::Kind::edge && b.kind == Place::Kind::edge && a.index == b.index) return true;
+  // A body and an edge share the edge's ends; a corner shares itself; two edges may share a corner.
+  const Place& smaller = a.kind == Place::Kind::body ? b : a;
+  const Place& larger = a.kind == Place::Kind::body ? a : b;
+  if (smaller.kind == Place::Kind::body) return true;
+  if (includes_corner(larger, smaller.index, corners)) return true;
+  return smaller.kind == Place::Kind::edge && includes_corner(larger, (smaller.index + 1) % corners, corners);
+}
+
+std::string where(const Source& source) {
+  return source.line > 0 ? fmt::format("line {}", source.line) : source.path;
+}
+
+/// Reports two supports that move the same point differently in some step.
+void check_pair(Reading& reading, std::size_t first, std::size_t second) {
+  const Support& a = reading.model.supports[first];
+  const Support& b = reading.model.supports[second];
+  const auto corners = static_cast<int>(reading.body(a.on.body).outline.corners.size());
+  if (!share_a_point(a.on, b.on, corners)) return;
+  for (std::size_t c = 0; c < 2; ++c) {
+    if (!a.displacement[c] || !b.displacement[c]) continue;
+    const bool differ =
+        std::any_of(reading.model.steps.begin(), reading.model.steps.end(), [&](const Step& step) {
+          return *a.displacement[c] * step.support_factors[first] !=
+                 *b.displacement[c] * step.support_factors[second];
+        });
+    if (!differ) continue;
+    reading.report.error(b.source,
+                         fmt::format("prescribes another {} of {} than the support of {} in {}: they share "
+                                     "a point; remove one, or free the component there",
+                                     c == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
+    return;
+  }
+}
+
+}  // namespace
+
+void check_conflicting_supports(Reading& reading) {
+  std::vector<std::vector<std::size_t>> of_body(reading.model.bodies.size());
+  for (std::size_t i = 0; i < reading.model.supports.size(); ++i) {
+    auto& others = of_body[static_cast<std::size_t>(reading.model.supports[i].on.body)];
+    for (const std::size_t other : others) {
+      const std::size_t before = reading.report.count();
+      check_pair(reading, other, i);
+      if (reading.report.count() > before) break;  // one message for each support
+    }
+    others.push_back(i);
+  }
+}
+
+}  // namespace scabo::model

@@ -1,0 +1,83 @@
+// The model file being read: what is known so far, and one function for each section of the file.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scabo/model/model.hpp"
+#include "scabo/model/reader.hpp"
+
+namespace scabo::model {
+
+/// What the reader knows about a body beyond the Body: whether its parts can be relied upon. Whoever needs a
+/// part that is not there stays silent, since the mistake is reported already.
+struct BodyState {
+  bool shape = false;     ///< the outline is complete and names can be looked up in it
+  bool material = false;  ///< Body::material is an index
+  bool held = false;      ///< a support names it
+  bool touched = false;   ///< a contact names it
+};
+
+struct Reading {
+  Report report;
+  Model model;
+  std::vector<BodyState> bodies;            ///< as long as model.bodies
+  bool materials_known = true;              ///< false: no section, or a broken one: names cannot be checked
+  bool bodies_known = true;                 ///< false: some body is not in model.bodies
+  bool places_known = true;                 ///< false: some support or contact names a body that is not known
+  std::vector<std::string> material_names;  ///< of the section, broken ones included
+  std::vector<int> material_index;          ///< of each name; -1 for a broken one
+  std::vector<std::string> load_names;      ///< of the section, broken ones included
+  std::set<std::string> own_support_names;  ///< given by the user
+  std::vector<bool> support_is_named;       ///< for each of model.supports: has its name from the user
+  bool conditions_known = true;             ///< false: some load or support is broken
+
+  bool steps_known = false;  ///< true: every step has its factors
+
+  int body_index(std::string_view name) const;
+  BodyState& state(int body) { return bodies[static_cast<std::size_t>(body)]; }
+  const Body& body(int index) const { return model.bodies[static_cast<std::size_t>(index)]; }
+};
+
+// Sections, in the order in which they are read.
+void read_analysis(Reading& reading, const Value& value);
+void read_solver(Reading& reading, const Value& value);
+void read_materials(Reading& reading, const Value& value);
+void read_bodies(Reading& reading, const Value& value);
+void read_supports(Reading& reading, const Value& value);
+void read_loads(Reading& reading, const Value& value);
+void read_contacts(Reading& reading, const Value& value);
+/// Without a section (nothing): one step that takes everything to factor 1.
+void read_steps(Reading& reading, const std::optional<Value>& value);
+
+/// `shape` of a body; nothing when it is broken.
+std::optional<Outline> read_shape(Reading& reading, const Value& value);
+/// `mesh` of an elastic body whose outline is known, or not (nullptr).
+std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline);
+
+/// A place; nothing when it is broken or names a part of a broken body. `body` is its index as soon as that
+/// much is known.
+struct ReadPlace {
+  std::optional<Place> place;
+  int body = -1;
+};
+constexpr const char* place_example = "upper.top or {body: upper, near: [6, 3]}";
+ReadPlace read_place(Reading& reading, const Value& value);
+
+// What only the whole model shows; called when every section was read.
+void check_conflicting_supports(Reading& reading);
+void check_never_applied(Reading& reading);
+void check_bodies_held(Reading& reading);
+void check_something_loads(Reading& reading, const Value& root);
+void check_density(Reading& reading);
+
+/// What messages call an edge: the user's own name for it, or `edge_3`.
+const std::string& shown_name(const Edge& edge);
+
+/// `(x, y)` for messages.
+std::string point_text(const Vec2& point);
+
+}  // namespace scabo::model

@@ -1,0 +1,90 @@
+#include "scabo/model/suggestions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace scabo::model {
+
+namespace {
+
+constexpr std::size_t longest_name = 60;  // compared and shown; distances cost the product of two lengths
+
+char fold(char c) {
+  if (c == '-') return '_';
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+/// Damerau's distance (optimal string alignment), case and -/_ not counted.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = fold(a[i - 1]) == fold(b[j - 1]);
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      const bool swapped =
+          i > 1 && j > 1 && fold(a[i - 1]) == fold(b[j - 2]) && fold(a[i - 2]) == fold(b[j - 1]);
+      if (swapped) now[j] = std::min(now[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, now);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+  if (name.empty() || name.size() > longest_name) return "";
+  std::string nearest;
+  std::size_t smallest = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    if (candidate.size() > longest_name) continue;
+    const std::size_t d = distance(name, candidate);
+    if (d < smallest && d < std::max(name.size(), candidate.size())) {
+      smallest = d;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+std::string name_list(const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i == 12) return list + ", ...";
+    if (i > 0) list += ", ";
+    list += names[i].substr(0, longest_name);
+  }
+  return list;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_name(name, known);
+  if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
+  if (known.empty()) return "";
+  return fmt::format(" (there is: {})", name_list(known));
+}
+
+std::string one_line(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  return line;
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;  // never through the middle of a character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  return std::string(text.substr(0, end)) + "...";
+}
+
+std::string quoted_name(std::string_view name) {
+  return fmt::format("'{}'", one_line(shortened(name, longest_name)));
+}
+
+}  // namespace scabo::model

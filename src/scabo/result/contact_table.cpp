@@ -1,0 +1,56 @@
+#include "scabo/result/contact_table.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace scabo::result {
+
+const std::string_view contact_table_header =
+    "step,increment,contact,pair,x,y,gap,slip,normal_force,tangential_force,pressure,shear,state,"
+    "normal_displacement_a,tangential_displacement_a,normal_displacement_b,tangential_displacement_b\n";
+
+namespace {
+
+/// As CSV wants it: in quotation marks, those inside doubled, where it holds what divides a table.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char letter : text) {
+    if (letter == '"') result += '"';
+    result += letter;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+std::string_view name_of(contact::ContactState state) {
+  switch (state) {
+    case contact::ContactState::open:
+      return "open";
+    case contact::ContactState::stick:
+      return "stick";
+    case contact::ContactState::slip:
+      return "slip";
+  }
+  throw BrokenInvariant("a contact state without a name");
+}
+
+std::string contact_table_rows(const analysis::IncrementResult& increment) {
+  fmt::memory_buffer rows;
+  for (const analysis::ContactResult& contact : increment.contacts) {
+    const std::string name = quoted(contact.name);
+    for (const analysis::PairResult& pair : contact.pairs)
+      fmt::format_to(std::back_inserter(rows),
+                     FMT_COMPILE("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n"), increment.step,
+                     increment.increment, name, pair.pair, pair.position.x(), pair.position.y(), pair.gap,
+                     pair.slip, pair.normal_force, pair.tangential_force, pair.pressure, pair.shear,
+                     name_of(pair.state), pair.displacement_a.x(), pair.displacement_a.y(),
+                     pair.displacement_b.x(), pair.displacement_b.y());
+  }
+  return fmt::to_string(rows);
+}
+
+}  // namespace scabo::result

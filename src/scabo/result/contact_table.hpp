@@ -1,0 +1,20 @@
+// contact.csv: one line for every contact pair after every increment (docs/results.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scabo/analysis/static_analysis.hpp"
+
+namespace scabo::result {
+
+/// First line, with the names of the columns.
+extern const std::string_view contact_table_header;
+
+/// `open`, `stick` or `slip`.
+std::string_view name_of(contact::ContactState state);
+
+/// Lines of an increment; numbers as short as they can be read back exactly.
+std::string contact_table_rows(const analysis::IncrementResult& increment);
+
+}  // namespace scabo::result

@@ -1,0 +1,88 @@
+#include "scabo/result/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+namespace scabo::result {
+
+namespace {
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
+  throw WriteError("cannot write", path, std::system_category().message(error));
+}
+
+int open_empty(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail_to_write(path, errno);
+  return descriptor;
+}
+
+/// Never a device such as /dev/full.
+void remove_regular(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+}
+
+/// Zero, or the error that stopped it.
+int write_at(int descriptor, std::string_view content, off_t position) {
+  while (!content.empty()) {
+    const ssize_t written = ::pwrite(descriptor, content.data(), content.size(), position);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    content.remove_prefix(static_cast<std::size_t>(written));
+    position += written;
+  }
+  return 0;
+}
+
+}  // namespace
+
+WriteError::WriteError(std::string_view what, std::filesystem::path path, std::string_view reason)
+    : std::runtime_error(fmt::format("{} {}: {}", what, path.string(), reason)), path_(std::move(path)) {}
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  const int descriptor = open_empty(path);
+  int error = write_at(descriptor, content, 0);
+  if (::close(descriptor) != 0 && error == 0) error = errno;  // network disks say here that they are full
+  if (error == 0) return;
+  remove_regular(path);
+  fail_to_write(path, error);
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view content) {
+  std::filesystem::path part = path;
+  part += ".part";
+  write_file(part, content);
+  if (std::rename(part.c_str(), path.c_str()) == 0) return;
+  const int error = errno;
+  remove_regular(part);
+  fail_to_write(path, error);
+}
+
+GrowingFile::GrowingFile(std::filesystem::path path)
+    : path_(std::move(path)), descriptor_(open_empty(path_)) {}
+
+GrowingFile::~GrowingFile() { ::close(descriptor_); }
+
+void GrowingFile::append(std::string_view content) { append_before_footer(content, {}); }
+
+void GrowingFile::append_before_footer(std::string_view content, std::string_view footer) {
+  std::string text(content);
+  text += footer;
+  const int error = write_at(descriptor_, text, size_);
+  if (error != 0) {
+    // Without the part that was written, and with the old footer, which was as long as this one.
+    if (footer.empty() || write_at(descriptor_, footer, size_) == 0)
+      (void)!::ftruncate(descriptor_, size_ + static_cast<off_t>(footer.size()));
+    fail_to_write(path_, error);
+  }
+  size_ += static_cast<long long>(content.size());
+}
+
+}  // namespace scabo::result

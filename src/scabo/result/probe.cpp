@@ -1,0 +1,137 @@
+#include "scabo/result/probe.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace scabo::result {
+
+namespace {
+
+bool inside(const model::Outline& outline, const Vec2& x) {
+  // Turns of the boundary around x, in pieces short enough for arcs.
+  double turn = 0.0;
+  for (const model::Edge& edge : outline.edges) {
+    const int pieces = edge.arc ? 64 : 1;
+    Vec2 from = edge.start - x;
+    for (int i = 1; i <= pieces; ++i) {
+      const Vec2 to = edge.at(static_cast<double>(i) / pieces) - x;
+      if (from.dot(to) <= 0.0 && std::abs(cross(from, to)) <= 1e-12 * (to - from).squaredNorm())
+        return true;  // on it
+      turn += std::atan2(cross(from, to), from.dot(to));
+      from = to;
+    }
+  }
+  return turn > 3.0;  // 2 pi inside, 0 outside
+}
+
+}  // namespace
+
+Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
+  return {motion[0] - motion[2] * arm.y(), motion[1] + motion[2] * arm.x()};
+}
+
+Vector body_force_load(const Vector& weights, const Vec2& body_force, double thickness) {
+  if (body_force.isZero(0.0)) return {};
+  Vector load(2 * weights.size());
+  for (Eigen::Index i = 0; i < weights.size(); ++i)
+    load.segment<2>(2 * i) = weights[i] * thickness * body_force;
+  return load;
+}
+
+FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element,
+                                        const Vector& u) {
+  FiniteElementState state;
+  for (std::size_t i = 0; i < element.size(); ++i) {
+    state.x[i] = mesh.nodes[static_cast<std::size_t>(element[i])];
+    state.u.segment<2>(static_cast<Eigen::Index>(2 * i)) = u.segment<2>(2 * element[i]);
+  }
+  return state;
+}
+
+std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x) {
+  constexpr double slack = 1e-9;  // points between two elements belong to one of them
+  Vec2 low = corners[0], high = corners[0];
+  for (const Vec2& corner : corners) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const Vec2 size = high - low;
+  // Curved sides may bulge out of the box of their nodes, by less than a quarter of it.
+  if (((x - low).array() < -0.25 * size.array()).any() || ((x - high).array() > 0.25 * size.array()).any())
+    return std::nullopt;
+  // Position and its gradient are those of a displacement field whose nodal values are the coordinates.
+  element::Vector16 nodal;
+  for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(static_cast<Eigen::Index>(2 * i)) = corners[i];
+  const auto position = [&](const Vec2& at) {
+    return element::plane_element8_values(element::plane_element8_nodes, nodal, element::Mat3::Zero(), at.x(),
+                                          at.y())
+        .displacement;
+  };
+  Vec2 natural = Vec2::Zero();
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const Vec2 miss = x - position(natural);
+    if (miss.norm() <= 1e-14 * size.norm()) break;
+    constexpr double h = 1e-3;  // position is quadratic along r and along s: central differences are exact
+    Mat2 J;
+    J.col(0) = (position(natural + Vec2(h, 0.0)) - position(natural - Vec2(h, 0.0))) / (2.0 * h);
+    J.col(1) = (position(natural + Vec2(0.0, h)) - position(natural - Vec2(0.0, h))) / (2.0 * h);
+    natural += J.inverse() * miss;
+    if (!(natural.lpNorm<Eigen::Infinity>() < 3.0)) return std::nullopt;
+  }
+  if (natural.lpNorm<Eigen::Infinity>() > 1.0 + slack) return std::nullopt;
+  return natural;
+}
+
+Probe::Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body)
+    : solution_(solution), body_(static_cast<std::size_t>(body)), u_(increment.displacements[body_]) {
+  const auto& super_element = solution.super_elements[body_];
+  if (!super_element) return;
+  field_.emplace(super_element->solution, super_element->modes(), u_,
+                 body_force_load(element::body_load_weights(super_element->ring),
+                                 increment.body_forces[body_], super_element->thickness));
+}
+
+std::optional<element::PointValues> Probe::at(const Vec2& x) const {
+  const model::Body& body = solution_.model.bodies[body_];
+  if (body.rigid) {
+    if (!inside(body.outline, x)) return std::nullopt;
+    element::PointValues values;
+    values.displacement = rigid_displacement(u_, x - body.outline.centroid());
+    return values;
+  }
+  if (!field_) return in_finite_elements(x);
+  const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
+  const Vec2& centre = solution_.mesh.bodies[body_].super_elements.front().centre;
+  const auto point = element::locate(super_element.ring, x - centre);
+  if (!point) return std::nullopt;
+  const auto values_at = [&](double xi) {
+    return element::point_values(super_element.ring, field_->at(xi), super_element.D, point->element,
+                                 point->eta);
+  };
+  element::PointValues values = values_at(std::max(point->xi, smallest_strain_xi));
+  if (point->xi < smallest_strain_xi) values.displacement = values_at(point->xi).displacement;
+  return values;
+}
+
+std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {
+  const mesh::BodyMesh& mesh = solution_.mesh.bodies[body_];
+  const auto material = static_cast<std::size_t>(solution_.model.bodies[body_].material);
+  for (const mesh::PlaneElement8& element : mesh.elements) {
+    const FiniteElementState state = finite_element_state(mesh, element, u_);
+    if (const auto natural = natural_coordinates(state.x, x))
+      return element::plane_element8_values(
+          state.x, state.u,
+          element::elasticity_matrix(solution_.model.materials[material], solution_.model.analysis.plane),
+          natural->x(), natural->y());
+  }
+  return std::nullopt;
+}
+
+std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
+                                             const analysis::IncrementResult& increment, int body,
+                                             const Vec2& x) {
+  return Probe(solution, increment, body).at(x);
+}
+
+}  // namespace scabo::result

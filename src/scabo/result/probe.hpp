@@ -1,0 +1,59 @@
+// Displacement, strain and stress at single points, without any mesh for output.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane_element8.hpp"
+
+namespace scabo::result {
+
+/// Smallest xi at which strains are taken: they are differences of displacements over xi and lose digits as
+/// xi gets smaller; at 1e-9 six are left. Between here and the centre they change by a millionth of their
+/// change to the boundary.
+inline constexpr double smallest_strain_xi = 1e-6;
+
+/// Values of one body after one increment at any point (x, y) of its undeformed shape. Keeps references to
+/// the solution and the increment.
+class Probe {
+ public:
+  Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body);
+
+  /// Nothing when the point lies outside the body. Between finite elements (super-elements: boundary
+  /// elements) that of one of them is taken. A rigid body has displacement only.
+  std::optional<element::PointValues> at(const Vec2& x) const;
+
+ private:
+  std::optional<element::PointValues> in_finite_elements(const Vec2& x) const;
+
+  const analysis::StaticSolution& solution_;
+  std::size_t body_;
+  const Vector& u_;
+  std::optional<element::RadialField> field_;  // of a super-element
+};
+
+/// The same for a single point.
+std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
+                                             const analysis::IncrementResult& increment, int body,
+                                             const Vec2& x);
+
+/// Corners and displacements of a finite element.
+struct FiniteElementState {
+  element::Corners8 x;
+  element::Vector16 u;
+};
+FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element,
+                                        const Vector& u);
+
+/// Natural coordinates of `x` in an element; nothing when it lies outside.
+std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x);
+
+/// Displacement of a point of a rigid body, `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.
+Vec2 rigid_displacement(const Vector& motion, const Vec2& arm);
+
+/// F_b of element::RadialField for a uniform body force; empty where there is none.
+Vector body_force_load(const Vector& weights, const Vec2& body_force, double thickness);
+
+}  // namespace scabo::result

@@ -1,0 +1,152 @@
+#include "scabo/result/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "scabo/result/summary.hpp"
+#include "scabo/result/version.hpp"
+
+namespace scabo::result {
+
+namespace {
+
+std::string count(int number, std::string_view noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
+const analysis::IncrementResult* last_converged(const analysis::StaticSolution& solution) {
+  const auto& increments = solution.increments;
+  const auto found =
+      std::find_if(increments.rbegin(), increments.rend(), [](const auto& i) { return i.converged; });
+  return found == increments.rend() ? nullptr : &*found;
+}
+
+std::string pairs_in_contact(const analysis::ContactResult& contact) {
+  if (!contact.first_in_contact || !contact.last_in_contact) return "none";
+  if (*contact.first_in_contact == *contact.last_in_contact)
+    return fmt::format("P{}", *contact.first_in_contact);
+  return fmt::format("P{} to P{}", *contact.first_in_contact, *contact.last_in_contact);
+}
+
+}  // namespace
+
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line = "  ";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("  {:>{}}", row[i], widths[i]);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
+}
+
+std::string report_header(const analysis::StaticSolution& solution) {
+  const model::Model& model = solution.model;
+  const ModelSizes sizes = sizes_of(solution);
+  std::string text = fmt::format("Scabo {}\n", version());
+  if (!model.title.empty()) text += model.title + '\n';
+  if (!model.file.empty()) text += fmt::format("Model: {}\n", model.file);
+  const auto bodies = static_cast<int>(model.bodies.size());
+  text += fmt::format("{}, {}, {}", bodies == 1 ? "1 body" : fmt::format("{} bodies", bodies),
+                      count(sizes.nodes, "node"), fmt::format("{} degrees of freedom", sizes.dofs));
+  if (sizes.super_elements > 0) text += ", " + count(sizes.super_elements, "super-element");
+  if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
+  return text + ", " + count(sizes.contact_pairs, "contact pair") + "\n\n";
+}
+
+std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment) {
+  const model::Step& step = model.steps.at(static_cast<std::size_t>(increment.step - 1));
+  std::string text =
+      fmt::format("step {}, increment {} of {}:", increment.step_name, increment.increment, step.increments);
+  for (const auto& [name, factor] : increment.factors) text += fmt::format(" {} = {:.6g},", name, factor);
+  if (increment.factors.empty())
+    text += ' ';
+  else
+    text.back() = ';', text += ' ';
+  text += count(increment.newton_iterations, "iteration");
+  if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));
+  text += fmt::format(", residual {:.2g}", increment.residual);
+  if (increment.converged) return text + fmt::format(", certificate {:.2g}\n", increment.certificate.worst());
+  return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
+}
+
+std::string report_contacts(const analysis::IncrementResult& increment) {
+  if (increment.contacts.empty()) return {};
+  std::vector<std::vector<std::string>> rows = {{"contact", "normal force", "tangential force", "open",
+                                                 "stick", "slip", "in contact", "max pressure", "max gap"}};
+  for (const analysis::ContactResult& contact : increment.contacts)
+    rows.push_back({contact.name, fmt::format("{:.6g}", contact.normal_force),
+                    fmt::format("{:.6g}", contact.tangential_force), fmt::format("{}", contact.open),
+                    fmt::format("{}", contact.stick), fmt::format("{}", contact.slip),
+                    pairs_in_contact(contact), fmt::format("{:.4g}", contact.max_pressure),
+                    fmt::format("{:.4g}", contact.max_gap)});
+  return table(rows);
+}
+
+std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment) {
+  if (increment.reactions.empty()) return {};
+  std::vector<std::vector<std::string>> rows = {{"support", "reaction x", "reaction y"}};
+  for (std::size_t i = 0; i < increment.reactions.size(); ++i)
+    rows.push_back({model.supports[i].name, fmt::format("{:.6g}", increment.reactions[i].x()),
+                    fmt::format("{:.6g}", increment.reactions[i].y())});
+  return table(rows);
+}
+
+std::string report_warnings(const analysis::StaticSolution& solution) {
+  std::string text;
+  for (const std::string& warning : solution.warnings) text += fmt::format("warning: {}\n", warning);
+  return text;
+}
+
+std::string report_timing(const analysis::Timing& timing) {
+  const std::pair<const char*, double> stages[] = {{"read", timing.read},
+                                                   {"mesh", timing.mesh},
+                                                   {"super-elements", timing.super_elements},
+                                                   {"assemble", timing.assemble},
+                                                   {"factorise", timing.factorise},
+                                                   {"condense", timing.condense},
+                                                   {"newton", timing.newton},
+                                                   {"recover", timing.recover},
+                                                   {"write", timing.write},
+                                                   {"total", timing.total}};
+  std::vector<std::vector<std::string>> rows = {{"stage", "seconds"}};
+  for (const auto& [name, seconds] : stages) rows.push_back({name, fmt::format("{:.4f}", seconds)});
+  std::string text = table(rows);
+  if (const auto bytes = peak_memory())
+    text += fmt::format("  peak of memory: {:.1f} MB\n", static_cast<double>(*bytes) / 1e6);
+  return text;
+}
+
+std::string report_end(const analysis::StaticSolution& solution, const analysis::Timing& timing) {
+  std::string text = "\n";
+  switch (solution.outcome) {
+    case analysis::Outcome::solved:
+      text += "Solved: every increment converged and is certified.\n";
+      break;
+    case analysis::Outcome::not_converged:
+      text += fmt::format("Did not converge: {}\n", solution.reason);
+      break;
+    case analysis::Outcome::interrupted:
+      text += fmt::format("Interrupted: {}\n", solution.reason);
+      break;
+  }
+  if (const analysis::IncrementResult* last = last_converged(solution)) {
+    text += fmt::format("\nAfter step {}, increment {}:\n", last->step_name, last->increment);
+    text += report_contacts(*last);
+    if (!last->contacts.empty() && !last->reactions.empty()) text += '\n';
+    text += report_reactions(solution.model, *last);
+  }
+  if (!solution.warnings.empty()) text += '\n' + report_warnings(solution);
+  return text + '\n' + report_timing(timing);
+}
+
+}  // namespace scabo::result

@@ -1,0 +1,36 @@
+// Texts about a run, for people: log.txt and the terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scabo/analysis/static_analysis.hpp"
+
+namespace scabo::result {
+
+/// Columns filled to a common width: the first flush left, the others flush right.
+std::string table(const std::vector<std::vector<std::string>>& rows);
+
+/// Version, title and sizes.
+std::string report_header(const analysis::StaticSolution& solution);
+
+/// `step press, increment 2 of 10: tip = 0.2; 4 iterations, residual 3.1e-15, certificate 2.2e-14`, and why
+/// not where it did not converge. One line.
+std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment);
+
+/// Totals of every contact; empty where there is none.
+std::string report_contacts(const analysis::IncrementResult& increment);
+
+/// Force of every support on its body; empty where there is none.
+std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment);
+
+/// One line for each warning.
+std::string report_warnings(const analysis::StaticSolution& solution);
+
+/// Seconds of every stage and the peak of memory.
+std::string report_timing(const analysis::Timing& timing);
+
+/// Outcome, totals and reactions of the last converged increment, warnings, timing.
+std::string report_end(const analysis::StaticSolution& solution, const analysis::Timing& timing);
+
+}  // namespace scabo::result

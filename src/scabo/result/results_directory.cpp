@@ -1,0 +1,168 @@
+#include "scabo/result/results_directory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <system_error>
+
+#include "scabo/result/contact_table.hpp"
+#include "scabo/result/report.hpp"
+#include "scabo/result/summary.hpp"
+
+namespace scabo::result {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds between_summaries{2};
+
+/// Adds the time it lives to a figure.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// `fields_0001.vtu` and the like.
+bool is_fields_name(const std::string& name) {
+  constexpr std::string_view begin = "fields_", end = ".vtu";
+  if (!name.starts_with(begin) || !name.ends_with(end)) return false;
+  const std::string number = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return number.size() >= 4 &&
+         std::all_of(number.begin(), number.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+/// What the beginning of a result file holds; nothing for names that no result has.
+std::optional<std::string_view> mark_of(const std::string& name) {
+  if (is_fields_name(name) || name == "fields.pvd") return vtk_mark;
+  if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
+  if (name == "contact.csv") return contact_table_header;
+  if (name == "log.txt") return "Scabo ";
+  return std::nullopt;
+}
+
+/// True also for a file that a full disk or a kill left empty: nothing is lost with it.
+bool written_by_scabo(const fs::path& file, std::string_view mark) {
+  std::array<char, 512> beginning{};
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return false;
+  stream.read(beginning.data(), beginning.size());
+  const std::string_view read(beginning.data(), static_cast<std::size_t>(stream.gcount()));
+  return read.empty() || read.find(mark) != std::string_view::npos;
+}
+
+void create(const fs::path& path) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_directory(path, error))
+    throw WriteError("cannot write results to", path, "it is a file, not a directory");
+  fs::create_directories(path, error);
+  if (error) throw WriteError("cannot create the directory", path, error.message());
+}
+
+/// Takes away the results of an earlier run. First looks at everything, so that an error leaves the directory
+/// as it was.
+void remove_old_results(const fs::path& path) {
+  std::error_code error;
+  std::vector<fs::path> old;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    const auto mark = mark_of(entry->path().filename().string());
+    if (!mark) continue;
+    if (entry->is_directory(error) || !written_by_scabo(entry->path(), *mark))
+      throw WriteError("cannot write results to", path,
+                       fmt::format("Scabo did not write the {} there: move it, or choose another directory",
+                                   entry->path().filename().string()));
+    old.push_back(entry->path());
+  }
+  if (error) throw WriteError("cannot read the directory", path, error.message());
+  for (const fs::path& file : old) {
+    fs::remove(file, error);
+    if (error) throw WriteError("cannot remove", file, error.message());
+  }
+}
+
+}  // namespace
+
+ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model) : path_(std::move(path)) {
+  const Stopwatch writing(write_seconds_);
+  for (const model::Step& step : model.steps) increments_of_step_.push_back(step.increments);
+  create(path_);
+  remove_old_results(path_);
+  contact_table_.emplace(path_ / "contact.csv");
+  contact_table_->append(contact_table_header);
+  collection_.emplace(path_ / "fields.pvd");
+  log_.emplace(path_ / "log.txt");
+  next_summary_ = Clock::now() + between_summaries;
+}
+
+void ResultsDirectory::add(const analysis::StaticSolution& solution,
+                           const analysis::IncrementResult& increment) {
+  if (increment.converged) {
+    std::optional<Fields> fields;
+    {
+      const Stopwatch recovering(recover_seconds_);
+      if (!recovery_) recovery_.emplace(solution);
+      fields = recovery_->fields(solution, increment);
+    }
+    const Stopwatch writing(write_seconds_);
+    // The collection last: it names only files that are complete.
+    const std::string file = fmt::format("fields_{:04d}.vtu", fields_written_ + 1);
+    write_file(path_ / file, vtu_content(recovery_->grid(), *fields));
+    ++fields_written_;
+    contact_table_->append(contact_table_rows(increment));
+    collection_->add(pseudo_time(increment), file);
+  }
+  const Stopwatch writing(write_seconds_);
+  begin_log(solution);
+  log_->append(report_increment(solution.model, increment));
+  if (Clock::now() >= next_summary_) write_running_summary(solution);
+}
+
+void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
+  {
+    const Stopwatch writing(write_seconds_);
+    begin_log(solution);
+    log_->append(report_end(solution, complete(solution.timing)));
+  }
+  // Not in `write`: a file cannot hold the time it took to write it.
+  replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), false));
+}
+
+analysis::Timing ResultsDirectory::complete(analysis::Timing timing) const {
+  timing.recover += recover_seconds_;
+  timing.write += write_seconds_;
+  return timing;
+}
+
+double ResultsDirectory::pseudo_time(const analysis::IncrementResult& increment) const {
+  return increment.step - 1 +
+         static_cast<double>(increment.increment) /
+             increments_of_step_.at(static_cast<std::size_t>(increment.step - 1));
+}
+
+void ResultsDirectory::begin_log(const analysis::StaticSolution& solution) {
+  if (log_begun_) return;
+  log_->append(report_header(solution));
+  log_begun_ = true;
+}
+
+/// Long runs write a long file: it may take a twentieth of the time.
+void ResultsDirectory::write_running_summary(const analysis::StaticSolution& solution) {
+  const Clock::time_point start = Clock::now();
+  replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true));
+  const Clock::time_point end = Clock::now();
+  next_summary_ = end + std::max<Clock::duration>(between_summaries, 20 * (end - start));
+}
+
+}  // namespace scabo::result

@@ -1,0 +1,153 @@
+#include "scabo/result/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scabo/result/version.hpp"
+
+namespace scabo::result {
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys in the order of the documentation
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+template <typename Value>
+Json value_or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json json_of(const analysis::ContactResult& contact) {
+  return {{"normal_force", number_or_null(contact.normal_force)},
+          {"tangential_force", number_or_null(contact.tangential_force)},
+          {"open", contact.open},
+          {"stick", contact.stick},
+          {"slip", contact.slip},
+          {"max_gap", number_or_null(contact.max_gap)},
+          {"max_pressure", number_or_null(contact.max_pressure)},
+          {"first_pair_in_contact", value_or_null(contact.first_in_contact)},
+          {"last_pair_in_contact", value_or_null(contact.last_in_contact)}};
+}
+
+Json json_of(const contact::Certificate& certificate) {
+  return {{"equilibrium", number_or_null(certificate.equilibrium)},
+          {"penetration", number_or_null(certificate.penetration)},
+          {"tension", number_or_null(certificate.tension)},
+          {"friction_excess", number_or_null(certificate.friction_excess)},
+          {"complementarity", number_or_null(certificate.complementarity)},
+          {"slip_direction", number_or_null(certificate.slip_direction)},
+          {"rigid_balance", number_or_null(certificate.rigid_balance)}};
+}
+
+Json json_of(const analysis::Energy& energy) {
+  return {{"external", number_or_null(energy.external)},
+          {"elastic", number_or_null(energy.elastic)},
+          {"friction", number_or_null(energy.friction)}};
+}
+
+/// An increment that did not converge has no contacts, reactions, certificate or energy: it is no result.
+Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
+  Json json = {{"step", increment.step}, {"increment", increment.increment}};
+  json["factors"] = Json::object();
+  for (const auto& [name, factor] : increment.factors) json["factors"][name] = number_or_null(factor);
+  json["converged"] = increment.converged;
+  json["newton_iterations"] = increment.newton_iterations;
+  json["residual"] = number_or_null(increment.residual);
+  json["contacts"] = Json::object();
+  json["reactions"] = Json::object();
+  json["certificate"] = nullptr;
+  json["energy"] = nullptr;
+  if (!increment.converged) return json;
+  for (const analysis::ContactResult& contact : increment.contacts)
+    json["contacts"][contact.name] = json_of(contact);
+  for (std::size_t i = 0; i < increment.reactions.size(); ++i)
+    json["reactions"][model.supports[i].name] = {number_or_null(increment.reactions[i].x()),
+                                                 number_or_null(increment.reactions[i].y())};
+  json["certificate"] = json_of(increment.certificate);
+  json["energy"] = json_of(increment.energy);
+  return json;
+}
+
+Json json_of(const analysis::Timing& timing, bool running) {
+  return {{"read", running ? Json() : number_or_null(timing.read)},
+          {"mesh", number_or_null(timing.mesh)},
+          {"super_elements", number_or_null(timing.super_elements)},
+          {"assemble", number_or_null(timing.assemble)},
+          {"factorise", number_or_null(timing.factorise)},
+          {"condense", number_or_null(timing.condense)},
+          {"newton", number_or_null(timing.newton)},
+          {"recover", number_or_null(timing.recover)},
+          {"write", number_or_null(timing.write)},
+          {"total", running ? Json() : number_or_null(timing.total)}};
+}
+
+}  // namespace
+
+std::string_view name_of(analysis::Outcome outcome) {
+  switch (outcome) {
+    case analysis::Outcome::solved:
+      return "solved";
+    case analysis::Outcome::not_converged:
+      return "not_converged";
+    case analysis::Outcome::interrupted:
+      return "interrupted";
+  }
+  throw BrokenInvariant("an outcome without a name");
+}
+
+ModelSizes sizes_of(const analysis::StaticSolution& solution) {
+  ModelSizes sizes;
+  sizes.nodes = solution.mesh.nodes();
+  sizes.dofs = 2 * sizes.nodes;
+  for (const mesh::BodyMesh& body : solution.mesh.bodies) {
+    sizes.super_elements += static_cast<int>(body.super_elements.size());
+    sizes.finite_elements += static_cast<int>(body.elements.size());
+  }
+  // Only an increment tells which pairs can move.
+  if (!solution.increments.empty() && solution.increments.front().converged) {
+    for (const analysis::ContactResult& contact : solution.increments.front().contacts)
+      sizes.contact_pairs += static_cast<int>(contact.pairs.size());
+  } else {
+    for (const mesh::Interface& interface : solution.mesh.interfaces)
+      sizes.contact_pairs += static_cast<int>(interface.pairs.size());
+  }
+  return sizes;
+}
+
+std::optional<long long> peak_memory() {
+  // getrusage() would count the program that started this one as well.
+  std::ifstream status("/proc/self/status");
+  for (std::string key; status >> key; std::getline(status, key))
+    if (long long kilobytes = 0; key == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return std::nullopt;
+  return static_cast<long long>(usage.ru_maxrss) * 1024;
+}
+
+std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing,
+                            bool running) {
+  const ModelSizes sizes = sizes_of(solution);
+  Json json;
+  json["scabo"] = version();
+  json["title"] = solution.model.title;
+  json["status"] = running ? "running" : name_of(solution.outcome);
+  json["reason"] = solution.reason.empty() ? Json() : Json(solution.reason);
+  json["warnings"] = solution.warnings;
+  json["model"] = {{"nodes", sizes.nodes},
+                   {"dofs", sizes.dofs},
+                   {"super_elements", sizes.super_elements},
+                   {"contact_pairs", sizes.contact_pairs}};
+  json["increments"] = Json::array();
+  for (const analysis::IncrementResult& increment : solution.increments)
+    json["increments"].push_back(json_of(increment, solution.model));
+  json["timing"] = json_of(timing, running);
+  json["peak_memory_bytes"] = value_or_null(peak_memory());
+  // Texts of the user may be no UTF-8; that must not lose the results.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace scabo::result

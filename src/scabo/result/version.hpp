@@ -1,0 +1,10 @@
+// The version that results say they come from.
+#pragma once
+
+#include <string_view>
+
+namespace scabo::result {
+
+std::string_view version();  ///< as in `0.1.0`
+
+}  // namespace scabo::result

@@ -1,0 +1,120 @@
+"""The JSON Schema against model files: schema_test.py SCABO BAD_FOLDER GOOD_FOLDER...
+
+`scabo schema` is a valid draft 2020-12 schema, accepts every good file and every model in the documents, rejects
+the bad files whose mistake is one of structure, and allows no unknown key anywhere.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import jsonschema
+import yaml
+
+SCHEMA = BAD = GOOD = None
+
+# Kinds of mistakes that no schema can see (names that must exist, geometry, sizes, the model as a whole) or that
+# a reader of YAML sees before it.
+BEYOND_SCHEMA = re.compile(
+    r"syntax_|key_repeated|key_is_a_list|number_(underscores|infinite|nan|overflow)"
+    r"|material_(incompressible_plane_strain|unknown|section_missing)"
+    r"|bodies_all_rigid|body_(unsupported|rigid_without_contact)"
+    r"|polygon_(?!two_vertices|vertex_of_three)|outline_(not_|full_circle|arc_radii|arc_crosses|arc_swallows"
+    r"|name_twice|without_area)"
+    r"|centre_|mesh_(1e9|too_many|fem_polygon)"
+    r"|place_(unknown|near_far|near_a_rigid)"
+    r"|support_(conflict|name_)|load_(on_unknown|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
+    r"|contact_(with_itself|unknown_edge|twice|of_two_rigid|at_a_corner)"
+    r"|number_underflow|step_(unknown|name_twice|never|names)|later_")
+
+
+class Loader(yaml.SafeLoader):
+    """YAML 1.2's core types, as editors and Scabo read them (in YAML 1.1 `on` is true and 10e9 a text)."""
+
+
+Loader.yaml_implicit_resolvers = {}
+for tag, pattern, first in [
+    ("bool", r"^(?:true|false)$", "tf"),
+    ("null", r"^(?:~|null|Null|NULL|)$", ["~", "n", "N", ""]),
+    ("int", r"^[-+]?[0-9]+$", "-+0123456789"),
+    ("float", r"^[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?$", "-+.0123456789"),
+    ("merge", r"^<<$", "<"),
+]:
+    Loader.add_implicit_resolver(f"tag:yaml.org,2002:{tag}", re.compile(pattern), list(first))
+Loader.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.value))
+Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value, 10))
+
+
+def load(text):
+    return yaml.load(text, Loader)
+
+
+def mistakes(model):
+    return [error.message for error in jsonschema.Draft202012Validator(SCHEMA).iter_errors(model)]
+
+
+def documented_models():
+    """Whole models in ```yaml blocks of Markdown files."""
+    for folder in GOOD:
+        for page in sorted(folder.rglob("*.md")):
+            for block in re.findall(r"```yaml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
+                if re.search(r"^scabo: 1", block, re.MULTILINE) and "bodies:" in block:
+                    yield page, block
+
+
+class ModelSchema(unittest.TestCase):
+    def test_is_a_valid_schema(self):
+        jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+    def test_accepts_good_files(self):
+        files = [file for folder in GOOD for kind in ("*.yaml", "*.json") for file in sorted(folder.rglob(kind))]
+        # PyYAML takes no tabs, so JSON files are read as what they are.
+        models = [(file, (json.loads if file.suffix == ".json" else load)(file.read_text(encoding="utf-8")))
+                  for file in files]
+        models = [(file, model) for file, model in models if isinstance(model, dict) and "bodies" in model]
+        self.assertGreaterEqual(len(models), 5)
+        for file, model in models:
+            with self.subTest(file=str(file)):
+                self.assertEqual(mistakes(model), [])
+
+    def test_accepts_models_in_the_documents(self):
+        blocks = list(documented_models())
+        self.assertGreaterEqual(len(blocks), 1)
+        for page, block in blocks:
+            with self.subTest(page=str(page), block=block[:80]):
+                self.assertEqual(mistakes(load(block)), [])
+
+    def test_rejects_what_is_wrong_in_structure(self):
+        rejected = 0
+        for file in sorted(BAD.glob("*.yaml")):
+            if BEYOND_SCHEMA.match(file.stem):
+                continue
+            with self.subTest(file=file.name):
+                self.assertNotEqual(mistakes(load(file.read_text(encoding="utf-8"))), [])
+                rejected += 1
+        self.assertGreaterEqual(rejected, 60)
+
+    def test_allows_no_unknown_key(self):
+        def objects(schema, path):
+            if isinstance(schema, dict):
+                if "properties" in schema and path.rsplit("/", 1)[-1] not in ("if", "then", "else"):
+                    yield path, schema
+                for key, inner in schema.items():
+                    yield from objects(inner, f"{path}/{key}")
+            elif isinstance(schema, list):
+                for number, inner in enumerate(schema):
+                    yield from objects(inner, f"{path}/{number}")
+
+        for path, schema in objects(SCHEMA, ""):
+            with self.subTest(path=path):
+                self.assertIs(schema.get("additionalProperties"), False)
+
+
+if __name__ == "__main__":
+    output = subprocess.run([sys.argv[1], "schema"], capture_output=True, text=True, check=True, timeout=60).stdout
+    SCHEMA = json.loads(output)
+    BAD, *GOOD = [pathlib.Path(argument).resolve() for argument in sys.argv[2:]]
+    unittest.main(argv=sys.argv[:1])

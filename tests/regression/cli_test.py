@@ -1,0 +1,242 @@
+"""The manners of the program: exit statuses, messages, --set, --quiet, pipes and terminals, interruption."""
+import json
+import os
+import pty
+import re
+import signal
+import stat
+import subprocess
+import time
+import xml.etree.ElementTree
+
+import support
+from support import BEAM, ROOT, rows_of, scabo, summary_of
+
+SOLVED, WRONG_INPUT, NOT_CONVERGED, FAILURE = 0, 1, 2, 3
+
+
+class CommandLine(support.InTemporaryDirectory):
+    def test_version_is_the_projects(self):
+        version = re.search(r"project\(scabo VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+        run = scabo("--version")
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (SOLVED, f"scabo {version}\n", ""))
+
+    def test_help(self):
+        for command, words in {"": ("run", "check", "schema", "Exit status"),
+                               "run": ("MODEL", "--output", "--set", "--threads", "--quiet", "Example"),
+                               "check": ("MODEL", "--set", "Example"),
+                               "schema": ("Example",)}.items():
+            with self.subTest(command=command):
+                run = scabo(*filter(None, [command]), "--help")
+                self.assertEqual((run.returncode, run.stderr), (SOLVED, ""))
+                for word in words:
+                    self.assertIn(word, run.stdout)
+
+    def test_wrong_command_lines_are_wrong_input_and_name_the_help(self):
+        for arguments in ([], ["solve"], ["run"], ["run", BEAM, "--colour"], ["run", BEAM, "--threads", "0"],
+                          ["run", BEAM, "--threads", "-2"], ["run", BEAM, "--threads", "many"],
+                          ["run", BEAM, "--set"], ["run", BEAM, "other.yaml"], ["check"], ["schema", "x"]):
+            with self.subTest(arguments=arguments):
+                run = scabo(*arguments, cwd=self.directory)
+                self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+                self.assertRegex(run.stderr, r"^scabo: .* \(see `scabo.* --help`\)\n$")
+
+    def test_schema_is_json(self):
+        run = scabo("schema")
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""))
+        self.assertIn("$schema", json.loads(run.stdout))
+
+    def test_output_that_cannot_be_written_is_a_failure(self):
+        with open("/dev/full", "w") as full:
+            run = subprocess.run([support.SCABO, "schema"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(run.returncode, FAILURE)
+        self.assertIn("cannot write to standard output", run.stderr)
+
+
+class Input(support.InTemporaryDirectory):
+    def test_missing_file(self):
+        for command in ("run", "check"):
+            run = scabo(command, "no_such.yaml", cwd=self.directory)
+            self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+            self.assertIn("no_such.yaml", run.stderr)
+            self.assertEqual(list(self.directory.iterdir()), [], "a results directory for nothing")
+
+    def test_every_mistake_has_its_line_and_column(self):
+        model = self.directory / "model.yaml"
+        model.write_text(BEAM.read_text().replace("material: concrete", "material: concreet")
+                         .replace("friction: 0.2", "friction: -1"))
+        for command in ("run", "check"):
+            run = scabo(command, "model.yaml", cwd=self.directory)
+            self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+            lines = run.stderr.splitlines()
+            self.assertEqual(len(lines), 3, run.stderr)
+            for line in lines:
+                self.assertRegex(line, r"^model\.yaml:\d+:\d+: [a-z_.]+: .+")
+            self.assertIn("bodies.lower.material: no material named 'concreet' (did you mean 'concrete'?)", lines[0])
+
+    def test_set_replaces_a_value(self):
+        for arguments in (["--set", "contacts.joint.friction=0.5", BEAM],
+                          [BEAM, "--set", "title=Beams", "contacts.joint.friction=0.5"],
+                          ["--set=contacts.joint.friction=0.5", BEAM]):
+            with self.subTest(arguments=arguments):
+                run = scabo("run", "-o", self.directory / "out", *arguments)
+                self.assertEqual(run.returncode, SOLVED, run.stderr)
+                joint = summary_of(self.directory / "out")["increments"][0]["contacts"]["joint"]
+                self.assertAlmostEqual(abs(joint["tangential_force"]), 0.5 * joint["normal_force"], delta=1e-3)
+
+    def test_bad_settings(self):
+        for setting, word in {"friction": "=", "=0.5": "=", "contacts.joint.frictoin=0.5": "friction",
+                              "contacts.joint.friction=-1": "friction",
+                              "contacts.joint.friction=[": "friction"}.items():
+            with self.subTest(setting=setting):
+                run = scabo("run", BEAM, "--set", setting, "-o", self.directory / "out")
+                self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+                self.assertIn(word, run.stderr)
+                self.assertFalse((self.directory / "out").exists())
+
+    def test_check_reports_sizes_and_writes_nothing(self):
+        run = scabo("check", BEAM, cwd=self.directory)
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""))
+        self.assertIn("2 bodies, 160 nodes, 320 degrees of freedom, 2 super-elements, 32 contact pairs", run.stdout)
+        for word in ("lower", "upper", "joint", "press"):
+            self.assertIn(word, run.stdout)
+        self.assertEqual(list(self.directory.iterdir()), [])
+
+
+class Output(support.InTemporaryDirectory):
+    def test_default_directory_is_beside_the_model(self):
+        model = self.directory / "deep" / "beam.yaml"
+        model.parent.mkdir()
+        model.write_text(BEAM.read_text())
+        run = scabo("run", "deep/beam.yaml", cwd=self.directory)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        self.assertIn("deep/beam.results", run.stdout)
+        files = {path.name for path in (self.directory / "deep" / "beam.results").iterdir()}
+        self.assertLessEqual({"summary.json", "contact.csv", "fields.pvd", "log.txt"}, files)
+
+    def test_piped_output_is_plain(self):
+        run = scabo("run", BEAM, "-o", self.directory / "out", TERM="xterm-256color")
+        self.assertEqual(run.returncode, SOLVED)
+        for text in (run.stdout, run.stderr):
+            self.assertNotIn("\r", text)
+            self.assertNotIn("\033", text)
+        self.assertIn("increment 1 of 1", run.stderr)
+        self.assertIn("joint", run.stdout)
+
+    def test_quiet_prints_nothing(self):
+        run = scabo("run", BEAM, "-o", self.directory / "out", "--quiet")
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (SOLVED, "", ""))
+
+    def test_quiet_still_prints_errors(self):
+        run = scabo("run", "no_such.yaml", "--quiet", cwd=self.directory)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("no_such.yaml", run.stderr)
+
+    def test_terminal_line_is_rewritten_and_removed(self):
+        text = self.on_terminal("run", BEAM, "-o", self.directory / "out", TERM="xterm")
+        self.assertIn("\r\033[K", text)
+        self.assertTrue(text.endswith("\r\033[K"), repr(text[-80:]))
+        self.assertNotIn("\n", text)
+
+    def test_no_color_is_honoured(self):
+        colour = re.compile(r"\033\[[0-9;]*m")
+        arguments = ("check", BEAM, "--set", "contacts.joint.friction=-1")
+        self.assertRegex(self.on_terminal(*arguments, TERM="xterm", NO_COLOR=""), colour)
+        self.assertNotRegex(self.on_terminal(*arguments, TERM="xterm", NO_COLOR="1"), colour)
+        self.assertNotRegex(self.on_terminal(*arguments, TERM="dumb", NO_COLOR=""), colour)
+
+    def on_terminal(self, *arguments, **environment):
+        """Standard error of a run that has a terminal there."""
+        main, terminal = pty.openpty()
+        process = subprocess.Popen([support.SCABO, *map(str, arguments)], env={**os.environ, **environment},
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=terminal)
+        os.close(terminal)
+        text = b""
+        try:
+            while piece := os.read(main, 4096):
+                text += piece
+        except OSError:
+            pass  # how Linux says that the other end of a terminal was closed
+        os.close(main)
+        process.wait(timeout=60)
+        return text.decode()
+
+    def test_unwritable_directory_is_a_failure(self):
+        file = self.directory / "file"
+        file.write_text("")
+        places = [file, file / "out"]
+        locked = self.directory / "locked"
+        locked.mkdir()
+        locked.chmod(stat.S_IRUSR | stat.S_IXUSR)
+        if not os.access(locked, os.W_OK):  # the superuser may write everywhere
+            places.append(locked / "out")
+        for place in places:
+            with self.subTest(place=place.name):
+                run = scabo("run", BEAM, "-o", place)
+                self.assertEqual((run.returncode, run.stdout), (FAILURE, ""), run.stderr)
+                self.assertRegex(run.stderr, rf"^scabo: .*{re.escape(str(place))}")
+
+
+class NotConverged(support.InTemporaryDirectory):
+    def test_an_increment_that_does_not_converge(self):
+        run = scabo("run", BEAM, "-o", self.directory, "--set", "solver={iterations: 1, halvings: 0}")
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+        self.assertIn("did not converge", run.stderr)
+        for increment in summary_of(self.directory)["increments"]:
+            self.assertFalse(increment["converged"])
+
+    def test_a_mechanism_is_not_solved(self):
+        model = self.directory / "model.yaml"
+        text = BEAM.read_text()
+        model.write_text(text.replace("  - {on: upper.left, fix: [x, y]}\n", "").replace("[0, -100e3]", "[0, 100e3]"))
+        run = scabo("run", model, "-o", self.directory / "out")
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+        self.assertIn("upper", run.stderr)
+
+
+class Interruption(support.InTemporaryDirectory):
+    def start(self):
+        """A run of very many increments, some of which are finished."""
+        process = subprocess.Popen([support.SCABO, "run", str(BEAM), "-o", str(self.directory), "--set",
+                                    "steps=[{name: press, increments: 100000}]"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        for line in process.stderr:
+            if line.startswith("increment 3 of"):
+                return process
+        self.fail(f"ended by itself with {process.wait()}")
+
+    def test_finished_increments_are_readable(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number.name):
+                process = self.start()
+                process.send_signal(number)
+                out, err = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, 128 + number, err)
+                self.assertIn("interrupted", err.lower())
+
+                increments = summary_of(self.directory)["increments"]
+                self.assertGreaterEqual(len(increments), 3)
+                self.assertTrue(all(increment["converged"] for increment in increments))
+                numbers = [increment["increment"] for increment in increments]
+                self.assertEqual(numbers, list(range(1, len(increments) + 1)))
+                self.assertEqual(sorted({int(row["increment"]) for row in rows_of(self.directory)}), numbers)
+                sets = xml.etree.ElementTree.parse(self.directory / "fields.pvd").findall(".//DataSet")
+                self.assertEqual(len(sets), len(increments))
+                for data_set in sets:
+                    self.assertGreater((self.directory / data_set.get("file")).stat().st_size, 0)
+
+    def test_the_second_signal_ends_at_once(self):
+        process = self.start()
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGINT)
+        started = time.monotonic()
+        process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - started, 10)
+        self.assertIn(process.returncode, (-signal.SIGINT, 128 + signal.SIGINT))
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,98 @@
+// Discrete contact problems for tests, and a judge of their solutions that shares nothing with the solver.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "scabo/contact/solve.hpp"
+
+namespace scabo::test {
+
+inline double uniform(std::mt19937& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+inline int whole(std::mt19937& random, int from, int to) { return std::uniform_int_distribution<int>(from, to)(random); }
+
+/// A flexibility as elastic bodies have it: positive definite, decaying with distance along the interface, normal and
+/// tangent coupled.
+inline Matrix elastic_flexibility(std::mt19937& random, int pairs, double size = 1.0) {
+  const double reach = uniform(random, 0.5, 4.0), coupling = uniform(random, 0.0, 0.5);
+  Matrix S = Matrix::Zero(2 * pairs, 2 * pairs);
+  for (int i = 0; i < pairs; ++i)
+    for (int j = 0; j < pairs; ++j) {
+      Mat2 block = Mat2::Identity();
+      block += coupling * Mat2::NullaryExpr([&] { return uniform(random, -1, 1); });
+      S.block<2, 2>(2 * i, 2 * j) = std::exp(-std::abs(i - j) / reach) * block;
+    }
+  const Matrix W = S * S.transpose();
+  return size / W.diagonal().mean() * W;
+}
+
+/// Motions without contact forces: of mixed signs, some of them ties.
+inline Vector mixed_motion(std::mt19937& random, int pairs, double size = 1.0) {
+  Vector q(2 * pairs);
+  const double shift = uniform(random, -0.5, 0.5);
+  for (int i = 0; i < 2 * pairs; ++i) {
+    q[i] = size * (uniform(random, -1, 1) + (i % 2 == 0 ? shift : 0.0));
+    if (whole(random, 0, 9) == 0) q[i] = 0.0;
+  }
+  return q;
+}
+
+inline contact::Problem held_problem(std::mt19937& random, int pairs, double most_friction) {
+  contact::Problem problem;
+  problem.W = elastic_flexibility(random, pairs);
+  problem.q = mixed_motion(random, pairs);
+  const double friction = whole(random, 0, 5) == 0 ? 0.0 : uniform(random, 0.0, most_friction);
+  problem.mu = Vector::Constant(pairs, friction);
+  problem.G.resize(2 * pairs, 0);
+  return problem;
+}
+
+/// A block on a floor, A the floor: n = +y, t = +x. Pairs along its base, equally spaced over `width`; reference point at
+/// its middle, `height` above the base. Rigid motions [u_x, u_y, L rotation] with L = width / 2, loads the works of
+/// [force_x, force_y, moment / L].
+inline Matrix block_motions(int pairs, double width, double height) {
+  Matrix G(2 * pairs, 3);
+  for (int i = 0; i < pairs; ++i) {
+    const double x = pairs > 1 ? width * (static_cast<double>(i) / (pairs - 1) - 0.5) : 0.0, L = 0.5 * width;
+    G.row(2 * i) << 0.0, 1.0, x / L;
+    G.row(2 * i + 1) << 1.0, 0.0, height / L;
+  }
+  return G;
+}
+
+/// The same as held_problem with a floating block of m = 1 (down), 2 (down, along), 3 rigid motions, pressed down.
+inline contact::Problem floating_problem(std::mt19937& random, int pairs, double most_friction) {
+  contact::Problem problem = held_problem(random, pairs, most_friction);
+  const int m = whole(random, 1, 3);
+  const Matrix G = block_motions(pairs, 2.0, uniform(random, 0.1, 1.0));
+  const double weight = uniform(random, 0.1, 2.0) * pairs;
+  const Eigen::Vector3d f(weight * problem.mu[0] * uniform(random, -1.2, 1.2), -weight, weight * uniform(random, -0.6, 0.6));
+  const std::vector<int> motions = m == 1 ? std::vector<int>{1} : m == 2 ? std::vector<int>{0, 1} : std::vector<int>{0, 1, 2};
+  problem.G = G(Eigen::all, motions);
+  problem.f = f(motions);
+  return problem;
+}
+
+/// Largest violation of Signorini's and Coulomb's conditions and of the balance of rigid motions, written out case by
+/// case, with W scaled so that its diagonal is about 1.
+inline double violation(const contact::Problem& problem, const Vector& p, const Vector& a) {
+  Vector motion = problem.q + problem.W * p;
+  if (a.size() > 0) motion += problem.G * a;
+  const double scale = std::max(p.size() > 0 ? p.cwiseAbs().maxCoeff() : 0.0,
+                                std::max(problem.q.cwiseAbs().maxCoeff(), 1e-300));
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    const double g = motion[2 * i], ds = motion[2 * i + 1], pn = p[2 * i], pt = p[2 * i + 1];
+    worst = std::max({worst, -g, -pn, std::min(std::abs(g), std::abs(pn))});
+    const double bound = problem.mu[i] * pn, to_bound = bound - std::abs(pt);
+    worst = std::max({worst, -to_bound, std::min(std::abs(ds), std::abs(to_bound))});
+    if (std::abs(ds) > 1e-7 * scale && std::abs(pt) > 1e-7 * scale && ds * pt > 0.0) worst = scale;  // friction opposes slip
+  }
+  if (a.size() > 0) worst = std::max(worst, (problem.G.transpose() * p + problem.f).cwiseAbs().maxCoeff());
+  return worst / scale;
+}
+
+}  // namespace scabo::test

@@ -1,0 +1,203 @@
+#include "scabo/contact/solve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+
+#include "scabo/contact/gauss_seidel.hpp"
+#include "unit/contact/problems.hpp"
+
+namespace scabo::contact {
+namespace {
+
+using namespace test;
+
+/// Every combination of open, stick and slip in either sense: the forces of those that meet all conditions.
+std::vector<Vector> trial_and_error(const Problem& problem) {
+  const int N = problem.pairs();
+  std::vector<Vector> solutions;
+  for (int combination = 0; combination < 1 << (2 * N); ++combination) {
+    Matrix A = Matrix::Identity(2 * N, 2 * N);  // rows: force zero, motion zero or slip at the bound
+    Vector b = Vector::Zero(2 * N);
+    for (int i = 0; i < N; ++i) {
+      const int state = combination >> (2 * i) & 3;  // 0 open, 1 stick, 2 slip with p_t = mu p_n, 3 with - mu p_n
+      if (state == 0) continue;
+      A.row(2 * i) = problem.W.row(2 * i);
+      b[2 * i] = -problem.q[2 * i];
+      if (state == 1) {
+        A.row(2 * i + 1) = problem.W.row(2 * i + 1);
+        b[2 * i + 1] = -problem.q[2 * i + 1];
+      } else {
+        A(2 * i + 1, 2 * i) = state == 2 ? -problem.mu[i] : problem.mu[i];
+      }
+    }
+    const Vector p = A.colPivHouseholderQr().solve(b);
+    if (violation(problem, p, Vector()) < 1e-10) solutions.push_back(p);
+  }
+  return solutions;
+}
+
+TEST(Solve, FindsWhatTrialAndErrorFinds) {
+  std::mt19937 random(31);
+  int unique = 0;
+  for (int k = 0; k < 120; ++k) {
+    const Problem problem = held_problem(random, 1 + k % 4 + (k % 12 == 0), 0.5);
+    const std::vector<Vector> expected = trial_and_error(problem);
+    ASSERT_FALSE(expected.empty()) << "problem " << k;
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::solved) << "problem " << k << ": " << solution.reason;
+    EXPECT_LT(solution.certificate.worst(), 1e-10);
+    double distance = HUGE_VAL;
+    for (const Vector& p : expected) distance = std::min(distance, (p - solution.p).cwiseAbs().maxCoeff());
+    EXPECT_LT(distance, 1e-9) << "problem " << k;
+    unique += expected.size() == 1;
+  }
+  EXPECT_GT(unique, 90);
+}
+
+TEST(Solve, AgreesWithGaussSeidel) {
+  std::mt19937 random(32);
+  for (int k = 0; k < 50; ++k) {
+    const Problem problem = held_problem(random, whole(random, 1, 8), 0.3);
+    const Vector p = gauss_seidel(problem, Vector::Zero(problem.q.size()), 20000);
+    if (violation(problem, p, Vector()) > 1e-9) continue;
+    EXPECT_LT((solve(problem).p - p).cwiseAbs().maxCoeff(), 1e-8) << "problem " << k;
+  }
+}
+
+TEST(Solve, StatesAndMotionsBelongToTheForces) {
+  std::mt19937 random(33);
+  for (int k = 0; k < 50; ++k) {
+    const Problem problem = held_problem(random, 10, 0.6);
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::solved);
+    const Vector motion = problem.q + problem.W * solution.p;
+    for (Eigen::Index i = 0; i < 10; ++i) {
+      EXPECT_EQ(solution.gap[i], motion[2 * i]);
+      EXPECT_EQ(solution.slip_increment[i], motion[2 * i + 1]);
+      const double pn = solution.p[2 * i], pt = solution.p[2 * i + 1], bound = problem.mu[i] * pn;
+      switch (solution.states[static_cast<std::size_t>(i)]) {
+        case ContactState::open: EXPECT_LT(pn, 1e-12); break;
+        case ContactState::stick:
+          EXPECT_GT(pn, 0.0);
+          EXPECT_LT(std::abs(solution.slip_increment[i]), 1e-9);
+          break;
+        case ContactState::slip:
+          EXPECT_GT(pn, 0.0);
+          EXPECT_NEAR(std::abs(pt), bound, 1e-9);
+          EXPECT_LE(pt * solution.slip_increment[i], 1e-12);
+          break;
+      }
+    }
+  }
+}
+
+TEST(Solve, ASolutionGivenAsTheStartNeedsNoIteration) {
+  std::mt19937 random(34);
+  for (int k = 0; k < 20; ++k) {
+    const Problem problem = floating_problem(random, 8, 0.4);
+    const Solution first = solve(problem);
+    if (first.status != Status::solved) continue;
+    const Solution again = solve(problem, {first.p, first.a});
+    EXPECT_EQ(again.status, Status::solved);
+    EXPECT_LE(again.iterations, 1);
+    EXPECT_LT((again.p - first.p).cwiseAbs().maxCoeff(), 1e-9 * first.p.cwiseAbs().maxCoeff());
+  }
+}
+
+TEST(Solve, TheAnswerDoesNotDependOnR) {
+  std::mt19937 random(35);
+  for (int k = 0; k < 20; ++k) {
+    const Problem problem = k % 2 == 0 ? held_problem(random, 12, 0.3) : floating_problem(random, 12, 0.3);
+    const Solution reference = solve(problem);
+    if (reference.status == Status::mechanism) continue;
+    ASSERT_EQ(reference.status, Status::solved);
+    for (double factor : {1e-3, 1e-2, 0.1, 10.0, 1e2, 1e3}) {
+      SolverOptions options;
+      options.r_factor = factor;
+      const Solution solution = solve(problem, {}, options);
+      EXPECT_EQ(solution.status, Status::solved) << "problem " << k << ", r times " << factor;
+      EXPECT_LT((solution.p - reference.p).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + reference.p.cwiseAbs().maxCoeff()))
+          << "problem " << k << ", r times " << factor;
+    }
+  }
+}
+
+TEST(Solve, UnitsChangeNeitherTheAnswerNorTheIterations) {
+  std::mt19937 random(36);
+  for (int k = 0; k < 60; ++k) {
+    const Problem problem = k % 2 == 0 ? held_problem(random, 15, 0.8) : floating_problem(random, 15, 0.8);
+    const Solution reference = solve(problem);
+    for (const auto& [flexibility, force] : {std::pair(1e9, 1e-3), std::pair(1e-10, 1e5), std::pair(1.0, 1e6), std::pair(1e-6, 1.0)}) {
+      Problem other = problem;  // motions are flexibility times force
+      other.W *= flexibility;
+      other.q *= flexibility * force;
+      other.f *= force;
+      const Solution solution = solve(other);
+      EXPECT_EQ(solution.status, reference.status);
+      EXPECT_EQ(solution.iterations, reference.iterations) << "problem " << k << ", " << flexibility << ", " << force;
+      EXPECT_LT((solution.p / force - reference.p).cwiseAbs().maxCoeff(), 1e-9 * (1.0 + reference.p.cwiseAbs().maxCoeff()));
+    }
+  }
+}
+
+// A and B swapped: n and t both turn round, so gaps, slips and the forces [p_n, p_t] stay as they are, and so does W; a
+// mirror image turns only t.
+TEST(Solve, AMirrorImageHasTheMirroredForces) {
+  std::mt19937 random(37);
+  for (int k = 0; k < 20; ++k) {
+    const Problem problem = k % 2 == 0 ? held_problem(random, 9, 0.4) : floating_problem(random, 9, 0.4);
+    Vector sign(18);
+    for (int i = 0; i < 18; ++i) sign[i] = i % 2 == 0 ? 1.0 : -1.0;
+    Problem mirrored = problem;
+    mirrored.W = sign.asDiagonal() * problem.W * sign.asDiagonal();
+    mirrored.q = sign.asDiagonal() * problem.q;
+    mirrored.G = sign.asDiagonal() * problem.G;
+    const Solution first = solve(problem), second = solve(mirrored);
+    EXPECT_EQ(first.status, second.status);
+    EXPECT_EQ(first.iterations, second.iterations);
+    EXPECT_LT((Vector(sign.asDiagonal() * second.p) - first.p).cwiseAbs().maxCoeff(), 1e-10 * (1.0 + first.p.cwiseAbs().maxCoeff()));
+  }
+}
+
+TEST(Solve, NothingInContactNoForces) {
+  std::mt19937 random(38);
+  Problem problem = held_problem(random, 6, 0.5);
+  problem.q = Vector::Ones(12);
+  Solution solution = solve(problem);
+  EXPECT_EQ(solution.status, Status::solved);
+  EXPECT_EQ(solution.p, Vector(Vector::Zero(12)));
+  EXPECT_EQ(solution.iterations, 0);
+  problem.q.setZero();  // touching at zero force
+  solution = solve(problem);
+  EXPECT_EQ(solution.status, Status::solved);
+  EXPECT_EQ(solution.p, Vector(Vector::Zero(12)));
+  for (ContactState state : solution.states) EXPECT_EQ(state, ContactState::open);
+
+  Problem none;  // no pairs at all
+  none.W.resize(0, 0), none.q.resize(0), none.mu.resize(0), none.G.resize(0, 0), none.f.resize(0);
+  EXPECT_EQ(solve(none).status, Status::solved);
+}
+
+TEST(Certificate, SeesEveryViolation) {
+  Problem problem;
+  problem.W = Matrix::Identity(2, 2);
+  problem.q = Eigen::Vector2d(-1.0, 0.3);
+  problem.mu = Vector::Constant(1, 0.5);
+  problem.G.resize(2, 0);
+  const Scales scales;
+  const auto certificate = [&](double pn, double pt) { return certify(problem, Eigen::Vector2d(pn, pt), Vector(), scales); };
+  EXPECT_EQ(certificate(1.0, -0.3).worst(), 0.0);                       // sticks
+  EXPECT_DOUBLE_EQ(certificate(0.75, 0.0).penetration, 0.25);
+  EXPECT_DOUBLE_EQ(certificate(-0.1, 0.0).tension, 0.1);
+  EXPECT_DOUBLE_EQ(certificate(1.0, -0.8).friction_excess, 0.3);
+  EXPECT_DOUBLE_EQ(certificate(2.0, 0.0).complementarity, 2.0);
+  EXPECT_DOUBLE_EQ(certificate(1.0, 0.0).slip_direction, 0.5 * 0.3);    // slips below the bound
+  EXPECT_DOUBLE_EQ(certificate(1.0, 0.5).slip_direction, 0.5 * 0.8);    // friction pushes along
+  problem.G = Matrix::Identity(2, 1);
+  problem.f = Vector::Constant(1, -1.25);
+  EXPECT_DOUBLE_EQ(certify(problem, Eigen::Vector2d(1.0, -0.3), Vector::Zero(1), scales).rigid_balance, 0.25);
+}
+
+}  // namespace
+}  // namespace scabo::contact

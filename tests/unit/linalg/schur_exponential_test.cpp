@@ -1,0 +1,114 @@
+#include "scabo/linalg/schur_exponential.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace scabo::linalg {
+namespace {
+
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// psi(s) for psi' = T psi - e^(2s) w by the dense exponential of [[T, -w], [0, 2]], in long double.
+Vector oracle(const Matrix& T, const Vector& c, const Vector& w, double s) {
+  const Eigen::Index n = T.rows();
+  LongMatrix augmented = LongMatrix::Zero(n + 1, n + 1);
+  augmented.topLeftCorner(n, n) = T.cast<long double>();
+  augmented.topRightCorner(n, 1) = -w.cast<long double>();
+  augmented(n, n) = 2.0L;
+  const LongMatrix exponential = (augmented * static_cast<long double>(s)).exp();
+  return (exponential.topLeftCorner(n, n) * c.cast<long double>() + exponential.topRightCorner(n, 1)).cast<double>();
+}
+
+void expect_agrees(const Matrix& S, double tolerance) {
+  const SchurExponential schur(S);
+  const Eigen::Index n = S.rows();
+  EXPECT_LT((schur.U() * schur.T() * schur.U().transpose() - S).norm(), 1e-13 * S.norm());
+  EXPECT_LT((schur.U() * schur.U().transpose() - Matrix::Identity(n, n)).norm(), 1e-13);
+  ASSERT_EQ(static_cast<Eigen::Index>(schur.eigenvalues().size()), n);
+  std::complex<double> trace = 0.0;
+  for (const auto& eigenvalue : schur.eigenvalues()) trace += eigenvalue;
+  EXPECT_NEAR(trace.real(), S.trace(), 1e-12 * S.norm());
+  EXPECT_EQ(trace.imag(), 0.0);
+
+  const Vector c = Vector::LinSpaced(n, -1.0, 2.0), w = Vector::LinSpaced(n, 1.0, -0.5);
+  for (const Vector& load : {Vector(Vector::Zero(n)), w})
+    for (double s : {0.0, -1e-3, -0.1, -0.7, -2.3, -6.9}) {
+      const Vector expected = oracle(schur.T(), c, load, s), psi = schur.propagate(c, load, s);
+      EXPECT_LT((psi - expected).norm(), tolerance * (c.norm() + load.norm())) << "s = " << s;
+    }
+}
+
+TEST(SchurExponential, DefectiveEigenvalue) {
+  Matrix S(2, 2);
+  S << 1.0, 1.0, 0.0, 1.0;  // exp(S s) = e^s [[1, s], [0, 1]]
+  expect_agrees(S, 1e-13);
+  const SchurExponential schur(S);
+  const double s = -1.5;
+  const Vector psi = schur.U() * schur.propagate(schur.U().transpose() * Vector(Eigen::Vector2d(0, 1)), Vector::Zero(2), s);
+  EXPECT_NEAR(psi[0], std::exp(s) * s, 1e-14);
+  EXPECT_NEAR(psi[1], std::exp(s), 1e-14);
+}
+
+TEST(SchurExponential, NearlyDefectiveAndRepeated) {
+  Matrix S(4, 4);
+  S << 1.0, 1.0, 0.0, 0.0, 1e-12, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0;
+  expect_agrees(S, 1e-13);
+  expect_agrees(Matrix::Identity(5, 5), 1e-13);
+}
+
+TEST(SchurExponential, ComplexPairsWithinTheSector) {
+  Matrix S(4, 4);  // 2 +- 2i and 1 +- 0.5i, coupled
+  S << 2.0, -2.0, 0.3, 0.1, 2.0, 2.0, -0.4, 0.2, 0.0, 0.0, 1.0, -0.25, 0.0, 0.0, 1.0, 1.0;
+  expect_agrees(S, 1e-13);
+  const auto& eigenvalues = SchurExponential(S).eigenvalues();
+  double largest = 0.0;
+  for (const auto& value : eigenvalues) largest = std::max(largest, value.imag());
+  EXPECT_NEAR(largest, 2.0, 1e-13);
+}
+
+TEST(SchurExponential, OutsideTheSectorByTheDenseExponential) {
+  Matrix S(3, 3);  // 1 +- 5i: 79 degrees
+  S << 1.0, -5.0, 0.3, 5.0, 1.0, -0.2, 0.0, 0.0, 3.0;
+  expect_agrees(S, 1e-13);
+}
+
+TEST(SchurExponential, RandomMatricesFarFromNormal) {
+  std::mt19937 random(12);
+  std::normal_distribution<double> entry;
+  for (int n : {1, 2, 3, 8, 30}) {
+    Matrix S = Matrix::NullaryExpr(n, n, [&] { return entry(random); });
+    S = S * 0.2 + Matrix(Vector::LinSpaced(n, 1.0, 3.0 + n).asDiagonal());
+    S.triangularView<Eigen::StrictlyUpper>() *= 5.0;
+    expect_agrees(S, 1e-11);
+  }
+}
+
+// Exponents of a finely divided boundary reach thousands: what has decayed is zero, not noise.
+TEST(SchurExponential, FastModesVanish) {
+  const Vector exponents = (Vector(5) << 1.0, 2.0, 50.0, 1e3, 1e4).finished();
+  const SchurExponential schur(Matrix(exponents.asDiagonal()));
+  const Vector c = Vector::Ones(5), psi = schur.propagate(c, Vector::Zero(5), -1.0);
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < 5; ++i)  // the Schur form may have reordered them
+    worst = std::max(worst, std::abs(psi[i] - std::exp(-schur.T()(i, i))));
+  EXPECT_LT(worst, 1e-13);
+}
+
+// The exponent of the body force, 2, may be an exponent of S too: psi = e^(2s) (c - s w).
+TEST(SchurExponential, ResonanceWithTheBodyForce) {
+  Matrix S = Matrix::Constant(1, 1, 2.0);
+  const SchurExponential schur(S);
+  const Vector c = Vector::Constant(1, 0.3), w = Vector::Constant(1, 0.7);
+  for (double s : {-0.01, -1.0, -5.0})
+    EXPECT_NEAR(schur.propagate(c, w, s)[0], std::exp(2 * s) * (0.3 - s * 0.7), 1e-14);
+}
+
+TEST(SchurExponential, OfNothing) {
+  EXPECT_EQ(SchurExponential(Matrix(0, 0)).propagate(Vector(), Vector(), -1.0).size(), 0);
+}
+
+}  // namespace
+}  // namespace scabo::linalg

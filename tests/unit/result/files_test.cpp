@@ -1,0 +1,107 @@
+#include "scabo/result/files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "unit/result/solutions.hpp"
+
+namespace scabo::result {
+namespace {
+
+using namespace scabo::test;
+using testing::HasSubstr;
+
+template <typename Function>
+std::string write_error(Function function) {
+  try {
+    function();
+  } catch (const WriteError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// While it lives no file of this process may grow beyond `bytes`: a full disk.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Files, AFullDiskIsNamedWithTheFile) {
+  const std::string message = write_error([] { GrowingFile("/dev/full").append("data"); });
+  EXPECT_EQ(message, "cannot write /dev/full: No space left on device");
+  EXPECT_EQ(write_error([] { write_file("/dev/full", "data"); }), message);
+  EXPECT_TRUE(std::filesystem::exists("/dev/full"));
+}
+
+TEST(Files, AMissingDirectoryIsNamedWithTheFile) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "gone" / "file";
+  EXPECT_EQ(write_error([&] { write_file(file, "data"); }),
+            "cannot write " + file.string() + ": No such file or directory");
+}
+
+TEST(Files, NothingIsLeftOfAFileThatDoesNotFit) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "file";
+  const SmallDisk disk(1000);
+  EXPECT_THAT(write_error([&] { write_file(file, std::string(1500, 'x')); }), HasSubstr(file.string()));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(Files, ReplacingKeepsTheOldContentWhenItFails) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "file";
+  replace_file(file, "old");
+  {
+    const SmallDisk disk(1000);
+    EXPECT_THAT(write_error([&] { replace_file(file, std::string(1500, 'x')); }), HasSubstr("cannot write"));
+  }
+  EXPECT_EQ(content_of(file), "old");
+  replace_file(file, "new");
+  EXPECT_EQ(content_of(file), "new");
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "file.part"));
+}
+
+TEST(GrowingFile, IsCompleteAfterEveryWrite) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "file";
+  GrowingFile file(path);
+  file.append_before_footer("begin ", "end");
+  EXPECT_EQ(content_of(path), "begin end");
+  file.append_before_footer("a ", "end");
+  file.append_before_footer("b ", "end");
+  EXPECT_EQ(content_of(path), "begin a b end");
+}
+
+TEST(GrowingFile, KeepsWhatItHadWhenAWriteFails) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "file";
+  GrowingFile file(path);
+  file.append_before_footer(std::string(900, 'a'), "end");
+  {
+    const SmallDisk disk(1000);
+    EXPECT_THAT(write_error([&] { file.append_before_footer(std::string(500, 'b'), "end"); }),
+                HasSubstr(path.string()));
+  }
+  EXPECT_EQ(content_of(path), std::string(900, 'a') + "end");
+  file.append_before_footer("c", "end");
+  EXPECT_EQ(content_of(path), std::string(900, 'a') + "cend");
+}
+
+}  // namespace
+}  // namespace scabo::result

@@ -1,0 +1,169 @@
+"""Reads what `result_sample` wrote back: with meshio, and with VTK's own readers, which ParaView uses, where VTK is
+installed. Usage: read_vtu_test.py RESULT_SAMPLE"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import meshio
+import numpy as np
+
+try:
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError:
+    vtk = None
+
+YOUNG, POISSON = 2.0e9, 0.3  # plane strain
+GRADIENT = np.array([[1.1e-3, -0.4e-3], [0.7e-3, -0.9e-3]])
+SHIFT = np.array([0.002, -0.001])
+COMPONENTS = {"displacement": 3, "stress": 6, "stress_xx": 1, "stress_yy": 1, "stress_xy": 1, "stress_zz": 1,
+              "principal_1": 1, "principal_2": 1, "principal_3": 1, "principal_angle": 1, "von_mises": 1, "body": 1}
+SINGLE = 3e-7  # relative precision of stresses
+SAMPLE = None
+
+
+def uniform_stress(gradient):
+    """3 x 3, by Hooke's law."""
+    strain = np.zeros((3, 3))
+    strain[:2, :2] = 0.5 * (gradient + gradient.T)
+    shear = YOUNG / (2 * (1 + POISSON))
+    lame = YOUNG * POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
+    return lame * np.trace(strain) * np.eye(3) + 2 * shear * strain
+
+
+class Fields(unittest.TestCase):
+    """Checks of numbers, however the file was read: `points`, `data` by name, `cell_bodies`."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory(prefix="scabo_test_")
+        cls.directory = pathlib.Path(cls.holder.name) / "out"
+        subprocess.run([SAMPLE, cls.directory], check=True, timeout=60)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def check_values(self, points, data, factor):
+        self.assertEqual(set(data), set(COMPONENTS))
+        for name, values in data.items():
+            self.assertEqual(values.size, COMPONENTS[name] * len(points), name)
+            self.assertTrue(np.all(np.isfinite(values)), name)
+        self.assertEqual(points.dtype, np.float64)
+        self.assertTrue(np.all(points[:, 2] == 0))
+        body = data["body"].ravel()
+        self.assertEqual(sorted(set(body)), [1, 2, 3])
+        elastic = body < 3
+
+        expected = points[elastic, :2] @ (factor * GRADIENT).T + SHIFT
+        displacement = data["displacement"]
+        self.assertEqual(displacement.dtype, np.float64)
+        np.testing.assert_allclose(displacement[elastic, :2], expected, rtol=0, atol=1e-12)
+        arms = points[~elastic, :2] - [9.0, 0.0]
+        turned = factor * (np.array([0.01, -0.02]) + 0.003 * np.column_stack([-arms[:, 1], arms[:, 0]]))
+        np.testing.assert_allclose(displacement[~elastic, :2], turned, rtol=0, atol=1e-14)
+
+        stress = uniform_stress(factor * GRADIENT)
+        tolerance = SINGLE * np.abs(stress).max()
+
+        def check(values, number):
+            np.testing.assert_allclose(values[elastic], number, rtol=0, atol=tolerance)
+            self.assertTrue(np.all(values[~elastic] == 0))
+
+        for column, (i, j) in enumerate([(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]):
+            check(data["stress"][:, column], stress[i, j])
+        for name, (i, j) in {"xx": (0, 0), "yy": (1, 1), "xy": (0, 1), "zz": (2, 2)}.items():
+            check(data[f"stress_{name}"].ravel(), stress[i, j])
+        principal = np.linalg.eigvalsh(stress)[::-1]
+        for i in range(3):
+            check(data[f"principal_{i + 1}"].ravel(), principal[i])
+        deviator = stress - np.trace(stress) / 3 * np.eye(3)
+        check(data["von_mises"].ravel(), np.sqrt(1.5 * np.sum(deviator**2)))
+        angle = data["principal_angle"].ravel()[elastic]
+        direction = np.column_stack([np.cos(angle), np.sin(angle)])
+        along = np.einsum("ni,ij,nj->n", direction, stress[:2, :2], direction)
+        np.testing.assert_allclose(along, np.linalg.eigvalsh(stress[:2, :2])[1], rtol=0, atol=tolerance)
+
+
+class WithMeshio(Fields):
+    def test_values(self):
+        for number in (1, 2):
+            mesh = meshio.read(self.directory / f"fields_{number:04d}.vtu")
+            self.check_values(mesh.points, mesh.point_data, number)
+
+    def test_cells(self):
+        mesh = meshio.read(self.directory / "fields_0001.vtu")
+        self.assertEqual([block.type for block in mesh.cells], ["quad", "triangle", "quad8", "polygon"])
+        for block, body in zip(mesh.cells, mesh.cell_data["body"]):
+            corners = mesh.points[block.data[:, :4] if block.type == "quad8" else block.data][:, :, :2]
+            after = np.roll(corners, -1, axis=1)
+            areas = 0.5 * np.sum(corners[..., 0] * after[..., 1] - corners[..., 1] * after[..., 0], axis=1)
+            self.assertTrue(np.all(areas > 0), block.type)
+            self.assertTrue(np.all(body == {"quad8": 2, "polygon": 3}.get(block.type, 1)))
+            self.assertTrue(np.all(mesh.point_data["body"][block.data].reshape(len(body), -1) == body.reshape(-1, 1)))
+
+    def test_collection(self):
+        root = xml.etree.ElementTree.parse(self.directory / "fields.pvd").getroot()
+        self.assertEqual(root.get("type"), "Collection")
+        self.assertEqual([(float(entry.get("timestep")), entry.get("file")) for entry in root.iter("DataSet")],
+                         [(0.25, "fields_0001.vtu"), (0.5, "fields_0002.vtu")])
+
+
+@unittest.skipIf(vtk is None, "VTK for Python is not installed")
+class WithVtk(Fields):
+    def read(self, number):
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        name = str(self.directory / f"fields_{number:04d}.vtu")
+        self.assertEqual(reader.CanReadFile(name), 1)
+        complaints = []
+        for event in ("ErrorEvent", "WarningEvent"):
+            reader.AddObserver(event, lambda *_: complaints.append(event))
+        reader.SetFileName(name)
+        reader.Update()
+        self.assertEqual(complaints, [])
+        self.assertEqual(reader.GetErrorCode(), 0)
+        return reader.GetOutput()
+
+    def test_values(self):
+        for number in (1, 2):
+            grid = self.read(number)
+            fields = grid.GetPointData()
+            data = {fields.GetArrayName(i): vtk_to_numpy(fields.GetArray(i)) for i in range(fields.GetNumberOfArrays())}
+            self.check_values(vtk_to_numpy(grid.GetPoints().GetData()), data, number)
+
+    def test_names(self):
+        fields = self.read(1).GetPointData()
+        self.assertEqual(fields.GetScalars().GetName(), "principal_1")
+        self.assertEqual(fields.GetVectors().GetName(), "displacement")
+        stress = fields.GetArray("stress")
+        self.assertEqual([stress.GetComponentName(i) for i in range(6)], ["XX", "YY", "ZZ", "XY", "YZ", "XZ"])
+
+    def test_cells_are_valid(self):
+        grid = self.read(1)
+        validator = vtk.vtkCellValidator()
+        validator.SetInputData(grid)
+        validator.Update()
+        state = vtk_to_numpy(validator.GetOutput().GetCellData().GetArray("ValidityState"))
+        self.assertTrue(np.all(state == 0), np.unique(state))
+        size = vtk.vtkCellSizeFilter()
+        size.SetInputData(grid)
+        size.Update()
+        area = vtk_to_numpy(size.GetOutput().GetCellData().GetArray("Area"))
+        self.assertTrue(np.all(area > 0))
+        body = vtk_to_numpy(grid.GetCellData().GetArray("body"))
+        vertices = np.array([[0.1, 0.0], [2.3, 0.4], [2.9, 1.7], [1.2, 2.6], [-0.4, 1.1]])
+        after = np.roll(vertices, -1, axis=0)
+        pentagon = 0.5 * np.sum(vertices[:, 0] * after[:, 1] - vertices[:, 1] * after[:, 0])
+        for number, expected, tolerance in ((1, pentagon, 1e-12), (2, 0.5, 1e-12), (3, np.pi * 0.25, 1e-3)):
+            self.assertAlmostEqual(area[body == number].sum() / expected, 1.0, delta=tolerance)
+
+
+del Fields  # only what reads a file is a test
+
+
+if __name__ == "__main__":
+    SAMPLE = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,153 @@
+#include "scabo/result/recovery.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "unit/result/solutions.hpp"
+
+namespace scabo::result {
+namespace {
+
+using namespace scabo::test;
+
+const Mat2 gradient = (Mat2() << 1.1e-3, -0.4e-3, 0.7e-3, -0.9e-3).finished();
+
+Vec2 point_of(const Grid& grid, std::size_t i) { return {grid.points[3 * i], grid.points[3 * i + 1]}; }
+
+void expect_linear_field(const analysis::StaticSolution& solution, double tolerance) {
+  const Recovery recovery(solution);
+  const Grid& grid = recovery.grid();
+  const Field field = linear_field(gradient);
+  const Fields fields = recovery.fields(solution, increment_of(solution, field));
+  const UniformStress expected = stress_of(gradient, solution.model.analysis.plane);
+  const double scale = expected.in_plane.cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < grid.point_count(); ++i) {
+    const Vec2 u(fields.displacement[3 * i], fields.displacement[3 * i + 1]);
+    EXPECT_LT((u - field(point_of(grid, i))).norm(), 1e-12) << "point " << i;
+    EXPECT_NEAR(fields.stress_xx[i], expected.in_plane[0], tolerance * scale) << "point " << i;
+    EXPECT_NEAR(fields.stress_yy[i], expected.in_plane[1], tolerance * scale) << "point " << i;
+    EXPECT_NEAR(fields.stress_xy[i], expected.in_plane[2], tolerance * scale) << "point " << i;
+    EXPECT_NEAR(fields.stress_zz[i], expected.zz, tolerance * scale) << "point " << i;
+    const float tensor[] = {
+        fields.stress_xx[i], fields.stress_yy[i], fields.stress_zz[i], fields.stress_xy[i], 0, 0};
+    for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(fields.stress[6 * i + c], tensor[c]);
+  }
+}
+
+constexpr double single_precision = 2e-7;
+
+TEST(Recovery, LinearFieldIsExactInADistortedPolygon) {
+  for (const model::Plane plane : {model::Plane::stress, model::Plane::strain})
+    for (const int order : {1, 2, 3, 5})
+      expect_linear_field(solution_of(model_of({elastic("body", pentagon(), 0.7, order)}, plane)),
+                          single_precision);
+}
+
+TEST(Recovery, LinearFieldIsExactInFiniteElements) {
+  for (const model::Plane plane : {model::Plane::stress, model::Plane::strain})
+    expect_linear_field(solution_of(model_of({finite_elements("body", {1.0, -2.0}, {3.0, 1.0}, 0.4)}, plane)),
+                        single_precision);
+}
+
+TEST(Recovery, RigidMotionCarriesNoStress) {
+  const auto solution =
+      solution_of(model_of({elastic("a", pentagon(), 0.5), finite_elements("b", {5.0, 0.0}, {1.0, 1.0}, 0.5)},
+                           model::Plane::strain));
+  const Field turn = [](const Vec2& x) { return Vec2(0.3 - 0.01 * x.y(), -0.2 + 0.01 * x.x()); };
+  const Recovery recovery(solution);
+  const Fields fields = recovery.fields(solution, increment_of(solution, turn));
+  for (const float value : fields.von_mises) EXPECT_LT(value, 1e-8 * (0.01 * young));
+}
+
+// Hanging under its own weight without lateral contraction: s_yy = rho g y, u_y = rho g y^2 / 2 E.
+TEST(Recovery, BodyForceIsPartOfTheInterior) {
+  const double weight = 9.81 * density;
+  auto solution = solution_of(model_of({elastic("a", pentagon(), 0.7, 2)}, model::Plane::stress, 0.0));
+  auto increment = increment_of(
+      solution, [&](const Vec2& x) { return Vec2(0.0, weight * x.y() * x.y() / (2.0 * young)); });
+  increment.body_forces[0] = {0.0, -weight};
+  const Recovery recovery(solution);
+  const Fields fields = recovery.fields(solution, increment);
+  for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {
+    const double y = recovery.grid().points[3 * i + 1];
+    EXPECT_NEAR(fields.stress_yy[i], weight * y, 1e-6 * weight);
+    EXPECT_NEAR(fields.stress_xx[i], 0.0, 1e-6 * weight);
+    EXPECT_NEAR(fields.displacement[3 * i + 1], weight * y * y / (2.0 * young), 1e-14);
+  }
+}
+
+TEST(Recovery, FirstPointsAreTheNodesAndTheLastIsTheCentre) {
+  const auto solution =
+      solution_of(model_of({finite_elements("a", {0.0, 0.0}, {1.0, 1.0}, 0.5), elastic("b", pentagon(), 0.7)},
+                           model::Plane::stress));
+  const Recovery recovery(solution);
+  const Grid& grid = recovery.grid();
+  for (std::size_t b = 0; b < 2; ++b)
+    for (std::size_t i = 0; i < solution.mesh.bodies[b].nodes.size(); ++i)
+      EXPECT_EQ(point_of(grid, grid.first_point[b] + i), solution.mesh.bodies[b].nodes[i]);
+  EXPECT_EQ(point_of(grid, grid.point_count() - 1), solution.mesh.bodies[1].super_elements[0].centre);
+  EXPECT_EQ(grid.point_body.front(), 1);
+  EXPECT_EQ(grid.point_body.back(), 2);
+  EXPECT_EQ(grid.first_point.back(), grid.point_count());
+}
+
+TEST(Recovery, CellsCoverTheBodyOnce) {
+  const model::Body body = elastic("body", pentagon(), 0.6, 3);
+  const double area = body.outline.area();
+  const auto solution = solution_of(model_of({body}, model::Plane::stress));
+  const Recovery recovery(solution);
+  const Grid& grid = recovery.grid();
+  double sum = 0.0;
+  for (std::size_t cell = 0, begin = 0; cell < grid.cell_count(); ++cell) {
+    const auto end = static_cast<std::size_t>(grid.offsets[cell]);
+    double twice = 0.0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t next = k + 1 < end ? k + 1 : begin;
+      twice += cross(point_of(grid, static_cast<std::size_t>(grid.connectivity[k])),
+                     point_of(grid, static_cast<std::size_t>(grid.connectivity[next])));
+    }
+    EXPECT_GT(twice, 0.0) << "cell " << cell;
+    sum += 0.5 * twice;
+    begin = end;
+  }
+  EXPECT_NEAR(sum, area, 1e-12 * area);
+}
+
+TEST(Recovery, RingsAreNarrowAtTheBoundary) {
+  for (const double size : {2.0, 0.3, 0.02}) {
+    const mesh::Mesh mesh =
+        mesh::make_mesh(model_of({elastic("body", pentagon(), size, 1)}, model::Plane::stress));
+    const std::vector<double> levels =
+        ring_levels(element::ring_of(mesh.bodies[0].super_elements[0], mesh.bodies[0].nodes));
+    EXPECT_EQ(levels.front(), 1.0);
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+      EXPECT_GT(levels[i], levels[i + 1]);
+      const double further = i + 2 < levels.size() ? levels[i + 2] : 0.0;
+      EXPECT_LE(levels[i] - levels[i + 1], (levels[i + 1] - further) * (1.0 + 1e-9));
+    }
+    EXPECT_GT(levels.back(), 0.05);
+  }
+}
+
+TEST(Recovery, RigidBodyIsItsMovedOutline) {
+  const model::Outline disc =
+      outline({arc("lower", {1.0, 2.0}, 0.5, pi, pi), arc("upper", {1.0, 2.0}, 0.5, 0.0, pi)});
+  const auto solution = solution_of(model_of({rigid("punch", disc)}, model::Plane::strain));
+  const Recovery recovery(solution);
+  const Grid& grid = recovery.grid();
+  const Fields fields =
+      recovery.fields(solution, increment_of(solution, linear_field(gradient), {0.01, -0.02, 0.003}));
+  EXPECT_EQ(grid.cell_count(), 1U);
+  EXPECT_EQ(grid.point_count(), 120U);
+  for (std::size_t i = 0; i < grid.point_count(); ++i) {
+    const Vec2 arm = point_of(grid, i) - Vec2(1.0, 2.0);
+    EXPECT_NEAR(arm.norm(), 0.5, 1e-15);
+    EXPECT_NEAR(fields.displacement[3 * i], 0.01 - 0.003 * arm.y(), 1e-15);
+    EXPECT_NEAR(fields.displacement[3 * i + 1], -0.02 + 0.003 * arm.x(), 1e-15);
+    EXPECT_EQ(fields.von_mises[i], 0.0F);
+  }
+}
+
+}  // namespace
+}  // namespace scabo::result

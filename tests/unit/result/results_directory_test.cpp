@@ -1,0 +1,322 @@
+#include "scabo/result/results_directory.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "scabo/result/contact_table.hpp"
+#include "scabo/result/report.hpp"
+#include "scabo/result/summary.hpp"
+#include "unit/result/solutions.hpp"
+
+namespace scabo::result {
+namespace {
+
+using namespace scabo::test;
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+const Mat2 gradient = (Mat2() << 1e-4, 0.0, 0.0, -2e-4).finished();
+
+analysis::ContactResult contact_result() {
+  analysis::ContactResult contact;
+  contact.name = "joint, left";
+  analysis::PairResult open, slip;
+  open.pair = 1;
+  open.position = {0.1, 1.0};
+  open.gap = 1e-4;
+  open.state = contact::ContactState::open;
+  slip.pair = 2;
+  slip.position = {0.2, 1.0};
+  slip.slip = -0.3;
+  slip.normal_force = 100.0;
+  slip.tangential_force = 1.0 / 3.0;
+  slip.pressure = 4e5;
+  slip.shear = -2.5;
+  slip.state = contact::ContactState::slip;
+  slip.displacement_a = {1.5, 2.5};
+  slip.displacement_b = {3.5, 4.5};
+  contact.pairs = {open, slip};
+  contact.normal_force = 100.0;
+  contact.tangential_force = 1.0 / 3.0;
+  contact.open = contact.slip = 1;
+  contact.max_gap = 1e-4;
+  contact.max_pressure = 4e5;
+  contact.first_in_contact = contact.last_in_contact = 2;
+  return contact;
+}
+
+analysis::StaticSolution two_bodies() {
+  auto model = model_of({elastic("upper", rectangle({0.0, 1.0}, {1.0, 1.0}), 0.5),
+                         finite_elements("lower", {0.0, 0.0}, {1.0, 1.0}, 0.5)},
+                        model::Plane::stress);
+  model.supports.resize(2);
+  model.supports[0].name = "lower.bottom";
+  model.supports[1].name = "upper.top";
+  return solution_of(model);
+}
+
+analysis::IncrementResult increment_number(const analysis::StaticSolution& solution, int number) {
+  auto increment = increment_of(solution, linear_field(gradient));
+  increment.increment = number;
+  increment.factors = {{"tip", 0.25 * number}};
+  increment.newton_iterations = 3;
+  increment.residual = 1e-15;
+  increment.contacts = {contact_result()};
+  increment.reactions = {{1.0, -2.0}, {0.1, 0.2}};
+  increment.certificate.penetration = 3e-13;
+  increment.energy = {5.0, 4.0, 1.0};
+  return increment;
+}
+
+std::vector<std::string> names_in(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path))
+    names.push_back(entry.path().filename().string());
+  return names;
+}
+
+std::vector<std::string> keys_of(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  return keys;
+}
+
+/// A run of two converged increments and one that is not.
+class FinishedRun {
+ public:
+  explicit FinishedRun(const std::filesystem::path& path)
+      : solution(two_bodies()), directory(path, solution.model) {
+    for (const int number : {1, 2}) add(increment_number(solution, number));
+    analysis::IncrementResult failed;
+    failed.step = 1;
+    failed.step_name = "press";
+    failed.increment = 3;
+    failed.residual = std::numeric_limits<double>::quiet_NaN();
+    failed.newton_iterations = 50;
+    failed.reason = "the line search found no descent";
+    add(failed);
+    solution.outcome = analysis::Outcome::not_converged;
+    solution.reason = "step press, increment 3: the line search found no descent";
+    solution.warnings = {"a first warning"};
+    solution.timing.total = 1.25;
+    directory.finish(solution);
+  }
+
+  analysis::StaticSolution solution;
+  ResultsDirectory directory;
+
+ private:
+  void add(analysis::IncrementResult increment) {
+    solution.increments.push_back(std::move(increment));
+    directory.add(solution, solution.increments.back());
+  }
+};
+
+class Results : public testing::Test {
+ protected:
+  TemporaryDirectory holder_;
+  std::filesystem::path path_ = holder_.path() / "deep" / "out";
+};
+
+TEST_F(Results, FilesOfARun) {
+  const FinishedRun run(path_);
+  EXPECT_THAT(names_in(path_), UnorderedElementsAre("summary.json", "contact.csv", "fields.pvd",
+                                                    "fields_0001.vtu", "fields_0002.vtu", "log.txt"));
+  EXPECT_GT(run.directory.recover_seconds(), 0.0);
+  EXPECT_GT(run.directory.write_seconds(), 0.0);
+}
+
+TEST_F(Results, ContactTable) {
+  const FinishedRun run(path_);
+  const std::string rows =
+      "1,1,\"joint, left\",1,0.1,1,0.0001,0,0,0,0,0,open,0,0,0,0\n"
+      "1,1,\"joint, left\",2,0.2,1,0,-0.3,100,0.3333333333333333,400000,-2.5,slip,1.5,2.5,3.5,4.5\n";
+  std::string second = rows;
+  for (std::size_t at = 0; (at = second.find("1,1,\"", at)) != std::string::npos; ++at) second[at + 2] = '2';
+  EXPECT_EQ(
+      content_of(path_ / "contact.csv"),
+      "step,increment,contact,pair,x,y,gap,slip,normal_force,tangential_force,pressure,shear,state,"
+      "normal_displacement_a,tangential_displacement_a,normal_displacement_b,tangential_displacement_b\n" +
+          rows + second);
+}
+
+TEST_F(Results, SummaryHasTheDocumentedKeys) {
+  const FinishedRun run(path_);
+  const Json summary = Json::parse(content_of(path_ / "summary.json"));
+  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "model",
+                                            "increments", "timing", "peak_memory_bytes"));
+  EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs"));
+  EXPECT_THAT(keys_of(summary["timing"]),
+              ElementsAre("read", "mesh", "super_elements", "assemble", "factorise", "condense", "newton",
+                          "recover", "write", "total"));
+  const Json& increment = summary["increments"][0];
+  EXPECT_THAT(keys_of(increment),
+              ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "residual",
+                          "contacts", "reactions", "certificate", "energy"));
+  EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
+              ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap",
+                          "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));
+  EXPECT_THAT(keys_of(increment["certificate"]),
+              ElementsAre("equilibrium", "penetration", "tension", "friction_excess", "complementarity",
+                          "slip_direction", "rigid_balance"));
+  EXPECT_THAT(keys_of(increment["energy"]), ElementsAre("external", "elastic", "friction"));
+}
+
+TEST_F(Results, SummaryValues) {
+  const FinishedRun run(path_);
+  const Json summary = Json::parse(content_of(path_ / "summary.json"));
+  EXPECT_EQ(summary["status"], "not_converged");
+  EXPECT_EQ(summary["reason"], "step press, increment 3: the line search found no descent");
+  EXPECT_EQ(summary["warnings"], Json::array({"a first warning"}));
+  EXPECT_EQ(summary["model"]["nodes"], 16 + 21);
+  EXPECT_EQ(summary["model"]["dofs"], 2 * (16 + 21));
+  EXPECT_EQ(summary["model"]["super_elements"], 1);
+  EXPECT_EQ(summary["model"]["contact_pairs"], 2);
+  ASSERT_EQ(summary["increments"].size(), 3U);
+  const Json& increment = summary["increments"][1];
+  EXPECT_EQ(increment["increment"], 2);
+  EXPECT_EQ(increment["factors"]["tip"], 0.5);
+  EXPECT_EQ(increment["contacts"]["joint, left"]["tangential_force"].get<double>(), 1.0 / 3.0);
+  EXPECT_EQ(increment["contacts"]["joint, left"]["first_pair_in_contact"], 2);
+  EXPECT_EQ(increment["reactions"]["lower.bottom"], Json::array({1.0, -2.0}));
+  EXPECT_EQ(increment["certificate"]["penetration"], 3e-13);
+  EXPECT_EQ(increment["energy"]["friction"], 1.0);
+  EXPECT_EQ(summary["timing"]["total"], 1.25);
+  EXPECT_GT(summary["timing"]["recover"], 0.0);
+  EXPECT_GT(summary["peak_memory_bytes"], 1000000);
+}
+
+TEST_F(Results, AnIncrementThatDidNotConvergeIsNoResult) {
+  const FinishedRun run(path_);
+  const Json summary = Json::parse(content_of(path_ / "summary.json"));
+  const Json& failed = summary["increments"][2];
+  EXPECT_EQ(failed["converged"], false);
+  EXPECT_EQ(failed["newton_iterations"], 50);
+  EXPECT_TRUE(failed["residual"].is_null());
+  EXPECT_TRUE(failed["contacts"].empty());
+  EXPECT_TRUE(failed["reactions"].empty());
+  EXPECT_TRUE(failed["certificate"].is_null());
+  EXPECT_TRUE(failed["energy"].is_null());
+  EXPECT_THAT(content_of(path_ / "log.txt"), HasSubstr("NOT CONVERGED: the line search found no descent"));
+}
+
+TEST_F(Results, NothingInContactIsNull) {
+  auto solution = two_bodies();
+  auto increment = increment_number(solution, 1);
+  increment.contacts[0].first_in_contact.reset();
+  increment.contacts[0].last_in_contact.reset();
+  solution.increments = {increment};
+  const Json summary = Json::parse(summary_content(solution, solution.timing, false));
+  EXPECT_TRUE(summary["increments"][0]["contacts"]["joint, left"]["first_pair_in_contact"].is_null());
+  EXPECT_TRUE(summary["reason"].is_null());
+}
+
+TEST_F(Results, ARunningSummarySaysSo) {
+  const auto solution = two_bodies();
+  const Json summary = Json::parse(summary_content(solution, solution.timing, true));
+  EXPECT_EQ(summary["status"], "running");
+  EXPECT_TRUE(summary["timing"]["total"].is_null());
+}
+
+TEST_F(Results, ATitleThatIsNoUtf8DoesNotLoseTheSummary) {
+  auto solution = two_bodies();
+  solution.model.title = "b\xf6se";
+  EXPECT_NO_THROW(Json::parse(summary_content(solution, solution.timing, false)));
+}
+
+TEST_F(Results, TimeOfTheCollectionRunsFromStepToStep) {
+  const FinishedRun run(path_);
+  const std::string collection = content_of(path_ / "fields.pvd");
+  EXPECT_THAT(collection, HasSubstr(R"(<DataSet timestep="0.25" part="0" file="fields_0001.vtu"/>)"));
+  EXPECT_THAT(collection, HasSubstr(R"(<DataSet timestep="0.5" part="0" file="fields_0002.vtu"/>)"));
+}
+
+TEST_F(Results, FinishedIncrementsAreReadableWithoutTheEndOfTheRun) {
+  auto solution = two_bodies();
+  ResultsDirectory directory(path_, solution.model);
+  solution.increments.push_back(increment_number(solution, 1));
+  directory.add(solution, solution.increments.back());
+  EXPECT_TRUE(content_of(path_ / "fields.pvd").ends_with("</VTKFile>\n"));
+  EXPECT_TRUE(content_of(path_ / "fields_0001.vtu").ends_with("</VTKFile>\n"));
+  EXPECT_TRUE(content_of(path_ / "contact.csv").ends_with("4.5\n"));
+  EXPECT_THAT(content_of(path_ / "log.txt"),
+              HasSubstr("step press, increment 1 of 4: tip = 0.25; 3 iterations"));
+}
+
+TEST_F(Results, LogTellsTheRun) {
+  const FinishedRun run(path_);
+  const std::string log = content_of(path_ / "log.txt");
+  for (const char* text : {"Scabo ", "Sample", "2 bodies, 37 nodes, 74 degrees of freedom, 1 super-element",
+                           "certificate 3e-13", "P2", "lower.bottom", "warning: a first warning", "total"})
+    EXPECT_THAT(log, HasSubstr(text));
+}
+
+TEST_F(Results, AnEarlierRunLeavesNothingBehind) {
+  { const FinishedRun run(path_); }
+  write_text(path_ / "notes.txt", "mine");
+  write_text(path_ / "fields_mine.vtu", "mine");
+  auto solution = two_bodies();
+  const ResultsDirectory directory(path_, solution.model);
+  EXPECT_THAT(names_in(path_),
+              UnorderedElementsAre("contact.csv", "fields.pvd", "log.txt", "notes.txt", "fields_mine.vtu"));
+  EXPECT_EQ(content_of(path_ / "contact.csv"), contact_table_header);
+}
+
+TEST_F(Results, FilesOfOthersAreNeverOverwritten) {
+  for (const char* name : {"fields_0001.vtu", "summary.json", "contact.csv", "log.txt", "fields.pvd"}) {
+    const TemporaryDirectory directory;
+    { const FinishedRun run(directory.path()); }
+    write_text(directory.path() / name, "of somebody else");
+    const auto before = names_in(directory.path());
+    try {
+      const ResultsDirectory again(directory.path(), two_bodies().model);
+      ADD_FAILURE() << name;
+    } catch (const WriteError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(directory.path().string()));
+      EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+    EXPECT_EQ(content_of(directory.path() / name), "of somebody else");
+    EXPECT_EQ(names_in(directory.path()), before);
+  }
+}
+
+TEST_F(Results, APlaceThatIsAFileIsNamed) {
+  const auto file = holder_.path() / "file";
+  write_text(file, "");
+  for (const auto& place : {file, file / "out"}) {
+    try {
+      const ResultsDirectory directory(place, two_bodies().model);
+      ADD_FAILURE();
+    } catch (const WriteError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(place.string()));
+    }
+  }
+}
+
+TEST_F(Results, ADirectoryThatVanishesIsAnError) {
+  auto solution = two_bodies();
+  ResultsDirectory directory(path_, solution.model);
+  std::filesystem::remove_all(path_);
+  const auto increment = increment_number(solution, 1);
+  EXPECT_THROW(directory.add(solution, increment), WriteError);
+  EXPECT_THROW(directory.finish(solution), WriteError);
+}
+
+TEST(Report, ContactTable) {
+  auto increment = analysis::IncrementResult{};
+  increment.contacts = {contact_result()};
+  increment.contacts[0].first_in_contact = 28;
+  increment.contacts[0].last_in_contact = 32;
+  const std::string text = report_contacts(increment);
+  EXPECT_THAT(text, HasSubstr("joint, left           100          0.333333     1      0     1  P28 to P32"));
+  EXPECT_EQ(report_contacts({}), "");
+}
+
+}  // namespace
+}  // namespace scabo::result

@@ -1,0 +1,139 @@
+#include "scabo/system/loads.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scabo/element/stiffness.hpp"
+#include "scabo/system/contact_system.hpp"
+#include "scabo/system/structure.hpp"
+#include "theory/rings.hpp"
+#include "unit/mesh/models.hpp"
+
+namespace scabo::system {
+namespace {
+
+Vec2 total(const Vector& f) { return f.reshaped(2, f.size() / 2).rowwise().sum(); }
+
+double moment(const Vector& f, const std::vector<Vec2>& nodes) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) sum += cross(nodes[i], Vec2(f.segment<2>(static_cast<Eigen::Index>(2 * i))));
+  return sum;
+}
+
+mesh::BodyMesh mesh_of(const model::Body& body) {
+  model::Model model;
+  model.bodies = {body};
+  return mesh::make_mesh(model).bodies.front();
+}
+
+TEST(TractionForces, HaveTheForceAndMomentOfALinearTractionOnALine) {
+  for (int order = 1; order <= 8; ++order) {
+    const auto body = mesh_of(test::elastic("beam", test::rectangle({1, 2}, {6, 1.5}), 2.0, order));
+    const double thickness = 0.3;
+    const Vector f = traction_forces(body.edges[2], body.nodes, thickness, [](const Vec2& x, const Vec2& n) {
+      EXPECT_LT((n - Vec2(0, 1)).norm(), 1e-15);
+      return Vec2(5.0, -2.0 * x.x());
+    });
+    // y = 3.5, 1 <= x <= 7: int x = 24, int x^2 = 114.
+    EXPECT_LT((total(f) - thickness * Vec2(30.0, -48.0)).norm(), 1e-13);
+    EXPECT_NEAR(moment(f, body.nodes), thickness * (-2.0 * 114.0 - 3.5 * 30.0), 1e-12);
+    EXPECT_NEAR(length_of(body.edges[2], body.nodes), 6.0, 1e-14);
+    EXPECT_NEAR(line_mass(body.edges[2], body.nodes).sum(), 6.0, 1e-14);
+  }
+}
+
+// The pressure on a closed curve has no resultant, and on an open one that on its chord: exact for any division.
+TEST(TractionForces, OfPressureOnAnArcIsThatOnItsChord) {
+  const model::Outline half_disc = test::outline(
+      {test::line("bottom", {-2, 0}, {2, 0}), test::arc("rim", {0, 0}, 2.0, 0.0, test::pi)});
+  for (int order = 1; order <= 6; ++order) {
+    model::Body body = test::elastic("disc", half_disc, 0.9, order);
+    body.mesh.centre = {0.0, 0.8};
+    const auto mesh = mesh_of(body);
+    const auto press = [](const Vec2&, const Vec2& n) { return Vec2(-7.0 * n); };
+    EXPECT_LT((total(traction_forces(mesh.edges[1], mesh.nodes, 0.5, press)) - Vec2(0.0, -7.0 * 4.0 * 0.5)).norm(), 1e-13);
+    EXPECT_LT(total(traction_forces(mesh.super_elements[0].boundary, mesh.nodes, 0.5, press)).norm(), 1e-13);
+  }
+}
+
+TEST(TractionForces, LengthOfAnArcConverges) {
+  double before = 1.0;
+  for (int order : {1, 2, 3, 4}) {
+    model::Body body = test::elastic("disc", test::outline({test::line("bottom", {-2, 0}, {2, 0}),
+                                                            test::arc("rim", {0, 0}, 2.0, 0.0, test::pi)}), 0.9, order);
+    body.mesh.centre = {0.0, 0.8};
+    const auto mesh = mesh_of(body);
+    const double error = std::abs(length_of(mesh.edges[1], mesh.nodes) - 2.0 * test::pi);
+    EXPECT_LT(error, 0.1 * before);
+    before = error;
+  }
+}
+
+/// Two blocks of different size elements' edges alike, one on the other; the lower one on supports.
+struct TwoBlocks {
+  model::Model model;
+  mesh::Mesh mesh;
+  std::vector<element::SuperElementSolution> solutions;
+  Structure structure;
+
+  TwoBlocks() {
+    model = test::pair_of(test::elastic("lower", test::rectangle({0, 0}, {3, 1}), 0.75), "top",
+                          test::elastic("upper", test::rectangle({0, 1}, {3, 2}), 0.75), "bottom");
+    model.contacts[0].friction = 0.4;
+    model.materials.resize(1);
+    model.materials[0].young = 100.0;
+    model.materials[0].poisson = 0.2;
+    model.analysis.thickness = 0.5;
+    model::Support support;
+    support.on = test::edge_of(model, "lower", "bottom");
+    support.displacement = {0.0, 0.0};
+    model.supports = {support};
+    model.steps.resize(1);
+    model.steps[0].support_factors = {1.0};
+    mesh = mesh::make_mesh(model);
+    for (const auto& body : mesh.bodies)
+      solutions.push_back(element::solve_super_element(element::ring_of(body.super_elements[0], body.nodes),
+                                                       test::elasticity(100.0, 0.2), 0.5));
+    structure = make_structure(model, mesh, {&solutions[0], &solutions[1]});
+  }
+};
+
+// relative motion = q + W p + G a: column by column what equal and opposite unit forces on a pair do.
+TEST(Condensation, IsTheMotionOfThePairsUnderUnitPairForces) {
+  const TwoBlocks blocks;
+  const ContactSystem system = condense(blocks.structure, blocks.model, blocks.mesh);
+  const auto N = static_cast<Eigen::Index>(system.pairs.size());
+  ASSERT_EQ(N, 9);
+  ASSERT_EQ(system.rigid_motions(), 3);
+  EXPECT_EQ(system.first_rigid[0], 0);
+  EXPECT_EQ(system.mu, Vector(Vector::Constant(N, 0.4)));
+  EXPECT_LT(test::largest(system.gap), 1e-15);
+  EXPECT_EQ(system.W, system.W.transpose());
+  const auto& pairs = blocks.mesh.interfaces[0].pairs;
+  const auto motion = [&](const Vector& lower, const Vector& upper) {
+    Vector result(2 * N);
+    for (Eigen::Index i = 0; i < N; ++i) {
+      const auto& pair = pairs[static_cast<std::size_t>(i)];
+      const Vec2 relative = upper.segment<2>(2 * pair.node_b) - lower.segment<2>(2 * pair.node_a);
+      result[2 * i] = relative.dot(pair.normal);
+      result[2 * i + 1] = relative.dot(tangent_of(pair.normal));
+    }
+    return result;
+  };
+  for (Eigen::Index j = 0; j < 2 * N; ++j) {
+    const auto& pair = pairs[static_cast<std::size_t>(j / 2)];
+    const Vec2 direction = j % 2 == 0 ? pair.normal : tangent_of(pair.normal);
+    Vector on_lower = Vector::Zero(blocks.structure.bodies[0]->size()), on_upper = Vector::Zero(blocks.structure.bodies[1]->size());
+    on_lower.segment<2>(2 * pair.node_a) = -direction;
+    on_upper.segment<2>(2 * pair.node_b) = direction;
+    const auto held = static_cast<Eigen::Index>(blocks.structure.bodies[0]->constraints().size());
+    const Vector expected = motion(blocks.structure.bodies[0]->displacement(on_lower, Vector::Zero(held)),
+                                   blocks.structure.bodies[1]->displacement(on_upper, Vector()));
+    EXPECT_LT(test::largest(system.W.col(j) - expected), 1e-13 * test::largest(system.W));
+  }
+  for (Eigen::Index k = 0; k < 3; ++k)
+    EXPECT_LT(test::largest(system.G.col(k) - motion(Vector::Zero(blocks.structure.bodies[0]->size()),
+                                                     blocks.structure.bodies[1]->rigid_motions().col(k))), 1e-14);
+}
+
+}  // namespace
+}  // namespace scabo::system
