@@ -15,13 +15,9 @@ namespace {
 // More than this many lines a second nobody can read, and a terminal takes its time for each.
 constexpr std::chrono::milliseconds shortest_between_lines{50};
 
-/// `increment 3 of 40: 4 iterations, 27 open, 0 stick, 5 slip`
-std::string describe(const analysis::StaticSolution& solution, const analysis::IncrementResult& result,
-                     int number) {
-  const model::Model& model = solution.model;
-  std::string text = fmt::format("increment {} of {}", number, increments_of(model));
-  if (model.steps.size() > 1) text += fmt::format(" (step {})", result.step_name);
-  text += ": " + count(result.newton_iterations, "iteration");
+/// `4 iterations, 27 open, 0 stick, 5 slip`
+std::string outcome_of(const analysis::IncrementResult& result) {
+  std::string text = count(result.newton_iterations, "iteration");
   if (result.halvings > 0) text += fmt::format(", halved {}", count(result.halvings, "time"));
   if (!result.converged) return text + ", not converged";
   if (result.contacts.empty()) return text;
@@ -44,22 +40,34 @@ Progress::Progress(bool quiet)
 Progress::~Progress() { clear(); }
 
 void Progress::stage(const std::string& name) {
-  // Piped, stages would be more lines than news.
-  if (style_ == Style::terminal) show(last_increment_.empty() ? name : last_increment_ + "; " + name);
+  if (style_ != Style::terminal) return;  // piped, stages would be more lines than news
+  if (increments_ == 0) {
+    show(name);
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_shown_ < shortest_between_lines) return;
+  last_shown_ = now;
+  show(fmt::format("{}{}", increment_at_work(), before_.empty() ? "" : "; before: " + before_));
 }
 
 void Progress::meshed(const analysis::StaticSolution& solution) {
+  increments_ = increments_of(solution.model);
   if (style_ == Style::lines) show(describe_sizes(sizes_of(solution.model, solution.mesh)));
 }
 
 void Progress::increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result) {
-  ++increments_done_;
-  if (style_ == Style::silent) return;
-  last_increment_ = describe(solution, result, increments_done_);
-  const auto now = std::chrono::steady_clock::now();
-  if (style_ == Style::terminal && now - last_shown_ < shortest_between_lines) return;
-  last_shown_ = now;
-  show(last_increment_);
+  before_ = outcome_of(result);
+  if (style_ == Style::lines) {
+    const std::string step =
+        solution.model.steps.size() > 1 ? fmt::format(" (step {})", result.step_name) : "";
+    show(fmt::format("{}{}: {}", increment_at_work(), step, before_));
+  }
+  ++done_;
+}
+
+std::string Progress::increment_at_work() const {
+  return fmt::format("increment {} of {}", done_ + 1, increments_);
 }
 
 void Progress::clear() {

@@ -27,11 +27,13 @@ class Progress {
 
  private:
   void show(const std::string& line);
+  std::string increment_at_work() const;
 
   Style style_;
   bool line_shown_ = false;
-  int increments_done_ = 0;
-  std::string last_increment_;
+  int increments_ = 0;  ///< of all steps; 0 until they begin
+  int done_ = 0;
+  std::string before_;  ///< what the last finished increment came to
   std::chrono::steady_clock::time_point last_shown_;
 };
 

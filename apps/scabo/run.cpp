@@ -67,14 +67,11 @@ void print_reason(const analysis::StaticSolution& solution, ExitStatus status) {
   if (status == ExitStatus::solved) return;
   const auto finished = std::count_if(solution.increments.begin(), solution.increments.end(),
                                       [](const auto& increment) { return increment.converged; });
-  if (status == ExitStatus::not_converged) {
-    print_error(
-        fmt::format("did not converge: {}\n       {} of the increments before it kept; "
-                    "more increments in its step make each of them easier",
-                    solution.reason, finished == 0 ? "None" : "Results"));
-  } else {
-    print_error(fmt::format("interrupted after {}", count(finished, "finished increment")));
-  }
+  const std::string kept =
+      finished == 0 ? "no increment was finished" : count(finished, "finished increment") + " kept";
+  print_error(status == ExitStatus::not_converged
+                  ? fmt::format("did not converge: {} ({})", solution.reason, kept)
+                  : fmt::format("interrupted; {}", kept));
 }
 
 }  // namespace

@@ -55,8 +55,8 @@ def principal_stress(results):
     highest = np.percentile(np.concatenate([stress for pair in beams.values() for _, stress in pair]), 99)
     levels = np.linspace(0, 0.2 * np.ceil(highest / 0.2), 17)
 
-    figure, axes = plt.subplots(len(beams), 1, figsize=(6.0, 8.9), sharex=True)
-    figure.subplots_adjust(left=0.08, right=0.98, top=0.985, bottom=0.145, hspace=0.12)
+    figure, axes = plt.subplots(len(beams), 1, figsize=(6.2, 11.2), sharex=True)
+    figure.subplots_adjust(left=0.09, right=0.98, top=0.99, bottom=0.115, hspace=0.06)
     for axis, (mu, pair) in zip(axes, beams.items()):
         for mesh, stress in pair:
             drawn = axis.tricontourf(mesh, stress, levels=levels, cmap="YlOrRd", extend="max")
@@ -69,13 +69,14 @@ def principal_stress(results):
         axis.plot([0, 0], [-0.12, 3.12], color="black", linewidth=3, solid_capstyle="butt")
         axis.set_aspect("equal")
         axis.set_xlim(-0.15, 6.45)
-        axis.set_title(f"$\\mu$ = {mu}", loc="left", y=0.9)
+        axis.set_ylim(-0.3, 3.7)
+        axis.text(0, 3.32, f"$\\mu$ = {mu}", fontsize=9.5)
         axis.set_ylabel("y (m)")
         axis.set_yticks([0, 1.5, 3])
         for side in ("top", "right"):
             axis.spines[side].set_visible(False)
     axes[-1].set_xlabel(f"x (m), displacements magnified {MAGNIFICATION} times")
-    figure.colorbar(drawn, cax=figure.add_axes([0.08, 0.06, 0.9, 0.014]), orientation="horizontal",
+    figure.colorbar(drawn, cax=figure.add_axes([0.09, 0.05, 0.89, 0.012]), orientation="horizontal",
                     label="First principal stress (MPa), tension positive", ticks=levels[::4], format="%.1f")
     return figure
 
@@ -161,9 +162,12 @@ def finish(figure, axes, sbfem, bottom):
             axis.set_xlim(0, 6.05)
             axis.grid(color="0.88", linewidth=0.6)
             axis.set_axisbelow(True)
-    labelled = {label: handle for axis in axes[:, 0] for handle, label in zip(*axis.get_legend_handles_labels())}
+    labelled = {}
+    for axis in axes[:, 0]:
+        labelled |= {label: handle for handle, label in zip(*axis.get_legend_handles_labels())}
     labelled["in contact"] = labelled.pop("in contact")
-    figure.legend(labelled.values(), labelled.keys(), loc="lower center", ncol=5 if len(labelled) == 5 else 4, frameon=False)
+    columns = 5 if len(labelled) == 5 else 4
+    figure.legend(labelled.values(), labelled.keys(), loc="lower center", ncol=columns, frameon=False)
     figure.subplots_adjust(left=0.075, right=0.985, top=0.93, bottom=bottom, wspace=0.08, hspace=0.1)
     return figure
 

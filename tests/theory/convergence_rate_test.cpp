@@ -23,8 +23,8 @@ struct Discrete {
   double energy, reaction;  // reaction: of the constraints, relative to the largest nodal force
 };
 
-/// The discrete solution and its strain energy: exact tractions on the whole boundary, three isostatic constraints with the
-/// exact displacements at two corners (the first, in x and y, and the last, in x).
+/// The discrete solution and its strain energy: exact tractions on the whole boundary, three isostatic
+/// constraints with the exact displacements at two corners (the first, in x and y, and the last, in x).
 Discrete discrete(const Ring& ring, int last_corner, const Mat3& D, const ExactField& exact) {
   const auto solution = solve_super_element(ring, D, 1.0);
   const Vector f = system::traction_forces(ring.elements, ring.nodes, 1.0, [&](const Vec2& x, const Vec2& n) {
@@ -43,15 +43,16 @@ Discrete discrete(const Ring& ring, int last_corner, const Mat3& D, const ExactF
   return {body->elastic_energy(u), largest(body->reactions(u, f)) / largest(f)};
 }
 
-/// Timoshenko's cantilever: L = 8, D = 4, E = 3e7, nu = 0.3, P = 1000, plane stress; sheared parabolically at both ends
-/// and clamped by the bending stress at x = 0. Coordinates about the centre.
+/// Timoshenko's cantilever: L = 8, D = 4, E = 3e7, nu = 0.3, P = 1000, plane stress; sheared parabolically at
+/// both ends and clamped by the bending stress at x = 0. Coordinates about the centre.
 ExactField timoshenko() {
   constexpr double L = 8, D = 4, E = 3e7, nu = 0.3, P = 1000, I = D * D * D / 12;
   ExactField exact;
   exact.displacement = [](const Vec2& at) {
     const double x = at.x() + 0.5 * L, y = at.y();
-    return Vec2(P * y / (6 * E * I) * ((6 * L - 3 * x) * x + (2 + nu) * (y * y - D * D / 4)),
-                -P / (6 * E * I) * (3 * nu * y * y * (L - x) + (4 + 5 * nu) * D * D * x / 4 + (3 * L - x) * x * x));
+    return Vec2(
+        P * y / (6 * E * I) * ((6 * L - 3 * x) * x + (2 + nu) * (y * y - D * D / 4)),
+        -P / (6 * E * I) * (3 * nu * y * y * (L - x) + (4 + 5 * nu) * D * D * x / 4 + (3 * L - x) * x * x));
   };
   exact.stress = [](const Vec2& at) {
     const double x = at.x() + 0.5 * L, y = at.y();
@@ -96,8 +97,8 @@ TEST_P(TimoshenkoCantilever, ConvergesWithTheOrderOfItsEdges) {
 INSTANTIATE_TEST_SUITE_P(Orders, TimoshenkoCantilever,
                          testing::Values(Row{1, 8, 16}, Row{2, 4, 8}, Row{3, 1, 2}, Row{4, 1, 2}));
 
-/// A smooth solution that no polynomial meets: phi = exp(c z), psi = exp(d z) in 2 G u = kappa phi - z conj(phi') -
-/// conj(psi); its energy from the work of its tractions on a fine boundary.
+/// A smooth solution that no polynomial meets: phi = exp(c z), psi = exp(d z) in 2 G u = kappa phi - z
+/// conj(phi') - conj(psi); its energy from the work of its tractions on a fine boundary.
 ExactField exponential(double young, double poisson) {
   using Complex = std::complex<double>;
   static const Complex c(1.2, 1.0), d(-0.8, 1.4);
@@ -105,7 +106,8 @@ ExactField exponential(double young, double poisson) {
   ExactField exact;
   exact.displacement = [=](const Vec2& x) {
     const Complex z(x.x(), x.y());
-    const Complex u = (kappa * std::exp(c * z) - z * std::conj(c * std::exp(c * z)) - std::conj(std::exp(d * z))) / (2 * G);
+    const Complex u =
+        (kappa * std::exp(c * z) - z * std::conj(c * std::exp(c * z)) - std::conj(std::exp(d * z))) / (2 * G);
     return Vec2(u.real(), u.imag());
   };
   exact.stress = [](const Vec2& x) {
@@ -116,9 +118,10 @@ ExactField exponential(double young, double poisson) {
   };
   const Ring fine = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, 8, 12);
   const Vector u = at_nodes(fine.nodes, exact.displacement);
-  exact.energy = 0.5 * u.dot(system::traction_forces(fine.elements, fine.nodes, 1.0, [&](const Vec2& x, const Vec2& n) {
-    return traction_of(exact.stress(x), n);
-  }));
+  exact.energy =
+      0.5 * u.dot(system::traction_forces(fine.elements, fine.nodes, 1.0, [&](const Vec2& x, const Vec2& n) {
+        return traction_of(exact.stress(x), n);
+      }));
   return exact;
 }
 
@@ -129,7 +132,8 @@ TEST_P(SmoothSolution, ConvergesWithTheOrderOfItsEdges) {
   const ExactField exact = exponential(1.0, 0.3);
   const auto error = [&](int n) {
     const Ring ring = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, n, order);
-    return std::sqrt(std::abs(1.0 - discrete(ring, 3 * n * order, elasticity(1.0, 0.3), exact).energy / exact.energy));
+    return std::sqrt(
+        std::abs(1.0 - discrete(ring, 3 * n * order, elasticity(1.0, 0.3), exact).energy / exact.energy));
   };
   const double e_coarse = error(coarse), e_fine = error(fine);
   const double rate = std::log(e_coarse / e_fine) / std::log(static_cast<double>(fine) / coarse);

@@ -1,10 +1,11 @@
 // The inside of a super-element: u(xi) = xi^S u(1), body forces, and scaled boundary coordinates.
+#include "scabo/element/interior_field.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "scabo/element/interior_field.hpp"
 #include "scabo/system/loads.hpp"
 #include "theory/rings.hpp"
 
@@ -18,12 +19,14 @@ using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
 
-/// xi^S u and its slope S xi^S u / xi by the dense exponential of the whole S = E0^-1 (K - E1'), in long double.
+/// xi^S u and its slope S xi^S u / xi by the dense exponential of the whole S = E0^-1 (K - E1'), in long
+/// double.
 struct Oracle {
   LongMatrix S;
   Oracle(const Ring& ring, const Mat3& D, const Matrix& K) {
     const CoefficientMatrices matrices = coefficient_matrices(ring, D, 1.0);
-    const LongMatrix E0 = Matrix(matrices.E0).cast<long double>(), E1 = Matrix(matrices.E1).cast<long double>();
+    const LongMatrix E0 = Matrix(matrices.E0).cast<long double>(),
+                     E1 = Matrix(matrices.E1).cast<long double>();
     S = E0.partialPivLu().solve(K.cast<long double>() - E1.transpose());
   }
   LongVector at(const Vector& u, double xi) const {
@@ -44,7 +47,8 @@ TEST(InteriorField, AgreesWithTheDenseMatrixExponential) {
     const auto solution = solve_super_element(ring, elastic, 1.0);
     const auto modal = modal_solution(solution);
     const Oracle oracle(ring, elastic, solution.K);
-    const Vector u = at_nodes(ring.nodes, [&](const Vec2&) { return Vec2(uniform(random, -1, 1), uniform(random, -1, 1)); });
+    const Vector u = at_nodes(
+        ring.nodes, [&](const Vec2&) { return Vec2(uniform(random, -1, 1), uniform(random, -1, 1)); });
     const RadialField field(solution, modal, u, {});
     for (double xi : {1.0, 0.999, 0.9, 0.5, 0.1, 0.01}) {
       const auto values = field.at(xi);
@@ -64,7 +68,8 @@ TEST(InteriorField, IsTheBoundaryAtTheBoundaryAndFiniteAtTheCentre) {
   const Mat3 D = elasticity(10e9, 0.3);
   const auto solution = solve_super_element(ring, D, 1.0);
   const auto modal = modal_solution(solution);
-  const Vector u = at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(x.x()), std::cos(2 * x.y())); });
+  const Vector u =
+      at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(x.x()), std::cos(2 * x.y())); });
   const RadialField field(solution, modal, u, {});
   EXPECT_LT(largest(field.at(1.0).u - u), 1e-13);
   const PointValues centre = point_values(ring, field.at(0.0), D, 0, 0.0);
@@ -80,15 +85,18 @@ TEST(InteriorField, LinearFieldIsExactDownToTheCentre) {
   gradient << 1e-3, 2e-3, -1e-3, 5e-4;
   const Mat3 D = elasticity(10e9, 0.3);
   const Vec3 stress = D * Vec3(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
-  for (const Ring& ring : {rectangle_ring(6, 1.5, 4, 1, 2), rectangle_ring(6, 1.5, 16, 4, 2), polygon_ring(skew, 3, 3)}) {
+  for (const Ring& ring :
+       {rectangle_ring(6, 1.5, 4, 1, 2), rectangle_ring(6, 1.5, 16, 4, 2), polygon_ring(skew, 3, 3)}) {
     const auto solution = solve_super_element(ring, D, 1.0);
     const auto modal = modal_solution(solution);
-    const RadialField field(solution, modal, at_nodes(ring.nodes, [&](const Vec2& x) { return Vec2(gradient * x); }), {});
+    const RadialField field(solution, modal,
+                            at_nodes(ring.nodes, [&](const Vec2& x) { return Vec2(gradient * x); }), {});
     for (double xi : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 0.0}) {
       double error = 0.0;
       const auto values = field.at(xi);
       for (int e = 0; e < static_cast<int>(ring.elements.size()); ++e)
-        error = std::max(error, largest(point_values(ring, values, D, e, 0.3).stress - stress) / largest(stress));
+        error =
+            std::max(error, largest(point_values(ring, values, D, e, 0.3).stress - stress) / largest(stress));
       EXPECT_LT(error, 1e-10) << "xi = " << xi;
     }
   }
@@ -100,7 +108,8 @@ TEST(InteriorField, StrainIsTheGradientOfDisplacement) {
   const Mat3 D = elasticity(1.0, 0.2);
   const auto solution = solve_super_element(ring, D, 1.0);
   const auto modal = modal_solution(solution);
-  const Vector u = at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(3 * x.y()), std::cos(2 * x.x())); });
+  const Vector u =
+      at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(3 * x.y()), std::cos(2 * x.x())); });
   const Vector F_b = solution.K * u;  // any load per node: the field only has to be consistent
   const RadialField field(solution, modal, u, F_b);
   const auto displacement = [&](const Vec2& x) {
@@ -113,12 +122,14 @@ TEST(InteriorField, StrainIsTheGradientOfDisplacement) {
     const Vec2 by_x = (displacement(x + Vec2(h, 0)) - displacement(x - Vec2(h, 0))) / (2 * h);
     const Vec2 by_y = (displacement(x + Vec2(0, h)) - displacement(x - Vec2(0, h))) / (2 * h);
     const PointValues values = point_values(ring, field.at(0.6), D, e, 0.37);
-    EXPECT_LT(largest(values.strain - Vec3(by_x.x(), by_y.y(), by_x.y() + by_y.x())), 1e-7 * largest(values.strain));
+    EXPECT_LT(largest(values.strain - Vec3(by_x.x(), by_y.y(), by_x.y() + by_y.x())),
+              1e-7 * largest(values.strain));
     EXPECT_LT(largest(values.stress - D * values.strain), 1e-14);
   }
 }
 
-/// A bar of width w and height h, hung by its top: stress_yy = rho g y above its lower end; closed form for any nu.
+/// A bar of width w and height h, hung by its top: stress_yy = rho g y above its lower end; closed form for
+/// any nu.
 struct HangingBar {
   double width = 1.5, height = 4.0, weight = 25e3, young = 30e9, poisson = 0.0;
   Vec2 displacement(const Vec2& x) const {  // about the centre of the bar
@@ -157,8 +168,10 @@ TEST_P(GravityField, HangingBarIsExact) {
   double top = 0.0;
   for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(2 * i);
-    if (ring.nodes[i].y() > 0.4999 * bar.height) top += reaction[at + 1];
-    else EXPECT_LT(largest(reaction.segment<2>(at)), 1e-11 * total);
+    if (ring.nodes[i].y() > 0.4999 * bar.height)
+      top += reaction[at + 1];
+    else
+      EXPECT_LT(largest(reaction.segment<2>(at)), 1e-11 * total);
   }
   EXPECT_NEAR(top / total, 1.0, 1e-12);
 }
@@ -166,7 +179,8 @@ TEST_P(GravityField, HangingBarIsExact) {
 INSTANTIATE_TEST_SUITE_P(OrdersAndPoissons, GravityField,
                          testing::Combine(testing::Values(2, 3, 6), testing::Values(0.0, 0.3)));
 
-// h sums to the body's weight and has its moment about the scaling centre, wherever that lies: h'R = int b'R dA.
+// h sums to the body's weight and has its moment about the scaling centre, wherever that lies: h'R = int b'R
+// dA.
 TEST(BodyLoad, SumsToTheWeightWithTheMomentOfTheWeight) {
   std::mt19937 random(6);
   for (int k = 0; k < 50; ++k) {

@@ -30,14 +30,16 @@ struct Errors {
   }
 };
 
-/// K u - h(b) against the consistent nodal forces of the exact tractions; displacement and stress at ten random points.
-Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactField& exact, std::mt19937& random) {
+/// K u - h(b) against the consistent nodal forces of the exact tractions; displacement and stress at ten
+/// random points.
+Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactField& exact,
+                 std::mt19937& random) {
   const auto solution = solve_super_element(ring, D, thickness);
   const auto modal = modal_solution(solution);
   const Vector u = at_nodes(ring.nodes, exact.displacement);
-  const Vector f = system::traction_forces(ring.elements, ring.nodes, thickness, [&](const Vec2& x, const Vec2& n) {
-    return traction_of(exact.stress(x), n);
-  });
+  const Vector f =
+      system::traction_forces(ring.elements, ring.nodes, thickness,
+                              [&](const Vec2& x, const Vec2& n) { return traction_of(exact.stress(x), n); });
   Vector F_b, h = Vector::Zero(u.size());
   if (!exact.body_force.isZero()) {
     const Vector weights = body_load_weights(ring) * thickness;
@@ -58,7 +60,8 @@ Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactF
     const int element = whole(random, 0, static_cast<int>(ring.elements.size()) - 1);
     const Vec2 x = xi * boundary_position(ring, element, eta);
     const PointValues values = point_values(ring, field.at(xi), D, element, eta);
-    errors.displacement = std::max(errors.displacement, largest(values.displacement - exact.displacement(x)) / size);
+    errors.displacement =
+        std::max(errors.displacement, largest(values.displacement - exact.displacement(x)) / size);
     errors.stress = std::max(errors.stress, largest(values.stress - exact.stress(x)) / stress_size);
   }
   return errors;
@@ -98,9 +101,10 @@ TEST(PatchTest, LinearDisplacementsOnAThousandRandomPolygons) {
   report(worst);
 }
 
-// With straight edges of order p, boundary displacements that are polynomials of degree p are met exactly, and so are
-// all polynomial solutions of that degree: Kolosov's 2 G u = kappa phi - z conj(phi') - conj(psi) with phi and psi of
-// degree p; stress_xx + stress_yy = 4 Re phi', stress_yy - stress_xx + 2 i stress_xy = 2 (conj(z) phi'' + psi').
+// With straight edges of order p, boundary displacements that are polynomials of degree p are met exactly,
+// and so are all polynomial solutions of that degree: Kolosov's 2 G u = kappa phi - z conj(phi') - conj(psi)
+// with phi and psi of degree p; stress_xx + stress_yy = 4 Re phi', stress_yy - stress_xx + 2 i stress_xy = 2
+// (conj(z) phi'' + psi').
 TEST(PatchTest, PolynomialSolutionsOfTheOrderOfTheEdges) {
   using Complex = std::complex<double>;
   std::mt19937 random(2);
@@ -112,13 +116,15 @@ TEST(PatchTest, PolynomialSolutionsOfTheOrderOfTheEdges) {
     const double G = D(2, 2), lame = D(0, 1), kappa = (lame + 3.0 * G) / (lame + G);
     double size = 0.0;
     for (const Vec2& node : ring.nodes) size = std::max(size, node.norm());
-    const Complex a(uniform(random, -1, 1), uniform(random, -1, 1)), b(uniform(random, -1, 1), uniform(random, -1, 1));
+    const Complex a(uniform(random, -1, 1), uniform(random, -1, 1)),
+        b(uniform(random, -1, 1), uniform(random, -1, 1));
     const auto power = [&](Complex z, int n) { return n < 0 ? Complex(0.0) : std::pow(z / size, n); };
     const ExactField exact{
         [&](const Vec2& x) {
           const Complex z(x.x(), x.y());
           const Complex phi = a * power(z, degree), slope = a * (degree / size) * power(z, degree - 1);
-          const Complex u = (kappa * phi - z * std::conj(slope) - std::conj(b * power(z, degree))) / (2.0 * G);
+          const Complex u =
+              (kappa * phi - z * std::conj(slope) - std::conj(b * power(z, degree))) / (2.0 * G);
           return Vec2(u.real(), u.imag());
         },
         [&](const Vec2& x) {
@@ -128,7 +134,8 @@ TEST(PatchTest, PolynomialSolutionsOfTheOrderOfTheEdges) {
           const double sum = 4.0 * slope.real();
           const Complex difference =
               2.0 * (std::conj(z) * curvature + b * (degree / size) * power(z, degree - 1));
-          return Vec3(0.5 * (sum - difference.real()), 0.5 * (sum + difference.real()), 0.5 * difference.imag());
+          return Vec3(0.5 * (sum - difference.real()), 0.5 * (sum + difference.real()),
+                      0.5 * difference.imag());
         }};
     const Errors errors = errors_of(ring, D, 1.0, exact, random);
     worst.raise(errors);

@@ -11,10 +11,10 @@
 
 namespace scabo::test {
 
-
-/// A closed polygon, counter-clockwise, as the scaling centre at the origin sees it. Edge i (from vertex i) is divided
-/// into divisions[i] elements of one order.
-inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions, int order) {
+/// A closed polygon, counter-clockwise, as the scaling centre at the origin sees it. Edge i (from vertex i)
+/// is divided into divisions[i] elements of one order.
+inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions,
+                                  int order) {
   const std::vector<double> points = mesh::lobatto_points(order);
   element::Ring ring;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -23,7 +23,8 @@ inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::
       mesh::LineElement element;
       for (int k = 0; k <= order; ++k) element.nodes.push_back(static_cast<int>(ring.nodes.size()) + k);
       for (int k = 0; k < order; ++k)
-        ring.nodes.push_back(from + (part + 0.5 * (points[static_cast<std::size_t>(k)] + 1.0)) / divisions[i] * along);
+        ring.nodes.push_back(from + (part + 0.5 * (points[static_cast<std::size_t>(k)] + 1.0)) /
+                                        divisions[i] * along);
       ring.elements.push_back(element);
     }
   }
@@ -54,8 +55,8 @@ inline std::vector<Vec2> regular_polygon(int corners, double radius, double firs
   return vertices;
 }
 
-/// The same boundary and node numbers, its elements listed from another one on: the symmetries of such a ring are not
-/// looked for.
+/// The same boundary and node numbers, its elements listed from another one on: the symmetries of such a ring
+/// are not looked for.
 inline element::Ring unsplit(element::Ring ring) {
   std::rotate(ring.elements.begin(), ring.elements.begin() + 1, ring.elements.end());
   return ring;
@@ -64,10 +65,12 @@ inline element::Ring unsplit(element::Ring ring) {
 inline double uniform(std::mt19937& random, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(random);
 }
-inline int whole(std::mt19937& random, int from, int to) { return std::uniform_int_distribution<int>(from, to)(random); }
+inline int whole(std::mt19937& random, int from, int to) {
+  return std::uniform_int_distribution<int>(from, to)(random);
+}
 
-/// The angle at which the scaling centre sees the closest call of |J| > 0: smallest sine between an edge and the ray to
-/// its end, and between the rays to its ends.
+/// The angle at which the scaling centre sees the closest call of |J| > 0: smallest sine between an edge and
+/// the ray to its end, and between the rays to its ends.
 inline double visibility(const std::vector<Vec2>& vertices, const Vec2& centre) {
   double least = 1.0;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -79,8 +82,8 @@ inline double visibility(const std::vector<Vec2>& vertices, const Vec2& centre) 
   return least;
 }
 
-/// A random star-shaped polygon of 3 to 12 corners relative to a random centre that sees its whole boundary by at least
-/// about three degrees.
+/// A random star-shaped polygon of 3 to 12 corners relative to a random centre that sees its whole boundary
+/// by at least about three degrees.
 inline std::vector<Vec2> random_star(std::mt19937& random, double size = 1.0) {
   while (true) {
     const int corners = whole(random, 3, 12);
@@ -104,7 +107,8 @@ inline element::Mat3 random_elasticity(std::mt19937& random) {
   model::Material material;
   material.young = std::pow(10.0, uniform(random, 0.0, 12.0));
   material.poisson = uniform(random, -0.5, 0.49);
-  return element::elasticity_matrix(material, whole(random, 0, 1) == 0 ? model::Plane::stress : model::Plane::strain);
+  return element::elasticity_matrix(material,
+                                    whole(random, 0, 1) == 0 ? model::Plane::stress : model::Plane::strain);
 }
 
 inline element::Mat3 elasticity(double young, double poisson, model::Plane plane = model::Plane::stress) {
@@ -118,7 +122,8 @@ inline element::Mat3 elasticity(double young, double poisson, model::Plane plane
 template <typename Field>
 Vector at_nodes(const std::vector<Vec2>& nodes, Field field) {
   Vector u(static_cast<Eigen::Index>(2 * nodes.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i) u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
   return u;
 }
 

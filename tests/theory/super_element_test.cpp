@@ -1,4 +1,5 @@
-// Stiffness of a super-element: published numbers, the textbook route, and the properties that must hold exactly.
+// Stiffness of a super-element: published numbers, the textbook route, and the properties that must hold
+// exactly.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +36,8 @@ TEST(PublishedSuperElement, SquareOfSongsExample) {
 
 // Song 2018, example 3.2: a regular pentagon in the unit circle, standing on an edge.
 TEST(PublishedSuperElement, PentagonOfSongsExample) {
-  const auto solution = solve_super_element(polygon_ring(regular_polygon(5, 1.0, -0.7 * pi), 1, 1), elasticity(10, 0), 1.0);
+  const auto solution =
+      solve_super_element(polygon_ring(regular_polygon(5, 1.0, -0.7 * pi), 1, 1), elasticity(10, 0), 1.0);
   EXPECT_NEAR(solution.K(0, 0), 4.888726, 5e-7);
   const std::vector<double> exponents = real_exponents(solution);
   ASSERT_EQ(exponents.size(), 10u);
@@ -53,16 +55,18 @@ std::ostream& operator<<(std::ostream& out, const Shape& shape) { return out << 
 
 std::vector<Shape> small_shapes() {
   const Mat3 stress = elasticity(10e9, 0.3), strain = elasticity(200e9, 0.25, model::Plane::strain);
-  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
-  return {{"square, order 1", polygon_ring(rectangle(2, 2), 3, 1), stress},
-          {"triangle, order 2", polygon_ring(regular_polygon(3, 1.0, 0.4), 2, 2), strain},
-          {"rectangle, order 2", rectangle_ring(6, 1.5, 4, 1, 2), stress},
-          {"hexagon, order 3", polygon_ring(regular_polygon(6, 0.01, 0.0), 1, 3), strain},
-          {"skew, order 1", polygon_ring(skew, 4, 1), stress},
-          {"skew, order 2", polygon_ring(skew, 2, 2), strain},
-          {"skew, order 4", polygon_ring(skew, 1, 4), stress},
-          {"square, order 8", polygon_ring(rectangle(1, 1), 1, 8), stress},
-          {"far centre", polygon_ring({{-0.2, -0.15}, {1.8, -0.15}, {1.8, 1.85}, {-0.2, 1.85}}, 2, 2), stress}};
+  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2},
+                                  {0.3, 0.4},   {-0.2, 1.3}, {-1.0, 0.1}};
+  return {
+      {"square, order 1", polygon_ring(rectangle(2, 2), 3, 1), stress},
+      {"triangle, order 2", polygon_ring(regular_polygon(3, 1.0, 0.4), 2, 2), strain},
+      {"rectangle, order 2", rectangle_ring(6, 1.5, 4, 1, 2), stress},
+      {"hexagon, order 3", polygon_ring(regular_polygon(6, 0.01, 0.0), 1, 3), strain},
+      {"skew, order 1", polygon_ring(skew, 4, 1), stress},
+      {"skew, order 2", polygon_ring(skew, 2, 2), strain},
+      {"skew, order 4", polygon_ring(skew, 1, 4), stress},
+      {"square, order 8", polygon_ring(rectangle(1, 1), 1, 8), stress},
+      {"far centre", polygon_ring({{-0.2, -0.15}, {1.8, -0.15}, {1.8, 1.85}, {-0.2, 1.85}}, 2, 2), stress}};
 }
 
 class TextbookRoute : public testing::TestWithParam<Shape> {};
@@ -78,14 +82,15 @@ TEST_P(TextbookRoute, GivesTheSameStiffnessAndExponents) {
   const auto exponents = modal_solution(solution).exponents;
   ASSERT_EQ(exponents.size(), textbook.exponents.size());
   for (std::size_t i = 0; i < exponents.size(); ++i)
-    EXPECT_NEAR(exponents[i].real(), textbook.exponents[i].real(), 1e-5);  // defective ones move by a root of rounding
+    EXPECT_NEAR(exponents[i].real(), textbook.exponents[i].real(),
+                1e-5);  // defective ones move by a root of rounding
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, TextbookRoute, testing::ValuesIn(small_shapes()));
 
 /// Relative errors of a stiffness in what must hold exactly.
 struct StiffnessErrors {
-  double asymmetry, rigid, riccati, least;
+  double asymmetry, rigid, riccati;
 };
 
 /// u of the three rigid motions, orthonormal columns.
@@ -105,8 +110,8 @@ double riccati_residual(const CoefficientMatrices& matrices, const Matrix& K) {
   return (linalg::multiply_transposed(X, X) - Matrix(matrices.E2)).norm() / matrices.E2.norm();
 }
 
-/// K is positive semi-definite with exactly the three rigid motions at zero: K + |K| Q Q' - delta has a Cholesky factor
-/// for a delta far above rounding (Sylvester's law of inertia).
+/// K is positive semi-definite with exactly the three rigid motions at zero: K + |K| Q Q' - delta has a
+/// Cholesky factor for a delta far above rounding (Sylvester's law of inertia).
 bool only_rigid_motions_are_free(const Matrix& K, const Matrix& Q) {
   const double size = largest(K);
   Matrix held = K + size * Q * Q.transpose();
@@ -118,7 +123,7 @@ StiffnessErrors errors_of(const Ring& ring, const Mat3& D) {
   const Matrix K = solve_super_element(ring, D, 1.0).K, Q = rigid_motions(ring);
   EXPECT_TRUE(only_rigid_motions_are_free(K, Q));
   return {(K - K.transpose()).norm() / K.norm(), (K * Q).norm() / (K.norm() * Q.norm()),
-          riccati_residual(coefficient_matrices(ring, D, 1.0), K), 0.0};
+          riccati_residual(coefficient_matrices(ring, D, 1.0), K)};
 }
 
 void expect_exact(const std::string& what, const Ring& ring, const Mat3& D) {
@@ -145,7 +150,8 @@ TEST(ExactStiffness, SlenderRectangleOfAnySize) {
 
 TEST(ExactStiffness, WithoutSymmetryBlocks) {
   for (int n : {40, 160, 640})
-    expect_exact("unsplit, n = " + std::to_string(n), unsplit(rectangle_ring(6.0, 1.5, n / 10, n / 40, 2)), concrete);
+    expect_exact("unsplit, n = " + std::to_string(n), unsplit(rectangle_ring(6.0, 1.5, n / 10, n / 40, 2)),
+                 concrete);
 }
 
 TEST(ExactStiffness, VerySlenderRectangle) {
@@ -162,20 +168,23 @@ TEST(ExactStiffness, NearlyIncompressible) {
 }
 
 TEST(ExactStiffness, EveryEdgeOrder) {
-  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
+  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2},
+                                  {0.3, 0.4},   {-0.2, 1.3}, {-1.0, 0.1}};
   for (int order = 1; order <= 8; ++order) {
-    expect_exact("rectangle, order " + std::to_string(order), rectangle_ring(6.0, 1.5, 8, 2, order), concrete);
+    expect_exact("rectangle, order " + std::to_string(order), rectangle_ring(6.0, 1.5, 8, 2, order),
+                 concrete);
     expect_exact("skew, order " + std::to_string(order), polygon_ring(skew, 2, order), concrete);
   }
 }
 
 TEST(SymmetryBlocks, GiveTheStiffnessOfTheUnsplitSuperElement) {
   const std::vector<Vec2> house = {{-1, -1}, {1, -1}, {1, 0.4}, {0, 1.2}, {-1, 0.4}};  // one mirror line
-  const std::vector<std::pair<Ring, std::size_t>> rings = {{rectangle_ring(6, 1.5, 8, 2, 2), 4},
-                                                           {polygon_ring(rectangle(1, 1), 3, 1), 4},
-                                                           {polygon_ring(house, 2, 3), 2},
-                                                           {polygon_ring(regular_polygon(5, 1, 0.7), 1, 2), 2},
-                                                           {polygon_ring(regular_polygon(8, 1, 0.7), 1, 2), 4}};
+  const std::vector<std::pair<Ring, std::size_t>> rings = {
+      {rectangle_ring(6, 1.5, 8, 2, 2), 4},
+      {polygon_ring(rectangle(1, 1), 3, 1), 4},
+      {polygon_ring(house, 2, 3), 2},
+      {polygon_ring(regular_polygon(5, 1, 0.7), 1, 2), 2},
+      {polygon_ring(regular_polygon(8, 1, 0.7), 1, 2), 4}};
   for (const auto& [ring, blocks] : rings) {
     const auto split = solve_super_element(ring, concrete, 1.0);
     const auto whole = solve_super_element(unsplit(ring), concrete, 1.0);
@@ -200,7 +209,8 @@ TEST(SymmetryBlocks, ATurnedRectangleHasTheTurnedStiffness) {
 }
 
 TEST(SuperElement, StiffnessScalesWithModulusAndThicknessAndNotWithSize) {
-  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
+  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2},
+                                  {0.3, 0.4},   {-0.2, 1.3}, {-1.0, 0.1}};
   const Ring ring = polygon_ring(skew, 2, 2);
   Ring small = ring;
   for (Vec2& node : small.nodes) node *= 1e-3;

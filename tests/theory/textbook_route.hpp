@@ -2,8 +2,9 @@
 //
 //     Z = [[-E0^-1 E1', E0^-1], [E2 - E1 E0^-1 E1', E1 E0^-1]],   xi X,xi = Z X,   X = [u; q]
 //
-// of which the n - 2 of largest real part are taken and the two translations put in: K = Phi_q Phi_u^-1 (Song, The
-// Scaled Boundary Finite Element Method, 2018, section 3.2). It loses its digits as n grows: only for small n.
+// of which the n - 2 of largest real part are taken and the two translations put in: K = Phi_q Phi_u^-1
+// (Song, The Scaled Boundary Finite Element Method, 2018, section 3.2). It loses its digits as n grows: only
+// for small n.
 #pragma once
 
 #include <Eigen/Dense>
@@ -23,7 +24,8 @@ struct TextbookSolution {
 };
 
 inline TextbookSolution textbook_route(const element::CoefficientMatrices& matrices) {
-  const double unit = Matrix(matrices.E0).cwiseAbs().maxCoeff();  // u and q of one size: Eigen does not balance
+  const double unit =
+      Matrix(matrices.E0).cwiseAbs().maxCoeff();  // u and q of one size: Eigen does not balance
   const Matrix E0 = matrices.E0 / unit, E1 = matrices.E1 / unit, E2 = matrices.E2 / unit;
   const Eigen::Index n = E0.rows();
   const Matrix inverse = E0.inverse();

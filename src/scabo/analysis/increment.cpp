@@ -82,13 +82,17 @@ Eigen::Vector3d resultant(const system::BodySystem& body, const std::vector<Vec2
   return sum;
 }
 
+/// Largest force at work in a state.
+double largest_force(const State& state) {
+  double largest = state.p.size() > 0 ? state.p.lpNorm<Eigen::Infinity>() : 0.0;
+  for (const auto* forces : {&state.forces, &state.reactions})
+    for (const Vector& of_body : *forces)
+      if (of_body.size() > 0) largest = std::max(largest, of_body.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
 /// Completes the certificate with what only the whole structure can tell: equilibrium of every node and of every body.
-void certify_structure(const Prepared& prepared, const State& state, contact::Certificate& certificate) {
-  double scale = state.p.size() > 0 ? state.p.lpNorm<Eigen::Infinity>() : 0.0;
-  for (std::size_t b = 0; b < state.u.size(); ++b) {
-    if (state.forces[b].size() > 0) scale = std::max(scale, state.forces[b].lpNorm<Eigen::Infinity>());
-    if (state.reactions[b].size() > 0) scale = std::max(scale, state.reactions[b].lpNorm<Eigen::Infinity>());
-  }
+void certify_structure(const Prepared& prepared, const State& state, double scale, contact::Certificate& certificate) {
   if (scale == 0.0) return;
   for (std::size_t b = 0; b < state.u.size(); ++b) {
     const system::BodySystem& body = *prepared.structure.bodies[b];
@@ -249,14 +253,13 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
+  options.force_scale = std::max({prepared.force_scale, largest_force(from), largest_force(to)});
   std::vector<Vector> free;  // without contact
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
     problem.q += system.motion[b] * free[b];
     const Matrix& rigid = bodies[b]->rigid_motions();
     problem.f.segment(system.first_rigid[b], rigid.cols()) = rigid.transpose() * to.forces[b];
-    if (to.forces[b].size() > 0)
-      options.force_scale = std::max(options.force_scale, to.forces[b].lpNorm<Eigen::Infinity>());
   }
   check_held_pairs(prepared, free);
 
@@ -276,7 +279,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   }
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
-  certify_structure(prepared, to, result.certificate);
+  certify_structure(prepared, to, std::max(options.force_scale, largest_force(to)), result.certificate);
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;

@@ -12,6 +12,8 @@ struct Prepared {
   const mesh::Mesh& mesh;
   const system::Structure& structure;
   const system::ContactSystem& contact;
+  double force_scale = 0.0;  ///< largest nodal force of any load at factor 1: what a force is small against, also where
+                             ///< all loads are zero for a moment
 };
 
 /// Factors of loads and supports at one time.

@@ -139,6 +139,14 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
   }
 }
 
+double force_scale(const system::Structure& structure) {
+  double largest = 0.0;
+  for (const std::vector<Vector>& load : structure.loads)
+    for (const Vector& forces : load)
+      if (forces.size() > 0) largest = std::max(largest, forces.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
 std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolution& solution) {
   std::vector<const element::SuperElementSolution*> pointers;
   for (const auto& super_element : solution.super_elements)
@@ -178,7 +186,7 @@ StaticSolution solve_static(model::Model model, const Options& options) {
   const system::ContactSystem contact =
       timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh); });
   if (options.on_mesh) options.on_mesh(solution);
-  run_steps({solution.model, solution.mesh, structure, contact}, solution, options);
+  run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure)}, solution, options);
   return solution;
 }
 

@@ -81,12 +81,13 @@ RadialField::Values RadialField::at(double xi) const {
     const Part& part = parts_[k];
     const Block& block = solution_.blocks[k];
     const auto& modes = modal_.blocks[k].modes;
-    const Vector psi = modes.propagate(part.c, part.w, s);
-    const Vector slope = modes.T() * psi - xi * xi * part.w;
+    // psi / xi: strains near the centre are quotients of small numbers otherwise. No exponent is below 1.
+    const Vector psi = modes.propagate(part.c, part.w, s, 1.0);
+    const Vector slope = modes.T() * psi - xi * part.w;
     const Vector moving = modal_.blocks[k].Phi * psi;
-    values.u += block.T * (moving + block.R * (part.a0 + xi * xi * part.b));                    // eq. (2)
-    values.u_part += block.T * (moving / xi);
-    values.u_xi += block.T * (modal_.blocks[k].Phi * slope / xi + 2.0 * xi * block.R * part.b); // eq. (3)
+    values.u += block.T * (xi * moving + block.R * (part.a0 + xi * xi * part.b));               // eq. (2)
+    values.u_part += block.T * moving;
+    values.u_xi += block.T * (modal_.blocks[k].Phi * slope + 2.0 * xi * block.R * part.b);       // eq. (3)
   }
   return values;
 }

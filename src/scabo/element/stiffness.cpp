@@ -113,7 +113,7 @@ Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& 
   Matrix K22 = even + odd, K11 = even - odd;                                              // eq. (1)
   Matrix K12 = -E0 / d + 0.5 * (E1 - E1.transpose()) + d / 4.0 * E2;
   constexpr int most = 60;
-  for (; doublings < most; ++doublings) {                                                 // eq. (2)
+  while (doublings < most) {                                                              // eq. (2)
     Matrix B = K11 + K22;
     ensure(linalg::cholesky_in_place(B), "a ring of a super-element is not positive definite");
     Matrix X = K12, Y = K12.transpose();
@@ -122,11 +122,11 @@ Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& 
     linalg::add_gram(K22, X, -1.0, 1.0);
     linalg::add_gram(K11, Y, -1.0, 1.0);
     K12 = linalg::multiply_transposed(Y, X, -1.0);
+    ++doublings;
     // |X'X| of the next step is about |K12|^2 / |B|: below rounding, K22 has arrived.
-    if (K12.cwiseAbs().maxCoeff() < 1e-10 * K22.cwiseAbs().maxCoeff()) break;
+    if (K12.cwiseAbs().maxCoeff() < 1e-10 * K22.cwiseAbs().maxCoeff()) return K22;
   }
-  ensure(doublings < most, "ring doubling did not end");
-  return K22;
+  throw BrokenInvariant("ring doubling did not end");
 }
 
 SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness) {

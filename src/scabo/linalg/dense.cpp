@@ -72,6 +72,16 @@ Matrix multiply(const Matrix& A, const Matrix& B) {
   return C;
 }
 
+void add_product(double alpha, const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B,
+                 Eigen::Ref<Matrix> C) {
+  ensure(A.cols() == B.rows() && C.rows() == A.rows() && C.cols() == B.cols(), "add_product: sizes differ");
+  if (C.size() == 0 || A.cols() == 0) return;
+  const auto length = [](Eigen::Index value) { return static_cast<int>(value); };
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, length(A.rows()), length(B.cols()), length(A.cols()), alpha,
+              A.data(), length(A.outerStride()), B.data(), length(B.outerStride()), 1.0, C.data(),
+              length(C.outerStride()));
+}
+
 RealSchur real_schur(Matrix A) {
   const int n = rows(A);
   RealSchur schur{std::move(A), Matrix(n, n)};

@@ -1,6 +1,7 @@
 #include "scabo/linalg/schur_exponential.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -30,28 +31,60 @@ std::array<ContourPoint, contour_points> make_contour() {
   return contour;
 }
 
+const std::array<ContourPoint, contour_points>& the_contour() {
+  static const std::array<ContourPoint, contour_points> contour = make_contour();
+  return contour;
+}
+
 bool pair_begins(const Matrix& T, Eigen::Index i) { return i + 1 < T.rows() && T(i + 1, i) != 0.0; }
 
-/// x + iy <- (z - s T)^-1 (x + iy), by columns from the last: real and imaginary parts apart, for the vector units.
-void solve_shifted(const Matrix& T, double s, std::complex<double> z, Vector& x, Vector& y) {
-  for (Eigen::Index j = T.rows() - 1; j >= 0; --j) {
-    const bool pair = j > 0 && pair_begins(T, j - 1);
-    const Eigen::Index first = pair ? j - 1 : j;
-    if (pair) {
-      const std::complex<double> a = z - s * T(first, first), b = -s * T(first, j), c = -s * T(j, first),
-                                 d = z - s * T(j, j);
-      const std::complex<double> f(x[first], y[first]), g(x[j], y[j]), determinant = a * d - b * c;
-      const std::complex<double> u = (d * f - b * g) / determinant, v = (a * g - c * f) / determinant;
-      x[first] = u.real(), y[first] = u.imag(), x[j] = v.real(), y[j] = v.imag();
-    } else {
-      const std::complex<double> u = std::complex<double>(x[j], y[j]) / (z - s * T(j, j));
-      x[j] = u.real(), y[j] = u.imag();
+/// 1 / z, without the checks for overflow of the language's own division, which cost more than the solve.
+std::complex<double> inverse(std::complex<double> z) {
+  const double square = z.real() * z.real() + z.imag() * z.imag();
+  return {z.real() / square, -z.imag() / square};
+}
+
+/// Solves one diagonal block of z - s T, rows first to last of X, all contour points (columns: real parts, then
+/// imaginary parts), by back substitution.
+void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::Index size, Matrix& X) {
+  const std::array<ContourPoint, contour_points>& contour = the_contour();
+  for (Eigen::Index point = 0; point < contour_points; ++point) {
+    const std::complex<double> z = contour[static_cast<std::size_t>(point)].z;
+    double* const x = X.col(point).data();
+    double* const y = X.col(contour_points + point).data();
+    for (Eigen::Index j = start + size - 1; j >= start; --j) {
+      const Eigen::Index first = j > start && pair_begins(T, j - 1) ? j - 1 : j;
+      if (first < j) {
+        const std::complex<double> a = z - s * T(first, first), d = z - s * T(j, j);
+        const double b = -s * T(first, j), c = -s * T(j, first);
+        const std::complex<double> f(x[first], y[first]), g(x[j], y[j]), over = inverse(a * d - b * c);
+        const std::complex<double> u = (d * f - b * g) * over, v = (a * g - c * f) * over;
+        x[first] = u.real(), y[first] = u.imag(), x[j] = v.real(), y[j] = v.imag();
+      } else {
+        const std::complex<double> u = std::complex<double>(x[j], y[j]) * inverse(z - s * T(j, j));
+        x[j] = u.real(), y[j] = u.imag();
+      }
+      for (Eigen::Index column = first; column <= j; ++column) {
+        const double u = s * x[column], v = s * y[column];
+        const double* const t = T.col(column).data();
+        for (Eigen::Index row = start; row < first; ++row) x[row] += u * t[row], y[row] += v * t[row];
+      }
+      j = first;
     }
-    for (Eigen::Index column = first; column <= j; ++column) {
-      x.head(first) += (s * x[column]) * T.col(column).head(first);
-      y.head(first) += (s * y[column]) * T.col(column).head(first);
-    }
-    j = first;
+  }
+}
+
+/// X <- (z - s T)^-1 X for all contour points at once: what a block of rows contributes to those above it is one
+/// product of matrices.
+void solve_shifted(const Matrix& T, double s, Matrix& X) {
+  constexpr Eigen::Index rows_at_a_time = 32;
+  for (Eigen::Index end = T.rows(); end > 0;) {
+    Eigen::Index start = std::max<Eigen::Index>(0, end - rows_at_a_time);
+    if (start > 0 && pair_begins(T, start - 1)) --start;  // 2 x 2 blocks stay whole
+    solve_diagonal_block(T, s, start, end - start, X);
+    if (start > 0)
+      add_product(s, T.block(0, start, start, end - start), X.middleRows(start, end - start), X.topRows(start));
+    end = start;
   }
 }
 
@@ -65,31 +98,45 @@ SchurExponential::SchurExponential(const Matrix& S) : schur_(real_schur(S)) {
     const std::complex<double> value(T(i, i), pair ? std::sqrt(std::abs(T(i, i + 1) * T(i + 1, i))) : 0.0);
     eigenvalues_.push_back(value);
     if (pair) eigenvalues_.push_back(std::conj(value)), ++i;
-    if (std::abs(std::arg(value)) > sector) in_sector_ = false;
   }
 }
 
-Vector SchurExponential::propagate(const Vector& c, const Vector& w, double s) const {
-  const Matrix& T = schur_.T;
-  const Eigen::Index n = T.rows();
+bool SchurExponential::contour_holds(double s, double shift) const {
+  for (const std::complex<double>& value : eigenvalues_) {
+    const std::complex<double> z = -s * (value - shift);  // s (S - k) lies in the left half plane: its mirror image
+    const bool faded = z.real() > 40.0, near_origin = std::abs(z) < 1.0;
+    if (!faded && !near_origin && std::abs(std::arg(z)) > sector) return false;
+  }
+  return true;
+}
+
+Vector SchurExponential::propagate(const Vector& c, const Vector& w, double s, double shift) const {
+  const Eigen::Index n = c.size();
   if (s == 0.0 || n == 0) return c;
-  if (!in_sector_) {  // rare: the dense exponential of [[T, -w], [0, 2]] s
+  Matrix T = schur_.T;
+  T.diagonal().array() -= shift;
+  const double forced = 2.0 - shift;  // the exponent of w
+  if (!contour_holds(s, shift)) {  // rare: the dense exponential of [[T, -w], [0, 2]] s
     Matrix augmented = Matrix::Zero(n + 1, n + 1);
     augmented.topLeftCorner(n, n) = T * s;
     augmented.topRightCorner(n, 1) = -w * s;
-    augmented(n, n) = 2.0 * s;
+    augmented(n, n) = forced * s;
     Vector start(n + 1);
     start << c, 1.0;
     return (augmented.exp() * start).head(n);
   }
-  static const std::array<ContourPoint, contour_points> contour = make_contour();
-  Vector psi = Vector::Zero(n), x(n), y(n);
-  for (const ContourPoint& point : contour) {
-    const std::complex<double> forcing = -s / (point.z - 2.0 * s);  // of w: the last row of the augmented system
-    x = c + forcing.real() * w;
-    y = forcing.imag() * w;
-    solve_shifted(T, s, point.z, x, y);
-    psi += 2.0 * point.weight.real() * x - 2.0 * point.weight.imag() * y;
+  Matrix X(n, 2 * contour_points);
+  for (Eigen::Index k = 0; k < contour_points; ++k) {
+    // Of w: the last row of the augmented system [[T, -w], [0, 2]].
+    const std::complex<double> forcing = -s * inverse(the_contour()[static_cast<std::size_t>(k)].z - forced * s);
+    X.col(k) = c + forcing.real() * w;
+    X.col(contour_points + k) = forcing.imag() * w;
+  }
+  solve_shifted(T, s, X);
+  Vector psi = Vector::Zero(n);
+  for (Eigen::Index k = 0; k < contour_points; ++k) {
+    const std::complex<double> weight = the_contour()[static_cast<std::size_t>(k)].weight;
+    psi += 2.0 * weight.real() * X.col(k) - 2.0 * weight.imag() * X.col(contour_points + k);
   }
   return psi;
 }

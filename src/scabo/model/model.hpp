@@ -83,7 +83,7 @@ struct Body {
   bool rigid = false;  ///< an obstacle or a punch: no material, no mesh
   int material = -1;   ///< index into Model::materials; -1 for a rigid body
   Outline outline;
-  MeshOptions mesh;    ///< unused for a rigid body
+  MeshOptions mesh;  ///< unused for a rigid body
   Source source;
 };
 
@@ -92,9 +92,9 @@ struct Place {
   enum class Kind { body, edge, corner, near };
   Kind kind = Kind::body;
   int body = -1;
-  int index = -1;              ///< of the edge or corner
-  Vec2 near = Vec2::Zero();    ///< `near`: the boundary node closest to this point is meant
-  std::string text;            ///< as the user wrote it, `upper.top_right`
+  int index = -1;            ///< of the edge or corner
+  Vec2 near = Vec2::Zero();  ///< `near`: the boundary node closest to this point is meant
+  std::string text;          ///< as the user wrote it, `upper.top_right`
   Source source;
 };
 
@@ -106,10 +106,18 @@ struct Support {
   Source source;
 };
 
-struct Force { Vec2 value; };      ///< force: on a point, or in total over an edge
-struct Traction { Vec2 value; };   ///< force / length^2 on an edge
-struct Pressure { double value; }; ///< force / length^2 on an edge, against its outward normal
-struct Gravity { Vec2 value; };    ///< length / time^2 on a body with density
+struct Force {
+  Vec2 value;
+};  ///< force: on a point, or in total over an edge
+struct Traction {
+  Vec2 value;
+};  ///< force / length^2 on an edge
+struct Pressure {
+  double value;
+};  ///< force / length^2 on an edge, against its outward normal
+struct Gravity {
+  Vec2 value;
+};  ///< length / time^2 on a body with density
 
 struct Load {
   std::string name;

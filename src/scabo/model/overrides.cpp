@@ -112,9 +112,8 @@ class Replacement {
 Override parse_override(std::string_view text) {
   const auto equals = text.find('=');
   const auto fail = [&](const std::string& why) {
-    throw InputError("--set", {{{},
-                                fmt::format("{} {}: write path=value, as in contacts.joint.friction=0.5",
-                                            quoted_name(text), why)}});
+    refuse_file("--set", fmt::format("{} {}: write path=value, as in contacts.joint.friction=0.5",
+                                     quoted_name(text), why));
   };
   if (equals == std::string_view::npos) fail("has no '='");
   Override result{std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};

@@ -62,6 +62,7 @@ double estimated_dofs(const Outline& outline, MeshKind kind, double size, int or
 
 std::string edge_names(const Outline& outline, const std::vector<int>& indices) {
   std::vector<std::string> names;
+  names.reserve(indices.size());
   for (const int i : indices) names.push_back(shown_name(outline.edges[static_cast<std::size_t>(i)]));
   return name_list(names);
 }

@@ -163,8 +163,7 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
   NodePtr root = parse_yaml(text, mistakes);
   for (const Diagnostic& mistake : mistakes) reading.report.error(mistake.at, mistake.message);
   if (!root) reading.report.throw_if_any(file);
-  if (root->kind == Node::Kind::null)
-    throw InputError(file, {{{}, "is empty: a model file starts with 'scabo: 1'"}});
+  if (root->kind == Node::Kind::null) refuse_file(file, "is empty: a model file starts with 'scabo: 1'");
   root = apply_overrides(root, overrides, reading.report);
 
   const Value whole{root, ""};

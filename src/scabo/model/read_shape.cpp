@@ -150,7 +150,7 @@ std::optional<Outline> read_rectangle(Reading& reading, const Value& value) {
     return {};
   }
   if (!corner || !size) return {};
-  const Vec2 a = *corner;
+  const Vec2& a = *corner;
   const Vec2 b = a + *size;
   const std::array<Vec2, 4> points{a, Vec2(b.x(), a.y()), b, Vec2(a.x(), b.y())};
   const std::array<const char*, 4> edge_names{"bottom", "right", "top", "left"};

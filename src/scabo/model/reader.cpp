@@ -51,7 +51,10 @@ void Report::throw_if_any(const std::string& file) {
   std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::tie(a.at.line, a.at.column) < std::tie(b.at.line, b.at.column);
   });
-  if (count_ > most) diagnostics_.push_back({{}, fmt::format("and {} more mistakes", count_ - most)});
+  if (count_ > most) {
+    diagnostics_.emplace_back();
+    diagnostics_.back().message = fmt::format("and {} more mistakes", count_ - most);
+  }
   throw InputError(file, std::move(diagnostics_));
 }
 
@@ -145,7 +148,7 @@ std::optional<Vec2> read_vector(Report& report, const Value& value) {
 
 std::optional<std::string> read_choice(Report& report, const Value& value,
                                        const std::vector<std::string>& known, const Later& later) {
-  const auto text = read_text(report, value);
+  auto text = read_text(report, value);
   if (!text) return {};
   if (std::find(known.begin(), known.end(), *text) != known.end()) return text;
   for (const auto& [name, remedy] : later) {

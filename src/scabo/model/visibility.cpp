@@ -137,8 +137,8 @@ std::optional<Vec2> seeing_point(const Outline& outline) {
   if (!(best > margin * size)) return {};
   // The fewest digits that still see everything well: the user will type them.
   const double decade = std::pow(10.0, std::floor(std::log10(size)));
-  for (double unit = 0.1 * decade; unit > 1e-6 * decade; unit *= 0.1) {
-    const Vec2 candidate = rounded(middle, unit);
+  for (int digits = 1; digits <= 6; ++digits) {
+    const Vec2 candidate = rounded(middle, decade * std::pow(10.0, -digits));
     if (clearance(outline, candidate) > std::max(0.5 * best, margin * size)) return candidate;
   }
   return middle;

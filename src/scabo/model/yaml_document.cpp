@@ -140,7 +140,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Open open = start(mark, anchor, Node::Kind::null);
-    close(std::move(open));
+    close(open);
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -150,7 +150,7 @@ class TreeBuilder : public YAML::EventHandler {
     check_closed_quote(mark);
     open.node->text = value;
     open.node->quoted = tag == "!";
-    close(std::move(open));
+    close(open);
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -247,10 +247,10 @@ class TreeBuilder : public YAML::EventHandler {
         }
       }
     }
-    close(std::move(open));
+    close(open);
   }
 
-  void close(Open open) {
+  void close(const Open& open) {
     const Position at{open.node->line, open.node->column};
     if (open.anchor != 0) anchors_[open.anchor] = open.node;
     add(open.node, at);
@@ -372,8 +372,14 @@ NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics, 
   return std::make_shared<Node>();
 }
 
+void refuse_file(const std::string& file, std::string message) {
+  Diagnostic diagnostic;
+  diagnostic.message = std::move(message);
+  throw InputError(file, std::vector<Diagnostic>(1, diagnostic));
+}
+
 std::string read_text_file(const std::string& file, const YamlLimits& limits) {
-  const auto fail = [&](const std::string& message) { throw InputError(file, {{{}, message}}); };
+  const auto fail = [&](const std::string& message) { refuse_file(file, message); };
   std::error_code code;
   const auto status = std::filesystem::status(file, code);
   if (!std::filesystem::exists(status)) fail("no such file");

@@ -52,6 +52,9 @@ struct YamlLimits {
 NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics,
                    const YamlLimits& limits = {});
 
+/// Throws the InputError of a file that is wrong as a whole.
+[[noreturn]] void refuse_file(const std::string& file, std::string message);
+
 /// The bytes of a file. Throws InputError for what is missing, no file, unreadable or larger than the limit.
 std::string read_text_file(const std::string& file, const YamlLimits& limits = {});
 

@@ -1,5 +1,7 @@
-// A program outside Scabo's own tree that reads a model through the installed headers and library.
+// A program outside Scabo's own tree that reads and solves a model through the installed headers and library.
+#include <cmath>
 #include <cstdio>
+#include <scabo/analysis/static_analysis.hpp>
 #include <scabo/model/read_model.hpp>
 
 int main() {
@@ -23,6 +25,11 @@ steps:
     const double area = model.bodies.at(0).outline.area();
     std::printf("%s: area %g\n", model.bodies.at(0).name.c_str(), area);
     if (area < 1.999 || area > 2.001) return 1;
+
+    const scabo::analysis::StaticSolution solution = scabo::analysis::solve_static(model);
+    const double reaction = solution.increments.back().reactions.at(0).x();
+    std::printf("reaction %g\n", reaction);
+    if (solution.outcome != scabo::analysis::Outcome::solved || std::abs(reaction + 1e3) > 1e-6) return 1;
   } catch (const scabo::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

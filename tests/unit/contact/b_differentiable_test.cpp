@@ -9,12 +9,13 @@ namespace {
 
 using namespace test;
 
-/// H and its directional derivative, case by case from eqs. (7) and (8): min and lambda are piecewise linear in the
-/// plane, so H(z + t d) = H(z) + t H'(z; d) exactly for t small enough, kinks included.
+/// H and its directional derivative, case by case from eqs. (7) and (8): min and lambda are piecewise linear
+/// in the plane, so H(z + t d) = H(z) + t H'(z; d) exactly for t small enough, kinks included.
 struct Plain {
   const Problem& problem;
   Vector r;
-  explicit Plain(const Problem& given, double factor) : problem(given), r(factor * given.W.diagonal().cwiseInverse()) {}
+  explicit Plain(const Problem& given, double factor)
+      : problem(given), r(factor * given.W.diagonal().cwiseInverse()) {}
 
   Vector motion(const Vector& z) const {
     const Eigen::Index n = problem.q.size();
@@ -26,7 +27,8 @@ struct Plain {
     Vector H(n + m);
     for (Eigen::Index i = 0; i < n; i += 2) {
       H[i] = std::min(r[i] * motion_z[i], z[i]);
-      const double trial = z[i + 1] - r[i + 1] * motion_z[i + 1], bound = problem.mu[i / 2] * std::max(z[i], 0.0);
+      const double trial = z[i + 1] - r[i + 1] * motion_z[i + 1],
+                   bound = problem.mu[i / 2] * std::max(z[i], 0.0);
       H[i + 1] = z[i + 1] - std::clamp(trial, -bound, bound);  // lambda p_t(r)
     }
     H.tail(m) = problem.G.transpose() * z.head(n) + problem.f;
@@ -40,15 +42,21 @@ struct Plain {
       const double gap = r[i] * motion_z[i], gap_d = r[i] * motion_d[i];
       slope[i] = gap < z[i] ? gap_d : gap > z[i] ? d[i] : std::min(gap_d, d[i]);
       const double mu = problem.mu[i / 2];
-      const double trial = z[i + 1] - r[i + 1] * motion_z[i + 1], trial_d = d[i + 1] - r[i + 1] * motion_d[i + 1];
+      const double trial = z[i + 1] - r[i + 1] * motion_z[i + 1],
+                   trial_d = d[i + 1] - r[i + 1] * motion_d[i + 1];
       const double bound = mu * std::max(z[i], 0.0);
       const double bound_d = mu * (z[i] > 0.0 ? d[i] : z[i] < 0.0 ? 0.0 : std::max(d[i], 0.0));
       double projected = 0.0;  // derivative of the projection of trial on [-bound, bound]
-      if (std::abs(trial) < bound) projected = trial_d;
-      else if (bound == 0.0 && trial == 0.0) projected = std::clamp(trial_d, -bound_d, bound_d);
-      else if (trial > bound) projected = bound_d;
-      else if (trial < -bound) projected = -bound_d;
-      else projected = trial > 0.0 ? std::min(trial_d, bound_d) : std::max(trial_d, -bound_d);
+      if (std::abs(trial) < bound)
+        projected = trial_d;
+      else if (bound == 0.0 && trial == 0.0)
+        projected = std::clamp(trial_d, -bound_d, bound_d);
+      else if (trial > bound)
+        projected = bound_d;
+      else if (trial < -bound)
+        projected = -bound_d;
+      else
+        projected = trial > 0.0 ? std::min(trial_d, bound_d) : std::max(trial_d, -bound_d);
       slope[i + 1] = d[i + 1] - projected;
     }
     slope.tail(m) = problem.G.transpose() * d.head(n);
@@ -65,12 +73,18 @@ Vector random_point(std::mt19937& random, const Problem& problem, bool kinks) {
   const Eigen::Index n = problem.q.size();
   Vector z = random_vector(random, n + problem.G.cols());
   if (kinks)
-    for (Eigen::Index i = 0; i < n; i += 2)
-      switch (whole(random, 0, 3)) {
-        case 0: z[i] = 0.0; break;
-        case 1: z[i] = z[i + 1] = 0.0; break;
-        case 2: z[i] = std::abs(z[i]); break;
-        default: break;
+    for (Eigen::Index i = 0; i < n; i += 2) switch (whole(random, 0, 3)) {
+        case 0:
+          z[i] = 0.0;
+          break;
+        case 1:
+          z[i] = z[i + 1] = 0.0;
+          break;
+        case 2:
+          z[i] = std::abs(z[i]);
+          break;
+        default:
+          break;
       }
   return z;
 }
@@ -109,7 +123,8 @@ TEST(BDifferentiableEquations, HaveOneSidedDerivativesInEveryDirection) {
       for (Eigen::Index i = 0; i < n; i += 2) {
         if (whole(random, 0, 1) == 0) problem.q[i] += z[i] / plain.r[i] - motion[i];
         if (whole(random, 0, 1) == 0)
-          problem.q[i + 1] += (z[i + 1] - problem.mu[i / 2] * std::max(z[i], 0.0)) / plain.r[i + 1] - motion[i + 1];
+          problem.q[i + 1] +=
+              (z[i + 1] - problem.mu[i / 2] * std::max(z[i], 0.0)) / plain.r[i + 1] - motion[i + 1];
       }
     }
     const BDifferentiableEquations equations(problem, 1.0);
@@ -119,8 +134,10 @@ TEST(BDifferentiableEquations, HaveOneSidedDerivativesInEveryDirection) {
       // A tie hit only to rounding is decided by rounding: the quotient is right from t far above it.
       const double t = 1e-7;
       const Vector quotient = (H_of(equations, problem, z + t * d) - H) / t;
-      const Vector slope = Plain(problem, 1.0).derivative(z, d), back = Plain(problem, 1.0).derivative(z + 1e-12 * d, d);
-      const double error = std::min((quotient - slope).cwiseAbs().maxCoeff(), (quotient - back).cwiseAbs().maxCoeff());
+      const Vector slope = Plain(problem, 1.0).derivative(z, d),
+                   back = Plain(problem, 1.0).derivative(z + 1e-12 * d, d);
+      const double error =
+          std::min((quotient - slope).cwiseAbs().maxCoeff(), (quotient - back).cwiseAbs().maxCoeff());
       EXPECT_LT(error, 1e-5) << "problem " << k;
     }
   }
@@ -143,10 +160,12 @@ TEST(BDifferentiableEquations, DirectionSolvesTheLinearisedEquations) {
     }
     ++directions;
     const double size = 1.0 + at.H.cwiseAbs().maxCoeff() + d->cwiseAbs().maxCoeff();
-    EXPECT_LT((Plain(problem, factor).derivative(z, *d) + at.H).cwiseAbs().maxCoeff(), 1e-9 * size) << "problem " << k;
+    EXPECT_LT((Plain(problem, factor).derivative(z, *d) + at.H).cwiseAbs().maxCoeff(), 1e-9 * size)
+        << "problem " << k;
     const double t = 1e-6 / size;
     const Vector moved = H_of(equations, problem, z + t * *d);
-    EXPECT_LT((moved - (1.0 - t) * at.H).cwiseAbs().maxCoeff(), 1e-6 * t * size + 1e-13 * size) << "problem " << k;
+    EXPECT_LT((moved - (1.0 - t) * at.H).cwiseAbs().maxCoeff(), 1e-6 * t * size + 1e-13 * size)
+        << "problem " << k;
   }
   EXPECT_GT(directions, 250);
 }

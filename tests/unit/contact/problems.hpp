@@ -12,10 +12,12 @@ namespace scabo::test {
 inline double uniform(std::mt19937& random, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(random);
 }
-inline int whole(std::mt19937& random, int from, int to) { return std::uniform_int_distribution<int>(from, to)(random); }
+inline int whole(std::mt19937& random, int from, int to) {
+  return std::uniform_int_distribution<int>(from, to)(random);
+}
 
-/// A flexibility as elastic bodies have it: positive definite, decaying with distance along the interface, normal and
-/// tangent coupled.
+/// A flexibility as elastic bodies have it: positive definite, decaying with distance along the interface,
+/// normal and tangent coupled.
 inline Matrix elastic_flexibility(std::mt19937& random, int pairs, double size = 1.0) {
   const double reach = uniform(random, 0.5, 4.0), coupling = uniform(random, 0.0, 0.5);
   Matrix S = Matrix::Zero(2 * pairs, 2 * pairs);
@@ -50,9 +52,9 @@ inline contact::Problem held_problem(std::mt19937& random, int pairs, double mos
   return problem;
 }
 
-/// A block on a floor, A the floor: n = +y, t = +x. Pairs along its base, equally spaced over `width`; reference point at
-/// its middle, `height` above the base. Rigid motions [u_x, u_y, L rotation] with L = width / 2, loads the works of
-/// [force_x, force_y, moment / L].
+/// A block on a floor, A the floor: n = +y, t = +x. Pairs along its base, equally spaced over `width`;
+/// reference point at its middle, `height` above the base. Rigid motions [u_x, u_y, L rotation] with L =
+/// width / 2, loads the works of [force_x, force_y, moment / L].
 inline Matrix block_motions(int pairs, double width, double height) {
   Matrix G(2 * pairs, 3);
   for (int i = 0; i < pairs; ++i) {
@@ -63,21 +65,25 @@ inline Matrix block_motions(int pairs, double width, double height) {
   return G;
 }
 
-/// The same as held_problem with a floating block of m = 1 (down), 2 (down, along), 3 rigid motions, pressed down.
+/// The same as held_problem with a floating block of m = 1 (down), 2 (down, along), 3 rigid motions, pressed
+/// down.
 inline contact::Problem floating_problem(std::mt19937& random, int pairs, double most_friction) {
   contact::Problem problem = held_problem(random, pairs, most_friction);
   const int m = whole(random, 1, 3);
   const Matrix G = block_motions(pairs, 2.0, uniform(random, 0.1, 1.0));
   const double weight = uniform(random, 0.1, 2.0) * pairs;
-  const Eigen::Vector3d f(weight * problem.mu[0] * uniform(random, -1.2, 1.2), -weight, weight * uniform(random, -0.6, 0.6));
-  const std::vector<int> motions = m == 1 ? std::vector<int>{1} : m == 2 ? std::vector<int>{0, 1} : std::vector<int>{0, 1, 2};
+  const Eigen::Vector3d f(weight * problem.mu[0] * uniform(random, -1.2, 1.2), -weight,
+                          weight * uniform(random, -0.6, 0.6));
+  const std::vector<int> motions = m == 1   ? std::vector<int>{1}
+                                   : m == 2 ? std::vector<int>{0, 1}
+                                            : std::vector<int>{0, 1, 2};
   problem.G = G(Eigen::all, motions);
   problem.f = f(motions);
   return problem;
 }
 
-/// Largest violation of Signorini's and Coulomb's conditions and of the balance of rigid motions, written out case by
-/// case, with W scaled so that its diagonal is about 1.
+/// Largest violation of Signorini's and Coulomb's conditions and of the balance of rigid motions, written out
+/// case by case, with W scaled so that its diagonal is about 1.
 inline double violation(const contact::Problem& problem, const Vector& p, const Vector& a) {
   Vector motion = problem.q + problem.W * p;
   if (a.size() > 0) motion += problem.G * a;
@@ -89,7 +95,8 @@ inline double violation(const contact::Problem& problem, const Vector& p, const 
     worst = std::max({worst, -g, -pn, std::min(std::abs(g), std::abs(pn))});
     const double bound = problem.mu[i] * pn, to_bound = bound - std::abs(pt);
     worst = std::max({worst, -to_bound, std::min(std::abs(ds), std::abs(to_bound))});
-    if (std::abs(ds) > 1e-7 * scale && std::abs(pt) > 1e-7 * scale && ds * pt > 0.0) worst = scale;  // friction opposes slip
+    if (std::abs(ds) > 1e-7 * scale && std::abs(pt) > 1e-7 * scale && ds * pt > 0.0)
+      worst = scale;  // friction opposes slip
   }
   if (a.size() > 0) worst = std::max(worst, (problem.G.transpose() * p + problem.f).cwiseAbs().maxCoeff());
   return worst / scale;

@@ -20,7 +20,8 @@ std::vector<Vector> trial_and_error(const Problem& problem) {
     Matrix A = Matrix::Identity(2 * N, 2 * N);  // rows: force zero, motion zero or slip at the bound
     Vector b = Vector::Zero(2 * N);
     for (int i = 0; i < N; ++i) {
-      const int state = combination >> (2 * i) & 3;  // 0 open, 1 stick, 2 slip with p_t = mu p_n, 3 with - mu p_n
+      const int state =
+          combination >> (2 * i) & 3;  // 0 open, 1 stick, 2 slip with p_t = mu p_n, 3 with - mu p_n
       if (state == 0) continue;
       A.row(2 * i) = problem.W.row(2 * i);
       b[2 * i] = -problem.q[2 * i];
@@ -77,7 +78,9 @@ TEST(Solve, StatesAndMotionsBelongToTheForces) {
       EXPECT_EQ(solution.slip_increment[i], motion[2 * i + 1]);
       const double pn = solution.p[2 * i], pt = solution.p[2 * i + 1], bound = problem.mu[i] * pn;
       switch (solution.states[static_cast<std::size_t>(i)]) {
-        case ContactState::open: EXPECT_LT(pn, 1e-12); break;
+        case ContactState::open:
+          EXPECT_LT(pn, 1e-12);
+          break;
         case ContactState::stick:
           EXPECT_GT(pn, 0.0);
           EXPECT_LT(std::abs(solution.slip_increment[i]), 1e-9);
@@ -117,7 +120,8 @@ TEST(Solve, TheAnswerDoesNotDependOnR) {
       options.r_factor = factor;
       const Solution solution = solve(problem, {}, options);
       EXPECT_EQ(solution.status, Status::solved) << "problem " << k << ", r times " << factor;
-      EXPECT_LT((solution.p - reference.p).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + reference.p.cwiseAbs().maxCoeff()))
+      EXPECT_LT((solution.p - reference.p).cwiseAbs().maxCoeff(),
+                1e-8 * (1.0 + reference.p.cwiseAbs().maxCoeff()))
           << "problem " << k << ", r times " << factor;
     }
   }
@@ -128,21 +132,24 @@ TEST(Solve, UnitsChangeNeitherTheAnswerNorTheIterations) {
   for (int k = 0; k < 60; ++k) {
     const Problem problem = k % 2 == 0 ? held_problem(random, 15, 0.8) : floating_problem(random, 15, 0.8);
     const Solution reference = solve(problem);
-    for (const auto& [flexibility, force] : {std::pair(1e9, 1e-3), std::pair(1e-10, 1e5), std::pair(1.0, 1e6), std::pair(1e-6, 1.0)}) {
+    for (const auto& [flexibility, force] :
+         {std::pair(1e9, 1e-3), std::pair(1e-10, 1e5), std::pair(1.0, 1e6), std::pair(1e-6, 1.0)}) {
       Problem other = problem;  // motions are flexibility times force
       other.W *= flexibility;
       other.q *= flexibility * force;
       other.f *= force;
       const Solution solution = solve(other);
       EXPECT_EQ(solution.status, reference.status);
-      EXPECT_EQ(solution.iterations, reference.iterations) << "problem " << k << ", " << flexibility << ", " << force;
-      EXPECT_LT((solution.p / force - reference.p).cwiseAbs().maxCoeff(), 1e-9 * (1.0 + reference.p.cwiseAbs().maxCoeff()));
+      EXPECT_EQ(solution.iterations, reference.iterations)
+          << "problem " << k << ", " << flexibility << ", " << force;
+      EXPECT_LT((solution.p / force - reference.p).cwiseAbs().maxCoeff(),
+                1e-9 * (1.0 + reference.p.cwiseAbs().maxCoeff()));
     }
   }
 }
 
-// A and B swapped: n and t both turn round, so gaps, slips and the forces [p_n, p_t] stay as they are, and so does W; a
-// mirror image turns only t.
+// A and B swapped: n and t both turn round, so gaps, slips and the forces [p_n, p_t] stay as they are, and so
+// does W; a mirror image turns only t.
 TEST(Solve, AMirrorImageHasTheMirroredForces) {
   std::mt19937 random(37);
   for (int k = 0; k < 20; ++k) {
@@ -156,7 +163,8 @@ TEST(Solve, AMirrorImageHasTheMirroredForces) {
     const Solution first = solve(problem), second = solve(mirrored);
     EXPECT_EQ(first.status, second.status);
     EXPECT_EQ(first.iterations, second.iterations);
-    EXPECT_LT((Vector(sign.asDiagonal() * second.p) - first.p).cwiseAbs().maxCoeff(), 1e-10 * (1.0 + first.p.cwiseAbs().maxCoeff()));
+    EXPECT_LT((Vector(sign.asDiagonal() * second.p) - first.p).cwiseAbs().maxCoeff(),
+              1e-10 * (1.0 + first.p.cwiseAbs().maxCoeff()));
   }
 }
 
@@ -186,14 +194,16 @@ TEST(Certificate, SeesEveryViolation) {
   problem.mu = Vector::Constant(1, 0.5);
   problem.G.resize(2, 0);
   const Scales scales;
-  const auto certificate = [&](double pn, double pt) { return certify(problem, Eigen::Vector2d(pn, pt), Vector(), scales); };
-  EXPECT_EQ(certificate(1.0, -0.3).worst(), 0.0);                       // sticks
+  const auto certificate = [&](double pn, double pt) {
+    return certify(problem, Eigen::Vector2d(pn, pt), Vector(), scales);
+  };
+  EXPECT_EQ(certificate(1.0, -0.3).worst(), 0.0);  // sticks
   EXPECT_DOUBLE_EQ(certificate(0.75, 0.0).penetration, 0.25);
   EXPECT_DOUBLE_EQ(certificate(-0.1, 0.0).tension, 0.1);
   EXPECT_DOUBLE_EQ(certificate(1.0, -0.8).friction_excess, 0.3);
   EXPECT_DOUBLE_EQ(certificate(2.0, 0.0).complementarity, 2.0);
-  EXPECT_DOUBLE_EQ(certificate(1.0, 0.0).slip_direction, 0.5 * 0.3);    // slips below the bound
-  EXPECT_DOUBLE_EQ(certificate(1.0, 0.5).slip_direction, 0.5 * 0.8);    // friction pushes along
+  EXPECT_DOUBLE_EQ(certificate(1.0, 0.0).slip_direction, 0.5 * 0.3);  // slips below the bound
+  EXPECT_DOUBLE_EQ(certificate(1.0, 0.5).slip_direction, 0.5 * 0.8);  // friction pushes along
   problem.G = Matrix::Identity(2, 1);
   problem.f = Vector::Constant(1, -1.25);
   EXPECT_DOUBLE_EQ(certify(problem, Eigen::Vector2d(1.0, -0.3), Vector::Zero(1), scales).rigid_balance, 0.25);

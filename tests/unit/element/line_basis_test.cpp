@@ -10,11 +10,14 @@ namespace {
 TEST(GaussRule, IsExactToTwiceItsPoints) {
   for (int count = 1; count <= 20; ++count) {
     const GaussRule rule = gauss_rule(count);
+    double worst = 0.0;
     for (int degree = 0; degree < 2 * count; ++degree) {
       double sum = 0.0;
-      for (std::size_t q = 0; q < rule.points.size(); ++q) sum += rule.weights[q] * std::pow(rule.points[q], degree);
-      EXPECT_NEAR(sum, degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0, 1e-14) << count << " points, degree " << degree;
+      for (std::size_t q = 0; q < rule.points.size(); ++q)
+        sum += rule.weights[q] * std::pow(rule.points[q], degree);
+      worst = std::max(worst, std::abs(sum - (degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0)));
     }
+    EXPECT_LT(worst, 2e-15) << count << " points";
     for (std::size_t q = 1; q < rule.points.size(); ++q) EXPECT_LT(rule.points[q - 1], rule.points[q]);
   }
 }

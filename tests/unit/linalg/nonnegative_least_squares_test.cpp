@@ -24,7 +24,7 @@ TEST(NonnegativeLeastSquares, MeetsItsOptimalityConditions) {
   for (int k = 0; k < 500; ++k) {
     const int rows = 1 + k % 6, columns = 1 + k % 37;
     Matrix A = Matrix::NullaryExpr(rows, columns, [&] { return entry(random); });
-    if (k % 4 == 0 && columns > 1) A.col(columns - 1) = A.col(0);                    // ties
+    if (k % 4 == 0 && columns > 1) A.col(columns - 1) = A.col(0);                     // ties
     if (k % 5 == 0 && columns > 2) A.col(1) = 0.5 * (A.col(0) + A.col(columns - 1));  // dependent columns
     const Vector b = Vector::NullaryExpr(rows, [&] { return entry(random); });
     SCOPED_TRACE(k);

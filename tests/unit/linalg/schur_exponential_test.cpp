@@ -19,7 +19,8 @@ Vector oracle(const Matrix& T, const Vector& c, const Vector& w, double s) {
   augmented.topRightCorner(n, 1) = -w.cast<long double>();
   augmented(n, n) = 2.0L;
   const LongMatrix exponential = (augmented * static_cast<long double>(s)).exp();
-  return (exponential.topLeftCorner(n, n) * c.cast<long double>() + exponential.topRightCorner(n, 1)).cast<double>();
+  return (exponential.topLeftCorner(n, n) * c.cast<long double>() + exponential.topRightCorner(n, 1))
+      .cast<double>();
 }
 
 void expect_agrees(const Matrix& S, double tolerance) {
@@ -47,7 +48,8 @@ TEST(SchurExponential, DefectiveEigenvalue) {
   expect_agrees(S, 1e-13);
   const SchurExponential schur(S);
   const double s = -1.5;
-  const Vector psi = schur.U() * schur.propagate(schur.U().transpose() * Vector(Eigen::Vector2d(0, 1)), Vector::Zero(2), s);
+  const Vector psi =
+      schur.U() * schur.propagate(schur.U().transpose() * Vector(Eigen::Vector2d(0, 1)), Vector::Zero(2), s);
   EXPECT_NEAR(psi[0], std::exp(s) * s, 1e-14);
   EXPECT_NEAR(psi[1], std::exp(s), 1e-14);
 }
@@ -63,9 +65,9 @@ TEST(SchurExponential, ComplexPairsWithinTheSector) {
   Matrix S(4, 4);  // 2 +- 2i and 1 +- 0.5i, coupled
   S << 2.0, -2.0, 0.3, 0.1, 2.0, 2.0, -0.4, 0.2, 0.0, 0.0, 1.0, -0.25, 0.0, 0.0, 1.0, 1.0;
   expect_agrees(S, 1e-13);
-  const auto& eigenvalues = SchurExponential(S).eigenvalues();
+  const SchurExponential schur(S);
   double largest = 0.0;
-  for (const auto& value : eigenvalues) largest = std::max(largest, value.imag());
+  for (const auto& value : schur.eigenvalues()) largest = std::max(largest, value.imag());
   EXPECT_NEAR(largest, 2.0, 1e-13);
 }
 
