@@ -1,5 +1,6 @@
 #include "scabo/contact/lemke.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -46,6 +47,31 @@ void pivot(Matrix& tableau, Eigen::Index row, Eigen::Index column) {
   }
 }
 
+/// Keeps those of `rows` whose `value` is the smallest, within rounding.
+template <typename Value>
+void keep_smallest(std::vector<Eigen::Index>& rows, Value value) {
+  double least = HUGE_VAL;
+  for (Eigen::Index i : rows) least = std::min(least, value(i));
+  std::erase_if(rows, [&](Eigen::Index i) { return value(i) > least + 1e-12 * (1.0 + std::abs(least)); });
+}
+
+/// The row with the smallest ratio of right-hand side and pivot; -1 on a ray. Friction rows tie by the dozen (their
+/// right-hand sides are 0), so ties are broken by the order of whole rows, which cannot cycle (lexicographic rule).
+Eigen::Index leaving_row(const Matrix& tableau, const std::vector<Eigen::Index>& basis, Eigen::Index entering) {
+  const Eigen::Index n = tableau.rows(), z0 = 2 * n, right = 2 * n + 1;
+  const double largest = tableau.col(entering).cwiseAbs().maxCoeff();
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (tableau(i, entering) > 1e-11 * largest) rows.push_back(i);
+  if (rows.empty()) return -1;
+  keep_smallest(rows, [&](Eigen::Index i) { return std::max(tableau(i, right), 0.0) / tableau(i, entering); });
+  for (Eigen::Index i : rows)
+    if (basis[static_cast<std::size_t>(i)] == z0) return i;  // z0 leaves as soon as it can: solved
+  for (Eigen::Index column = 0; column < n && rows.size() > 1; ++column)
+    keep_smallest(rows, [&](Eigen::Index i) { return tableau(i, column) / tableau(i, entering); });
+  return rows.front();
+}
+
 }  // namespace
 
 std::optional<Vector> lemke(const Problem& problem) {
@@ -64,19 +90,7 @@ std::optional<Vector> lemke(const Problem& problem) {
       basis[static_cast<std::size_t>(row)] = entering;
       if (leaving == z0) break;
       entering = leaving < n ? leaving + n : leaving - n;  // the complement enters
-      // Smallest ratio; among equals z0 first, then the largest pivot.
-      const double largest = tableau.col(entering).cwiseAbs().maxCoeff();
-      double best = HUGE_VAL;
-      row = -1;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const double at = tableau(i, entering);
-        if (at <= 1e-11 * largest) continue;
-        const double ratio = std::max(tableau(i, right), 0.0) / at;
-        const bool equal = row >= 0 && std::abs(ratio - best) <= 1e-12 * best;
-        const bool preferred = equal && basis[static_cast<std::size_t>(row)] != z0 &&
-                               (basis[static_cast<std::size_t>(i)] == z0 || at > tableau(row, entering));
-        if ((!equal && ratio < best) || preferred) best = std::min(best, ratio), row = i;
-      }
+      row = leaving_row(tableau, basis, entering);
       if (row < 0) return std::nullopt;  // a ray
     }
   }

@@ -11,6 +11,7 @@ namespace {
 /// The proof moves up the friction cones while it slides; the slide that changes no gap says the same more plainly. It is
 /// taken where the proof is mostly that.
 Vector slide_of(const Problem& problem, const Vector& motion) {
+  if (problem.pairs() == 0) return motion;
   Matrix normals(problem.pairs(), motion.size());
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) normals.row(i) = problem.G.row(2 * i);
   const Eigen::JacobiSVD<Matrix> svd(normals, Eigen::ComputeFullV);

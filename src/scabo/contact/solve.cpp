@@ -81,7 +81,9 @@ class Attempts {
   NewtonEnd proximal_point(Vector p, Vector a) {
     NewtonEnd end;
     end.residual = HUGE_VAL;
-    double soft = 1e-3;  // of the mean contact stiffness, which the scaling has made 1
+    // Of the mean contact stiffness, which the scaling has made 1. Of 8000 random floating problems none failed with 0.1,
+    // 1 % of those with weak friction with 0.001.
+    double soft = 0.1;
     for (int round = 0; round < 30; ++round) {
       const Problem held = proximal(problem_, a, soft);
       NewtonEnd inner = run(held, p, Vector(), options_.r_factor);

@@ -5,29 +5,40 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "scabo/base/error.hpp"
 #include "scabo/mesh/mesh.hpp"
 
 namespace scabo::element {
 
+namespace {
+
+/// Legendre polynomial of degree n and its derivative at |x| < 1.
+std::pair<double, double> legendre(int n, double x) {
+  double previous = 1.0, value = x;  // P_0, P_1
+  for (int k = 2; k <= n; ++k) {
+    const double next = ((2 * k - 1) * x * value - (k - 1) * previous) / k;
+    previous = value;
+    value = next;
+  }
+  return {value, n * (x * value - previous) / (x * x - 1.0)};
+}
+
+}  // namespace
+
 GaussRule gauss_rule(int count) {
   GaussRule rule{std::vector<double>(static_cast<std::size_t>(count)),
                  std::vector<double>(static_cast<std::size_t>(count))};
   for (int i = 0; i < count; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 0.0;
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
     for (int iteration = 0; iteration < 100; ++iteration) {
-      double previous = 1.0, value = x;  // Legendre polynomials P_0, P_1
-      for (int k = 2; k <= count; ++k) {
-        const double next = ((2 * k - 1) * x * value - (k - 1) * previous) / k;
-        previous = value;
-        value = next;
-      }
-      slope = count * (x * value - previous) / (x * x - 1.0);
+      const auto [value, slope] = legendre(count, x);
       const double step = value / slope;
       x -= step;
       if (std::abs(step) < 1e-15) break;
     }
+    const double slope = legendre(count, x).second;  // of the final x: the weight depends on its square
     rule.points[static_cast<std::size_t>(i)] = x;
     rule.weights[static_cast<std::size_t>(i)] = 2.0 / ((1.0 - x * x) * slope * slope);
   }

@@ -1,8 +1,12 @@
 // The comparator's mesh: a rectangle in 8-node serendipity elements.
 //
-//     3---6---2      Nodes are numbered row by row from the first corner of the outline, along its first
-//     edge: |       |      2 nx + 1 nodes in a row of corners, nx + 1 in a row of middles. 7       5 | |
+// clang-format off
+//     3---6---2      Nodes are numbered row by row from the first corner of the outline, along its first edge:
+//     |       |      2 nx + 1 nodes in a row of corners, nx + 1 in a row of middles.
+//     7       5
+//     |       |
 //     0---4---1
+// clang-format on
 #pragma once
 
 #include "scabo/mesh/mesh.hpp"
