@@ -2,8 +2,10 @@
 // that into messages and exit statuses.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "exit_status.hpp"
@@ -19,7 +21,7 @@ struct RunOptions {
   std::string model;
   std::vector<std::string> settings;
   std::filesystem::path output;  ///< results directory; empty: `model.results` beside `model.yaml`
-  int threads = 1;               ///< 1 or more
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< 1 or more
   bool quiet = false;            ///< only errors and warnings
 };
 

@@ -1,5 +1,8 @@
 // The command line of Scabo: scabo run | check | schema.
 #include <fmt/format.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -76,7 +79,7 @@ class CommandLine {
         ->type_name("DIR")
         ->option_text("DIR");
     add_settings(*run_, run_options_.settings);
-    run_->add_option("--threads", run_options_.threads, "Number of threads, 1 or more (1)")
+    run_->add_option("--threads", run_options_.threads, "Number of threads, 1 or more; without it one for each processor")
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
@@ -160,5 +163,11 @@ ExitStatus main_program(const std::vector<std::string>& words) {
 }  // namespace scabo::app
 
 int main(int argc, char** argv) {
+#if defined(__GLIBC__)
+  // Matrices come and go by the hundred. Handing each back to the system and having it cleared again took a third of the
+  // time of a small super-element (17 ms against 12 ms at 320 degrees of freedom).
+  mallopt(M_MMAP_THRESHOLD, 256 << 20);
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+#endif
   return scabo::app::main_program(std::vector<std::string>(argv + 1, argv + argc));
 }

@@ -25,8 +25,8 @@ import argparse
 LENGTH, HEIGHT = 6.0, 1.5       # of one beam, m
 YOUNG, POISSON = 10e9, 0.3      # Pa, -
 LOAD = 100e3                    # N, downwards on the corner (6, 3)
-NORMAL_STIFFNESS = 1e12         # Pa per m of penetration
-STICK_SLOPE = 1e11              # Pa per m of slip before the friction bound is reached
+NORMAL_STIFFNESS = 1e13         # Pa per m of penetration
+STICK_SLOPE = 1e12              # Pa per m of slip before the friction bound is reached
 
 
 class Beam:

@@ -31,6 +31,7 @@ struct Variant {
   std::string name;
   std::vector<std::string> settings;
 };
+void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
 
 class ContactPatch : public testing::TestWithParam<Variant> {};
 

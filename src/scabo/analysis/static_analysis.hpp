@@ -79,6 +79,7 @@ struct SolvedSuperElement {
   element::Ring ring;
   element::Mat3 D;
   double thickness = 1.0;
+  int threads = 1;  ///< for its modes
   element::SuperElementSolution solution;
   /// Modes for the interior, found when they are asked for first.
   const element::ModalSolution& modes() const;

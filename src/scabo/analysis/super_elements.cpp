@@ -1,11 +1,8 @@
 #include "scabo/analysis/super_elements.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <thread>
 
-#include "scabo/linalg/dense.hpp"
+#include "scabo/linalg/parallel.hpp"
 
 namespace scabo::analysis {
 
@@ -25,41 +22,23 @@ bool alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
   return true;
 }
 
-void solve(SolvedSuperElement& super_element) {
-  super_element.solution =
-      element::solve_super_element(super_element.ring, super_element.D, super_element.thickness);
-}
-
-/// Solves the elements on `threads` threads; the first exception is thrown again.
+/// Many are shared out among the threads; of few, the blocks of each.
 void solve_all(const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct, int threads) {
-  const int workers = std::min<int>(threads, static_cast<int>(distinct.size()));
-  if (workers <= 1) {
-    for (const auto& super_element : distinct) solve(*super_element);
-    return;
-  }
-  linalg::set_blas_threads(1);
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(workers));
-  {
-    std::vector<std::jthread> pool;
-    for (std::exception_ptr& failure : failures)
-      pool.emplace_back([&] {
-        try {
-          for (std::size_t i = next++; i < distinct.size(); i = next++) solve(*distinct[i]);
-        } catch (...) {
-          failure = std::current_exception();
-        }
-      });
-  }
-  linalg::set_blas_threads(threads);
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  const auto count = static_cast<int>(distinct.size());
+  const bool many = count >= threads && threads > 1;
+  const auto solve = [&](int i) {
+    SolvedSuperElement& super_element = *distinct[static_cast<std::size_t>(i)];
+    super_element.threads = threads;
+    super_element.solution = element::solve_super_element(super_element.ring, super_element.D, super_element.thickness,
+                                                          many ? 1 : threads);
+  };
+  linalg::parallel_for(count, many ? threads : 1, solve);
 }
 
 }  // namespace
 
 const element::ModalSolution& SolvedSuperElement::modes() const {
-  if (!modes_) modes_ = std::make_unique<element::ModalSolution>(element::modal_solution(solution));
+  if (!modes_) modes_ = std::make_unique<element::ModalSolution>(element::modal_solution(solution, threads));
   return *modes_;
 }
 

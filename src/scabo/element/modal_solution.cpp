@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/linalg/parallel.hpp"
+
 namespace scabo::element {
 
 namespace {
@@ -21,18 +23,24 @@ Vector equivalent_load(const Block& block, const Vector& F) {
 
 }  // namespace
 
-ModalSolution modal_solution(const SuperElementSolution& solution) {
+ModalSolution modal_solution(const SuperElementSolution& solution, int threads) {
   ModalSolution modal;
-  for (const Block& block : solution.blocks) {
-    ModalBlock modal_block{linalg::SchurExponential(block.S), {}};
+  modal.blocks.resize(solution.blocks.size());
+  const auto solve = [&](int k) {
+    const Block& block = solution.blocks[static_cast<std::size_t>(k)];
+    ModalBlock& modal_block = modal.blocks[static_cast<std::size_t>(k)];
+    modal_block.modes = linalg::SchurExponential(block.S);
     const auto& modes = modal_block.modes;
     // A U T^-1 by the LU factors of T': they fill no more than T itself.
     const Matrix moving = modes.T().transpose().partialPivLu().solve((block.A * modes.U()).transpose()).transpose();
     modal_block.Phi = block.R * moving;                                                         // eq. (2)
     modal_block.Phi(block.I, Eigen::all) += modes.U();
-    modal.exponents.insert(modal.exponents.end(), modes.eigenvalues().begin(), modes.eigenvalues().end());
-    modal.exponents.insert(modal.exponents.end(), block.J.size(), 0.0);
-    modal.blocks.push_back(std::move(modal_block));
+  };
+  linalg::parallel_for(static_cast<int>(solution.blocks.size()), threads, solve);
+  for (std::size_t k = 0; k < solution.blocks.size(); ++k) {
+    const auto& eigenvalues = modal.blocks[k].modes.eigenvalues();
+    modal.exponents.insert(modal.exponents.end(), eigenvalues.begin(), eigenvalues.end());
+    modal.exponents.insert(modal.exponents.end(), solution.blocks[k].J.size(), 0.0);
   }
   std::sort(modal.exponents.begin(), modal.exponents.end(), [](const auto& a, const auto& b) {
     return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();

@@ -31,7 +31,8 @@ struct ModalSolution {
   std::vector<std::complex<double>> exponents;     ///< all n, ascending real part; the two translations are 0 exactly
 };
 
-ModalSolution modal_solution(const SuperElementSolution& solution);
+/// Symmetry blocks are shared out among `threads` threads.
+ModalSolution modal_solution(const SuperElementSolution& solution, int threads = 1);
 
 /// h of eq. (4): nodal forces equivalent to a body force; `F_b` = int N' b |J| deta times thickness (n).
 Vector equivalent_body_load(const SuperElementSolution& solution, const Vector& F_b);

@@ -6,6 +6,7 @@
 
 #include "scabo/element/mirror_symmetry.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {
 
@@ -48,7 +49,7 @@ std::vector<int> rows_taken_out(const Matrix& R) {
 
 Matrix symmetrised(const Matrix& A) { return 0.5 * (A + A.transpose()); }
 
-/// Solves one block; adds its stiffness in the coordinates of the block to `K`.
+/// Solves one block; sets its stiffness `K` in the coordinates of the block.
 Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& translations,
                   Matrix& K, int& doublings) {
   Block block;
@@ -80,9 +81,7 @@ Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matr
   const Matrix E1_deflated = (E1 - E1R * G)(block.I, block.I);
   const Matrix E2_deflated = symmetrised(E2 - H.transpose() * M * H)(block.I, block.I);
 
-  int count = 0;
-  const Matrix K_deflated = ring_doubling(E0_deflated, E1_deflated, E2_deflated, count);
-  doublings = std::max(doublings, count);
+  const Matrix K_deflated = ring_doubling(E0_deflated, E1_deflated, E2_deflated, doublings);
 
   Matrix L = E0_deflated;
   ensure(linalg::cholesky_in_place(L), "E0 of a super-element is not positive definite");
@@ -129,19 +128,27 @@ Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& 
   throw BrokenInvariant("ring doubling did not end");
 }
 
-SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness) {
+SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness, int threads) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, thickness);
   const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
   Matrix translations = Matrix::Zero(n, 2);
   for (Eigen::Index i = 0; i < n; ++i) translations(i, i % 2) = 1.0;
 
+  std::vector<Eigen::SparseMatrix<double>> bases = symmetry_blocks(ring);
   SuperElementSolution solution;
+  solution.blocks.resize(bases.size());
+  std::vector<Matrix> stiffness(bases.size());
+  std::vector<int> doublings(bases.size(), 0);
+  const auto solve = [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, translations, stiffness[i], doublings[i]);
+  };
+  linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
   solution.K = Matrix::Zero(n, n);
-  for (Eigen::SparseMatrix<double>& T : symmetry_blocks(ring)) {
-    Matrix K;
-    solution.blocks.push_back(solve_block(std::move(T), matrices, translations, K, solution.doublings));
-    const Eigen::SparseMatrix<double>& basis = solution.blocks.back().T;
-    solution.K += basis * K * basis.transpose();
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    const Eigen::SparseMatrix<double>& basis = solution.blocks[i].T;
+    solution.K += basis * stiffness[i] * basis.transpose();
+    solution.doublings = std::max(solution.doublings, doublings[i]);
   }
   solution.K = symmetrised(solution.K);
   return solution;

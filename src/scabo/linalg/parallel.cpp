@@ -1,0 +1,39 @@
+#include "scabo/linalg/parallel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <vector>
+
+#include "scabo/linalg/dense.hpp"
+
+namespace scabo::linalg {
+
+void parallel_for(int count, int threads, const std::function<void(int)>& task) {
+  const int workers = std::min(threads, count);
+  if (workers <= 1) {
+    for (int i = 0; i < count; ++i) task(i);
+    return;
+  }
+  std::atomic<int> next = 0;
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(workers));
+  const auto work = [&](std::exception_ptr& failure) {
+    try {
+      for (int i = next++; i < count; i = next++) task(i);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  set_blas_threads(1);
+  {
+    std::vector<std::jthread> pool;  // joined at the end of the block
+    for (std::size_t k = 1; k < failures.size(); ++k) pool.emplace_back([&, k] { work(failures[k]); });
+    work(failures[0]);
+  }
+  set_blas_threads(threads);
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace scabo::linalg
