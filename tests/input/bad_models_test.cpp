@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -77,9 +76,7 @@ TEST_P(BadModel, LeadsToTheMessagesItSays) {
     return;
   }
   ASSERT_FALSE(expectation.messages.empty()) << "no '# expect: ' line";
-  const auto begin = std::chrono::steady_clock::now();
   EXPECT_THAT(messages_of(GetParam()), testing::ElementsAreArray(expectation.messages));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, BadModel, testing::ValuesIn(bad_files()),

@@ -168,9 +168,11 @@ void add_totals(ContactResult& result) {
     result.open += pair.state == contact::ContactState::open;
     result.stick += pair.state == contact::ContactState::stick;
     result.slip += pair.state == contact::ContactState::slip;
-    result.max_gap = std::max(result.max_gap, pair.gap);
     result.max_pressure = std::max(result.max_pressure, pair.pressure);
-    if (pair.state == contact::ContactState::open) continue;
+    if (pair.state == contact::ContactState::open) {
+      result.max_gap = std::max(result.max_gap, pair.gap);  // a closed pair's gap is rounding
+      continue;
+    }
     if (!result.first_in_contact) result.first_in_contact = pair.pair;
     result.last_in_contact = pair.pair;
   }

@@ -38,7 +38,7 @@ struct ContactResult {
   double normal_force = 0.0;      ///< sum of the pairs' normal forces
   double tangential_force = 0.0;  ///< sum of the pairs' tangential forces
   int open = 0, stick = 0, slip = 0;
-  double max_gap = 0.0;
+  double max_gap = 0.0;           ///< of the open pairs; 0 when none is open
   double max_pressure = 0.0;
   std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; nothing when all are open
 };
