@@ -9,10 +9,8 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
-SECONDS = 10
 SCABO = FOLDER = None
 
 
@@ -38,12 +36,10 @@ def sanitized(stderr):
 
 class BadModels(unittest.TestCase):
     def run_scabo(self, *arguments):
-        """Finished process; fails when it takes too long or dies of a signal."""
+        """Finished process; fails when it hangs or dies of a signal."""
         with tempfile.TemporaryDirectory() as folder:
-            begin = time.monotonic()
             done = subprocess.run([SCABO, *arguments], cwd=folder, capture_output=True, text=True,
                                   errors="replace", timeout=60, env=dict(os.environ, LC_ALL="C"))
-            self.assertLess(time.monotonic() - begin, SECONDS)
         self.assertGreaterEqual(done.returncode, 0, done.stderr)
         self.assertFalse(sanitized(done.stderr), done.stderr)
         return done

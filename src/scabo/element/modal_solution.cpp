@@ -81,8 +81,8 @@ RadialField::RadialField(const SuperElementSolution& solution, const ModalSoluti
 }
 
 RadialField::Values RadialField::at(double xi) const {
-  xi = std::clamp(xi, 1e-9, 1.0);
-  const double s = std::log(xi);
+  xi = std::clamp(xi, 0.0, 1.0);
+  const double s = std::log(std::max(xi, 1e-9));  // nearer to the centre psi / xi does not change any more
   const Eigen::Index n = solution_.K.rows();
   Values values{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
   for (std::size_t k = 0; k < parts_.size(); ++k) {

@@ -48,7 +48,7 @@ class RadialField {
     Vector u_xi;   ///< u,xi
     Vector u_part; ///< (u - R a) / xi, what the circumferential part of the strain needs: B2 R = 0
   };
-  /// 0 < xi <= 1; smaller values than 1e-9 are taken as that, so the centre has its finite limit.
+  /// 0 <= xi <= 1; at the centre, the limit.
   Values at(double xi) const;
 
  private:

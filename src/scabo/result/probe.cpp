@@ -105,13 +105,7 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   const Vec2& centre = solution_.mesh.bodies[body_].super_elements.front().centre;
   const auto point = element::locate(super_element.ring, x - centre);
   if (!point) return std::nullopt;
-  const auto values_at = [&](double xi) {
-    return element::point_values(super_element.ring, field_->at(xi), super_element.D, point->element,
-                                 point->eta);
-  };
-  element::PointValues values = values_at(std::max(point->xi, smallest_strain_xi));
-  if (point->xi < smallest_strain_xi) values.displacement = values_at(point->xi).displacement;
-  return values;
+  return element::point_values(super_element.ring, field_->at(point->xi), super_element.D, point->element, point->eta);
 }
 
 std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {

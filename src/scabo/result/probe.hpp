@@ -10,11 +10,6 @@
 
 namespace scabo::result {
 
-/// Smallest xi at which strains are taken: they are differences of displacements over xi and lose digits as
-/// xi gets smaller; at 1e-9 six are left. Between here and the centre they change by a millionth of their
-/// change to the boundary.
-inline constexpr double smallest_strain_xi = 1e-6;
-
 /// Values of one body after one increment at any point (x, y) of its undeformed shape. Keeps references to
 /// the solution and the increment.
 class Probe {

@@ -120,10 +120,9 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
       fields.set(point++, u.segment<2>(2 * i), stress, zz_of(solution, body, stress));
     }
   }
-  const element::RadialField::Values values = field.at(smallest_strain_xi);
-  const element::Vec3 stress = super_element.D * ring_strains(sampling, values, n).rowwise().mean();
-  const Vec2 u = values.u.head<2>() - smallest_strain_xi * values.u_part.head<2>();  // the translation R a
-  fields.set(point, u, stress, zz_of(solution, body, stress));
+  const element::RadialField::Values centre = field.at(0.0);
+  const element::Vec3 stress = super_element.D * ring_strains(sampling, centre, n).rowwise().mean();
+  fields.set(point, centre.u.head<2>(), stress, zz_of(solution, body, stress));
 }
 
 void recover_finite_elements(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
