@@ -95,6 +95,10 @@ double largest_force(const State& state) {
 void certify_structure(const Prepared& prepared, const State& state, double scale, contact::Certificate& certificate) {
   if (scale == 0.0) return;
   for (std::size_t b = 0; b < state.u.size(); ++b) {
+    if (!state.u[b].allFinite() || !state.reactions[b].allFinite()) {  // comparisons with nan would all look right
+      certificate.equilibrium = HUGE_VAL;
+      return;
+    }
     const system::BodySystem& body = *prepared.structure.bodies[b];
     Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
     certificate.equilibrium = std::max(certificate.equilibrium, body.imbalance(state.u[b], forces) / scale);

@@ -174,6 +174,9 @@ Residual BDifferentiableEquations::other_branch(const Residual& at) const {
 
 NewtonEnd BDifferentiableEquations::newton(Vector p, Vector a, double small, int iterations) const {
   NewtonEnd end;
+  end.p = p;
+  end.a = a;
+  end.residual = HUGE_VAL;  // stays where H is not finite: never converged
   Residual at = residual(p, a);
   double best_merit = HUGE_VAL;
   const auto keep_best = [&] {

@@ -8,6 +8,10 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
   Vector motion = problem.q + problem.W * p;
   if (a.size() > 0) motion += problem.G * a;
   Certificate certificate;
+  if (!motion.allFinite() || !p.allFinite()) {  // comparisons with nan would all look right
+    certificate.penetration = HUGE_VAL;
+    return certificate;
+  }
   const double work = scales.force * scales.length;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const double g = motion[2 * i], ds = motion[2 * i + 1], pn = p[2 * i], pt = p[2 * i + 1];

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <limits>
 
 #include "scabo/contact/gauss_seidel.hpp"
 #include "unit/contact/problems.hpp"
@@ -207,6 +208,20 @@ TEST(Certificate, SeesEveryViolation) {
   problem.G = Matrix::Identity(2, 1);
   problem.f = Vector::Constant(1, -1.25);
   EXPECT_DOUBLE_EQ(certify(problem, Eigen::Vector2d(1.0, -0.3), Vector::Zero(1), scales).rigid_balance, 0.25);
+}
+
+// Every comparison with nan is false, so an unguarded check would let it through.
+TEST(Solve, NeverCertifiesWhatIsNotANumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Problem problem;
+  problem.W = Matrix::Identity(2, 2);
+  problem.q = Vector::Constant(2, nan);
+  problem.mu = Vector::Constant(1, 0.3);
+  problem.G.resize(2, 0);
+  EXPECT_NE(solve(problem).status, Status::solved);
+  problem.q.setConstant(-1.0);
+  EXPECT_EQ(solve(problem).status, Status::solved);
+  EXPECT_GT(certify(problem, Vector::Constant(2, nan), Vector(), {}).worst(), 1.0);
 }
 
 }  // namespace
