@@ -50,6 +50,12 @@ struct Energy {
   double friction = 0.0;   ///< dissipated
 };
 
+/// How the contact solver went in one attempt at an increment, or at a part of it where it was halved.
+struct AttemptResult {
+  std::vector<contact::Iteration> iterations;
+  bool accepted = false;
+};
+
 struct IncrementResult {
   int step = 0;        ///< from 1
   std::string step_name;
@@ -66,6 +72,18 @@ struct IncrementResult {
   std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
   std::vector<Vec2> body_forces;          ///< per body: density times gravity times factor, force / length^3
   std::string reason;                     ///< why it did not converge
+  std::vector<AttemptResult> attempts;    ///< one; more where the increment was halved
+};
+
+/// The discrete problem of one attempt: a value that can be saved and solved alone (contact/fclib.hpp).
+struct DiscreteProblem {
+  contact::Problem problem;
+  contact::Start start;             ///< the accepted state before
+  contact::Solution solution;
+  bool accepted = false;
+  double force_scale = 0.0;         ///< contact::SolverOptions::force_scale
+  std::vector<int> contact_of_pair; ///< index into Model::contacts, one for each pair of the problem
+  std::vector<int> number_of_pair;  ///< PairResult::pair
 };
 
 /// Seconds.
@@ -105,6 +123,8 @@ struct Options {
   int threads = 1;  ///< for BLAS and for super-elements that differ
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
+  /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.
+  std::function<void(const IncrementResult&, const std::vector<DiscreteProblem>&)> on_problems;
   std::function<void(const StaticSolution&)> on_mesh;  ///< once super-elements and systems stand
   std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
 };

@@ -150,6 +150,11 @@ struct SolverOptions {
   int halvings = 6;          ///< of an increment that did not converge
 };
 
+/// What a run writes besides the files that it always writes.
+struct Output {
+  bool discrete_problems = false;  ///< the contact problem of every increment
+};
+
 struct Model {
   std::string file;  ///< as given to the reader, for messages
   std::string title;
@@ -161,6 +166,7 @@ struct Model {
   std::vector<Contact> contacts;
   std::vector<Step> steps;
   SolverOptions solver;
+  Output output;
 };
 
 }  // namespace scabo::model
