@@ -59,7 +59,7 @@ class Axes {
         high = std::max(high, at.residual);
       }
     low_ = std::floor(std::log10(low) - 0.3);
-    high_ = std::min(std::ceil(std::log10(high)), 30.0);
+    high_ = std::min(std::ceil(std::log10(high) + 0.5), 30.0);  // room for the name of a stage
   }
   double x(double iteration) const { return left + (right - left) * iteration / last_; }
   double y(double residual) const {
@@ -104,10 +104,8 @@ void draw_curve(Text to, const Axes& axes, const ConvergenceCurve& curve, const 
   for (const contact::Iteration& at : curve.iterations) {
     const double x = axes.x(at.iteration), y = axes.y(at.residual);
     if (curve.iterations.size() <= 200) fmt::format_to(to, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\"/>", x, y);
-    if (name_stages && (!stage || *stage != at.stage)) {
-      const bool low = y < top + 24;
-      fmt::format_to(to, "<text class=\"stage\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 6, low ? y + 16 : y - 8, escaped(at.stage));
-    }
+    if (name_stages && (!stage || *stage != at.stage))
+      fmt::format_to(to, "<text class=\"stage\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 6, y - 7, escaped(at.stage));
     stage = &at.stage;
   }
   fmt::format_to(to, "</g>\n");
@@ -145,8 +143,11 @@ std::string convergence_plot(const std::vector<ConvergenceCurve>& all, const std
   std::vector<const ConvergenceCurve*> curves;
   std::vector<std::string> colours;
   const std::size_t every = (all.size() + most_curves - 1) / most_curves;
+  const auto failed = static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const ConvergenceCurve& curve) { return !curve.converged; }));
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all[k].converged && k % every != 0 && k + 1 != all.size()) continue;
+    const bool wanted = !all[k].converged && failed <= most_curves;
+    if (!wanted && k % every != 0 && k + 1 != all.size()) continue;
     curves.push_back(&all[k]);
     colours.push_back(all[k].converged ? colour(all.size() > 1 ? static_cast<double>(k) / static_cast<double>(all.size() - 1) : 0.25)
                                        : red);
@@ -169,7 +170,7 @@ std::string convergence_plot(const std::vector<ConvergenceCurve>& all, const std
   axes.draw(to);
   fmt::format_to(to, "<line class=\"tolerance\" x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>\n", left, right,
                  axes.y(tolerance));
-  fmt::format_to(to, "<text class=\"note end\" x=\"{:.1f}\" y=\"{:.1f}\">tolerance</text>\n", right - 6, axes.y(tolerance) - 5);
+  fmt::format_to(to, "<text class=\"note\" x=\"{:.1f}\" y=\"{:.1f}\">tolerance</text>\n", left + 6, axes.y(tolerance) - 5);
   for (std::size_t k = 0; k < curves.size(); ++k) draw_curve(to, axes, *curves[k], colours[k], all.size() == 1);
   draw_legend(to, curves, colours, all.size() - curves.size());
   fmt::format_to(to, "</svg>\n");
