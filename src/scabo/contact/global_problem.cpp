@@ -20,7 +20,8 @@ void add(Triplets& entries, const Sparse& block, Index row, Index column, double
   for (Index j = 0; j < block.outerSize(); ++j)
     for (Sparse::InnerIterator at(block, j); at; ++at)
       entries.emplace_back(static_cast<int>(row + (transposed ? at.col() : at.row())),
-                           static_cast<int>(column + (transposed ? at.row() : at.col())), factor * at.value());
+                           static_cast<int>(column + (transposed ? at.row() : at.col())),
+                           factor * at.value());
 }
 
 /// S = [M, -G; -G', 0].
@@ -73,7 +74,8 @@ Problem GlobalReduction::problem() const {
   if (!problem.q.allFinite()) throw SingularProblem();
   problem.G = Matrix::Zero(problem.q.size(), 0);
   problem.f = Vector::Zero(0);
-  const double work = static_cast<double>(global_.H.cols()) * static_cast<double>(factor_->lu.nnzL() + factor_->lu.nnzU());
+  const double work =
+      static_cast<double>(global_.H.cols()) * static_cast<double>(factor_->lu.nnzL() + factor_->lu.nnzU());
   if (k == 0 && work > worth_forming && is_symmetric(global_.M)) {
     try {
       problem.W = Delassus(std::make_shared<const linalg::SymmetricPositiveSolver>(global_.M), global_.H);

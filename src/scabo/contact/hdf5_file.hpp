@@ -1,5 +1,6 @@
-// An HDF5 file, read or written: what fclib.cpp needs of the format and nothing more. The library behind (HDF5's C
-// interface) stays in hdf5_file.cpp; it prints nothing while we use it. Calls are made one at a time, on any thread.
+// An HDF5 file, read or written: what fclib.cpp needs of the format and nothing more. The library behind
+// (HDF5's C interface) stays in hdf5_file.cpp; it prints nothing while we use it. Calls are made one at a
+// time, on any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace scabo::contact {
 
-/// Reads datasets by their path from the root, `fclib_local/vectors/q`. Everything that is not as it must be is an
-/// InputError that names the file, the dataset and the remedy.
+/// Reads datasets by their path from the root, `fclib_local/vectors/q`. Everything that is not as it must be
+/// is an InputError that names the file, the dataset and the remedy.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(std::string file);
@@ -35,8 +36,8 @@ class Hdf5Reader {
   std::int64_t id_ = -1;
 };
 
-/// Writes a file under another name (`.part`) and gives it its own when it is whole. Groups on the way to a dataset are
-/// made as needed. The same content gives the same bytes. Throws std::runtime_error.
+/// Writes a file under another name (`.part`) and gives it its own when it is whole. Groups on the way to a
+/// dataset are made as needed. The same content gives the same bytes. Throws std::runtime_error.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::string file);

@@ -103,7 +103,8 @@ TEST(Fclib, WhatCannotBeWrittenIsSaid) {
   SavedProblem saved;
   saved.problem = random_problem(2, 1, 1);
   EXPECT_THAT([&] { write_fclib("/no/such/directory/p.hdf5", saved); },
-              testing::ThrowsMessage<std::runtime_error>(testing::StartsWith("cannot write /no/such/directory/p.hdf5: ")));
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::StartsWith("cannot write /no/such/directory/p.hdf5: ")));
 }
 
 // The chain v1 - v2 on springs, pressed at v1: M v = f + H r, u = H' v + w.
@@ -143,7 +144,8 @@ TEST(GlobalForm, BilateralConstraintsHold) {
   global.b = Vector::Constant(1, 0.7);
   const GlobalReduction reduction(global);
   const Problem problem = reduction.problem();
-  const Vector r = Vector::LinSpaced(2, 1.0, 0.25), motion = reduction.motion(r), v = motion.head(4), l = motion.tail(1);
+  const Vector r = Vector::LinSpaced(2, 1.0, 0.25), motion = reduction.motion(r), v = motion.head(4),
+               l = motion.tail(1);
   EXPECT_LT((Matrix(global.M) * v - global.f - global.H * r - G * l).norm(), 1e-14);
   EXPECT_NEAR((G.transpose() * v)[0] + 0.7, 0.0, 1e-14);
   EXPECT_LT((global.H.transpose() * v + global.w - problem.W.times(r) - problem.q).norm(), 1e-14);

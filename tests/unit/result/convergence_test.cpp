@@ -15,7 +15,8 @@ using testing::Not;
 std::vector<contact::Iteration> falling(int count) {
   std::vector<contact::Iteration> iterations;
   double residual = 1.0;
-  for (int k = 0; k <= count; ++k, residual *= 1e-3) iterations.push_back({k, residual, residual * residual, 1.0, 2, "newton"});
+  for (int k = 0; k <= count; ++k, residual *= 1e-3)
+    iterations.push_back({k, residual, residual * residual, 1.0, 2, "newton"});
   return iterations;
 }
 
@@ -26,10 +27,12 @@ std::size_t number_of(const std::string& text, const std::string& word) {
 }
 
 TEST(ConvergencePlot, OneCurveForEachAttemptWithItsName) {
-  const std::string plot = convergence_plot({{"press 1", falling(4), true}, {"press 2", falling(6), true}}, "Beam <& \"joint\">", 1e-10);
+  const std::string plot = convergence_plot({{"press 1", falling(4), true}, {"press 2", falling(6), true}},
+                                            "Beam <& \"joint\">", 1e-10);
   EXPECT_EQ(number_of(plot, "<polyline"), 2u);
   EXPECT_EQ(number_of(plot, "<circle"), 12u);
-  for (const char* word : {"press 1", "press 2", "tolerance", "Beam &lt;&amp; &quot;joint&quot;&gt;"}) EXPECT_THAT(plot, HasSubstr(word));
+  for (const char* word : {"press 1", "press 2", "tolerance", "Beam &lt;&amp; &quot;joint&quot;&gt;"})
+    EXPECT_THAT(plot, HasSubstr(word));
   EXPECT_THAT(plot, Not(HasSubstr("stroke-dasharray=\"5 3\"")));
   EXPECT_THAT(plot, HasSubstr(std::string(convergence_plot_mark)));
 }
@@ -68,9 +71,12 @@ TEST(ConvergenceTable, OneLineForEachIterationOfEachAttempt) {
   analysis::IncrementResult increment;
   increment.step = 2;
   increment.increment = 3;
-  increment.attempts = {{{{1, 0.5, 0.25, 0.125, 4, "newton"}}, false}, {{{1, 1e-12, 0.0, 1.0, 0, "frictionless"}}, true}};
-  EXPECT_EQ(convergence_table_rows(increment), "2,3,1,1,newton,0.5,0.25,0.125,4\n2,3,2,1,frictionless,1e-12,0,1,0\n");
-  EXPECT_EQ(convergence_table_header, "step,increment,attempt,iteration,stage,residual,merit,step_length,states_changed\n");
+  increment.attempts = {{{{1, 0.5, 0.25, 0.125, 4, "newton"}}, false},
+                        {{{1, 1e-12, 0.0, 1.0, 0, "frictionless"}}, true}};
+  EXPECT_EQ(convergence_table_rows(increment),
+            "2,3,1,1,newton,0.5,0.25,0.125,4\n2,3,2,1,frictionless,1e-12,0,1,0\n");
+  EXPECT_EQ(convergence_table_header,
+            "step,increment,attempt,iteration,stage,residual,merit,step_length,states_changed\n");
 }
 
 }  // namespace
