@@ -25,8 +25,20 @@ struct RunOptions {
   bool quiet = false;            ///< only errors and warnings
 };
 
+struct ContactOptions {
+  std::string file;                         ///< a discrete problem: HDF5 in FCLIB's layout, or Siconos's text
+  std::string solver = "b_differentiable";  ///< one of contact::method_names()
+  double tolerance = 1e-10;                 ///< of natural-map residual and certificate, > 0
+  int iterations = 0;                       ///< of one attempt, > 0; 0: the solver's own
+  bool json = false;
+  bool write_trace = false;
+  std::string trace;                        ///< empty: `file.trace.csv`
+  std::string save;                         ///< where problem and solution go; empty: nowhere
+};
+
 ExitStatus run(const RunOptions& options);
 ExitStatus check(const CheckOptions& options);
+ExitStatus solve_contact(const ContactOptions& options);
 ExitStatus print_schema();
 
 }  // namespace scabo::app
