@@ -160,8 +160,8 @@ std::string report_trace(const contact::Solution& solution) {
   fmt::memory_buffer rows;
   fmt::format_to(std::back_inserter(rows), "{}", trace_header);
   for (const contact::Iteration& at : solution.trace)
-    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{}\n", at.iteration, at.stage, at.residual,
-                   at.merit, at.step_length, at.states_changed);
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{}\n", at.iteration,
+                   result::csv_quoted(at.stage), at.residual, at.merit, at.step_length, at.states_changed);
   return fmt::to_string(rows);
 }
 

@@ -266,7 +266,12 @@ contacts: {joint: {between: [base.top, block.bottom], friction: 0.3}}
         with h5py.File(file) as saved:
             self.assertEqual(saved["fclib_local/V/n"][...].tolist(), [3])
             self.assertEqual(saved["fclib_local/R/nz"][...].tolist(), [-1])
-        self.compare(directory, self.solve(file), 1, 1)
+        self.compare(directory, self.solve(file, "--trace=way.csv"), 1, 1)
+        for table in (directory / "convergence.csv", self.directory / "way.csv"):
+            with open(table, newline="", encoding="utf-8") as rows:
+                for row in csv.DictReader(rows):  # stages have names with commas
+                    self.assertGreaterEqual(float(row["residual"]), 0.0)
+                    self.assertGreaterEqual(int(row["states_changed"]), 0)
 
     def test_an_increment_that_failed_can_be_looked_at(self):
         model = self.directory / "model.yaml"
