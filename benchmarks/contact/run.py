@@ -3,7 +3,7 @@
 
     run.py [FOLDER] [--scabo PATH] [--repeats 5] [--seconds 8] [--solvers a,b] [--output FOLDER] [--add]
 
-Every solver gets every problem in a process of its own with a time limit, so that a crash or an endless loop costs that solver that
+Every solver gets every problem in a process of its own, a new one for each repeat, with a time limit, so that a crash or an endless loop costs that solver that
 problem and no more. One function (problems.natural_map) recomputes the residual of every answer from the problem file;
 solved is at most 1e-8. Times are those of the solver alone: Scabo's `seconds`, for Siconos the call of its driver; reading and
 conversion of the matrix to the storage it likes are not counted for either. Wall time or processor time, whichever is less:
@@ -75,24 +75,25 @@ def outcome(residual, seconds, iterations, why):
 
 
 def with_siconos(arguments, path, problem, solver):
-    command = [sys.executable, str(HERE / "siconos_worker.py"), str(path), solver, "--repeats", str(arguments.repeats),
-               "--limit", str(LIMIT)]
-    out, error, status, _ = run_process(command + ["--budget", str(arguments.seconds)], arguments.seconds)
-    runs = [json.loads(line) for line in out.splitlines() if line.startswith("{")]
-    why = "time limit" if status is None else f"crash ({last_lines(error)})" if status != 0 else ""
-    if not runs:
-        return outcome(None, [], None, why)
-    last = runs[-1]                                              # at the tolerance that sufficed, or the last one tried
-    counted = [run for run in runs if run["tolerance"] == last["tolerance"]]
-    seconds = [run["seconds"] for run in counted]
-    residual = max(run["residual"] for run in counted)
-    if residual > LIMIT and not why:
-        why = f"{last['ended']} at its tolerance {last['tolerance']:g}"
-    elif residual > LIMIT:
-        why += f" after {last['ended']} at its tolerance {last['tolerance']:g}"
-    if min(seconds) > arguments.seconds:
-        return outcome(None, [], None, "time limit")
-    return outcome(residual, seconds, last["iterations"], why)
+    seconds, residuals, last, why = [], [], None, ""
+    for _ in range(arguments.repeats):
+        command = [sys.executable, str(HERE / "siconos_worker.py"), str(path), solver, "--limit", str(LIMIT)]
+        out, error, status, _ = run_process(command, arguments.seconds)
+        runs = [json.loads(line) for line in out.splitlines() if line.startswith("{")]
+        why = "time limit" if status is None else f"crash ({last_lines(error)})" if status != 0 else ""
+        if not runs:
+            return outcome(None, [], None, why)
+        last = runs[-1]                                          # at the tolerance that sufficed, or the last one tried
+        seconds.append(last["seconds"])
+        residuals.append(last["residual"])
+        if last["residual"] > LIMIT:
+            why = " after ".join(filter(None, (why, f"{last['ended']} at its tolerance {last['tolerance']:g}")))
+            break
+        if last["seconds"] > arguments.seconds:
+            return outcome(None, [], None, "time limit")
+        if last["seconds"] > 0.25 * arguments.seconds:
+            break
+    return outcome(max(residuals), seconds, last["iterations"], why)
 
 
 def with_scabo(arguments, path, problem, solver):

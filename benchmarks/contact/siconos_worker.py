@@ -1,9 +1,9 @@
-"""Solves one problem with one solver of Siconos, several times, and prints JSON, a line for each solve.
+"""Solves one problem with one solver of Siconos and prints JSON, a line for each tolerance tried.
 
-    siconos_worker.py FILE SOLVER [--repeats 3] [--limit 1e-8] [--budget 8]
+    siconos_worker.py FILE SOLVER [--limit 1e-8]
 
 A process of its own, because Siconos may crash or not come back; run.py sets the time limit. Timed is the call of
-Siconos's driver alone, with the problem ready in the storage that suits the solver; every repeat starts from zero.
+Siconos's driver alone, with the problem ready in the storage that suits the solver, starting from zero.
 
 Settings are the best of those tried on the problems of ../../../shared/data (../README.md says which):
 
@@ -110,24 +110,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file")
     parser.add_argument("solver")
-    parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--limit", type=float, default=1e-8)
-    parser.add_argument("--budget", type=float, default=8.0, help="seconds of one solve; a quarter of it is not repeated")
     arguments = parser.parse_args()
     problem = problems.read(arguments.file)
     solver, storage, set_options = SOLVERS[arguments.solver, problem.dimension]
     sn.numerics_set_verbose(0)
     W = siconos_matrix(problem.W, storage, problem.dimension)
     size = numpy.linalg.norm(problem.q) or 1.0
-    tolerances = list(TOLERANCES)
-    for _ in range(arguments.repeats):
-        while True:
-            result = solve(problem, W, size, solver, set_options, tolerances[0])
-            print(json.dumps(result), flush=True)
-            if result["residual"] <= arguments.limit or not result["content"] or len(tolerances) == 1:
-                break
-            tolerances.pop(0)
-        if result["residual"] > arguments.limit or result["seconds"] > 0.25 * arguments.budget:
+    for tolerance in TOLERANCES:
+        result = solve(problem, W, size, solver, set_options, tolerance)
+        print(json.dumps(result), flush=True)
+        if result["residual"] <= arguments.limit or not result["content"]:
             break
     os._exit(0)      # Siconos would free matrices that Python holds too
 
