@@ -258,7 +258,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.forces = applied_forces(prepared, factors.loads);
   to.prescribed = prescribed_values(prepared, factors.supports);
 
-  contact::Problem problem{system.W, Vector::Zero(2 * N), system.mu, system.G, Vector::Zero(system.rigid_motions())};
+  contact::Problem problem;
+  problem.W = system.W;
+  problem.q = Vector::Zero(2 * N);
+  problem.mu = system.mu;
+  problem.G = system.G;
+  problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < N; ++i) {
     problem.q[2 * i] = system.gap[i];
     problem.q[2 * i + 1] = -from.slip[i];
