@@ -57,9 +57,16 @@ StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& elemen
 }
 
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double thickness) {
+  return coefficient_matrices(ring, std::vector<Mat3>{D}, thickness);
+}
+
+CoefficientMatrices coefficient_matrices(const Ring& ring, const std::vector<Mat3>& D, double thickness) {
+  ensure(D.size() == 1 || D.size() == ring.elements.size(), "one plane law, or one for each boundary element");
   using Triplet = Eigen::Triplet<double>;
   std::vector<Triplet> entries0, entries1, entries2;
-  for (const mesh::LineElement& element : ring.elements) {
+  for (std::size_t index = 0; index < ring.elements.size(); ++index) {
+    const mesh::LineElement& element = ring.elements[index];
+    const Mat3& law = D[D.size() == 1 ? 0 : index];
     const LineBasis& basis = basis_of(element);
     const int m = 2 * basis.nodes();
     Matrix e0 = Matrix::Zero(m, m), e1 = e0, e2 = e0;
@@ -67,7 +74,7 @@ CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double
       const auto row = static_cast<Eigen::Index>(q);
       const StrainMatrices strain =
           strain_matrices(ring, element, basis.values_at_rule().row(row), basis.derivatives_at_rule().row(row));
-      const Mat3 weighted = D * (strain.J * basis.rule().weights[q] * thickness);
+      const Mat3 weighted = law * (strain.J * basis.rule().weights[q] * thickness);
       const Eigen::Matrix<double, 3, Eigen::Dynamic> DB1 = weighted * strain.B1, DB2 = weighted * strain.B2;
       e0.noalias() += strain.B1.transpose() * DB1;
       e1.noalias() += strain.B2.transpose() * DB1;

@@ -40,6 +40,8 @@ struct CoefficientMatrices {
 /// `D` is force / length^2; `thickness` multiplies all three. Throws BrokenInvariant when |J| <= 0: the mesh has
 /// made sure that the centre sees the whole boundary.
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double thickness);
+/// The same with the plane law of every boundary element, or one for all.
+CoefficientMatrices coefficient_matrices(const Ring& ring, const std::vector<Mat3>& D, double thickness);
 
 /// int N |J| deta for every node: with a body force b (force / length^3) times thickness, the term xi^2 F_b of the
 /// scaled boundary equation. Sums to twice the area.

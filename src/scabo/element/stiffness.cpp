@@ -49,6 +49,19 @@ std::vector<int> rows_taken_out(const Matrix& R) {
 
 Matrix symmetrised(const Matrix& A) { return 0.5 * (A + A.transpose()); }
 
+/// One block without symmetry.
+std::vector<Eigen::SparseMatrix<double>> whole(Eigen::Index n) {
+  Eigen::SparseMatrix<double> identity(n, n);
+  identity.setIdentity();
+  return {identity};
+}
+
+bool isotropic(const Mat3& D) {
+  const double size = 1e-12 * D.norm();
+  return std::abs(D(0, 0) - D(1, 1)) < size && std::abs(D(0, 2)) < size && std::abs(D(1, 2)) < size &&
+         std::abs(0.5 * (D(0, 0) - D(0, 1)) - D(2, 2)) < size;
+}
+
 /// Solves one block; sets its stiffness `K` in the coordinates of the block.
 Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& translations,
                   Matrix& K, int& doublings) {
@@ -129,12 +142,16 @@ Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& 
 }
 
 SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness, int threads) {
+  return solve_super_element(ring, std::vector<Mat3>{D}, thickness, threads);
+}
+
+SuperElementSolution solve_super_element(const Ring& ring, const std::vector<Mat3>& D, double thickness, int threads) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, thickness);
   const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
   Matrix translations = Matrix::Zero(n, 2);
   for (Eigen::Index i = 0; i < n; ++i) translations(i, i % 2) = 1.0;
 
-  std::vector<Eigen::SparseMatrix<double>> bases = symmetry_blocks(ring);
+  std::vector<Eigen::SparseMatrix<double>> bases = D.size() == 1 && isotropic(D.front()) ? symmetry_blocks(ring) : whole(n);
   SuperElementSolution solution;
   solution.blocks.resize(bases.size());
   std::vector<Matrix> stiffness(bases.size());

@@ -52,6 +52,8 @@ struct SuperElementSolution {
 /// end, which positive definite material and a boundary that the centre sees rule out. Symmetry blocks are shared out among
 /// `threads` threads.
 SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness, int threads = 1);
+/// The same with the plane law of every boundary element, or one for all. Symmetries are looked for when there is one.
+SuperElementSolution solve_super_element(const Ring& ring, const std::vector<Mat3>& D, double thickness, int threads = 1);
 
 /// Stiffness of the bounded domain from E0, E1, E2 without zero exponents, by eqs. (1) and (2).
 Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& doublings);

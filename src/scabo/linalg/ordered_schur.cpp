@@ -41,6 +41,35 @@ Matrix sylvester(char operation, const Matrix& A, const Matrix& B, Matrix C, int
   return C / scale;
 }
 
+/// A cut near the middle that parts no pair.
+Eigen::Index middle_of(const Matrix& T) {
+  const Eigen::Index half = T.rows() / 2;
+  return T(half, half - 1) != 0.0 ? half + 1 : half;
+}
+
+/// X of A'X + X B = C. dtrsyl works column by column; halving the longer side leaves it small blocks and makes the rest
+/// products of matrices.
+Matrix halved_sylvester(const Matrix& A, const Matrix& B, const Matrix& C) {
+  constexpr Eigen::Index small = 48;
+  const Eigen::Index m = A.rows(), n = B.rows();
+  if (std::max(m, n) <= small) return sylvester('T', A, B, C, 1);
+  Matrix X(m, n);
+  if (m >= n) {
+    const Eigen::Index k = middle_of(A);
+    const Matrix upper = halved_sylvester(A.topLeftCorner(k, k), B, C.topRows(k));
+    Matrix rest = C.bottomRows(m - k);
+    rest -= multiply_transposed(A.topRightCorner(k, m - k), upper);
+    X << upper, halved_sylvester(A.bottomRightCorner(m - k, m - k), B, rest);
+  } else {
+    const Eigen::Index k = middle_of(B);
+    const Matrix left = halved_sylvester(A, B.topLeftCorner(k, k), C.leftCols(k));
+    Matrix rest = C.rightCols(n - k);
+    add_product(-1.0, left, B.topRightCorner(k, n - k), rest);
+    X << left, halved_sylvester(A, B.bottomRightCorner(n - k, n - k), rest);
+  }
+  return X;
+}
+
 }  // namespace
 
 OrderedSchur::OrderedSchur(const Matrix& S, const GroupOf& group_of) : schur_(real_schur(S)) {
@@ -125,6 +154,6 @@ Matrix small_exponential(const Matrix& T, double s) {
   return Matrix(T * s).exp();
 }
 
-Matrix solve_lyapunov(const Matrix& T, const Matrix& P) { return sylvester('T', T, T, P, 1); }
+Matrix solve_lyapunov(const Matrix& T, const Matrix& P) { return halved_sylvester(T, T, P); }
 
 }  // namespace scabo::linalg

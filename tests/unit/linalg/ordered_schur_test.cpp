@@ -104,6 +104,13 @@ TEST(Lyapunov, SolvesItsEquation) {
   EXPECT_LT((T.transpose() * X + X * T - P).norm(), 1e-13 * P.norm() * T.norm());
 }
 
+TEST(Lyapunov, OfALargeOneByHalves) {
+  const int n = 201;
+  Matrix S = 0.05 * random_basis(n, 4) + Matrix(Vector::LinSpaced(n, 1.0, 30.0).asDiagonal());
+  const Matrix T = real_schur(S).T, P = random_basis(n, 6), X = solve_lyapunov(T, P);
+  EXPECT_LT((T.transpose() * X + X * T - P).norm(), 1e-12 * P.norm());
+}
+
 TEST(SmallExponential, OfADefectiveBlock) {
   Matrix T(2, 2);
   T << 0.5, 1.0, 0.0, 0.5;
