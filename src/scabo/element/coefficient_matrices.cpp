@@ -10,15 +10,10 @@ const LineBasis& basis_of(const mesh::LineElement& element) {
   return LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
 }
 
-/// Position and its derivative along eta at one point of an element.
-struct BoundaryPoint {
-  Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
-  double jacobian() const { return cross(x, x_eta); }
-};
+}  // namespace
 
-template <typename Values>
-BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Values& N,
-                             const Values& N_eta) {
+BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Vector& N,
+                             const Vector& N_eta) {
   BoundaryPoint point;
   for (std::size_t i = 0; i < element.nodes.size(); ++i) {
     const Vec2& node = ring.nodes[static_cast<std::size_t>(element.nodes[i])];
@@ -27,8 +22,6 @@ BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element,
   }
   return point;
 }
-
-}  // namespace
 
 Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes) {
   Ring ring{nodes, super_element.boundary};
@@ -56,17 +49,12 @@ StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& elemen
   return strain;
 }
 
-CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double thickness) {
-  return coefficient_matrices(ring, std::vector<Mat3>{D}, thickness);
-}
-
-CoefficientMatrices coefficient_matrices(const Ring& ring, const std::vector<Mat3>& D, double thickness) {
-  ensure(D.size() == 1 || D.size() == ring.elements.size(), "one plane law, or one for each boundary element");
+CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness) {
   using Triplet = Eigen::Triplet<double>;
+  ensure(D.fits(ring), "a super-element has one elasticity, or one for each boundary element");
   std::vector<Triplet> entries0, entries1, entries2;
-  for (std::size_t index = 0; index < ring.elements.size(); ++index) {
-    const mesh::LineElement& element = ring.elements[index];
-    const Mat3& law = D[D.size() == 1 ? 0 : index];
+  for (std::size_t e = 0; e < ring.elements.size(); ++e) {
+    const mesh::LineElement& element = ring.elements[e];
     const LineBasis& basis = basis_of(element);
     const int m = 2 * basis.nodes();
     Matrix e0 = Matrix::Zero(m, m), e1 = e0, e2 = e0;
@@ -74,7 +62,7 @@ CoefficientMatrices coefficient_matrices(const Ring& ring, const std::vector<Mat
       const auto row = static_cast<Eigen::Index>(q);
       const StrainMatrices strain =
           strain_matrices(ring, element, basis.values_at_rule().row(row), basis.derivatives_at_rule().row(row));
-      const Mat3 weighted = law * (strain.J * basis.rule().weights[q] * thickness);
+      const Mat3 weighted = D.of(e) * (strain.J * basis.rule().weights[q] * thickness);
       const Eigen::Matrix<double, 3, Eigen::Dynamic> DB1 = weighted * strain.B1, DB2 = weighted * strain.B2;
       e0.noalias() += strain.B1.transpose() * DB1;
       e1.noalias() += strain.B2.transpose() * DB1;
@@ -97,21 +85,6 @@ CoefficientMatrices coefficient_matrices(const Ring& ring, const std::vector<Mat
   matrices.E1.setFromTriplets(entries1.begin(), entries1.end());
   matrices.E2.setFromTriplets(entries2.begin(), entries2.end());
   return matrices;
-}
-
-Vector body_load_weights(const Ring& ring) {
-  Vector weights = Vector::Zero(static_cast<Eigen::Index>(ring.nodes.size()));
-  for (const mesh::LineElement& element : ring.elements) {
-    const LineBasis& basis = basis_of(element);
-    for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
-      const auto row = static_cast<Eigen::Index>(q);
-      const Vector N = basis.values_at_rule().row(row), N_eta = basis.derivatives_at_rule().row(row);
-      const double J = boundary_point(ring, element, N, N_eta).jacobian();
-      for (std::size_t i = 0; i < element.nodes.size(); ++i)
-        weights[element.nodes[i]] += N[static_cast<Eigen::Index>(i)] * J * basis.rule().weights[q];
-    }
-  }
-  return weights;
 }
 
 }  // namespace scabo::element
