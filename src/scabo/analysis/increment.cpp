@@ -102,7 +102,8 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
     const system::BodySystem& body = *prepared.structure.bodies[b];
     Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
     certificate.equilibrium = std::max(certificate.equilibrium, body.imbalance(state.u[b], forces) / scale);
-    if (prepared.model.bodies[b].rigid) continue;  // imbalance() is its balance
+    // Of a rigid body imbalance() is the balance; what acts on an outside body goes to infinity.
+    if (prepared.model.bodies[b].rigid || prepared.model.bodies[b].outside) continue;
     for (std::size_t c = 0; c < body.constraints().size(); ++c)
       forces[body.constraints()[c].dof] += state.reactions[b][static_cast<Eigen::Index>(c)];
     // Against all forces on the body: those of a fine mesh are small, and many.

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "scabo/analysis/increment.hpp"
+#include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
 #include "scabo/linalg/dense.hpp"
 
@@ -96,6 +97,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
                             motion));
   }
   if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
+  if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
+    add("reaches to infinity", relative);
 }
 
 void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
@@ -115,7 +118,11 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       });
       const bool there = reached.reason.empty();
       IncrementResult result;
-      if (there) result = timed(solution.timing.recover, [&] { return describe(prepared, reached.state); });
+      if (there) result = timed(solution.timing.recover, [&] {
+        IncrementResult described = describe(prepared, reached.state);
+        refer_displacements(solution, described);
+        return described;
+      });
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
       result.increment = k;

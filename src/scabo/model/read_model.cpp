@@ -169,6 +169,7 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
   const Value whole{root, ""};
   read_sections(reading, whole);
   check_density(reading);
+  check_expansion(reading);
   check_bodies_held(reading);
   check_something_loads(reading, whole);
   if (reading.steps_known) {

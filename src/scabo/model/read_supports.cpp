@@ -86,6 +86,11 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   const ReadPlace place = on ? read_place(reading, *on) : ReadPlace{};
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
+  if (place.place && place.place->kind == Place::Kind::face) {
+    report.error(*on, fmt::format("'{}' is a side face, which is not divided: a support holds edges, corners and points",
+                                  place.place->text));
+    return {};
+  }
   std::optional<Displacement> displacement;
   if (map.has("fix") == map.has("displacement")) {
     if (map.has("fix") || report.count() == before) {
@@ -141,6 +146,8 @@ bool includes_corner(const Place& place, int corner, int corners) {
       return place.index == corner;
     case Place::Kind::edge:
       return place.index == corner || (place.index + 1) % corners == corner;
+    case Place::Kind::face:
+    case Place::Kind::mouth:
     case Place::Kind::near:
       return false;  // only the mesh knows
   }
@@ -149,8 +156,9 @@ bool includes_corner(const Place& place, int corner, int corners) {
 
 /// Whether two places of the same body surely share a point.
 bool share_a_point(const Place& a, const Place& b, int corners) {
-  if (a.kind == Place::Kind::near && b.kind == Place::Kind::near) return a.near == b.near;
-  if (a.kind == Place::Kind::near || b.kind == Place::Kind::near) {
+  const auto is_point = [](const Place& p) { return p.kind == Place::Kind::near || p.kind == Place::Kind::mouth; };
+  if (is_point(a) && is_point(b)) return a.kind == b.kind && a.near == b.near && a.index == b.index;
+  if (is_point(a) || is_point(b)) {
     return a.kind == Place::Kind::body || b.kind == Place::Kind::body;
   }
   if (a.kind == Place::Kind::edge && b.kind == Place::Kind::edge && a.index == b.index) return true;
