@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/super_elements.hpp"
 #include "scabo/linalg/dense.hpp"
@@ -115,7 +116,12 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       });
       const bool there = reached.reason.empty();
       IncrementResult result;
-      if (there) result = timed(solution.timing.recover, [&] { return describe(prepared, reached.state); });
+      if (there)
+        result = timed(solution.timing.recover, [&] {
+          IncrementResult described = describe(prepared, reached.state);
+          described.cracks = crack_results(solution, described);
+          return described;
+        });
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
       result.increment = k;

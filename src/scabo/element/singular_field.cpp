@@ -97,20 +97,7 @@ Matrix carried(const Mat3& law, Matrix w, const Matrix& T, double t0, double t1)
 
 }  // namespace
 
-bool ModeGroup::defective(double spread) const {
-  // Equal exponents with all their modes leave T = lambda 1; defective ones leave a coupling, though the exponents
-  // themselves have moved apart by a root of rounding.
-  for (Eigen::Index i = 0; i < size(); ++i)
-    for (Eigen::Index j = i + 1; j < size(); ++j) {
-      const auto a = exponents[static_cast<std::size_t>(i)], b = exponents[static_cast<std::size_t>(j)];
-      const bool pair = j == i + 1 && T(j, i) != 0.0;
-      const double apart = std::abs(a - b);
-      if (apart > spread) continue;
-      const double coupling = pair ? std::max(std::abs(T(i, j)), std::abs(T(j, i))) : std::abs(T(i, j));
-      if (coupling > 1e-6 && coupling > 10.0 * apart) return true;
-    }
-  return false;
-}
+bool ModeGroup::defective(double spread) const { return linalg::is_defective(T, exponents, spread); }
 
 Vector ModeGroup::displacement(double xi, const Vector& c) const {
   if (size() == 0 || xi <= 0.0) return Vector::Zero(Phi.rows());

@@ -78,6 +78,14 @@ struct MeshOptions {
   Source source;
 };
 
+/// A straight crack from the outline to a tip inside, which is the body's scaling centre.
+struct Crack {
+  std::string name;
+  Vec2 tip = Vec2::Zero();
+  Vec2 mouth = Vec2::Zero();  ///< on the outline
+  Source source;
+};
+
 struct Body {
   std::string name;
   bool rigid = false;  ///< an obstacle or a punch: no material, no mesh
@@ -85,6 +93,8 @@ struct Body {
   Outline outline;
   MeshOptions mesh;  ///< unused for a rigid body
   bool outside = false;           ///< the material lies outside the outline, to infinity
+  std::vector<Crack> cracks;      ///< at most one
+  int centre_corner = -1;         ///< corner of the outline at the scaling centre: the edges that meet there are side faces; -1: none
   std::optional<Vec2> reference;  ///< of an outside body: displacement is given relative to this point
   Source source;
 };
