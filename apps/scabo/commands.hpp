@@ -25,8 +25,15 @@ struct RunOptions {
   bool quiet = false;            ///< only errors and warnings
 };
 
+struct ExponentsOptions {
+  std::string model;
+  std::vector<std::string> settings;
+  bool json = false;
+};
+
 ExitStatus run(const RunOptions& options);
 ExitStatus check(const CheckOptions& options);
+ExitStatus print_exponents(const ExponentsOptions& options);
 ExitStatus print_schema();
 
 }  // namespace scabo::app

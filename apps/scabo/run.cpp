@@ -47,6 +47,7 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
     text += last->contacts.empty() ? result::report_reactions(solution.model, *last)
                                    : result::report_contacts(*last);
+    text += result::report_cracks(*last);
   }
   return text + fmt::format("Results: {}\n", directory.string());
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
@@ -118,11 +119,13 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       });
       const bool there = reached.reason.empty();
       IncrementResult result;
-      if (there) result = timed(solution.timing.recover, [&] {
-        IncrementResult described = describe(prepared, reached.state);
-        refer_displacements(solution, described);
-        return described;
-      });
+      if (there)
+        result = timed(solution.timing.recover, [&] {
+          IncrementResult described = describe(prepared, reached.state);
+          refer_displacements(solution, described);
+          described.cracks = crack_results(solution, described);
+          return described;
+        });
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
       result.increment = k;

@@ -13,6 +13,7 @@
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/element/sectors.hpp"
+#include "scabo/element/stress_intensity.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
@@ -51,6 +52,12 @@ struct Energy {
   double friction = 0.0;   ///< dissipated
 };
 
+/// A crack, or a corner at a scaling centre, after an increment.
+struct CrackResult {
+  std::string name;  ///< `body.crack`, or `body.corner`
+  element::StressIntensity factors;
+};
+
 struct IncrementResult {
   int step = 0;        ///< from 1
   std::string step_name;
@@ -66,6 +73,7 @@ struct IncrementResult {
   Energy energy;
   std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
   std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
+  std::vector<CrackResult> cracks;        ///< of all bounded open super-elements
   std::string reason;                     ///< why it did not converge
 };
 
@@ -85,8 +93,11 @@ struct SolvedSuperElement {
   element::SuperElementSolution solution;
   /// Modes for the interior, found when they are asked for first.
   const element::ModalSolution& modes() const;
+  /// The same for the factors of its crack or corner; the ring must be open.
+  const element::CornerAnalysis& corner() const;
 
  private:
+  mutable std::unique_ptr<element::CornerAnalysis> corner_;
   mutable std::unique_ptr<element::ModalSolution> modes_;
 };
 

@@ -104,6 +104,14 @@ struct Crack {
   Source source;
 };
 
+/// A straight crack from the outline to a tip inside, which is the body's scaling centre.
+struct Crack {
+  std::string name;
+  Vec2 tip = Vec2::Zero();
+  Vec2 mouth = Vec2::Zero();  ///< on the outline
+  Source source;
+};
+
 struct Body {
   std::string name;
   bool rigid = false;  ///< an obstacle or a punch: no material, no mesh
