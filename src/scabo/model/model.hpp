@@ -17,7 +17,12 @@ namespace scabo::model {
 
 enum class Plane { stress, strain };
 
+/// Quasi-static, or the natural frequencies and modes of every elastic body.
+enum class AnalysisType { static_, modal };
+
 struct Analysis {
+  AnalysisType type = AnalysisType::static_;
+  int modes = 10;          ///< modal: how many of the lowest, rigid-body modes among them
   Plane plane = Plane::stress;
   double thickness = 1.0;  ///< length, > 0
 };
@@ -27,7 +32,7 @@ struct Material {
   std::string name;
   double young = 0.0;             ///< force / length^2, > 0
   double poisson = 0.0;           ///< -1 < poisson < 0.5 (plane strain), <= 0.5 (plane stress)
-  std::optional<double> density;  ///< mass / length^3, >= 0; only where gravity needs it
+  std::optional<double> density;  ///< mass / length^3, >= 0; needed for gravity and by a modal analysis
   Source source;
 };
 
@@ -161,6 +166,7 @@ struct Model {
   std::vector<Contact> contacts;
   std::vector<Step> steps;
   SolverOptions solver;
+  std::vector<std::string> warnings;  ///< what was given and plays no part in this analysis, in sentences
 };
 
 }  // namespace scabo::model
