@@ -129,7 +129,10 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
     parts.emplace_back("rigid bodies");
   if (!parts.empty()) {
     std::string list = parts.front();
-    for (std::size_t i = 1; i < parts.size(); ++i) list += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      list += i + 1 < parts.size() ? ", " : " and ";
+      list += parts[i];
+    }
     model.warnings.push_back(fmt::format("a modal analysis leaves out the model's {}{}", list,
                                          model.contacts.empty() ? "" : ": every body vibrates by itself"));
   }
