@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exit_status.hpp"
+#include "scabo/model/model.hpp"
 
 namespace scabo::app {
 
@@ -32,6 +33,9 @@ struct ExponentsOptions {
 };
 
 ExitStatus run(const RunOptions& options);
+/// `run` of a model with `type: modal` that took `reading` seconds to read.
+ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
+                     double reading);
 ExitStatus check(const CheckOptions& options);
 ExitStatus print_exponents(const ExponentsOptions& options);
 ExitStatus print_schema();

@@ -81,11 +81,12 @@ ExitStatus run(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const model::Model model = model::read_model(options.model, parse_settings(options.settings));
   const double reading = seconds_since(start);
+  const auto output = options.output.empty() ? default_output(options.model) : options.output;
+  if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);
 
   // Looked through before the directory is made or cleared, and the directory made before the long work: a
   // mistake in either costs seconds and no results. Meshing twice is a hundredth of a solve.
   analysis::check(model);
-  const auto output = options.output.empty() ? default_output(options.model) : options.output;
   result::ResultsDirectory directory(output, model);
 
   const Interrupt interrupt;

@@ -167,6 +167,13 @@ std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolut
 }  // namespace
 
 mesh::Mesh check(const model::Model& model) {
+  if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free, and do not touch
+    model::Model apart = model;
+    apart.contacts.clear();
+    mesh::Mesh mesh = mesh::make_mesh(apart);
+    system::constraints_of(apart, mesh);
+    return mesh;
+  }
   mesh::Mesh mesh = mesh::make_mesh(model);
   system::check_supports(model, mesh);
   return mesh;

@@ -122,7 +122,7 @@ struct Options {
   std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
 };
 
-/// Meshes the model and looks whether every body is held, without solving anything. Throws InputError.
+/// Meshes the model and looks whether every body is held (modal: it need not be), without solving anything. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of

@@ -17,7 +17,12 @@ namespace scabo::model {
 
 enum class Plane { stress, strain };
 
+/// Quasi-static, or the natural frequencies and modes of every elastic body.
+enum class AnalysisType { static_, modal };
+
 struct Analysis {
+  AnalysisType type = AnalysisType::static_;
+  int modes = 10;          ///< modal: how many of the lowest, rigid-body modes among them
   Plane plane = Plane::stress;
   double thickness = 1.0;  ///< length, > 0
 };
@@ -41,7 +46,7 @@ struct Material {
   double young = 0.0;             ///< force / length^2, > 0
   double poisson = 0.0;           ///< -1 < poisson < 0.5 (plane strain), <= 0.5 (plane stress)
   std::optional<std::variant<Orthotropic, Anisotropic>> law;  ///< instead of young and poisson
-  std::optional<double> density;  ///< mass / length^3, >= 0; only where gravity needs it
+  std::optional<double> density;  ///< mass / length^3, >= 0; needed for gravity and by a modal analysis
   /// Free strain along axes 1, 2 and 3 per unit of temperature; only where a temperature acts.
   std::optional<std::array<double, 3>> expansion;
   Source source;
@@ -101,14 +106,6 @@ struct Crack {
   Vec2 tip = Vec2::Zero(), mouth = Vec2::Zero();
   int edge = -1;   ///< of the mouth
   double at = 0.0; ///< mouth = edge.at(at), 0 < at < 1
-  Source source;
-};
-
-/// A straight crack from the outline to a tip inside, which is the body's scaling centre.
-struct Crack {
-  std::string name;
-  Vec2 tip = Vec2::Zero();
-  Vec2 mouth = Vec2::Zero();  ///< on the outline
   Source source;
 };
 
@@ -224,6 +221,7 @@ struct Model {
   std::vector<Contact> contacts;
   std::vector<Step> steps;
   SolverOptions solver;
+  std::vector<std::string> warnings;  ///< what was given and plays no part in this analysis, in sentences
 };
 
 }  // namespace scabo::model

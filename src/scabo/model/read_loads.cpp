@@ -180,7 +180,30 @@ void check_expansion(Reading& reading) {
   }
 }
 
+namespace {
+
+/// A body without mass has no frequencies.
+void check_density_of_modal_analysis(Reading& reading) {
+  std::set<int> told;
+  for (const Body& body : reading.model.bodies) {
+    if (body.material < 0) continue;
+    for (const int index : materials_of(body)) {
+      const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
+      if (material.density.value_or(0.0) > 0.0 || !told.insert(index).second) continue;
+      reading.report.error(material.source,
+                           fmt::format("'density' {}: a modal analysis needs the mass of body '{}'",
+                                       material.density ? "is 0" : "is missing", body.name));
+    }
+  }
+}
+
+}  // namespace
+
 void check_density(Reading& reading) {
+  if (reading.model.analysis.type == AnalysisType::modal) {
+    check_density_of_modal_analysis(reading);
+    return;
+  }
   for (const Load& load : reading.model.loads) {
     if (!std::holds_alternative<Gravity>(load.kind)) continue;
     std::set<int> told;

@@ -94,11 +94,15 @@ void remove_old_results(const fs::path& path) {
 
 }  // namespace
 
+void prepare_directory(const fs::path& path) {
+  create(path);
+  remove_old_results(path);
+}
+
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model) : path_(std::move(path)) {
   const Stopwatch writing(write_seconds_);
   for (const model::Step& step : model.steps) increments_of_step_.push_back(step.increments);
-  create(path_);
-  remove_old_results(path_);
+  prepare_directory(path_);
   contact_table_.emplace(path_ / "contact.csv");
   contact_table_->append(contact_table_header);
   collection_.emplace(path_ / "fields.pvd");

@@ -15,10 +15,13 @@
 
 namespace scabo::result {
 
+/// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
+/// removed; one of another origin that stands where a result has to go is an error. Throws WriteError.
+void prepare_directory(const std::filesystem::path& path);
+
 class ResultsDirectory {
  public:
-  /// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
-  /// removed; one of another origin that stands where a result has to go is an error. Throws WriteError.
+  /// Prepares the directory. Throws WriteError.
   ResultsDirectory(std::filesystem::path path, const model::Model& model);
 
   const std::filesystem::path& path() const { return path_; }
