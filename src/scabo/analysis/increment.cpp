@@ -282,7 +282,10 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   }
   check_held_pairs(prepared, free);
 
-  result.solution = contact::solve(problem, {from.p, from.a}, options);
+  result.start = {from.p, from.a};
+  result.force_scale = options.force_scale;
+  result.solution = contact::solve(problem, result.start, options);
+  result.problem = std::move(problem);
   to.p = result.solution.p;
   to.a = result.solution.a;
   to.gap = result.solution.gap;
@@ -302,6 +305,15 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;
+}
+
+DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt) {
+  DiscreteProblem discrete{attempt.problem, attempt.start, attempt.solution, attempt.accepted, attempt.force_scale, {}, {}};
+  for (const system::ContactSystem::Pair& pair : prepared.contact.pairs) {
+    discrete.contact_of_pair.push_back(pair.contact);
+    discrete.number_of_pair.push_back(pair.number);
+  }
+  return discrete;
 }
 
 IncrementResult describe(const Prepared& prepared, const State& state) {

@@ -45,19 +45,22 @@ class Matrices {
 
   BodyMatrices of(std::size_t body) {
     const model::Model& model = structure_.model;
-    const double density = *material_of(model, body).density, thickness = model.analysis.thickness;
+    const double thickness = model.analysis.thickness;
     BodyMatrices matrices;
     if (const auto& super_element = structure_.super_elements[body]) {
-      std::shared_ptr<const Matrix>& mass = masses_[{super_element.get(), density}];
+      std::vector<double> density;  // super-elements that are alike have the same materials
+      for (const int material : super_element->sectors.materials)
+        density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
+      std::shared_ptr<const Matrix>& mass = masses_[super_element.get()];
       if (!mass)
         mass = std::make_shared<const Matrix>(element::mass_matrix(super_element->ring, super_element->solution,
-                                                                   super_element->modes(), {density}, thickness, threads_));
+                                                                   super_element->modes(), density, thickness, threads_));
       matrices.K.dense = std::shared_ptr<const Matrix>(super_element, &super_element->solution.K);
       matrices.M.dense = mass;
     } else {
       const auto D = element::elasticity_matrix(material_of(model, body), model.analysis.plane);
       matrices.K.sparse = system::fem_stiffness(structure_.mesh.bodies[body], D, thickness);
-      matrices.M.sparse = system::fem_mass(structure_.mesh.bodies[body], density, thickness);
+      matrices.M.sparse = system::fem_mass(structure_.mesh.bodies[body], *material_of(model, body).density, thickness);
     }
     return matrices;
   }
@@ -65,7 +68,7 @@ class Matrices {
  private:
   const StaticSolution& structure_;
   int threads_;
-  std::map<std::pair<const SolvedSuperElement*, double>, std::shared_ptr<const Matrix>> masses_;
+  std::map<const SolvedSuperElement*, std::shared_ptr<const Matrix>> masses_;
 };
 
 /// M times a translation of the whole body.

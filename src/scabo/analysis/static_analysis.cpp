@@ -41,11 +41,13 @@ struct Reached {
   double residual = 0.0;
   Matrix undetermined;
   std::string reason;  ///< empty: there
+  std::vector<AttemptResult> attempts;
+  std::vector<DiscreteProblem> problems;  ///< of the attempts, where they are asked for
 };
 
 /// From `from` to `target`, halving the way where an attempt is not accepted; every part starts from the last accepted
 /// state.
-Reached reach(const Prepared& prepared, const State& from, const Factors& target, const std::atomic<bool>* stop) {
+Reached reach(const Prepared& prepared, const State& from, const Factors& target, const Options& options) {
   Reached reached;
   reached.state = from;
   const Factors start = from.factors;
@@ -54,6 +56,8 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
     const double next = std::min(1.0, done + part);
     Attempt tried = attempt(prepared, reached.state, between(start, target, next));
     reached.iterations += tried.solution.iterations;
+    reached.attempts.push_back({tried.solution.trace, tried.accepted});
+    if (options.on_problems && tried.problem.pairs() > 0) reached.problems.push_back(discrete_problem(prepared, tried));
     if (tried.accepted) {
       reached.state = std::move(tried.state);
       reached.certificate = tried.certificate;
@@ -63,7 +67,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       continue;
     }
     const bool mechanism = tried.solution.status == contact::Status::mechanism;  // no smaller step helps
-    if (mechanism || reached.halvings == prepared.model.solver.halvings || (stop && *stop)) {
+    if (mechanism || reached.halvings == prepared.model.solver.halvings || (options.stop && *options.stop)) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
       if (mechanism)
@@ -115,7 +119,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       }
       if (options.on_stage) options.on_stage(fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
       Reached reached = timed(solution.timing.newton, [&] {
-        return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options.stop);
+        return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options);
       });
       const bool there = reached.reason.empty();
       IncrementResult result;
@@ -135,8 +139,10 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       result.residual = reached.residual;
       result.certificate = reached.certificate;
       result.reason = reached.reason;
+      result.attempts = std::move(reached.attempts);
       if (there) add_warnings(prepared, reached, result, solution.warnings);
       solution.increments.push_back(std::move(result));
+      if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
       if (!there) {
         solution.outcome = Outcome::not_converged;
         solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);

@@ -58,6 +58,12 @@ struct CrackResult {
   element::StressIntensity factors;
 };
 
+/// How the contact solver went in one attempt at an increment, or at a part of it where it was halved.
+struct AttemptResult {
+  std::vector<contact::Iteration> iterations;
+  bool accepted = false;
+};
+
 struct IncrementResult {
   int step = 0;        ///< from 1
   std::string step_name;
@@ -75,6 +81,18 @@ struct IncrementResult {
   std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
   std::vector<CrackResult> cracks;        ///< of all bounded open super-elements
   std::string reason;                     ///< why it did not converge
+  std::vector<AttemptResult> attempts;    ///< one; more where the increment was halved
+};
+
+/// The discrete problem of one attempt: a value that can be saved and solved alone (contact/fclib.hpp).
+struct DiscreteProblem {
+  contact::Problem problem;
+  contact::Start start;             ///< the accepted state before
+  contact::Solution solution;
+  bool accepted = false;
+  double force_scale = 0.0;         ///< contact::SolverOptions::force_scale
+  std::vector<int> contact_of_pair; ///< index into Model::contacts, one for each pair of the problem
+  std::vector<int> number_of_pair;  ///< PairResult::pair
 };
 
 /// Seconds.
@@ -118,6 +136,8 @@ struct Options {
   int threads = 1;  ///< for BLAS and for super-elements that differ
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
+  /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.
+  std::function<void(const IncrementResult&, const std::vector<DiscreteProblem>&)> on_problems;
   std::function<void(const StaticSolution&)> on_mesh;  ///< once super-elements and systems stand
   std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
 };

@@ -210,6 +210,11 @@ struct SolverOptions {
   int halvings = 6;          ///< of an increment that did not converge
 };
 
+/// What a run writes besides the files that it always writes.
+struct Output {
+  bool discrete_problems = false;  ///< the contact problem of every increment
+};
+
 struct Model {
   std::string file;  ///< as given to the reader, for messages
   std::string title;
@@ -222,6 +227,7 @@ struct Model {
   std::vector<Step> steps;
   SolverOptions solver;
   std::vector<std::string> warnings;  ///< what was given and plays no part in this analysis, in sentences
+  Output output;
 };
 
 }  // namespace scabo::model

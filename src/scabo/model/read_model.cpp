@@ -86,7 +86,7 @@ void check_version(Reading& reading, const MapReader& map) {
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts",
-                       "steps", "solver"},
+                       "steps", "solver", "output"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) return;
   check_version(reading, map);
@@ -94,6 +94,7 @@ void read_sections(Reading& reading, const Value& root) {
     reading.model.title = read_text(reading.report, *title).value_or("");
   if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);
   if (const auto solver = map.get("solver")) read_solver(reading, *solver);
+  if (const auto output = map.get("output")) read_output(reading, *output);
 
   reading.materials_known = map.has("materials");
   if (const auto materials = map.get("materials")) read_materials(reading, *materials);

@@ -45,6 +45,7 @@ struct Reading {
 // Sections, in the order in which they are read.
 void read_analysis(Reading& reading, const Value& value);
 void read_solver(Reading& reading, const Value& value);
+void read_output(Reading& reading, const Value& value);
 void read_materials(Reading& reading, const Value& value);
 void read_bodies(Reading& reading, const Value& value);
 void read_supports(Reading& reading, const Value& value);

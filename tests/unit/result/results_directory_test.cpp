@@ -127,7 +127,7 @@ class Results : public testing::Test {
 TEST_F(Results, FilesOfARun) {
   const FinishedRun run(path_);
   EXPECT_THAT(names_in(path_), UnorderedElementsAre("summary.json", "contact.csv", "fields.pvd",
-                                                    "fields_0001.vtu", "fields_0002.vtu", "log.txt"));
+                                                    "fields_0001.vtu", "fields_0002.vtu", "convergence.csv", "log.txt"));
   EXPECT_GT(run.directory.recover_seconds(), 0.0);
   EXPECT_GT(run.directory.write_seconds(), 0.0);
 }
@@ -264,12 +264,12 @@ TEST_F(Results, AnEarlierRunLeavesNothingBehind) {
   auto solution = two_bodies();
   const ResultsDirectory directory(path_, solution.model);
   EXPECT_THAT(names_in(path_),
-              UnorderedElementsAre("contact.csv", "fields.pvd", "log.txt", "notes.txt", "fields_mine.vtu"));
+              UnorderedElementsAre("contact.csv", "fields.pvd", "convergence.csv", "log.txt", "notes.txt", "fields_mine.vtu"));
   EXPECT_EQ(content_of(path_ / "contact.csv"), contact_table_header);
 }
 
 TEST_F(Results, FilesOfOthersAreNeverOverwritten) {
-  for (const char* name : {"fields_0001.vtu", "summary.json", "contact.csv", "log.txt", "fields.pvd"}) {
+  for (const char* name : {"fields_0001.vtu", "summary.json", "contact.csv", "convergence.csv", "convergence.svg", "log.txt", "fields.pvd"}) {
     const TemporaryDirectory directory;
     { const FinishedRun run(directory.path()); }
     write_text(directory.path() / name, "of somebody else");
