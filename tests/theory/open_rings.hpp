@@ -37,6 +37,10 @@ inline std::vector<double> equal_parts(int count) {
   return ends;
 }
 
+inline element::Ring open_ring(const std::vector<Vec2>& vertices, int divisions, int order) {
+  return open_ring(vertices, std::vector<std::vector<double>>(vertices.size() - 1, equal_parts(divisions)), order);
+}
+
 inline Vec2 turned(const Vec2& x, double angle) {
   return {std::cos(angle) * x.x() - std::sin(angle) * x.y(), std::sin(angle) * x.x() + std::cos(angle) * x.y()};
 }

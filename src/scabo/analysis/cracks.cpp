@@ -7,7 +7,8 @@ namespace {
 std::string name_of(const model::Body& body) {
   if (!body.cracks.empty()) return body.name + "." + body.cracks.front().name;
   if (body.mesh.centre_corner < 0) return body.name;
-  return body.name + "." + body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)].names.front();
+  const std::vector<std::string>& names = body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)].names;
+  return body.name + "." + (names.size() > 1 ? names[1] : names[0]);  // the user's name where there is one
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ IncrementResult state_of(const ModalResult& result, const NaturalMode& mode) {
     const auto size = model.bodies[b].rigid ? Eigen::Index{3}
                                             : static_cast<Eigen::Index>(2 * result.structure.mesh.bodies[b].nodes.size());
     state.displacements.push_back(static_cast<int>(b) == mode.body ? mode.shape : Vector(Vector::Zero(size)));
-    state.body_forces.push_back(Vec2::Zero());
+    state.interior.emplace_back();
   }
   return state;
 }
