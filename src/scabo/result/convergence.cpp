@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "scabo/result/contact_table.hpp"
+
 namespace scabo::result {
 
 const std::string_view convergence_table_header =
@@ -162,8 +164,8 @@ std::string convergence_table_rows(const analysis::IncrementResult& increment) {
   for (std::size_t attempt = 0; attempt < increment.attempts.size(); ++attempt)
     for (const contact::Iteration& at : increment.attempts[attempt].iterations)
       fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{}\n", increment.step,
-                     increment.increment, attempt + 1, at.iteration, at.stage, at.residual, at.merit,
-                     at.step_length, at.states_changed);
+                     increment.increment, attempt + 1, at.iteration, csv_quoted(at.stage), at.residual,
+                     at.merit, at.step_length, at.states_changed);
   return fmt::to_string(rows);
 }
 

@@ -72,9 +72,9 @@ TEST(ConvergenceTable, OneLineForEachIterationOfEachAttempt) {
   increment.step = 2;
   increment.increment = 3;
   increment.attempts = {{{{1, 0.5, 0.25, 0.125, 4, "newton"}}, false},
-                        {{{1, 1e-12, 0.0, 1.0, 0, "frictionless"}}, true}};
+                        {{{1, 1e-12, 0.0, 1.0, 0, "newton, \"soft\""}}, true}};
   EXPECT_EQ(convergence_table_rows(increment),
-            "2,3,1,1,newton,0.5,0.25,0.125,4\n2,3,2,1,frictionless,1e-12,0,1,0\n");
+            "2,3,1,1,newton,0.5,0.25,0.125,4\n2,3,2,1,\"newton, \"\"soft\"\"\",1e-12,0,1,0\n");
   EXPECT_EQ(convergence_table_header,
             "step,increment,attempt,iteration,stage,residual,merit,step_length,states_changed\n");
 }
