@@ -10,15 +10,10 @@ const LineBasis& basis_of(const mesh::LineElement& element) {
   return LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
 }
 
-/// Position and its derivative along eta at one point of an element.
-struct BoundaryPoint {
-  Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
-  double jacobian() const { return cross(x, x_eta); }
-};
+}  // namespace
 
-template <typename Values>
-BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Values& N,
-                             const Values& N_eta) {
+BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Vector& N,
+                             const Vector& N_eta) {
   BoundaryPoint point;
   for (std::size_t i = 0; i < element.nodes.size(); ++i) {
     const Vec2& node = ring.nodes[static_cast<std::size_t>(element.nodes[i])];
@@ -27,8 +22,6 @@ BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element,
   }
   return point;
 }
-
-}  // namespace
 
 Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes) {
   Ring ring{nodes, super_element.boundary};
@@ -56,10 +49,12 @@ StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& elemen
   return strain;
 }
 
-CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double thickness) {
+CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness) {
   using Triplet = Eigen::Triplet<double>;
+  ensure(D.fits(ring), "a super-element has one elasticity, or one for each boundary element");
   std::vector<Triplet> entries0, entries1, entries2;
-  for (const mesh::LineElement& element : ring.elements) {
+  for (std::size_t e = 0; e < ring.elements.size(); ++e) {
+    const mesh::LineElement& element = ring.elements[e];
     const LineBasis& basis = basis_of(element);
     const int m = 2 * basis.nodes();
     Matrix e0 = Matrix::Zero(m, m), e1 = e0, e2 = e0;
@@ -67,7 +62,7 @@ CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double
       const auto row = static_cast<Eigen::Index>(q);
       const StrainMatrices strain =
           strain_matrices(ring, element, basis.values_at_rule().row(row), basis.derivatives_at_rule().row(row));
-      const Mat3 weighted = D * (strain.J * basis.rule().weights[q] * thickness);
+      const Mat3 weighted = D.of(e) * (strain.J * basis.rule().weights[q] * thickness);
       const Eigen::Matrix<double, 3, Eigen::Dynamic> DB1 = weighted * strain.B1, DB2 = weighted * strain.B2;
       e0.noalias() += strain.B1.transpose() * DB1;
       e1.noalias() += strain.B2.transpose() * DB1;

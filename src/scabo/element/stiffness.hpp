@@ -51,7 +51,7 @@ struct SuperElementSolution {
 /// Solves the super-element. Throws BrokenInvariant when a ring is not positive definite or the doubling does not
 /// end, which positive definite material and a boundary that the centre sees rule out. Symmetry blocks are shared out among
 /// `threads` threads.
-SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness, int threads = 1);
+SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1);
 
 /// Stiffness of the bounded domain from E0, E1, E2 without zero exponents, by eqs. (1) and (2).
 Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& doublings);
