@@ -21,6 +21,11 @@ else()
   list(APPEND missing cholmod.h)
 endif()
 
+find_package(HDF5 QUIET COMPONENTS C)
+if(NOT TARGET hdf5::hdf5)
+  list(APPEND missing HDF5)
+endif()
+
 if(missing)
   list(JOIN missing ", " missing)
   message(FATAL_ERROR "Scabo needs what was not found: ${missing}.\n"

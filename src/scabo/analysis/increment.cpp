@@ -211,6 +211,13 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
   return results;
 }
 
+void add(element::InteriorLoads& to, const element::InteriorLoads& loads, double factor) {
+  element::add_radial_loads(to.loads, loads.loads, factor);
+  to.temperature.constant += factor * loads.temperature.constant;
+  to.temperature.per_x += factor * loads.temperature.per_x;
+  to.temperature.per_y += factor * loads.temperature.per_y;
+}
+
 }  // namespace
 
 Factors between(const Factors& from, const Factors& to, double part) {
@@ -251,7 +258,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.forces = applied_forces(prepared, factors.loads);
   to.prescribed = prescribed_values(prepared, factors.supports);
 
-  contact::Problem problem{system.W, Vector::Zero(2 * N), system.mu, system.G, Vector::Zero(system.rigid_motions())};
+  contact::Problem problem;
+  problem.W = system.W;
+  problem.q = Vector::Zero(2 * N);
+  problem.mu = system.mu;
+  problem.G = system.G;
+  problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < N; ++i) {
     problem.q[2 * i] = system.gap[i];
     problem.q[2 * i + 1] = -from.slip[i];
@@ -304,7 +316,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   result.energy = state.energy;
   result.displacements = state.u;
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
-  result.body_forces.assign(state.u.size(), Vec2::Zero());
+  result.interior.resize(state.u.size());
   for (std::size_t b = 0; b < state.u.size(); ++b) {
     const system::BodySystem& body = *prepared.structure.bodies[b];
     if (prepared.model.bodies[b].rigid) result.displacements[b][2] /= body.lever();
@@ -315,7 +327,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
           state.reactions[b][static_cast<Eigen::Index>(c)];
     }
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
-      result.body_forces[b] += state.factors.loads[load] * prepared.structure.body_forces[load][b];
+      add(result.interior[b], prepared.structure.interior[load][b], state.factors.loads[load]);
   }
   return result;
 }

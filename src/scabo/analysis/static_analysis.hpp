@@ -12,6 +12,7 @@
 
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/modal_solution.hpp"
+#include "scabo/element/sectors.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
@@ -64,7 +65,7 @@ struct IncrementResult {
   contact::Certificate certificate;
   Energy energy;
   std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
-  std::vector<Vec2> body_forces;          ///< per body: density times gravity times factor, force / length^3
+  std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
   std::string reason;                     ///< why it did not converge
 };
 
@@ -77,8 +78,9 @@ struct Timing {
 /// A super-element solved once for all bodies that are alike.
 struct SolvedSuperElement {
   element::Ring ring;
-  element::Mat3 D;
+  element::Sectors sectors;
   double thickness = 1.0;
+  element::Domain domain;
   int threads = 1;  ///< for its modes
   element::SuperElementSolution solution;
   /// Modes for the interior, found when they are asked for first.

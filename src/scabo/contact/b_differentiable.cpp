@@ -47,7 +47,7 @@ BDifferentiableEquations::BDifferentiableEquations(const Problem& problem, doubl
 Residual BDifferentiableEquations::residual(const Vector& p, const Vector& a) const {
   const int N = problem_.pairs();
   Vector motion = problem_.q;
-  motion.noalias() += problem_.W * p;
+  motion += problem_.W * p;
   if (a.size() > 0) motion.noalias() += problem_.G * a;
   Residual at{Vector(2 * N + a.size()), std::vector<Branch>(static_cast<std::size_t>(N))};
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -105,10 +105,11 @@ std::optional<Vector> BDifferentiableEquations::direction(const Residual& at) co
   const auto size = static_cast<Eigen::Index>(motions.size());
   Matrix A = Matrix::Zero(size + m, size + m);
   Vector b(size + m);
+  const Matrix& W = problem_.W.dense();
   const auto follows = [&](Eigen::Index row, Eigen::Index i) {  // coefficient of a normal's unknown in a motion's row
     const Branch& branch = at.branches[static_cast<std::size_t>(i)];
-    double value = problem_.W(row, 2 * i);
-    if (branch.tangent == Branch::Tangent::slip) value += problem_.W(row, 2 * i + 1) * problem_.mu[i] * branch.sign;
+    double value = W(row, 2 * i);
+    if (branch.tangent == Branch::Tangent::slip) value += W(row, 2 * i + 1) * problem_.mu[i] * branch.sign;
     return value;
   };
   const Vector moved = problem_.W * known;
@@ -116,7 +117,7 @@ std::optional<Vector> BDifferentiableEquations::direction(const Residual& at) co
     const Eigen::Index column = motions[static_cast<std::size_t>(k)], i = column / 2;
     for (Eigen::Index row = 0; row < size; ++row) {
       const Eigen::Index at_row = motions[static_cast<std::size_t>(row)];
-      A(row, k) = r_[at_row] * (column % 2 == 0 ? follows(at_row, i) : problem_.W(at_row, column));
+      A(row, k) = r_[at_row] * (column % 2 == 0 ? follows(at_row, i) : W(at_row, column));
     }
     A.block(size, k, m, 1) = problem_.G.row(column).transpose();
     const Branch& branch = at.branches[static_cast<std::size_t>(i)];
@@ -189,7 +190,7 @@ NewtonEnd BDifferentiableEquations::newton(Vector p, Vector a, double small, int
   int unchecked = 0;  // full steps without descent since the best point
   while (true) {
     keep_best();
-    end.history.push_back(at.H.size() > 0 ? at.H.lpNorm<Eigen::Infinity>() : 0.0);
+    end.trace.push_back({end.iterations, at.H.size() > 0 ? at.H.lpNorm<Eigen::Infinity>() : 0.0, at.merit(), 1.0, 0, "newton"});
     end.converged = end.residual <= small;
     if (end.converged || end.iterations >= iterations) break;
     const std::optional<Vector> d = direction(at);

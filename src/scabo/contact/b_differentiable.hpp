@@ -41,7 +41,7 @@ struct NewtonEnd {
   bool singular = false;  ///< a direction did not exist: forces cannot balance on the branch
   int iterations = 0;
   double residual = 0.0;  ///< largest |H|
-  std::vector<double> history;
+  std::vector<Iteration> trace;
 };
 
 class BDifferentiableEquations {

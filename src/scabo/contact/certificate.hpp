@@ -11,9 +11,9 @@ namespace scabo::contact {
 struct Certificate {
   double equilibrium = 0.0;      ///< largest residual force of a node (set by the analysis)
   double penetration = 0.0;      ///< most negative gap
-  double tension = 0.0;          ///< most negative normal force
-  double friction_excess = 0.0;  ///< largest |p_t| - mu p_n
-  double complementarity = 0.0;  ///< largest p_n g
+  double tension = 0.0;          ///< largest pull beyond what the pair carries
+  double friction_excess = 0.0;  ///< largest |p_t| - (cohesion + mu p_n)
+  double complementarity = 0.0;  ///< largest (p_n + tension) g
   double slip_direction = 0.0;   ///< largest slip along friction, or slip below the friction bound
   double rigid_balance = 0.0;    ///< force and moment balance of a body (contact part; completed by the analysis)
 
@@ -29,7 +29,16 @@ struct Scales {
   double length = 1.0;  ///< > 0
 };
 
-/// The part of the certificate that the discrete problem knows, for forces `p` (2N) and rigid motions `a` (m).
+/// The part of the certificate that the discrete problem knows, for forces `p` (dN) and rigid motions `a` (m).
 Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales);
+
+/// The residual by which FCLIB judges: | p - P_K(p - (u + mu |u_t| n)) | / |q|, with P_K the projection on Coulomb's cone,
+/// motions u and forces p as they are, units and all (absolute where q = 0). For a pair with cohesion or tension, whose set of
+/// forces is no cone: | [p_n - max(p_n - u_n, -tension), p_t - P_b(p_t - u_t)] |, P_b the projection on the disc of radius
+/// b = cohesion + mu (p_n)+. Infinite where a number is not finite.
+double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a);
+
+/// Projection of a force x (2 or 3) on the cone |x_t| <= mu x_n.
+Vector project_on_cone(const Vector& x, double mu);
 
 }  // namespace scabo::contact

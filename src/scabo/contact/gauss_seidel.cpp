@@ -28,13 +28,13 @@ Vector gauss_seidel(const Problem& problem, Vector p, int sweeps) {
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double change = 0.0;
     for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-      const Mat2 W = problem.W.block<2, 2>(2 * i, 2 * i);
+      const Mat2 W = problem.W.dense().block<2, 2>(2 * i, 2 * i);
       const Vec2 old = p.segment<2>(2 * i);
       const Vec2 next = local_force(W, motion.segment<2>(2 * i) - W * old, problem.mu[i]);
       const Vec2 step = next - old;
       if (step.isZero(0.0)) continue;
       p.segment<2>(2 * i) = next;
-      motion.noalias() += problem.W.middleCols<2>(2 * i) * step;
+      motion.noalias() += problem.W.dense().middleCols<2>(2 * i) * step;
       change = std::max(change, step.lpNorm<Eigen::Infinity>());
     }
     if (change <= 1e-12 * p.lpNorm<Eigen::Infinity>()) break;

@@ -15,7 +15,7 @@ Matrix make_tableau(const Problem& problem) {
   Vector q = Vector::Zero(n);
   for (Eigen::Index i = 0; i < N; ++i) {
     for (Eigen::Index j = 0; j < N; ++j) {
-      const auto W = problem.W.block<2, 2>(2 * i, 2 * j);
+      const auto W = problem.W.dense().block<2, 2>(2 * i, 2 * j);
       M(i, j) = W(0, 0);
       M(i, N + j) = W(0, 1), M(i, 2 * N + j) = -W(0, 1);
       M(N + i, j) = W(1, 0), M(2 * N + i, j) = -W(1, 0);

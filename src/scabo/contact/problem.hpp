@@ -1,30 +1,49 @@
-// The discrete problem of frictional contact in the plane: a value, apart from its solver.
+// The discrete problem of frictional contact: a value, apart from its solver.
 //
-// N pairs with relative motions and forces, for every pair [normal, tangential] (signs as in docs/notation.md:
-// n out of A, towards B; forces act on B):
+// N pairs with relative motions u and forces p on B, for every pair [normal, tangent] in the plane (d = 2), [normal,
+// tangent 1, tangent 2] in space (d = 3); signs as in docs/notation.md (n out of A, towards B; forces act on B), which are those
+// of FCLIB, the public collection of such problems:
 //
-//     gap            g_i  = q_n + (W p)_n + (G a)_n      length, > 0 open
-//     slip increment ds_i = q_t + (W p)_t + (G a)_t      length, since the last accepted increment
-//     0 = G' p + f                                       equilibrium of the rigid motions that contact alone holds
+//     u = q + W p + G a          length (or velocity): gap u_n, > 0 open; slip u_t since the last accepted increment
+//     0 = G' p + f               equilibrium of the rigid motions that contact alone holds
 //
-//     min(r g, p_n) = 0                                                                 (H2; Zhu 2017, eq. 7)
-//     p_t - lambda p_t(r) = 0, p_t(r) = p_t - r ds, lambda = min(mu (p_n)+ / |p_t(r)|, 1)   (H3; eq. 8)
+//     min(r u_n, p_n + c_t) = 0                                                               (H2; Zhu 2017, eq. 7)
+//     p_t - lambda p_t(r) = 0, p_t(r) = p_t - r u_t, lambda = min(b / |p_t(r)|, 1),
+//     b = c + mu (p_n)+                                                                       (H3; eq. 8)
+//
+// c: cohesion, c_t: tension that a pair carries, both as forces, both 0 for Coulomb's law. Friction opposes slip.
 #pragma once
 
 #include <vector>
 
 #include "scabo/base/types.hpp"
+#include "scabo/contact/delassus.hpp"
 
 namespace scabo::contact {
 
 struct Problem {
-  Matrix W;   // 2N x 2N, Delassus operator: motion per force, symmetric positive semi-definite
-  Vector q;   // 2N, motion without contact forces
-  Vector mu;  // N, coefficient of friction, >= 0
-  Matrix G;   // 2N x m, motion of the pairs per unit rigid motion; m may be 0
-  Vector f;   // m, work of the applied loads per unit rigid motion
+  int dimension = 2;  // d, 2 or 3
+  Delassus W;         // dN x dN, motion per force
+  Vector q;           // dN, motion without contact forces
+  Vector mu;          // N, coefficient of friction, >= 0
+  Vector cohesion;    // N, >= 0, or empty: 0
+  Vector tension;     // N, >= 0, or empty: 0; infinity: bonded
+  Matrix G;           // dN x m, motion of the pairs per unit rigid motion; m may be 0
+  Vector f;           // m, work of the applied loads per unit rigid motion
 
   int pairs() const { return static_cast<int>(mu.size()); }
+  double cohesion_of(Eigen::Index pair) const { return cohesion.size() > 0 ? cohesion[pair] : 0.0; }
+  double tension_of(Eigen::Index pair) const { return tension.size() > 0 ? tension[pair] : 0.0; }
+  /// The largest tangential force under the normal force p_n.
+  double friction_bound(Eigen::Index pair, double p_n) const {
+    return cohesion_of(pair) + mu[pair] * (p_n > 0.0 ? p_n : 0.0);
+  }
+};
+
+/// What an increment starts from, part of a saved problem: forces and rigid motions of the increment before (empty: from
+/// nothing). Slip so far is in q.
+struct Start {
+  Vector p, a;
 };
 
 enum class ContactState { open, stick, slip };

@@ -10,19 +10,30 @@ namespace scabo::contact {
 
 enum class Status { solved, not_converged, mechanism };
 
+/// One iteration as it is written to a trace.
+struct Iteration {
+  int iteration = 0;         ///< counted over all stages
+  double residual = 0.0;     ///< what the stage drives to zero, relative
+  double merit = 0.0;        ///< its merit function; 0 where there is none
+  double step_length = 0.0;  ///< of the line search; 1 where there is none
+  int states_changed = 0;    ///< pairs whose state differs from the iteration before
+  std::string stage;         ///< name of the algorithm at work
+};
+
 struct Solution {
   Status status = Status::not_converged;
-  Vector p;                          // 2N, forces on B
+  Vector p;                          // dN, forces on B
   Vector a;                          // m, rigid motions
   Vector gap;                        // N
-  Vector slip_increment;             // N
+  Vector slip_increment;             // (d - 1) N
   std::vector<ContactState> states;  // N
   int iterations = 0;                ///< Newton iterations, all attempts together
   double residual = 0.0;             ///< |H| / force scale
   Certificate certificate;
+  double natural_map_residual = 0.0; ///< contact/certificate.hpp
   Vector motion;                     ///< m: with `mechanism`, the motion that nothing holds
   Matrix undetermined;               ///< m x k: rigid motions that neither contact nor load fixes (solved all the same)
-  std::vector<double> history;       ///< residual after each iteration
+  std::vector<Iteration> trace;      ///< every iteration of every stage
   std::string reason;                ///< why not, in a sentence
 };
 

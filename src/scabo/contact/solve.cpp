@@ -25,7 +25,7 @@ struct Scaled {
 Scaled scaled(const Problem& problem) {
   const double mean = problem.W.size() > 0 ? problem.W.diagonal().mean() : 0.0;
   Scaled result{problem, mean > 0.0 ? 1.0 / mean : 1.0};
-  result.problem.W *= result.stiffness;
+  result.problem.W = problem.W.scaled(result.stiffness);
   result.problem.q *= result.stiffness;
   return result;
 }
@@ -33,7 +33,7 @@ Scaled scaled(const Problem& problem) {
 /// Rigid motions eliminated by a proximal term: G'p + f = c (a - a_0), so that a = a_0 + (G'p + f) / c.
 Problem proximal(const Problem& problem, const Vector& a_0, double c) {
   Problem held = problem;
-  held.W.noalias() += problem.G * problem.G.transpose() / c;
+  held.W = Matrix(problem.W.dense() + problem.G * problem.G.transpose() / c);
   held.q.noalias() += problem.G * (a_0 + problem.f / c);
   held.G.resize(problem.q.size(), 0);
   held.f.resize(0);
@@ -47,13 +47,13 @@ class Attempts {
       : problem_(problem), options_(options), small_(small) {}
 
   int iterations() const { return iterations_; }
-  const std::vector<double>& history() const { return history_; }
+  const std::vector<Iteration>& trace() const { return trace_; }
 
   NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, double r_factor) {
     const BDifferentiableEquations equations(problem, r_factor);
     NewtonEnd end = equations.newton(p, a, small_, options_.iterations);
     iterations_ += end.iterations;
-    history_.insert(history_.end(), end.history.begin(), end.history.end());
+    trace_.insert(trace_.end(), end.trace.begin(), end.trace.end());
     return end;
   }
 
@@ -135,7 +135,7 @@ class Attempts {
   const SolverOptions& options_;
   double small_;
   int iterations_ = 0;
-  std::vector<double> history_;
+  std::vector<Iteration> trace_;
 };
 
 std::vector<ContactState> states_of(const Problem& problem, const Vector& p, const Vector& motion,
@@ -184,7 +184,7 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
     solution.a = end.a / scaled_problem.stiffness;
   }
   solution.iterations = attempts.iterations();
-  solution.history = attempts.history();
+  solution.trace = attempts.trace();
 
   Vector motion = problem.q + problem.W * solution.p;
   if (m > 0) motion += problem.G * solution.a;
@@ -192,6 +192,7 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
   const Scales scales{largest, largest / scaled_problem.stiffness};
   solution.residual = end.residual / largest;
   solution.certificate = certify(problem, solution.p, solution.a, scales);
+  solution.natural_map_residual = natural_map_residual(problem, solution.p, solution.a);
   solution.gap.resize(N);
   solution.slip_increment.resize(N);
   for (Eigen::Index i = 0; i < N; ++i) {

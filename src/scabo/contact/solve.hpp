@@ -12,11 +12,6 @@ struct SolverOptions {
   double force_scale = 0.0;   ///< largest applied force, >= 0: part of the scale by which forces are judged
 };
 
-/// The first accepted state to start from: forces and rigid motions of the increment before (empty: from nothing).
-struct Start {
-  Vector p, a;
-};
-
 /// Newton on the B-differentiable equations; where it stalls, other starts: the frictionless solution, growing
 /// friction, Gauss-Seidel sweeps, Lemke's pivoting; for bodies that contact alone holds, the proximal-point iteration. The result is
 /// solved and certified, or says what it is instead.

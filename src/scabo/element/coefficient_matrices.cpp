@@ -87,19 +87,4 @@ CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, 
   return matrices;
 }
 
-Vector body_load_weights(const Ring& ring) {
-  Vector weights = Vector::Zero(static_cast<Eigen::Index>(ring.nodes.size()));
-  for (const mesh::LineElement& element : ring.elements) {
-    const LineBasis& basis = basis_of(element);
-    for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
-      const auto row = static_cast<Eigen::Index>(q);
-      const Vector N = basis.values_at_rule().row(row), N_eta = basis.derivatives_at_rule().row(row);
-      const double J = boundary_point(ring, element, N, N_eta).jacobian();
-      for (std::size_t i = 0; i < element.nodes.size(); ++i)
-        weights[element.nodes[i]] += N[static_cast<Eigen::Index>(i)] * J * basis.rule().weights[q];
-    }
-  }
-  return weights;
-}
-
 }  // namespace scabo::element

@@ -63,10 +63,6 @@ struct CoefficientMatrices {
 /// the whole boundary.
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
 
-/// int N |J| deta for every node: with a body force b (force / length^3) times thickness, the term xi^2 F_b of the
-/// scaled boundary equation. Sums to twice the area.
-Vector body_load_weights(const Ring& ring);
-
 /// Position of a boundary point and its derivative along eta, by values and derivatives of the shape functions.
 struct BoundaryPoint {
   Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();

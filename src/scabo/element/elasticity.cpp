@@ -15,7 +15,9 @@ Mat3 elasticity_matrix(const model::Material& material, model::Plane plane) {
   return D;
 }
 
-double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane) {
+Vec3 thermal_strain(const model::Material&, model::Plane) { return Vec3::Zero(); }
+
+double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane, double) {
   return plane == model::Plane::strain ? material.poisson * (stress[0] + stress[1]) : 0.0;
 }
 

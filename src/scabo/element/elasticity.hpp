@@ -15,6 +15,9 @@ using Mat3 = Eigen::Matrix3d;
 Mat3 elasticity_matrix(const model::Material& material, model::Plane plane);
 
 /// Out-of-plane stress that belongs to the in-plane `stress`: nu (s_xx + s_yy) in plane strain, 0 in plane stress.
-double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane);
+double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane, double temperature = 0.0);
+
+/// Free strain [xx, yy, xy] per unit of temperature; in plane strain what is left when the strain along z is held at 0.
+Vec3 thermal_strain(const model::Material& material, model::Plane plane);
 
 }  // namespace scabo::element

@@ -21,6 +21,16 @@
 //     E0 -> P'E0P,  E1 -> E1P,  E2 -> E2 - H'MH,   P = 1 - RG, without rows and columns J                   (4)
 //
 // and they are put back exactly: K of the rows J follows from K R = 0.
+//
+// Unbounded domain (outside the ring, xi >= 1): -K11 takes the place of K22, S has the exponents with negative real part. Loads
+// on it need not be in equilibrium: their resultant, R'q = F for every xi, adds
+//
+//     v = v_h + V F,  V = -E2^-1 H',   xi a,xi = A v_h + C F,  C = M^-1 - H V                               (5)
+//
+// so that a grows with ln xi and the displacement is defined only up to a translation in proportion to F. The stiffness here
+// is that of a domain whose translation vanishes at xi = far (for F = 0: at infinity, whatever far is),
+//
+//     a = A S^-1 v_h - C F ln(far)                                                                          (6)
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -39,21 +49,36 @@ struct Block {
   Matrix E0;                      // n_k x n_k, not deflated
   Matrix S;                       // (n_k - m) x (n_k - m): xi v,xi = S v
   Matrix A;                       // m x (n_k - m): xi a,xi = A v                                          (3)
+  Matrix V, C;                    // unbounded: (n_k - m) x m, m x m                                       (5)
+};
+
+/// The domain that a ring belongs to: inside it, or outside to infinity.
+struct Domain {
+  bool unbounded = false;
+  double far = 1e3;  ///< > 1, eq. (6)
+  bool operator==(const Domain&) const = default;
 };
 
 /// Stiffness of a super-element and what its interior is recovered from.
 struct SuperElementSolution {
   Matrix K;                   // n x n, force / length per unit displacement of the boundary nodes; symmetric
   std::vector<Block> blocks;
+  Domain domain;
   int doublings = 0;          ///< largest number over the blocks
 };
 
 /// Solves the super-element. Throws BrokenInvariant when a ring is not positive definite or the doubling does not
 /// end, which positive definite material and a boundary that the centre sees rule out. Symmetry blocks are shared out among
 /// `threads` threads.
-SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1);
+SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1,
+                                         const Domain& domain = {});
 
-/// Stiffness of the bounded domain from E0, E1, E2 without zero exponents, by eqs. (1) and (2).
-Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& doublings);
+/// q = K u of the bounded domain inside, and q = -K u of the unbounded one outside a ring, from E0, E1, E2 without zero
+/// exponents, by eqs. (1) and (2).
+struct RingStiffness {
+  Matrix inside, outside;
+  int doublings = 0;
+};
+RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2);
 
 }  // namespace scabo::element

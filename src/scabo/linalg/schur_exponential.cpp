@@ -110,27 +110,35 @@ bool SchurExponential::contour_holds(double s, double shift) const {
   return true;
 }
 
-Vector SchurExponential::propagate(const Vector& c, const Vector& w, double s, double shift) const {
+Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& forcings, double s,
+                                   double shift) const {
   const Eigen::Index n = c.size();
   if (s == 0.0 || n == 0) return c;
   Matrix T = schur_.T;
   T.diagonal().array() -= shift;
-  const double forced = 2.0 - shift;  // the exponent of w
-  if (!contour_holds(s, shift)) {  // rare: the dense exponential of [[T, -w], [0, 2]] s
-    Matrix augmented = Matrix::Zero(n + 1, n + 1);
+  // Forcings are further rows of the system, [[T, w ...], [0, power ...]], with the value 1 at s = 0.
+  if (!contour_holds(s, shift)) {  // rare: the dense exponential
+    const auto terms = static_cast<Eigen::Index>(forcings.size());
+    Matrix augmented = Matrix::Zero(n + terms, n + terms);
     augmented.topLeftCorner(n, n) = T * s;
-    augmented.topRightCorner(n, 1) = -w * s;
-    augmented(n, n) = forced * s;
-    Vector start(n + 1);
-    start << c, 1.0;
+    for (Eigen::Index j = 0; j < terms; ++j) {
+      augmented.col(n + j).head(n) = s * forcings[static_cast<std::size_t>(j)].w;
+      augmented(n + j, n + j) = (forcings[static_cast<std::size_t>(j)].power - shift) * s;
+    }
+    Vector start = Vector::Ones(n + terms);
+    start.head(n) = c;
     return (augmented.exp() * start).head(n);
   }
   Matrix X(n, 2 * contour_points);
   for (Eigen::Index k = 0; k < contour_points; ++k) {
-    // Of w: the last row of the augmented system [[T, -w], [0, 2]].
-    const std::complex<double> forcing = -s * inverse(the_contour()[static_cast<std::size_t>(k)].z - forced * s);
-    X.col(k) = c + forcing.real() * w;
-    X.col(contour_points + k) = forcing.imag() * w;
+    X.col(k) = c;
+    X.col(contour_points + k).setZero();
+    for (const Forcing& forcing : forcings) {
+      const std::complex<double> share =
+          s * inverse(the_contour()[static_cast<std::size_t>(k)].z - (forcing.power - shift) * s);
+      X.col(k) += share.real() * forcing.w;
+      X.col(contour_points + k) += share.imag() * forcing.w;
+    }
   }
   solve_shifted(T, s, X);
   Vector psi = Vector::Zero(n);

@@ -1,4 +1,5 @@
-// exp(S s) applied to vectors, for matrices whose eigenvalues lie in the right half plane and s <= 0.
+// exp(S s) applied to vectors, for matrices whose eigenvalues lie in the right half plane and s <= 0, or in the left half
+// plane and s >= 0.
 //
 // S = U T U' (real Schur form), and with A = s T, in the left half plane,
 //
@@ -18,19 +19,26 @@
 
 namespace scabo::linalg {
 
+/// A term e^(power s) w of a right-hand side.
+struct Forcing {
+  double power = 0.0;
+  Vector w;  // n
+};
+
 class SchurExponential {
  public:
   SchurExponential() = default;
-  /// S: n x n, eigenvalues with positive real part.
+  /// S: n x n, eigenvalues with positive real part, or all with negative real part.
   explicit SchurExponential(const Matrix& S);
 
   const Matrix& U() const { return schur_.U; }  // n x n, orthogonal
   const Matrix& T() const { return schur_.T; }  // n x n, upper quasi-triangular
   const std::vector<std::complex<double>>& eigenvalues() const { return eigenvalues_; }
 
-  /// e^(-k s) psi(s) with psi' = T psi - e^(2s) w, psi(0) = c, for s <= 0 and k = `shift` not above the smallest eigenvalue
-  /// or 2: exp(T s) c where w = 0 and k = 0. What fades slowest is then accurate relative to itself, however far s is.
-  Vector propagate(const Vector& c, const Vector& w, double s, double shift = 0.0) const;
+  /// e^(-k s) psi(s) with psi' = T psi + sum of forcings, psi(0) = c; exp(T s) c where there are none and k = 0. For s <= 0,
+  /// k = `shift` is not above the smallest real part or power (s >= 0: not below the largest), so that what fades slowest is
+  /// accurate relative to itself, however far s is. A power may be an eigenvalue.
+  Vector propagate(const Vector& c, const std::vector<Forcing>& forcings, double s, double shift = 0.0) const;
 
  private:
   bool contour_holds(double s, double shift) const;

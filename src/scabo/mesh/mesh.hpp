@@ -32,6 +32,7 @@ struct BodyMesh {
   std::vector<PlaneElement8> elements;          ///< of a FE mesh
   std::vector<std::vector<LineElement>> edges;  ///< for every edge of the outline, in its order and direction
   std::vector<int> corners;                     ///< node of every corner of the outline
+  std::vector<int> materials;  ///< of every boundary element, index into Model::materials; empty: the body's
 };
 
 /// Two points that face each other. The signs are those of the design: n out of A, towards B.

@@ -84,6 +84,8 @@ struct Body {
   int material = -1;   ///< index into Model::materials; -1 for a rigid body
   Outline outline;
   MeshOptions mesh;  ///< unused for a rigid body
+  bool outside = false;           ///< the material lies outside the outline, to infinity
+  std::optional<Vec2> reference;  ///< of an outside body: displacement is given relative to this point
   Source source;
 };
 

@@ -26,6 +26,7 @@ class Probe {
   const analysis::StaticSolution& solution_;
   std::size_t body_;
   const Vector& u_;
+  const element::InteriorLoads& interior_;
   std::optional<element::RadialField> field_;  // of a super-element
 };
 
@@ -47,8 +48,5 @@ std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const 
 
 /// Displacement of a point of a rigid body, `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.
 Vec2 rigid_displacement(const Vector& motion, const Vec2& arm);
-
-/// F_b of element::RadialField for a uniform body force; empty where there is none.
-Vector body_force_load(const Vector& weights, const Vec2& body_force, double thickness);
 
 }  // namespace scabo::result

@@ -21,7 +21,7 @@ struct ContactSystem {
   std::vector<Eigen::SparseMatrix<double>> held_motion;  // per body, rows [n, t] as above
   Vector gap;       // N, initial
   Vector mu;        // N
-  Matrix W;         // 2N x 2N
+  contact::Delassus W;  // 2N x 2N
   Matrix G;         // 2N x m
   std::vector<int> first_rigid;  // per body: its first column in G
 

@@ -19,7 +19,7 @@ struct Plain {
 
   Vector motion(const Vector& z) const {
     const Eigen::Index n = problem.q.size();
-    return problem.q + problem.W * z.head(n) + problem.G * z.tail(z.size() - n);
+    return problem.q + problem.W.dense() * z.head(n) + problem.G * z.tail(z.size() - n);
   }
   Vector value(const Vector& z) const {
     const Eigen::Index n = problem.q.size(), m = z.size() - n;
@@ -177,7 +177,7 @@ TEST(BDifferentiableEquations, NewtonEndsInOneStepOnTheRightBranchAndItsMeritNev
     const BDifferentiableEquations equations(problem, 1.0);
     const Vector none;
     const NewtonEnd end = equations.newton(Vector::Zero(problem.q.size()), none, 1e-12, 50);
-    EXPECT_EQ(end.history.size(), static_cast<std::size_t>(end.iterations + 1));
+    EXPECT_EQ(end.trace.size(), static_cast<std::size_t>(end.iterations + 1));
     EXPECT_LE(end.iterations, 50);
     if (!end.converged) continue;
     EXPECT_LT(violation(problem, end.p, end.a), 1e-11);

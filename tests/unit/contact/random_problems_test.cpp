@@ -67,7 +67,7 @@ void expect_solved_or_mechanism(const Problem& problem, Tally& tally, int k) {
                     << solution.iterations;
       break;
   }
-  EXPECT_LE(solution.history.size(), 5000u) << "problem " << k;
+  EXPECT_LE(solution.trace.size(), 5000u) << "problem " << k;
 }
 
 TEST(RandomProblems, HeldBodies) {

@@ -15,7 +15,7 @@ using namespace test;
 Problem block(int pairs, double friction, const Eigen::Vector3d& f, double gap = 0.0, double height = 0.2) {
   std::mt19937 random(41);
   Problem problem;
-  problem.W = 1e-3 * elastic_flexibility(random, pairs);
+  problem.W = Matrix(1e-3 * elastic_flexibility(random, pairs));
   problem.q = Vector::Zero(2 * pairs);
   for (int i = 0; i < pairs; ++i) problem.q[2 * i] = gap;
   problem.mu = Vector::Constant(pairs, friction);
@@ -120,7 +120,7 @@ TEST(Mechanism, PulledOff) {
 
 TEST(Mechanism, NoContactAtAll) {
   Problem problem = block(1, 0.3, {1.0, 0.0, 0.0});
-  problem.W.resize(0, 0), problem.q.resize(0), problem.mu.resize(0), problem.G.resize(0, 3);
+  problem.W = Delassus(), problem.q.resize(0), problem.mu.resize(0), problem.G.resize(0, 3);
   EXPECT_EQ(solve(problem).status, Status::mechanism);
 }
 
@@ -138,9 +138,10 @@ TEST(UndeterminedMotions, WhatNothingHoldsAndNothingDrives) {
 TEST(FloatingBlock, TwoOfThemAreSolvedLikeEach) {
   const Problem one = block(4, 0.4, {2.0, -10.0, 3.0}), two = block(5, 0.2, {-1.0, -20.0, 0.0}, 0.01);
   Problem both;
-  both.W = Matrix::Zero(18, 18);
-  both.W.topLeftCorner(8, 8) = one.W;
-  both.W.bottomRightCorner(10, 10) = two.W;
+  Matrix W = Matrix::Zero(18, 18);
+  W.topLeftCorner(8, 8) = one.W.dense();
+  W.bottomRightCorner(10, 10) = two.W.dense();
+  both.W = W;
   both.q.resize(18);
   both.q << one.q, two.q;
   both.mu.resize(9);

@@ -24,10 +24,10 @@ std::vector<Vector> trial_and_error(const Problem& problem) {
       const int state =
           combination >> (2 * i) & 3;  // 0 open, 1 stick, 2 slip with p_t = mu p_n, 3 with - mu p_n
       if (state == 0) continue;
-      A.row(2 * i) = problem.W.row(2 * i);
+      A.row(2 * i) = problem.W.dense().row(2 * i);
       b[2 * i] = -problem.q[2 * i];
       if (state == 1) {
-        A.row(2 * i + 1) = problem.W.row(2 * i + 1);
+        A.row(2 * i + 1) = problem.W.dense().row(2 * i + 1);
         b[2 * i + 1] = -problem.q[2 * i + 1];
       } else {
         A(2 * i + 1, 2 * i) = state == 2 ? -problem.mu[i] : problem.mu[i];
@@ -136,7 +136,7 @@ TEST(Solve, UnitsChangeNeitherTheAnswerNorTheIterations) {
     for (const auto& [flexibility, force] :
          {std::pair(1e9, 1e-3), std::pair(1e-10, 1e5), std::pair(1.0, 1e6), std::pair(1e-6, 1.0)}) {
       Problem other = problem;  // motions are flexibility times force
-      other.W *= flexibility;
+      other.W = problem.W.scaled(flexibility);
       other.q *= flexibility * force;
       other.f *= force;
       const Solution solution = solve(other);
@@ -158,7 +158,7 @@ TEST(Solve, AMirrorImageHasTheMirroredForces) {
     Vector sign(18);
     for (int i = 0; i < 18; ++i) sign[i] = i % 2 == 0 ? 1.0 : -1.0;
     Problem mirrored = problem;
-    mirrored.W = sign.asDiagonal() * problem.W * sign.asDiagonal();
+    mirrored.W = Matrix(sign.asDiagonal() * problem.W.dense() * sign.asDiagonal());
     mirrored.q = sign.asDiagonal() * problem.q;
     mirrored.G = sign.asDiagonal() * problem.G;
     const Solution first = solve(problem), second = solve(mirrored);
@@ -184,13 +184,13 @@ TEST(Solve, NothingInContactNoForces) {
   for (ContactState state : solution.states) EXPECT_EQ(state, ContactState::open);
 
   Problem none;  // no pairs at all
-  none.W.resize(0, 0), none.q.resize(0), none.mu.resize(0), none.G.resize(0, 0), none.f.resize(0);
+  none.q.resize(0), none.mu.resize(0), none.G.resize(0, 0), none.f.resize(0);
   EXPECT_EQ(solve(none).status, Status::solved);
 }
 
 TEST(Certificate, SeesEveryViolation) {
   Problem problem;
-  problem.W = Matrix::Identity(2, 2);
+  problem.W = Matrix(Matrix::Identity(2, 2));
   problem.q = Eigen::Vector2d(-1.0, 0.3);
   problem.mu = Vector::Constant(1, 0.5);
   problem.G.resize(2, 0);
@@ -214,7 +214,7 @@ TEST(Certificate, SeesEveryViolation) {
 TEST(Solve, NeverCertifiesWhatIsNotANumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Problem problem;
-  problem.W = Matrix::Identity(2, 2);
+  problem.W = Matrix(Matrix::Identity(2, 2));
   problem.q = Vector::Constant(2, nan);
   problem.mu = Vector::Constant(1, 0.3);
   problem.G.resize(2, 0);

@@ -113,7 +113,7 @@ TEST(Condensation, IsTheMotionOfThePairsUnderUnitPairForces) {
   EXPECT_EQ(system.first_rigid[0], 0);
   EXPECT_EQ(system.mu, Vector(Vector::Constant(N, 0.4)));
   EXPECT_LT(test::largest(system.gap), 1e-15);
-  EXPECT_EQ(system.W, system.W.transpose());
+  EXPECT_EQ(system.W.dense(), system.W.dense().transpose());
   const auto& pairs = blocks.mesh.interfaces[0].pairs;
   const auto motion = [&](const Vector& lower, const Vector& upper) {
     Vector result(2 * N);
@@ -135,7 +135,7 @@ TEST(Condensation, IsTheMotionOfThePairsUnderUnitPairForces) {
     const auto held = static_cast<Eigen::Index>(blocks.structure.bodies[0]->constraints().size());
     const Vector expected = motion(blocks.structure.bodies[0]->displacement(on_lower, Vector::Zero(held)),
                                    blocks.structure.bodies[1]->displacement(on_upper, Vector()));
-    EXPECT_LT(test::largest(system.W.col(j) - expected), 1e-13 * test::largest(system.W));
+    EXPECT_LT(test::largest(system.W.dense().col(j) - expected), 1e-13 * test::largest(system.W.dense()));
   }
   for (Eigen::Index k = 0; k < 3; ++k)
     EXPECT_LT(test::largest(system.G.col(k) - motion(Vector::Zero(blocks.structure.bodies[0]->size()),
