@@ -37,6 +37,7 @@ class Elasticity {
   Elasticity(std::vector<Mat3> of_elements) : D_(std::move(of_elements)) {}
 
   const Mat3& of(std::size_t element) const { return D_.size() == 1 ? D_.front() : D_[element]; }
+  std::size_t size() const { return D_.size(); }
   bool fits(const Ring& ring) const { return D_.size() == 1 || D_.size() == ring.elements.size(); }
   bool operator==(const Elasticity&) const = default;
 

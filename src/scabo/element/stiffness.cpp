@@ -30,10 +30,12 @@ double largest_exponent(const Matrix& E0, const Matrix& E2) {
   return std::sqrt(growth);
 }
 
-/// Rows J, as many as R has columns, on which R is as well conditioned as can be had by greedy choice.
-std::vector<int> rows_taken_out(const Matrix& R) {
+/// Rows J, as many as R has columns, on which R is as well conditioned as can be had by greedy choice, measured by the
+/// energy that E0 gives to a row: were the rows of a soft sector taken out, those of a stiff one would hold a near translation
+/// of it, and what the deflation leaves of them would be the difference of large numbers.
+std::vector<int> rows_taken_out(const Matrix& R, const Vector& E0_diagonal) {
   std::vector<int> J;
-  Matrix rest = R;
+  Matrix rest = E0_diagonal.cwiseSqrt().asDiagonal() * R;
   for (Eigen::Index column = 0; column < R.cols(); ++column) {
     Eigen::Index row = 0, pivot = 0;
     rest.cwiseAbs().maxCoeff(&row, &pivot);
@@ -79,7 +81,7 @@ void find_translations(const Matrix& translations, Block& block) {
   const Eigen::JacobiSVD<Matrix> svd(projected, Eigen::ComputeThinV);
   const auto m = (svd.singularValues().array() > 1e-8 * std::sqrt(static_cast<double>(translations.rows()))).count();
   block.R = projected * svd.matrixV().leftCols(m);
-  block.J = rows_taken_out(block.R);
+  block.J = rows_taken_out(block.R, block.E0.diagonal());
   for (int row = 0; row < static_cast<int>(block.R.rows()); ++row)
     if (!std::binary_search(block.J.begin(), block.J.end(), row)) block.I.push_back(row);
   block.R = block.R * Matrix(block.R(block.J, Eigen::all)).inverse();
