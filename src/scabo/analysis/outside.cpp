@@ -6,6 +6,20 @@
 
 namespace scabo::analysis {
 
+void check_references(const model::Model& model, const mesh::Mesh& mesh) {
+  std::vector<Diagnostic> mistakes;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    if (!body.reference) continue;
+    const mesh::SuperElement& super_element = mesh.bodies[b].super_elements.front();
+    if (!element::locate(element::ring_of(super_element, mesh.bodies[b].nodes), *body.reference - super_element.centre, true))
+      mistakes.push_back({body.source, fmt::format("the reference point ({:.6g}, {:.6g}) does not lie in this body: name a point of the "
+                                                   "ground, far from the hole",
+                                                   body.reference->x(), body.reference->y())});
+  }
+  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+}
+
 std::string without_reference(const Prepared& prepared, const State& state) {
   for (std::size_t b = 0; b < state.u.size(); ++b) {
     const model::Body& body = prepared.model.bodies[b];

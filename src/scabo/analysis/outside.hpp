@@ -6,6 +6,9 @@
 
 namespace scabo::analysis {
 
+/// Throws InputError for a reference point that does not lie in its body.
+void check_references(const model::Model& model, const mesh::Mesh& mesh);
+
 /// A sentence about the first outside body whose forces are out of balance although nothing says where it stands still; empty
 /// where there is none.
 std::string without_reference(const Prepared& prepared, const State& state);

@@ -182,6 +182,7 @@ mesh::Mesh check(const model::Model& model) {
   }
   mesh::Mesh mesh = mesh::make_mesh(model);
   system::check_supports(model, mesh);
+  check_references(model, mesh);
   return mesh;
 }
 

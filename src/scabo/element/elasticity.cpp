@@ -66,7 +66,7 @@ Vec3 thermal_strain(const model::Material& material, model::Plane plane) {
   const auto& [a1, a2, a3] = *material.expansion;
   Vec3 strain(a1, a2, 0.0);
   const auto third = third_axis(material);
-  if (!third) return strain;
+  if (!third) return {a1, a2, a3};  // of an anisotropic law: exx, eyy, gxy
   if (plane == model::Plane::strain) strain -= Vec3(third->S13, third->S23, 0.0) * third->E3 * a3;
   return strain_in_turned_axes(-third->angle) * strain;
 }

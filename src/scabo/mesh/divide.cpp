@@ -34,7 +34,7 @@ std::vector<Run> runs_of(const model::Body& body) {
     const model::Crack& crack = body.cracks.front();
     runs.push_back({crack.edge, crack.at, 1.0});
     for (int k = 1; k < count; ++k) runs.push_back({(crack.edge + k) % count});
-    runs.push_back({crack.edge, 0.0, crack.at});
+    if (crack.at > 0.0) runs.push_back({crack.edge, 0.0, crack.at});
     return runs;
   }
   const int corner = body.mesh.centre_corner;  // edge `corner` leaves it, the one before arrives

@@ -47,7 +47,7 @@ struct Material {
   double poisson = 0.0;           ///< -1 < poisson < 0.5 (plane strain), <= 0.5 (plane stress)
   std::optional<std::variant<Orthotropic, Anisotropic>> law;  ///< instead of young and poisson
   std::optional<double> density;  ///< mass / length^3, >= 0; needed for gravity and by a modal analysis
-  /// Free strain along axes 1, 2 and 3 per unit of temperature; only where a temperature acts.
+  /// Free strain along axes 1, 2 and 3 (anisotropic: exx, eyy, gxy) per unit of temperature; only where a temperature acts.
   std::optional<std::array<double, 3>> expansion;
   Source source;
 };
@@ -105,7 +105,7 @@ struct Crack {
   std::string name;
   Vec2 tip = Vec2::Zero(), mouth = Vec2::Zero();
   int edge = -1;   ///< of the mouth
-  double at = 0.0; ///< mouth = edge.at(at), 0 < at < 1
+  double at = 0.0; ///< mouth = edge.at(at), 0 <= at < 1; 0: the corner where the edge begins
   Source source;
 };
 

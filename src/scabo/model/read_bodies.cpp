@@ -42,12 +42,18 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
 
 /// Reports a scaling centre that does not see the whole boundary, with a better one where there is one.
 void check_centre(Reading& reading, const Source& at, const Outline& outline, const Vec2& centre,
-                  bool given, int corner) {
+                  bool given, int corner, const Crack* crack) {
   std::vector<int> unseen = unseen_edges(outline, centre);
   const int count = static_cast<int>(outline.edges.size());
   if (corner >= 0)  // side faces are not divided
     std::erase_if(unseen, [&](int e) { return e == corner || e == (corner + count - 1) % count; });
   if (unseen.empty()) return;
+  if (crack != nullptr) {
+    reading.report.error(crack->source, fmt::format("the tip {} of crack '{}', the scaling centre, does not see {}: move the tip, or "
+                                                    "divide the body into several",
+                                                    point_text(centre), crack->name, edge_names(outline, unseen)));
+    return;
+  }
   const auto better = seeing_point(outline);
   const std::string remedy =
       better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
@@ -134,8 +140,8 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   }
   if (!fem) {
     // Without mesh.centre the remedy is to give one: the body's mesh is where it goes.
-    check_centre(reading, centre ? centre->source() : mesh.source, *outline, mesh.centre, centre || crack,
-                 mesh.centre_corner);
+    check_centre(reading, centre ? centre->source() : mesh.source, *outline, mesh.centre, centre.has_value(),
+                 mesh.centre_corner, crack);
     if (report.count() > before) return {};
   }
   return mesh;

@@ -76,10 +76,13 @@ std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Bod
                                             point_text(*point), body.name));
     return {};
   }
+  const int count = static_cast<int>(body.outline.edges.size());
   const Edge& edge = body.outline.edges[static_cast<std::size_t>(found->edge)];
-  const double size = outline_size(body.outline);
-  if ((edge.start - *point).norm() < 1e-6 * size || (edge.end - *point).norm() < 1e-6 * size) {
-    reading.report.error(value, fmt::format("{} is a corner of '{}': put the mouth on an edge, away from its ends",
+  const double size = outline_size(body.outline), from_start = (edge.start - *point).norm(), from_end = (edge.end - *point).norm();
+  if (from_start <= 1e-9 * size) return OnEdge{found->edge, 0.0};
+  if (from_end <= 1e-9 * size) return OnEdge{(found->edge + 1) % count, 0.0};
+  if (std::min(from_start, from_end) < 1e-6 * size) {
+    reading.report.error(value, fmt::format("{} is not quite a corner of '{}': put the mouth on the corner, or farther from it",
                                             point_text(*point), body.name));
     return {};
   }

@@ -43,6 +43,10 @@ std::optional<std::vector<FaceTraction::Term>> read_powers(Reading& reading, con
                                             "most {}, not {}", highest_power, entry.key));
       return {};
     }
+    if (std::any_of(terms.begin(), terms.end(), [&](const auto& other) { return other.power == term.power; })) {
+      reading.report.error(key, fmt::format("the power {} is there already", number_text(term.power)));
+      return {};
+    }
     const auto read = read_value(reading, item, pressure);
     if (!read) return {};
     term.value = *read;

@@ -141,7 +141,12 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
     if (const auto value = map.need("poisson")) material.poisson = read_poisson(reading, *value).value_or(0.0);
   }
   if (const auto value = map.get("density")) material.density = read_not_negative(reading.report, *value);
-  if (const auto value = map.get("expansion")) material.expansion = read_expansion(reading, *value);
+  if (const auto value = map.get("expansion")) {
+    material.expansion = read_expansion(reading, *value);
+    // Of an anisotropic law the third is the shear strain.
+    if (anisotropic && material.expansion && (value->node->kind == Node::Kind::scalar || value->node->items.size() == 2))
+      (*material.expansion)[2] = 0.0;
+  }
   if (reading.report.count() > before) return {};
   return material;
 }

@@ -82,6 +82,13 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
         reading.report.error(value, fmt::format("'{}' is the scaling centre, which has no node: nothing can be put there", text));
         return result;
       }
+      for (const Crack& crack : reading.body(body).cracks)
+        if (crack.at == 0.0 && crack.edge == static_cast<int>(i)) {
+          reading.report.error(value, fmt::format("'{0}' is the mouth of crack '{1}', where there are two nodes: write {2}.{1}.mouth_left "
+                                                  "or {2}.{1}.mouth_right",
+                                                  text, crack.name, reading.body(body).name));
+          return result;
+        }
       result.place =
           Place{Place::Kind::corner, body, static_cast<int>(i), Vec2::Zero(), text, value.source()};
       return result;
