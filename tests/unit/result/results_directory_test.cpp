@@ -158,7 +158,7 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const Json& increment = summary["increments"][0];
   EXPECT_THAT(keys_of(increment),
               ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "residual",
-                          "contacts", "reactions", "certificate", "energy"));
+                          "contacts", "reactions", "cracks", "certificate", "energy"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
               ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap",
                           "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));
