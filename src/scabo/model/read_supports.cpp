@@ -183,8 +183,7 @@ std::string where(const Source& source) {
 void check_pair(Reading& reading, std::size_t first, std::size_t second) {
   const Support& a = reading.model.supports[first];
   const Support& b = reading.model.supports[second];
-  const auto corners = static_cast<int>(reading.body(a.on.body).outline.corners.size());
-  if (!share_a_point(a.on, b.on, body)) return;
+  if (!share_a_point(a.on, b.on, reading.body(a.on.body))) return;
   for (std::size_t c = 0; c < 2; ++c) {
     if (!a.displacement[c] || !b.displacement[c]) continue;
     const bool differ =
