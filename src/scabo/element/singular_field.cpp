@@ -65,7 +65,7 @@ std::vector<double> end_angles(const Ring& ring) {
 /// [u; phi](t) of a group along the ray where element `element` ends (`at_end`) or begins, 4 x m, with r = `r` of the node. Stress
 /// functions are divided by `unit`.
 Matrix state_at_node(const Corner& corner, const ModeGroup& group, std::size_t element, bool at_end, double unit) {
-  const CoefficientMatrices one = coefficient_matrices(single(corner.ring, element), corner.law(element) / unit, 1.0);
+  const CoefficientMatrices one = coefficient_matrices(single(corner.ring, element), Mat3(corner.law(element) / unit), 1.0);
   const auto& nodes = corner.ring.elements[element].nodes;
   const Eigen::Index row = 2 * (at_end ? nodes.back() : nodes.front());
   const Matrix slope = group.Phi * group.T, curve = slope * group.T;
