@@ -1,10 +1,10 @@
-# OpenBLAS brings BLAS and LAPACK; LAPACKE and CHOLMOD stand on it. None of them has a CMake package on every
-# Debian and Ubuntu, so each becomes the target scabo::<name> here. Installed beside scaboConfig.cmake, where a
+# OpenBLAS brings BLAS and LAPACK; LAPACKE and CHOLMOD stand on it; HDF5 reads and writes files. None of them has a
+# CMake package on every Debian and Ubuntu (CMake's own FindHDF5 fails in a project without C), so each becomes the target scabo::<name> here. Installed beside scaboConfig.cmake, where a
 # static Scabo needs the same targets.
 set(SCABO_NUMERICAL_LIBRARIES_MISSING "")
-foreach(name openblas lapacke cholmod)
+foreach(name openblas lapacke cholmod hdf5)
   string(TOUPPER SCABO_${name} variable)
-  find_library(${variable} ${name})
+  find_library(${variable} NAMES ${name} ${name}_serial)  # Debian calls HDF5 without MPI hdf5_serial
   mark_as_advanced(${variable})
   if(NOT ${variable})
     list(APPEND SCABO_NUMERICAL_LIBRARIES_MISSING ${name})

@@ -3,7 +3,7 @@
 # SCABO_PYTHON, else the first of /usr/bin/python3 (the distribution's, which has the packages) and the python3
 # on PATH that has every module. Fails and says what is missing where none has.
 set -euo pipefail
-modules="numpy matplotlib yaml jsonschema meshio"
+modules="numpy matplotlib yaml jsonschema meshio h5py"
 
 # Modules of $1 that cannot be imported, each with the reason.
 missing() {

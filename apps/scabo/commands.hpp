@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exit_status.hpp"
+#include "scabo/model/model.hpp"
 
 namespace scabo::app {
 
@@ -25,8 +26,30 @@ struct RunOptions {
   bool quiet = false;            ///< only errors and warnings
 };
 
+struct ExponentsOptions {
+  std::string model;
+  std::vector<std::string> settings;
+  bool json = false;
+};
+
+struct ContactOptions {
+  std::string file;                         ///< a discrete problem: HDF5 in FCLIB's layout, or Siconos's text
+  std::string solver = "b_differentiable";  ///< one of contact::method_names()
+  double tolerance = 1e-10;                 ///< of natural-map residual and certificate, > 0
+  int iterations = 0;                       ///< of one attempt, > 0; 0: the solver's own
+  bool json = false;
+  bool write_trace = false;
+  std::string trace;                        ///< empty: `file.trace.csv`
+  std::string save;                         ///< where problem and solution go; empty: nowhere
+};
+
 ExitStatus run(const RunOptions& options);
+/// `run` of a model with `type: modal` that took `reading` seconds to read.
+ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
+                     double reading);
 ExitStatus check(const CheckOptions& options);
+ExitStatus print_exponents(const ExponentsOptions& options);
+ExitStatus solve_contact(const ContactOptions& options);
 ExitStatus print_schema();
 
 }  // namespace scabo::app

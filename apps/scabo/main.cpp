@@ -1,4 +1,4 @@
-// The command line of Scabo: scabo run | check | schema.
+// The command line of Scabo: scabo run | check | exponents | contact | schema.
 #include <fmt/format.h>
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "scabo/contact/solvers.hpp"
 #include "scabo/result/version.hpp"
 #include "terminal.hpp"
 
@@ -35,6 +36,17 @@ Ctrl-C ends the run after the increment at work, a second one at once.)";
 
 constexpr const char* check_example = R"(Example:
   scabo check model.yaml --set bodies.upper.mesh.size=0.1)";
+
+constexpr const char* exponents_example = R"(Example:
+  scabo exponents notch.yaml --set bodies.plate.mesh.order=8
+
+Displacements grow as xi^exponent from the scaling centre: below 1 stress is infinite there.)";
+
+constexpr const char* contact_example = R"(Example:
+  scabo contact model.results/problems/press_3.hdf5 --json > solution.json
+
+FILE is HDF5 in FCLIB's layout, local or global form, or Siconos's text. Exit status 0: solved, which is natural-map residual
+and certificate below the tolerance; 2: not converged, or a mechanism.)";
 
 constexpr const char* schema_example = R"(Example:
   scabo schema > model.schema.json
@@ -89,17 +101,48 @@ class CommandLine {
     add_settings(*check_, check_options_.settings);
     check_->footer(check_example);
 
+    exponents_->add_option("MODEL", exponents_options_.model, model_help)->required()->option_text(" ");
+    add_settings(*exponents_, exponents_options_.settings);
+    exponents_->add_flag("--json", exponents_options_.json, "Prints JSON instead of tables");
+    exponents_->footer(exponents_example);
+
+    contact_->add_option("FILE", contact_options_.file, "Discrete contact problem")->option_text(" ");
+    contact_->add_option("--solver", contact_options_.solver, solver_help())->option_text("NAME");
+    contact_->add_option("--tolerance", contact_options_.tolerance, "Of natural-map residual and certificate; default 1e-10")
+        ->option_text("X")
+        ->check(CLI::Range(1e-15, 0.1));
+    contact_->add_option("--iterations", contact_options_.iterations, "Of one attempt at most")
+        ->option_text("N")
+        ->check(CLI::Range(1, 100'000'000));
+    contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
+    trace_ = contact_->add_option("--trace", contact_options_.trace,
+                                  "Writes every iteration as CSV, and a plot of them (.svg) beside it; without a name to "
+                                  "FILE.trace.csv")
+                 ->option_text("[=CSV]")
+                 ->expected(0, 1);
+    contact_->add_option("--save", contact_options_.save,
+                         "Writes the problem and its solution as HDF5; to a name that ends in .dat the problem as text")
+        ->option_text("NEW");
+    contact_->footer(contact_example);
+
     schema_->footer(schema_example);
   }
 
   void parse(std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());  // as CLI11 wants them
     app_.parse(std::move(words));
+    if (!*contact_) return;
+    contact_options_.write_trace = trace_->count() > 0;
+    // `--trace problem.hdf5` names the problem, not where its trace goes.
+    if (contact_options_.file.empty()) std::swap(contact_options_.file, contact_options_.trace);
+    if (contact_options_.file.empty()) throw CLI::RequiredError("FILE");
   }
 
   ExitStatus execute() const {
     if (*run_) return run(run_options_);
     if (*check_) return check(check_options_);
+    if (*exponents_) return print_exponents(exponents_options_);
+    if (*contact_) return solve_contact(contact_options_);
     return print_schema();
   }
 
@@ -115,13 +158,19 @@ class CommandLine {
     if (chosen.empty() && error.get_name() == "RequiredError") {
       const bool named = !words.empty() && !words.front().starts_with("-");
       message = (named ? fmt::format("no command '{}'", words.front()) : "no command given") +
-                ": there are run, check, schema";
+                ": there are run, check, exponents, contact, schema";
     }
     print_error(fmt::format("{} (see `{} --help`)", message, command));
     return ExitStatus::wrong_input;
   }
 
  private:
+  static std::string solver_help() {
+    std::string names;
+    for (const std::string& name : contact::method_names()) names += (names.empty() ? "" : ", ") + name;
+    return "Default b_differentiable; there are " + names;
+  }
+
   static void add_settings(CLI::App& command, std::vector<std::string>& settings) {
     command.add_option("--set", settings, set_help)
         ->type_name("PATH=VALUE")
@@ -133,9 +182,14 @@ class CommandLine {
   CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
   CLI::App* check_ =
       app_.add_subcommand("check", "Reads and meshes a model, reports its sizes; solves nothing");
+  CLI::App* exponents_ = app_.add_subcommand("exponents", "Prints the exponents of every super-element");
+  CLI::App* contact_ = app_.add_subcommand("contact", "Solves a discrete contact problem from a file, and certifies it");
+  CLI::Option* trace_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   RunOptions run_options_;
   CheckOptions check_options_;
+  ExponentsOptions exponents_options_;
+  ContactOptions contact_options_;
 };
 
 ExitStatus main_program(const std::vector<std::string>& words) {
@@ -151,7 +205,7 @@ ExitStatus main_program(const std::vector<std::string>& words) {
     print_mistakes(error);
     return ExitStatus::wrong_input;
   } catch (const std::bad_alloc&) {
-    print_error("not enough memory for this model: make its mesh coarser (`scabo check` prints the sizes)");
+    print_error("not enough memory for this model or problem: make its mesh coarser (`scabo check` prints the sizes)");
   } catch (const std::exception& error) {
     print_error(error.what());
   }

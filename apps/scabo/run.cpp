@@ -8,8 +8,10 @@
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/contact/fclib.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/results_directory.hpp"
+#include "scabo/result/version.hpp"
 #include "settings.hpp"
 #include "terminal.hpp"
 
@@ -27,6 +29,30 @@ double seconds_since(Clock::time_point start) {
 std::filesystem::path default_output(const std::string& model) {
   std::filesystem::path path(model);
   return path.replace_extension("results");
+}
+
+/// One file for each attempt, with the solution where it was accepted. Not in result/, which knows no files of problems.
+void write_problems(const result::ResultsDirectory& directory, const model::Model& model,
+                    const analysis::IncrementResult& increment, const std::vector<analysis::DiscreteProblem>& problems) {
+  for (std::size_t attempt = 0; attempt < problems.size(); ++attempt) {
+    const analysis::DiscreteProblem& discrete = problems[attempt];
+    contact::SavedProblem saved;
+    saved.problem = discrete.problem;
+    saved.start = discrete.start;
+    saved.force_scale = discrete.force_scale;
+    if (discrete.accepted) {
+      saved.r = discrete.solution.p;
+      saved.a = discrete.solution.a;
+    }
+    for (const model::Contact& contact : model.contacts) saved.contacts.push_back(contact.name);
+    saved.contact_of_pair = discrete.contact_of_pair;
+    saved.number_of_pair = discrete.number_of_pair;
+    saved.title = fmt::format("{}: step {}, increment {}", model.title.empty() ? model.file : model.title, increment.step_name,
+                              increment.increment);
+    saved.description = fmt::format("By Scabo {}, attempt {} of {}, {}", result::version(), attempt + 1, problems.size(),
+                                    discrete.accepted ? "accepted" : "not accepted");
+    contact::write_fclib(directory.problem_file(increment, attempt).string(), saved);
+  }
 }
 
 /// Totals of the last converged increment, and where everything lies.
@@ -47,6 +73,7 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
     text += last->contacts.empty() ? result::report_reactions(solution.model, *last)
                                    : result::report_contacts(*last);
+    text += result::report_cracks(*last);
   }
   return text + fmt::format("Results: {}\n", directory.string());
 }
@@ -80,11 +107,12 @@ ExitStatus run(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const model::Model model = model::read_model(options.model, parse_settings(options.settings));
   const double reading = seconds_since(start);
+  const auto output = options.output.empty() ? default_output(options.model) : options.output;
+  if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);
 
   // Looked through before the directory is made or cleared, and the directory made before the long work: a
   // mistake in either costs seconds and no results. Meshing twice is a hundredth of a solve.
   analysis::check(model);
-  const auto output = options.output.empty() ? default_output(options.model) : options.output;
   result::ResultsDirectory directory(output, model);
 
   const Interrupt interrupt;
@@ -98,6 +126,10 @@ ExitStatus run(const RunOptions& options) {
     directory.add(solution, increment);
     progress.increment(solution, increment);
   };
+  if (model.output.discrete_problems)
+    analysis_options.on_problems = [&](const auto& increment, const auto& problems) {
+      write_problems(directory, model, increment, problems);
+    };
   analysis::StaticSolution solution = analysis::solve_static(model, analysis_options);
   solution.timing.read = reading;
   solution.timing.total = seconds_since(start);

@@ -22,7 +22,8 @@ class CommandLine(support.InTemporaryDirectory):
         self.assertEqual((run.returncode, run.stdout, run.stderr), (SOLVED, f"scabo {version}\n", ""))
 
     def test_help(self):
-        for command, words in {"": ("run", "check", "schema", "Exit status"),
+        for command, words in {"": ("run", "check", "contact", "schema", "Exit status"),
+                               "contact": ("FILE", "--solver", "b_differentiable", "--tolerance", "--json", "--trace", "Example"),
                                "run": ("MODEL", "--output", "--set", "--threads", "--quiet", "Example"),
                                "check": ("MODEL", "--set", "Example"),
                                "schema": ("Example",)}.items():
@@ -112,7 +113,7 @@ class Output(support.InTemporaryDirectory):
         self.assertEqual(run.returncode, SOLVED, run.stderr)
         self.assertIn("deep/beam.results", run.stdout)
         files = {path.name for path in (self.directory / "deep" / "beam.results").iterdir()}
-        self.assertLessEqual({"summary.json", "contact.csv", "fields.pvd", "log.txt"}, files)
+        self.assertLessEqual({"summary.json", "contact.csv", "convergence.csv", "convergence.svg", "fields.pvd", "log.txt"}, files)
 
     def test_piped_output_is_plain(self):
         run = scabo("run", BEAM, "-o", self.directory / "out", TERM="xterm-256color")

@@ -1,6 +1,7 @@
 // Open super-elements (cracks, notches, corners) for tests, and exact fields around a crack tip.
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <complex>
 #include <numbers>
 

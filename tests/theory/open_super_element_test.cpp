@@ -6,7 +6,7 @@
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
 #include "scabo/system/loads.hpp"
-#include "theory/rings.hpp"
+#include "theory/open_rings.hpp"
 
 namespace scabo::element {
 namespace {

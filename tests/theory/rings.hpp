@@ -36,22 +36,6 @@ inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, int divisio
   return polygon_ring(vertices, std::vector<int>(vertices.size(), divisions), order);
 }
 
-/// An open chain through the vertices, counter-clockwise about the scaling centre at the origin; the first and the last may lie
-/// in the same place (a crack's mouth).
-inline element::Ring open_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions, int order) {
-  std::vector<int> all = divisions;
-  all.push_back(1);  // the edge that closes the polygon
-  element::Ring ring = polygon_ring(vertices, all, order);
-  ring.elements.pop_back();
-  ring.nodes.resize(static_cast<std::size_t>(ring.elements.back().nodes.back()) + 1);
-  ring.nodes.back() = vertices.back();
-  return ring;
-}
-
-inline element::Ring open_ring(const std::vector<Vec2>& vertices, int divisions, int order) {
-  return open_ring(vertices, std::vector<int>(vertices.size() - 1, divisions), order);
-}
-
 inline std::vector<element::RadialLoad> uniform_body_force(const element::Ring& ring, const Vec2& b, double thickness) {
   return element::body_force_loads(ring, {b.x()}, {b.y()}, thickness);
 }

@@ -102,7 +102,8 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
     const system::BodySystem& body = *prepared.structure.bodies[b];
     Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
     certificate.equilibrium = std::max(certificate.equilibrium, body.imbalance(state.u[b], forces) / scale);
-    if (prepared.model.bodies[b].rigid) continue;  // imbalance() is its balance
+    // Of a rigid body imbalance() is the balance; what acts on an outside body goes to infinity.
+    if (prepared.model.bodies[b].rigid || prepared.model.bodies[b].outside) continue;
     for (std::size_t c = 0; c < body.constraints().size(); ++c)
       forces[body.constraints()[c].dof] += state.reactions[b][static_cast<Eigen::Index>(c)];
     // Against all forces on the body: those of a fine mesh are small, and many.
@@ -281,7 +282,10 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   }
   check_held_pairs(prepared, free);
 
-  result.solution = contact::solve(problem, {from.p, from.a}, options);
+  result.start = {from.p, from.a};
+  result.force_scale = options.force_scale;
+  result.solution = contact::solve(problem, result.start, options);
+  result.problem = std::move(problem);
   to.p = result.solution.p;
   to.a = result.solution.a;
   to.gap = result.solution.gap;
@@ -301,6 +305,15 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;
+}
+
+DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt) {
+  DiscreteProblem discrete{attempt.problem, attempt.start, attempt.solution, attempt.accepted, attempt.force_scale, {}, {}};
+  for (const system::ContactSystem::Pair& pair : prepared.contact.pairs) {
+    discrete.contact_of_pair.push_back(pair.contact);
+    discrete.number_of_pair.push_back(pair.number);
+  }
+  return discrete;
 }
 
 IncrementResult describe(const Prepared& prepared, const State& state) {

@@ -44,8 +44,14 @@ struct Attempt {
   contact::Solution solution;
   contact::Certificate certificate;
   bool accepted = false;
+  contact::Problem problem;  ///< what was solved, from `start`; W is shared, not copied
+  contact::Start start;
+  double force_scale = 0.0;
 };
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors);
+
+/// The problem of an attempt as others can solve it.
+DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt);
 
 /// What users see of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);

@@ -4,7 +4,9 @@
 
 #include <chrono>
 
+#include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
+#include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
 #include "scabo/linalg/dense.hpp"
 
@@ -39,11 +41,13 @@ struct Reached {
   double residual = 0.0;
   Matrix undetermined;
   std::string reason;  ///< empty: there
+  std::vector<AttemptResult> attempts;
+  std::vector<DiscreteProblem> problems;  ///< of the attempts, where they are asked for
 };
 
 /// From `from` to `target`, halving the way where an attempt is not accepted; every part starts from the last accepted
 /// state.
-Reached reach(const Prepared& prepared, const State& from, const Factors& target, const std::atomic<bool>* stop) {
+Reached reach(const Prepared& prepared, const State& from, const Factors& target, const Options& options) {
   Reached reached;
   reached.state = from;
   const Factors start = from.factors;
@@ -52,6 +56,8 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
     const double next = std::min(1.0, done + part);
     Attempt tried = attempt(prepared, reached.state, between(start, target, next));
     reached.iterations += tried.solution.iterations;
+    reached.attempts.push_back({tried.solution.trace, tried.accepted});
+    if (options.on_problems && tried.problem.pairs() > 0) reached.problems.push_back(discrete_problem(prepared, tried));
     if (tried.accepted) {
       reached.state = std::move(tried.state);
       reached.certificate = tried.certificate;
@@ -61,7 +67,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       continue;
     }
     const bool mechanism = tried.solution.status == contact::Status::mechanism;  // no smaller step helps
-    if (mechanism || reached.halvings == prepared.model.solver.halvings || (stop && *stop)) {
+    if (mechanism || reached.halvings == prepared.model.solver.halvings || (options.stop && *options.stop)) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
       if (mechanism)
@@ -96,6 +102,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
                             motion));
   }
   if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
+  if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
+    add("reaches to infinity", relative);
 }
 
 void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
@@ -111,11 +119,17 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       }
       if (options.on_stage) options.on_stage(fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
       Reached reached = timed(solution.timing.newton, [&] {
-        return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options.stop);
+        return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options);
       });
       const bool there = reached.reason.empty();
       IncrementResult result;
-      if (there) result = timed(solution.timing.recover, [&] { return describe(prepared, reached.state); });
+      if (there)
+        result = timed(solution.timing.recover, [&] {
+          IncrementResult described = describe(prepared, reached.state);
+          refer_displacements(solution, described);
+          described.cracks = crack_results(solution, described);
+          return described;
+        });
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
       result.increment = k;
@@ -125,8 +139,10 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       result.residual = reached.residual;
       result.certificate = reached.certificate;
       result.reason = reached.reason;
+      result.attempts = std::move(reached.attempts);
       if (there) add_warnings(prepared, reached, result, solution.warnings);
       solution.increments.push_back(std::move(result));
+      if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
       if (!there) {
         solution.outcome = Outcome::not_converged;
         solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);
@@ -157,8 +173,16 @@ std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolut
 }  // namespace
 
 mesh::Mesh check(const model::Model& model) {
+  if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free, and do not touch
+    model::Model apart = model;
+    apart.contacts.clear();
+    mesh::Mesh mesh = mesh::make_mesh(apart);
+    system::constraints_of(apart, mesh);
+    return mesh;
+  }
   mesh::Mesh mesh = mesh::make_mesh(model);
   system::check_supports(model, mesh);
+  check_references(model, mesh);
   return mesh;
 }
 

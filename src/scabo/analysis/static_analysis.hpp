@@ -13,6 +13,7 @@
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/element/sectors.hpp"
+#include "scabo/element/stress_intensity.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
@@ -51,6 +52,18 @@ struct Energy {
   double friction = 0.0;   ///< dissipated
 };
 
+/// A crack, or a corner at a scaling centre, after an increment.
+struct CrackResult {
+  std::string name;  ///< `body.crack`, or `body.corner`
+  element::StressIntensity factors;
+};
+
+/// How the contact solver went in one attempt at an increment, or at a part of it where it was halved.
+struct AttemptResult {
+  std::vector<contact::Iteration> iterations;
+  bool accepted = false;
+};
+
 struct IncrementResult {
   int step = 0;        ///< from 1
   std::string step_name;
@@ -66,7 +79,20 @@ struct IncrementResult {
   Energy energy;
   std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
   std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
+  std::vector<CrackResult> cracks;        ///< of all bounded open super-elements
   std::string reason;                     ///< why it did not converge
+  std::vector<AttemptResult> attempts;    ///< one; more where the increment was halved
+};
+
+/// The discrete problem of one attempt: a value that can be saved and solved alone (contact/fclib.hpp).
+struct DiscreteProblem {
+  contact::Problem problem;
+  contact::Start start;             ///< the accepted state before
+  contact::Solution solution;
+  bool accepted = false;
+  double force_scale = 0.0;         ///< contact::SolverOptions::force_scale
+  std::vector<int> contact_of_pair; ///< index into Model::contacts, one for each pair of the problem
+  std::vector<int> number_of_pair;  ///< PairResult::pair
 };
 
 /// Seconds.
@@ -85,8 +111,11 @@ struct SolvedSuperElement {
   element::SuperElementSolution solution;
   /// Modes for the interior, found when they are asked for first.
   const element::ModalSolution& modes() const;
+  /// The same for the factors of its crack or corner; the ring must be open.
+  const element::CornerAnalysis& corner() const;
 
  private:
+  mutable std::unique_ptr<element::CornerAnalysis> corner_;
   mutable std::unique_ptr<element::ModalSolution> modes_;
 };
 
@@ -107,11 +136,13 @@ struct Options {
   int threads = 1;  ///< for BLAS and for super-elements that differ
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
+  /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.
+  std::function<void(const IncrementResult&, const std::vector<DiscreteProblem>&)> on_problems;
   std::function<void(const StaticSolution&)> on_mesh;  ///< once super-elements and systems stand
   std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
 };
 
-/// Meshes the model and looks whether every body is held, without solving anything. Throws InputError.
+/// Meshes the model and looks whether every body is held (modal: it need not be), without solving anything. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of

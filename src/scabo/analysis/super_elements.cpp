@@ -55,6 +55,11 @@ const element::ModalSolution& SolvedSuperElement::modes() const {
   return *modes_;
 }
 
+const element::CornerAnalysis& SolvedSuperElement::corner() const {
+  if (!corner_) corner_ = std::make_unique<element::CornerAnalysis>(ring, sectors.D, solution);
+  return *corner_;
+}
+
 std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(const model::Model& model,
                                                                             const mesh::Mesh& mesh, int threads) {
   std::vector<std::shared_ptr<SolvedSuperElement>> distinct;

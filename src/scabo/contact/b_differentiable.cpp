@@ -1,218 +1,216 @@
 #include "scabo/contact/b_differentiable.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 namespace scabo::contact {
 
 namespace {
 
-/// Forces differing by less than this, relative to their size, are equal within rounding: a tie.
-constexpr double tie = 1e-12;
+/// Forces differing by less than this, relative to their size, are equal within rounding: a tie; so are forces that are
+/// small as this against the largest at work.
+constexpr double tie = 1e-12, rounding = 4e-14;
 
-bool tied(double a, double b, double scale) { return std::abs(a - b) <= tie * scale; }
+bool tied(double a, double b, double scale, double smallest) {
+  return std::isfinite(scale) && std::abs(a - b) <= tie * scale + smallest;
+}
 
-/// A x = b for square A that may be singular: nothing when b is out of reach, the shortest x when there are many.
-std::optional<Vector> solve_linear(const Matrix& A, const Vector& b) {
-  if (A.rows() == 0) return Vector();
-  const auto reached = [&](const Vector& x) {
-    return x.allFinite() && (A * x - b).lpNorm<Eigen::Infinity>() <=
-                                1e-9 * (b.lpNorm<Eigen::Infinity>() + 1e-30 * A.cwiseAbs().maxCoeff());
-  };
-  const Eigen::PartialPivLU<Matrix> lu(A);
-  if (lu.rcond() > 1e-13) {
-    Vector x = lu.solve(b);
-    x += lu.solve(b - A * x);  // one step of refinement: the certificate is judged at 1e-10
-    if (reached(x)) return x;
+/// The tangential part of pair `i` in a vector of pairs; in the plane its second component is zero.
+Vec2 tangent_part(const Vector& v, Eigen::Index i, Eigen::Index d) {
+  return d == 2 ? Vec2(v[2 * i + 1], 0.0) : Vec2(v[3 * i + 1], v[3 * i + 2]);
+}
+
+void set_tangent_part(Vector& v, Eigen::Index i, Eigen::Index d, const Vec2& value) {
+  v[d * i + 1] = value[0];
+  if (d == 3) v[d * i + 2] = value[1];
+}
+
+/// What the branches of one pair are read from.
+struct Pair {
+  double p_n, opening;  ///< r u_n
+  Vec2 p_t, trial;      ///< trial: p_t(r)
+  double smallest;      ///< forces below are rounding
+};
+
+double evaluate_normal(const Pair& pair, double tension, Branch& branch) {
+  if (std::isinf(tension)) {  // bonded
+    branch.contact = true;
+    branch.normal_tie = false;
+    return pair.opening;
   }
-  Eigen::CompleteOrthogonalDecomposition<Matrix> cod;
-  cod.setThreshold(1e-11);
-  cod.compute(A);
-  const Vector x = cod.solve(b);
-  if (reached(x)) return x;
-  return std::nullopt;
+  const double strength = pair.p_n + tension;
+  branch.contact = pair.opening <= strength;
+  branch.normal_tie =
+      tied(pair.opening, strength, std::abs(pair.opening) + std::abs(pair.p_n) + tension, pair.smallest);
+  if (branch.normal_tie) branch.contact = true;
+  return std::min(pair.opening, strength);  // Zhu 2017, eq. (7)
+}
+
+Vec2 evaluate_tangent(const Pair& pair, double mu, double cohesion, Branch& branch) {
+  const double bound = cohesion + mu * std::max(pair.p_n, 0.0), size = pair.trial.norm();
+  branch.bound_tie = mu > 0.0 && std::abs(pair.p_n) <= pair.smallest;
+  branch.slope = pair.p_n > pair.smallest || (branch.bound_tie && branch.contact) ? mu : 0.0;
+  branch.edge = branch.tip = false;
+  branch.lambda = 1.0;
+  branch.along = size > 0.0 ? Vec2(pair.trial / size) : Vec2(Vec2::Zero());
+  const bool no_bound = bound <= mu * pair.smallest;
+  if (no_bound && !branch.bound_tie) {  // p_n < 0 or mu = 0
+    branch.tangent = Branch::Tangent::free;
+    return pair.p_t;
+  }
+  if (no_bound) {
+    branch.tip = size <= pair.smallest;
+    branch.tangent = branch.tip ? Branch::Tangent::stick : Branch::Tangent::slip;
+    branch.lambda = branch.tip ? 1.0 : 0.0;
+  } else {
+    branch.tangent = size <= bound ? Branch::Tangent::stick : Branch::Tangent::slip;
+    branch.edge = tied(size, bound, bound, pair.smallest);
+    if (branch.tangent == Branch::Tangent::slip) branch.lambda = bound / size;
+  }
+  return pair.p_t - (size > bound ? bound / size : 1.0) * pair.trial;  // eq. (8)
+}
+
+double bound_slope(const Branch& branch, double mu, double dp_n) {
+  return branch.bound_tie ? mu * std::max(dp_n, 0.0) : branch.slope * dp_n;
+}
+
+/// Derivative of lambda p_t(r) for the change dt of p_t(r) and db of the bound.
+Vec2 projected_derivative(const Branch& branch, const Vec2& dt, double db) {
+  if (branch.tip) {
+    const double size = dt.norm();
+    return size <= db ? dt : db <= 0.0 ? Vec2(Vec2::Zero()) : Vec2(db / size * dt);
+  }
+  if (branch.edge) return dt - std::max(branch.along.dot(dt) - db, 0.0) * branch.along;
+  switch (branch.tangent) {
+    case Branch::Tangent::free:
+      return Vec2::Zero();
+    case Branch::Tangent::stick:
+      return dt;
+    case Branch::Tangent::slip:
+      break;
+  }
+  return db * branch.along + branch.lambda * (dt - branch.along.dot(dt) * branch.along);
+}
+
+/// The branch that dt and db take at a tie of the tangential equation.
+void follow_tangent(Branch& branch, const Vec2& dt, double db) {
+  if (branch.edge) {
+    branch.tangent = branch.along.dot(dt) > db ? Branch::Tangent::slip : Branch::Tangent::stick;
+    branch.lambda = 1.0;
+  }
+  if (!branch.tip) return;
+  const double size = dt.norm();
+  if (size <= db) {
+    branch.tangent = Branch::Tangent::stick;
+  } else if (db <= 0.0) {
+    branch.tangent = Branch::Tangent::free;
+  } else {
+    branch.tangent = Branch::Tangent::slip;
+    branch.along = dt / size;
+    branch.lambda = db / size;  // positively homogeneous: its own linearisation there is exact
+  }
 }
 
 }  // namespace
 
 BDifferentiableEquations::BDifferentiableEquations(const Problem& problem, double r_factor) : problem_(problem) {
   const Vector diagonal = problem.W.diagonal();
+  const Eigen::Index d = problem.dimension;
   r_.resize(diagonal.size());
   const double mean = diagonal.size() > 0 ? diagonal.mean() : 1.0;
-  for (Eigen::Index i = 0; i < diagonal.size(); ++i)
-    r_[i] = r_factor / (diagonal[i] > 1e-14 * mean ? diagonal[i] : mean > 0.0 ? mean : 1.0);
+  const auto inverse = [&](double W) { return r_factor / (W > 1e-14 * mean ? W : mean > 0.0 ? mean : 1.0); };
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    r_[d * i] = inverse(diagonal[d * i]);
+    const auto tangents = diagonal.segment(d * i + 1, d - 1);
+    r_.segment(d * i + 1, d - 1).setConstant(inverse(tangents.mean()));
+  }
+  if (r_.size() > 0) largest_q_ = r_.cwiseProduct(problem.q).lpNorm<Eigen::Infinity>();
+}
+
+void BDifferentiableEquations::hold(double weight, Vector centre) {
+  weight_ = weight;
+  centre_ = std::move(centre);
+}
+
+void BDifferentiableEquations::evaluate(const Vector& p, const Vector& a, Residual& at) const {
+  at.motion = problem_.W * p;
+  at.motion += problem_.q;
+  if (a.size() > 0) at.motion.noalias() += problem_.G * a;
+  if (weight_ > 0.0) at.motion.array() += weight_ * (p - centre_).array() / r_.array();
+  evaluate_at_motion(p, at);
+}
+
+void BDifferentiableEquations::evaluate_at_motion(const Vector& p, Residual& at) const {
+  const Eigen::Index N = problem_.pairs(), d = problem_.dimension;
+  at.H.resize(d * N + problem_.G.cols());
+  at.branches.resize(static_cast<std::size_t>(N));
+  if (at.H.size() > d * N) at.H.tail(problem_.G.cols()) = problem_.G.transpose() * p + problem_.f;
+  double largest = largest_q_;
+  for (Eigen::Index k = 0; k < d * N; ++k) largest = std::max({largest, std::abs(p[k]), std::abs(r_[k] * at.motion[k])});
+  const double smallest = rounding * largest;
+  for (Eigen::Index i = 0; i < N; ++i) {
+    Branch& branch = at.branches[static_cast<std::size_t>(i)];
+    const Vec2 p_t = tangent_part(p, i, d);
+    const Pair pair{p[d * i], r_[d * i] * at.motion[d * i], p_t,
+                    p_t - r_[d * i + 1] * tangent_part(at.motion, i, d), smallest};
+    at.H[d * i] = evaluate_normal(pair, problem_.tension_of(i), branch);
+    set_tangent_part(at.H, i, d, evaluate_tangent(pair, problem_.mu[i], problem_.cohesion_of(i), branch));
+  }
 }
 
 Residual BDifferentiableEquations::residual(const Vector& p, const Vector& a) const {
-  const int N = problem_.pairs();
-  Vector motion = problem_.q;
-  motion += problem_.W * p;
-  if (a.size() > 0) motion.noalias() += problem_.G * a;
-  Residual at{Vector(2 * N + a.size()), std::vector<Branch>(static_cast<std::size_t>(N))};
-  for (Eigen::Index i = 0; i < N; ++i) {
-    const double rg = r_[2 * i] * motion[2 * i], pn = p[2 * i];
-    const double pt = p[2 * i + 1], trial = pt - r_[2 * i + 1] * motion[2 * i + 1];
-    const double bound = problem_.mu[i] * std::max(pn, 0.0);
-    Branch& branch = at.branches[static_cast<std::size_t>(i)];
-    branch.contact = rg <= pn;  // at a tie: contact
-    branch.normal_tie = tied(rg, pn, std::abs(rg) + std::abs(pn)) || (rg == 0.0 && pn == 0.0);
-    at.H[2 * i] = std::min(rg, pn);                                          // Zhu 2017, eq. (7)
-    if (bound == 0.0) {
-      branch.tangent = Branch::Tangent::free;
-      branch.tangent_tie = problem_.mu[i] > 0.0 && branch.contact;
-      at.H[2 * i + 1] = pt;
-    } else if (std::abs(trial) <= bound) {
-      branch.tangent = Branch::Tangent::stick;
-      branch.tangent_tie = tied(std::abs(trial), bound, bound);
-      branch.sign = 0.0;
-      at.H[2 * i + 1] = pt - trial;
-    } else {
-      branch.tangent = Branch::Tangent::slip;
-      branch.tangent_tie = tied(std::abs(trial), bound, bound);
-      branch.sign = trial > 0.0 ? 1.0 : -1.0;
-      at.H[2 * i + 1] = pt - bound * branch.sign;                            // eq. (8)
-    }
-  }
-  if (a.size() > 0) at.H.tail(a.size()) = problem_.G.transpose() * p + problem_.f;
+  Residual at;
+  evaluate(p, a, at);
   return at;
 }
 
-std::optional<Vector> BDifferentiableEquations::direction(const Residual& at) const {
-  const Eigen::Index N = problem_.pairs(), m = problem_.G.cols();
-  // dp = known + P y: y are the forces whose row is a motion (normals in contact, tangents that stick); tangents that
-  // slip follow their normal force.
-  std::vector<int> motions;
-  std::vector<int> unknown_of(static_cast<std::size_t>(2 * N), -1);
-  Vector known = Vector::Zero(2 * N);
+Vector BDifferentiableEquations::motion_along(const Vector& d) const {
+  const Eigen::Index size = problem_.q.size();
+  const Vector dp = d.head(size);
+  Vector motion = problem_.W * dp;
+  if (d.size() > size) motion.noalias() += problem_.G * d.tail(d.size() - size);
+  if (weight_ > 0.0) motion.array() += weight_ * dp.array() / r_.array();
+  return motion;
+}
+
+Vector BDifferentiableEquations::derivative(const Residual& at, const Vector& direction) const {
+  const Eigen::Index N = problem_.pairs(), d = problem_.dimension, m = direction.size() - d * N;
+  const Vector du = motion_along(direction);
+  Vector slope(direction.size());
   for (Eigen::Index i = 0; i < N; ++i) {
     const Branch& branch = at.branches[static_cast<std::size_t>(i)];
-    if (branch.contact) {
-      unknown_of[static_cast<std::size_t>(2 * i)] = static_cast<int>(motions.size());
-      motions.push_back(static_cast<int>(2 * i));
-    } else {
-      known[2 * i] = -at.H[2 * i];
-    }
-    if (branch.tangent == Branch::Tangent::stick) {
-      unknown_of[static_cast<std::size_t>(2 * i + 1)] = static_cast<int>(motions.size());
-      motions.push_back(static_cast<int>(2 * i + 1));
-    } else {
-      known[2 * i + 1] = -at.H[2 * i + 1];
-      if (branch.tangent == Branch::Tangent::slip && !branch.contact)
-        known[2 * i + 1] += problem_.mu[i] * branch.sign * known[2 * i];
-    }
+    const double dg = r_[d * i] * du[d * i], dp_n = direction[d * i];
+    slope[d * i] = branch.normal_tie ? std::min(dg, dp_n) : branch.contact ? dg : dp_n;
+    const Vec2 dp_t = tangent_part(direction, i, d);
+    const Vec2 dt = dp_t - r_[d * i + 1] * tangent_part(du, i, d);
+    set_tangent_part(slope, i, d,
+                     dp_t - projected_derivative(branch, dt, bound_slope(branch, problem_.mu[i], dp_n)));
   }
-  const auto size = static_cast<Eigen::Index>(motions.size());
-  Matrix A = Matrix::Zero(size + m, size + m);
-  Vector b(size + m);
-  const Matrix& W = problem_.W.dense();
-  const auto follows = [&](Eigen::Index row, Eigen::Index i) {  // coefficient of a normal's unknown in a motion's row
-    const Branch& branch = at.branches[static_cast<std::size_t>(i)];
-    double value = W(row, 2 * i);
-    if (branch.tangent == Branch::Tangent::slip) value += W(row, 2 * i + 1) * problem_.mu[i] * branch.sign;
-    return value;
-  };
-  const Vector moved = problem_.W * known;
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const Eigen::Index column = motions[static_cast<std::size_t>(k)], i = column / 2;
-    for (Eigen::Index row = 0; row < size; ++row) {
-      const Eigen::Index at_row = motions[static_cast<std::size_t>(row)];
-      A(row, k) = r_[at_row] * (column % 2 == 0 ? follows(at_row, i) : W(at_row, column));
-    }
-    A.block(size, k, m, 1) = problem_.G.row(column).transpose();
-    const Branch& branch = at.branches[static_cast<std::size_t>(i)];
-    if (column % 2 == 0 && branch.tangent == Branch::Tangent::slip)
-      A.block(size, k, m, 1) += problem_.mu[i] * branch.sign * problem_.G.row(column + 1).transpose();
-    // H2 = r g here; H3 = r ds where it sticks.
-    A.block(k, size, 1, m) = r_[column] * problem_.G.row(column);
-    b[k] = -at.H[column] - r_[column] * moved[column];
-  }
-  if (m > 0) b.tail(m) = -at.H.tail(m) - problem_.G.transpose() * known;
-
-  const std::optional<Vector> solved = solve_linear(A, b);
-  if (!solved) return std::nullopt;
-  Vector d(2 * N + m);
-  d.head(2 * N) = known;
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const Eigen::Index column = motions[static_cast<std::size_t>(k)];
-    d[column] = (*solved)[k];
-    const Branch& branch = at.branches[static_cast<std::size_t>(column / 2)];
-    if (column % 2 == 0 && branch.tangent == Branch::Tangent::slip)
-      d[column + 1] += problem_.mu[column / 2] * branch.sign * d[column];
-  }
-  d.tail(m) = solved->tail(m);
-  return d;
+  if (m > 0) slope.tail(m) = problem_.G.transpose() * direction.head(d * N);
+  return slope;
 }
 
-bool BDifferentiableEquations::line_search(const Vector& d, Vector& p, Vector& a, Residual& at) const {
-  constexpr double sufficient = 1e-4;
-  constexpr int halvings = 12;
-  const double merit = at.merit();
-  double step = 1.0;
-  for (int k = 0; k <= halvings; ++k, step *= 0.5) {
-    const Vector p_next = p + step * d.head(p.size());
-    const Vector a_next = a + step * d.tail(a.size());
-    Residual next = residual(p_next, a_next);
-    if (next.merit() <= (1.0 - 2.0 * sufficient * step) * merit) {  // theta'(z; d) = -2 theta
-      p = p_next;
-      a = a_next;
-      at = std::move(next);
-      return true;
-    }
+int BDifferentiableEquations::follow(Residual& at, const Vector& direction) const {
+  const Eigen::Index N = problem_.pairs(), d = problem_.dimension;
+  if (std::none_of(at.branches.begin(), at.branches.end(), [](const Branch& branch) { return branch.tied(); })) return 0;
+  const Vector du = motion_along(direction);
+  int changed = 0;
+  for (Eigen::Index i = 0; i < N; ++i) {
+    Branch& branch = at.branches[static_cast<std::size_t>(i)];
+    if (!branch.tied()) continue;
+    const Branch before = branch;
+    const double dg = r_[d * i] * du[d * i], dp_n = direction[d * i];
+    // Within rounding both branches are right, and the one at hand stays.
+    const double room = 1e-9 * (std::abs(dg) + std::abs(dp_n));
+    if (branch.normal_tie && std::abs(dg - dp_n) > room) branch.contact = dg < dp_n;
+    if (branch.bound_tie && dp_n != 0.0) branch.slope = dp_n > 0.0 ? problem_.mu[i] : 0.0;
+    const Vec2 dt = tangent_part(direction, i, d) - r_[d * i + 1] * tangent_part(du, i, d);
+    const double db = bound_slope(branch, problem_.mu[i], dp_n);
+    if (!(branch.edge && std::abs(branch.along.dot(dt) - db) <= 1e-9 * (dt.norm() + std::abs(db))))
+      follow_tangent(branch, dt, db);
+    changed += !branch.same_branch(before);
   }
-  return false;
-}
-
-Residual BDifferentiableEquations::other_branch(const Residual& at) const {
-  Residual other = at;
-  for (Branch& branch : other.branches) {
-    if (branch.normal_tie) branch.contact = !branch.contact;
-    if (!branch.tangent_tie || branch.tangent == Branch::Tangent::free) continue;
-    branch.tangent = branch.tangent == Branch::Tangent::stick ? Branch::Tangent::slip : Branch::Tangent::stick;
-  }
-  return other;
-}
-
-NewtonEnd BDifferentiableEquations::newton(Vector p, Vector a, double small, int iterations) const {
-  NewtonEnd end;
-  end.p = p;
-  end.a = a;
-  end.residual = HUGE_VAL;  // stays where H is not finite: never converged
-  Residual at = residual(p, a);
-  double best_merit = HUGE_VAL;
-  const auto keep_best = [&] {
-    if (!(at.merit() < best_merit)) return;
-    best_merit = at.merit();
-    end.p = p;
-    end.a = a;
-    end.residual = at.H.size() > 0 ? at.H.lpNorm<Eigen::Infinity>() : 0.0;
-  };
-  int unchecked = 0;  // full steps without descent since the best point
-  while (true) {
-    keep_best();
-    end.trace.push_back({end.iterations, at.H.size() > 0 ? at.H.lpNorm<Eigen::Infinity>() : 0.0, at.merit(), 1.0, 0, "newton"});
-    end.converged = end.residual <= small;
-    if (end.converged || end.iterations >= iterations) break;
-    const std::optional<Vector> d = direction(at);
-    ++end.iterations;
-    if (d && line_search(*d, p, a, at)) continue;
-    const Residual other = other_branch(at);
-    if (other.branches != at.branches) {
-      const std::optional<Vector> second = direction(other);
-      if (second && line_search(*second, p, a, at)) continue;
-    }
-    // H is piecewise linear: near a kink the full step may lead on where no shorter one descends. A few are allowed,
-    // and the best point is kept.
-    constexpr int most_unchecked = 8;
-    if (!d || ++unchecked > most_unchecked) {
-      end.singular = !d;
-      break;
-    }
-    p += d->head(p.size());
-    a += d->tail(a.size());
-    at = residual(p, a);
-  }
-  return end;
+  return changed;
 }
 
 }  // namespace scabo::contact

@@ -1,47 +1,59 @@
-// The B-differentiable equations H(z) = 0 of a discrete contact problem, z = [p; a], and the damped Newton method on
-// them (Pang, Math. Oper. Res. 15 (1990) 311; Christensen, Klarbring, Pang, Stromberg, Int. J. Numer. Meth. Engng 42
-// (1998) 145). All components of H are forces: lengths enter as r g and r ds with r = 1 / W_ii.
+// The B-differentiable equations H(z) = 0 of a discrete contact problem, z = [p; a], and their directional derivative
+// (Pang, Math. Oper. Res. 15 (1990) 311; Christensen, Klarbring, Pang, Stromberg, Int. J. Numer. Meth. Engng 42 (1998)
+// 145). All components of H are forces: lengths enter as r u with r = 1 / W_ii; one r for both tangents of a pair.
 //
-//     H2 = min(r g, p_n)                                                          (Zhu 2017, eq. 7)
-//     H3 = p_t - lambda p_t(r), p_t(r) = p_t - r ds, lambda = min(mu (p_n)+ / |p_t(r)|, 1)   (eq. 8)
+//     H2 = min(r u_n, p_n + c_t)                                                             (Zhu 2017, eq. 7)
+//     H3 = p_t - lambda p_t(r), p_t(r) = p_t - r u_t, lambda = min(b / |p_t(r)|, 1)          (eq. 8)
 //     HR = G' p + f
 //
-// The direction d solves H(z) + H'(z; d) = 0 on the branch on which z lies, a linear system; a line search on
-// theta = 1/2 |H|^2 damps it. At a tie of branches the other branch is taken when the first gives no descent; where
-// neither does, a few full steps are tried and the best point is kept.
+// with the bound b = c + mu (p_n)+. In the plane p_t has one component, in space two; everything else is the same, and the
+// plane is space with the second component zero. lambda p_t(r) is the projection of p_t(r) on the disc of radius b. With
+// e = p_t(r) / |p_t(r)|, dg = r du_n, dt = dp_t - r du_t and db = mu dp_n, mu (dp_n)+ or 0 for p_n >, =, < 0:
+//
+//     H2'  dg where r u_n < p_n + c_t, dp_n where >, min(dg, dp_n) at the tie
+//     H3'  dp_t - dt                                    stick, |p_t(r)| < b
+//          dp_t - dt + max(e'dt - db, 0) e              its edge, |p_t(r)| = b > 0
+//          dp_t - db e - lambda (dt - (e'dt) e)         slip, |p_t(r)| > b
+//          dp_t                                         free, b = 0 and p_n < 0 or mu = 0
+//          dp_t - P_db(dt)                              tip of the cone, b = 0 and p_t(r) = 0: the law itself, once more
+//     HR'  G' dp
+//
+// A proximal term may be added to the motions: u = q + W p + G a + (w / r)(p - centre).
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "scabo/contact/solution.hpp"
+#include "scabo/contact/problem.hpp"
 
 namespace scabo::contact {
 
-/// Branch of the normal and of the tangential equation of one pair.
+/// Where one pair lies, and which branch is followed where several meet.
 struct Branch {
-  bool contact = false;  ///< min taken by r g
-  enum class Tangent { free, stick, slip } tangent = Tangent::free;  ///< lambda = 0, = 1, between
-  double sign = 0.0;     ///< slip: sign of p_t(r)
-  bool normal_tie = false, tangent_tie = false;
-  bool operator==(const Branch& other) const {
-    return contact == other.contact && tangent == other.tangent && sign == other.sign;
+  enum class Tangent { free, stick, slip };
+  bool contact = false;              ///< min taken by r u_n
+  Tangent tangent = Tangent::free;
+  bool normal_tie = false;           ///< both arguments of min are equal within rounding
+  bool edge = false;                 ///< |p_t(r)| = b > 0 within rounding
+  bool tip = false;                  ///< p_t(r) = 0 and b = 0
+  bool bound_tie = false;            ///< p_n = 0: b has two slopes
+  double slope = 0.0;                ///< db / dp_n followed
+  double lambda = 1.0;               ///< slip: b / |p_t(r)|
+  Vec2 along = Vec2::Zero();         ///< slip: e
+
+  bool tied() const { return normal_tie || edge || tip || bound_tie; }
+  bool same_branch(const Branch& other) const {
+    return contact == other.contact && tangent == other.tangent && slope == other.slope &&
+           (tangent != Tangent::slip || along == other.along);
   }
 };
 
+/// H and all that goes with it at one point; memory is kept from point to point.
 struct Residual {
-  Vector H;  // 2N + m: [H2, H3] of every pair, HR
-  std::vector<Branch> branches;
+  Vector motion;  // dN, u
+  Vector H;       // dN + m: [H2, H3] of every pair, HR
+  std::vector<Branch> branches;  // N
   double merit() const { return 0.5 * H.squaredNorm(); }
-};
-
-struct NewtonEnd {
-  Vector p, a;  ///< the best point
-  bool converged = false;
-  bool singular = false;  ///< a direction did not exist: forces cannot balance on the branch
-  int iterations = 0;
-  double residual = 0.0;  ///< largest |H|
-  std::vector<Iteration> trace;
+  double largest() const { return H.size() > 0 ? H.lpNorm<Eigen::Infinity>() : 0.0; }
 };
 
 class BDifferentiableEquations {
@@ -49,21 +61,33 @@ class BDifferentiableEquations {
   /// Keeps a reference to `problem`.
   BDifferentiableEquations(const Problem& problem, double r_factor);
 
+  const Problem& problem() const { return problem_; }
+  const Vector& r() const { return r_; }  // dN
+  double proximal_weight() const { return weight_; }
+
+  /// Adds (weight / r)(p - centre) to the motions.
+  void hold(double weight, Vector centre);
+
+  void evaluate(const Vector& p, const Vector& a, Residual& at) const;
   Residual residual(const Vector& p, const Vector& a) const;
+  /// With the motions known already (`at.motion`).
+  void evaluate_at_motion(const Vector& p, Residual& at) const;
 
-  /// d = [dp; da] with H + H'(z; d) = 0 on the branches of `at`; nothing when there is none.
-  std::optional<Vector> direction(const Residual& at) const;
+  /// Change of the motions along d = [dp; da]: W dp + G da + (w / r) dp.
+  Vector motion_along(const Vector& d) const;
 
-  /// Damped Newton from (p, a) until the largest |H| is below `small`.
-  NewtonEnd newton(Vector p, Vector a, double small, int iterations) const;
+  /// H'(z; d), exact on ties too: nothing of the branches followed there enters.
+  Vector derivative(const Residual& at, const Vector& d) const;
+
+  /// On ties: the branches that d itself takes, followed from now on. Number of pairs whose branch changes.
+  int follow(Residual& at, const Vector& d) const;
 
  private:
-  /// `at` with the other branch wherever two meet.
-  Residual other_branch(const Residual& at) const;
-  bool line_search(const Vector& d, Vector& p, Vector& a, Residual& at) const;
-
   const Problem& problem_;
-  Vector r_;  // 2N
+  Vector r_;  // dN
+  double largest_q_ = 0.0;  // as a force
+  double weight_ = 0.0;
+  Vector centre_;
 };
 
 }  // namespace scabo::contact

@@ -12,13 +12,31 @@ Vector motion_of(const Problem& problem, const Vector& p, const Vector& a) {
   return motion;
 }
 
+/// A pair's normal and tangential parts; in the plane the second tangent is zero.
+struct Parts {
+  double n = 0.0;
+  Vec2 t = Vec2::Zero();
+  Parts(const Vector& v, Eigen::Index i, int d) : n(v[d * i]), t(v[d * i + 1], d == 3 ? v[d * i + 2] : 0.0) {}
+};
+
 /// |p - P(p - u)|^2 of a pair with cohesion or tension, normal and tangent apart.
-double squared_gap_of_bonded(double u_n, const Vector& u_t, double p_n, const Vector& p_t, double tension, double bound) {
-  const double normal = std::isinf(tension) ? u_n : p_n - std::max(p_n - u_n, -tension);
-  const Vector trial = p_t - u_t;
-  const double size = trial.norm();
-  const Vector projected = size > bound ? Vector(bound / size * trial) : trial;
-  return normal * normal + (p_t - projected).squaredNorm();
+double squared_map_of_bonded(const Parts& u, const Parts& p, double tension, double bound) {
+  const double normal = std::isinf(tension) ? u.n : p.n - std::max(p.n - u.n, -tension);
+  Vec2 projected = p.t - u.t;
+  const double size = projected.norm();
+  if (size > bound) projected *= bound / size;
+  return normal * normal + (p.t - projected).squaredNorm();
+}
+
+/// |p - P_K(p - (u + mu |u_t| n))|^2.
+double squared_map_of_cone(const Parts& u, const Parts& p, double mu) {
+  const double x_n = p.n - u.n - mu * u.t.norm();
+  const Vec2 x_t = p.t - u.t;
+  const double size = x_t.norm();
+  if (size <= mu * x_n) return (p.n - x_n) * (p.n - x_n) + (p.t - x_t).squaredNorm();
+  if (mu * size <= -x_n) return p.n * p.n + p.t.squaredNorm();
+  const double normal = (x_n + mu * size) / (1.0 + mu * mu);  // on the nearest ray of the cone
+  return (p.n - normal) * (p.n - normal) + (p.t - mu * normal / size * x_t).squaredNorm();
 }
 
 }  // namespace
@@ -59,35 +77,33 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
   return certificate;
 }
 
+double natural_map_residual_at(const Problem& problem, const Vector& p, const Vector& motion) {
+  if (!motion.allFinite() || !p.allFinite()) return HUGE_VAL;
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    const Parts u(motion, i, problem.dimension), p_i(p, i, problem.dimension);
+    const double tension = problem.tension_of(i);
+    if (problem.cohesion_of(i) > 0.0 || tension > 0.0)
+      sum += squared_map_of_bonded(u, p_i, tension, problem.friction_bound(i, p_i.n));
+    else
+      sum += squared_map_of_cone(u, p_i, problem.mu[i]);
+  }
+  const double scale = problem.q.norm();
+  return std::sqrt(sum) / (scale > 0.0 ? scale : 1.0);
+}
+
 Vector project_on_cone(const Vector& x, double mu) {
-  const double x_n = x[0], x_t = x.tail(x.size() - 1).norm();
-  if (x_t <= mu * x_n) return x;
-  if (mu * x_t <= -x_n) return Vector::Zero(x.size());
+  const double x_t = x.tail(x.size() - 1).norm();
+  if (x_t <= mu * x[0]) return x;
+  if (mu * x_t <= -x[0]) return Vector::Zero(x.size());
   Vector projected = x;  // on the nearest ray of the cone
-  projected[0] = (x_n + mu * x_t) / (1.0 + mu * mu);
+  projected[0] = (x[0] + mu * x_t) / (1.0 + mu * mu);
   projected.tail(x.size() - 1) *= mu * projected[0] / x_t;
   return projected;
 }
 
 double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a) {
-  const Vector motion = motion_of(problem, p, a);
-  if (!motion.allFinite() || !p.allFinite()) return HUGE_VAL;
-  const Eigen::Index d = problem.dimension;
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    const Vector u = motion.segment(d * i, d), p_i = p.segment(d * i, d);
-    const double cohesion = problem.cohesion_of(i), tension = problem.tension_of(i);
-    if (cohesion > 0.0 || tension > 0.0) {
-      sum += squared_gap_of_bonded(u[0], u.tail(d - 1), p_i[0], p_i.tail(d - 1), tension,
-                                   problem.friction_bound(i, p_i[0]));
-      continue;
-    }
-    Vector shifted = p_i - u;
-    shifted[0] -= problem.mu[i] * u.tail(d - 1).norm();
-    sum += (p_i - project_on_cone(shifted, problem.mu[i])).squaredNorm();
-  }
-  const double scale = problem.q.norm();
-  return std::sqrt(sum) / (scale > 0.0 ? scale : 1.0);
+  return natural_map_residual_at(problem, p, motion_of(problem, p, a));
 }
 
 }  // namespace scabo::contact

@@ -37,8 +37,10 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
 /// forces is no cone: | [p_n - max(p_n - u_n, -tension), p_t - P_b(p_t - u_t)] |, P_b the projection on the disc of radius
 /// b = cohesion + mu (p_n)+. Infinite where a number is not finite.
 double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a);
+/// The same where the motions u are known.
+double natural_map_residual_at(const Problem& problem, const Vector& p, const Vector& motion);
 
-/// Projection of a force x (2 or 3) on the cone |x_t| <= mu x_n.
+/// The nearest point of the cone |x_t| <= mu x_n to x (2 or 3 components).
 Vector project_on_cone(const Vector& x, double mu);
 
 }  // namespace scabo::contact

@@ -65,7 +65,7 @@ std::vector<double> end_angles(const Ring& ring) {
 /// [u; phi](t) of a group along the ray where element `element` ends (`at_end`) or begins, 4 x m, with r = `r` of the node. Stress
 /// functions are divided by `unit`.
 Matrix state_at_node(const Corner& corner, const ModeGroup& group, std::size_t element, bool at_end, double unit) {
-  const CoefficientMatrices one = coefficient_matrices(single(corner.ring, element), Mat3(corner.law(element) / unit), 1.0);
+  const CoefficientMatrices one = coefficient_matrices(single(corner.ring, element), Mat3(corner.D.of(element) / unit), 1.0);
   const auto& nodes = corner.ring.elements[element].nodes;
   const Eigen::Index row = 2 * (at_end ? nodes.back() : nodes.front());
   const Matrix slope = group.Phi * group.T, curve = slope * group.T;
@@ -97,20 +97,7 @@ Matrix carried(const Mat3& law, Matrix w, const Matrix& T, double t0, double t1)
 
 }  // namespace
 
-bool ModeGroup::defective(double spread) const {
-  // Equal exponents with all their modes leave T = lambda 1; defective ones leave a coupling, though the exponents
-  // themselves have moved apart by a root of rounding.
-  for (Eigen::Index i = 0; i < size(); ++i)
-    for (Eigen::Index j = i + 1; j < size(); ++j) {
-      const auto a = exponents[static_cast<std::size_t>(i)], b = exponents[static_cast<std::size_t>(j)];
-      const bool pair = j == i + 1 && T(j, i) != 0.0;
-      const double apart = std::abs(a - b);
-      if (apart > spread) continue;
-      const double coupling = pair ? std::max(std::abs(T(i, j)), std::abs(T(j, i))) : std::abs(T(i, j));
-      if (coupling > 1e-6 && coupling > 10.0 * apart) return true;
-    }
-  return false;
-}
+bool ModeGroup::defective(double spread) const { return linalg::is_defective(T, exponents, spread); }
 
 Vector ModeGroup::displacement(double xi, const Vector& c) const {
   if (size() == 0 || xi <= 0.0) return Vector::Zero(Phi.rows());
@@ -156,11 +143,9 @@ SingularModes singular_modes(const SuperElementSolution& solution, const Singula
   return modes;
 }
 
-bool is_open(const Ring& ring) { return ring.elements.back().nodes.back() != ring.elements.front().nodes.front(); }
-
 bool is_crack(const Ring& ring) {
-  const Vec2 &first = node(ring, ring.elements.front().nodes.front()), &last = node(ring, ring.elements.back().nodes.back());
-  return is_open(ring) && (first - last).norm() <= 1e-12 * first.norm();
+  const Vec2 &first = node(ring, ring.first_node()), &last = node(ring, ring.last_node());
+  return ring.is_open() && (first - last).norm() <= 1e-12 * first.norm();
 }
 
 double opening_angle(const Ring& ring) { return end_angles(ring).back(); }
@@ -177,9 +162,9 @@ RayTraction ray_traction(const Corner& corner, const ModeGroup& group, double an
   if (at_end && last && !first) at_end = false;
   if (!at_end && first && !last) at_end = true;
 
-  const Vec2& face = node(ring, ring.elements.front().nodes.front());
+  const Vec2& face = node(ring, ring.first_node());
   const double zero = std::atan2(face.y(), face.x());
-  const Mat3& law = corner.law(element);
+  const Mat3& law = corner.D.of(element);
   const double unit = law.trace() / 3.0;
   const auto& nodes = ring.elements[element].nodes;
   const double start = at_end ? ends[element + 1] : ends[element];

@@ -52,14 +52,12 @@ struct SingularOptions {
 
 SingularModes singular_modes(const SuperElementSolution& solution, const SingularOptions& options = {});
 
-/// The ring of an open super-element with the plane law of each boundary element (or one for all).
+/// The ring of an open super-element and its material.
 struct Corner {
   const Ring& ring;
-  const std::vector<Mat3>& D;
-  const Mat3& law(std::size_t element) const { return D.size() == 1 ? D.front() : D.at(element); }
+  const Elasticity& D;
 };
 
-bool is_open(const Ring& ring);
 /// First and last node have the same position: the two sides of a crack's mouth.
 bool is_crack(const Ring& ring);
 

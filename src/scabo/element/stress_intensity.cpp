@@ -1,6 +1,7 @@
 #include "scabo/element/stress_intensity.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,8 +16,6 @@ namespace {
 using std::numbers::pi;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-int first_node(const Ring& ring) { return ring.elements.front().nodes.front(); }
-int last_node(const Ring& ring) { return ring.elements.back().nodes.back(); }
 const Vec2& node(const Ring& ring, int i) { return ring.nodes[static_cast<std::size_t>(i)]; }
 
 /// Angles from the first face at which the material changes.
@@ -27,7 +26,7 @@ std::vector<double> interfaces(const Corner& corner) {
     const auto& nodes = corner.ring.elements[e].nodes;
     const Vec2 &from = node(corner.ring, nodes.front()), &to = node(corner.ring, nodes.back());
     angle += std::atan2(cross(from, to), from.dot(to));
-    if ((corner.law(e) - corner.law(e + 1)).norm() > 1e-12 * corner.law(e).norm()) angles.push_back(angle);
+    if ((corner.D.of(e) - corner.D.of(e + 1)).norm() > 1e-12 * corner.D.of(e).norm()) angles.push_back(angle);
   }
   return angles;
 }
@@ -40,7 +39,7 @@ CornerKind kind_of(const Corner& corner, const std::vector<double>& interfaces) 
 
 /// Distance of the boundary along a ray.
 double boundary_distance(const Ring& ring, double angle) {
-  const Vec2& face = node(ring, first_node(ring));
+  const Vec2& face = node(ring, ring.first_node());
   const double absolute = std::atan2(face.y(), face.x()) + angle;
   const Vec2 along(std::cos(absolute), std::sin(absolute));
   // The first and the last ray of a crack are one: from a point well inside.
@@ -80,7 +79,7 @@ CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& di
         dB2.middleCols<2>(2 * i) = N_eta[i] / strain.J * b2;
       }
       const double dJ = cross(-direction, x_eta), weight = basis.rule().weights[q];
-      const Mat3 law = weight * corner.law(e);
+      const Mat3 law = weight * corner.D.of(e);
       const Matrix DB1 = law * strain.B1, DB2 = law * strain.B2;
       e0 -= dJ * strain.B1.transpose() * DB1;
       e1 += strain.J * dB2.transpose() * DB1 - dJ * strain.B2.transpose() * DB1;
@@ -99,20 +98,20 @@ CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& di
   return derivatives;
 }
 
-CornerAnalysis::CornerAnalysis(const Ring& ring, const std::vector<Mat3>& D, const SuperElementSolution& solution,
+CornerAnalysis::CornerAnalysis(const Ring& ring, const Elasticity& D, const SuperElementSolution& solution,
                                std::optional<double> reference_length)
-    : ring_(ring), D_(D), modes_(singular_modes(solution)) {
-  ensure(is_open(ring), "stress intensity factors need an open super-element");
-  ensure(D.size() == 1 || D.size() == ring.elements.size(), "one plane law, or one for each boundary element");
+    : ring_(ring), D_(D), solution_(solution), modes_(singular_modes(solution)) {
+  ensure(ring.is_open(), "stress intensity factors need an open super-element");
+  ensure(D.fits(ring), "one plane law, or one for each boundary element");
   const Corner corner{ring_, D_};
   const std::vector<double> changes = interfaces(corner);
   kind_ = kind_of(corner, changes);
-  mouth_ = node(ring_, first_node(ring_)).norm();
+  mouth_ = node(ring_, ring_.first_node()).norm();
   if (kind_ != CornerKind::corner) {
     ray_ = pi;
     length_ = reference_length.value_or(mouth_);
     prepare_crack();
-    prepare_energy(solution);
+    prepare_energy();
     return;
   }
   ray_ = is_crack(ring_) ? pi : changes.size() == 1 ? changes.front() : 0.5 * opening_angle(ring_);
@@ -122,17 +121,18 @@ CornerAnalysis::CornerAnalysis(const Ring& ring, const std::vector<Mat3>& D, con
 
 void CornerAnalysis::prepare_crack() {
   const Corner corner{ring_, D_};
-  const Vec2 x1 = -node(ring_, first_node(ring_)) / mouth_;
+  const Vec2 x1 = -node(ring_, ring_.first_node()) / mouth_;
   frame_ << x1.x(), x1.y(), -x1.y(), x1.x();
   const double angle = std::atan2(x1.y(), x1.x());
-  const Mat3 right = rotated_elasticity(corner.law(0), angle),
-             left = rotated_elasticity(corner.law(ring_.elements.size() - 1), angle);
+  const Mat3 right = rotated_elasticity(corner.D.of(0), angle),
+             left = rotated_elasticity(corner.D.of(ring_.elements.size() - 1), angle);
   bimaterial_ = cracked_bimaterial(left, right);
   softness_left_ = left.inverse()(0, 0);
   softness_right_ = right.inverse()(0, 0);
 }
 
-void CornerAnalysis::prepare_energy(const SuperElementSolution& solution) {
+void CornerAnalysis::prepare_energy() {
+  const SuperElementSolution& solution = solution_;
   const CoefficientMatrices dE = coefficient_derivatives({ring_, D_}, frame_.row(0).transpose());
   const ModalSolution modal = modal_solution(solution);
   const Eigen::Index n = solution.K.rows();
@@ -158,7 +158,29 @@ void CornerAnalysis::prepare_energy(const SuperElementSolution& solution) {
   energy_ = linalg::multiply_transposed(Q, linalg::multiply(linalg::solve_lyapunov(T, P), Q));
 }
 
-StressIntensity CornerAnalysis::of(const Vector& u) const {
+std::vector<CornerAnalysis::Forced> CornerAnalysis::forced(const std::vector<RadialLoad>& loads) const {
+  std::vector<Forced> all;
+  for (const RadialLoad& load : loads) {
+    Vector remaining = -equivalent_load(solution_, {load});
+    if (load.c.size() > 0) remaining += load.c;
+    Vector f = Vector::Zero(remaining.size());
+    for (const Block& block : solution_.blocks)
+      f += block.T * Vector(block.E0.llt().solve(Vector(block.T.transpose() * remaining)));
+    all.push_back({load.power, std::move(f)});
+  }
+  return all;
+}
+
+Vector CornerAnalysis::coordinates(const ModeGroup& group, const Vector& u, const std::vector<Forced>& loads) const {
+  Vector c = group.Q * u;
+  const Matrix identity = Matrix::Identity(group.size(), group.size());
+  for (const Forced& load : loads)
+    c -= (load.power * identity - group.T).partialPivLu().solve(Vector(group.Q * load.f));                 // eq. (5)
+  return c;
+}
+
+StressIntensity CornerAnalysis::of(const Vector& u, const std::vector<RadialLoad>& loads) const {
+  const std::vector<Forced> inside = forced(loads);
   StressIntensity result;
   result.kind = kind_;
   result.reference_length = length_;
@@ -168,7 +190,7 @@ StressIntensity CornerAnalysis::of(const Vector& u) const {
   if (kind_ == CornerKind::corner) {
     for (std::size_t k = 0; k < modes_.singular.size(); ++k) {
       const ModeGroup& group = modes_.singular[k];
-      CornerTerm term{group.exponents, generalised_factors(tractions_[k], group, group.Q * u, length_), std::nullopt,
+      CornerTerm term{group.exponents, generalised_factors(tractions_[k], group, coordinates(group, u, inside), length_), std::nullopt,
                       group.defective()};
       if (group.size() == 1) term.limit = term.factors * std::pow(length_, 0.5 - group.exponents.front().real());
       result.K_I += term.factors[0];
@@ -179,16 +201,18 @@ StressIntensity CornerAnalysis::of(const Vector& u) const {
   }
   const auto along = [&](const Vector& field, int at) { return Vec2(frame_ * field.segment<2>(2 * at)); };
   Vector singular = Vector::Zero(u.size());
-  for (const ModeGroup& group : modes_.singular) singular += group.Phi * (group.Q * u);
-  const Vec2 opening = along(singular, last_node(ring_)) - along(singular, first_node(ring_));
+  for (const ModeGroup& group : modes_.singular) singular += group.Phi * coordinates(group, u, inside);
+  const Vec2 opening = along(singular, ring_.last_node()) - along(singular, ring_.first_node());
   const Vec2 k = bimaterial_.intensity(opening, mouth_, length_);                                     // eq. (1)
   result.K_I = k[1];
   result.K_II = k[0];
   result.epsilon = bimaterial_.epsilon;
   result.G = bimaterial_.energy_release_rate(k);
-  result.J = -0.5 * u.dot(energy_ * u);
-  const Vector linear = modes_.linear.Phi * (modes_.linear.Q * u);
-  const double strain = -0.5 * (along(linear, last_node(ring_))[0] + along(linear, first_node(ring_))[0]) / mouth_;
+  if (inside.empty()) result.J = -0.5 * u.dot(energy_ * u);
+  if (std::any_of(inside.begin(), inside.end(), [](const Forced& load) { return std::abs(load.power - 1.0) < 1e-9; }))
+    return result;
+  const Vector linear = modes_.linear.Phi * coordinates(modes_.linear, u, inside);
+  const double strain = -0.5 * (along(linear, ring_.last_node())[0] + along(linear, ring_.first_node())[0]) / mouth_;
   result.T_left = strain / softness_left_;                                                            // eq. (2)
   result.T_right = strain / softness_right_;
   return result;

@@ -22,6 +22,10 @@
 //
 // over all modes (u = Phi xi^T c). It is the domain J-integral with weight 1 - xi, integrated exactly; no exponent is picked out.
 //
+// Loads inside (radial_load.hpp) add xi^j f to xi u,xi = S u. In a group, xi c,xi = T c + xi^j Q f, so what belongs to the modes alone is
+//
+//     c = Q u(1) - sum of (j - T)^-1 Q f                                                                            (5)
+//
 // Corner (notch, materials that meet, crack that ends at an interface). At the distance r on a ray,
 //
 //     [K_tt, K_rt](r) = (2 pi r)^1/2 [s_tt, s_rt](r)   of the singular part                                         (4)
@@ -63,26 +67,34 @@ struct StressIntensity {
   std::vector<CornerTerm> terms;                ///< corners only
 };
 
-/// Holds what is found once for a super-element; `of` then costs one product for each increment.
+/// Holds what is found once for a super-element; `of` then costs one product for each increment. Keeps a reference to the solution.
 class CornerAnalysis {
  public:
-  /// `D`: plane law of every boundary element, or one. `reference_length`: nothing: distance of the mouth (cracks) or of the boundary
+  /// `reference_length`: nothing: distance of the mouth (cracks) or of the boundary
   /// along the ray (corners).
-  CornerAnalysis(const Ring& ring, const std::vector<Mat3>& D, const SuperElementSolution& solution,
+  CornerAnalysis(const Ring& ring, const Elasticity& D, const SuperElementSolution& solution,
                  std::optional<double> reference_length = std::nullopt);
 
-  /// Factors of a displacement of the boundary, without parts from loads inside.
-  StressIntensity of(const Vector& u) const;
+  /// Factors of a displacement of the boundary under `loads` inside. J is not given when there are any (its path cuts through
+  /// them), T not when one has the power 1: tractions on the faces that do not vanish at the tip, constant temperature.
+  StressIntensity of(const Vector& u, const std::vector<RadialLoad>& loads = {}) const;
   CornerKind kind() const { return kind_; }
   const SingularModes& modes() const { return modes_; }
   const CrackedBimaterial& bimaterial() const { return bimaterial_; }
 
  private:
+  struct Forced {
+    double power;
+    Vector f;  // of eq. (5), n
+  };
+  std::vector<Forced> forced(const std::vector<RadialLoad>& loads) const;
+  Vector coordinates(const ModeGroup& group, const Vector& u, const std::vector<Forced>& loads) const;
   void prepare_crack();
-  void prepare_energy(const SuperElementSolution& solution);
+  void prepare_energy();
 
   Ring ring_;
-  std::vector<Mat3> D_;
+  Elasticity D_;
+  const SuperElementSolution& solution_;
   CornerKind kind_ = CornerKind::corner;
   SingularModes modes_;
   double mouth_ = 0.0;   // distance of the first node

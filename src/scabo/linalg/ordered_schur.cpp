@@ -149,6 +149,17 @@ std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, 
   return of;
 }
 
+bool is_defective(const Matrix& T, const std::vector<std::complex<double>>& eigenvalues, double spread) {
+  for (Eigen::Index i = 0; i < T.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < T.rows(); ++j) {
+      const double apart = std::abs(eigenvalues[static_cast<std::size_t>(i)] - eigenvalues[static_cast<std::size_t>(j)]);
+      if (apart > spread) continue;
+      const double coupling = std::max(std::abs(T(i, j)), std::abs(T(j, i)));
+      if (coupling > 1e-6 && coupling > 10.0 * apart) return true;
+    }
+  return false;
+}
+
 Matrix small_exponential(const Matrix& T, double s) {
   if (T.rows() == 0) return T;
   return Matrix(T * s).exp();

@@ -58,6 +58,11 @@ class OrderedSchur {
 /// always: numbers from 0 in ascending real part of the group's mean.
 std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, double gap);
 
+/// Some eigenvalues of quasi-triangular T are equal within `spread` and still coupled: fewer eigenvectors than eigenvalues. (With all
+/// their eigenvectors T is diagonal there; defective ones have moved apart by a root of rounding only, and the coupling stays.)
+bool is_defective(const Matrix& T, const std::vector<std::complex<double>>& eigenvalues, double spread);
+inline bool is_defective(const InvariantSubspace& part, double spread) { return is_defective(part.T, part.eigenvalues, spread); }
+
 /// exp(T s) for a small T, m x m.
 Matrix small_exponential(const Matrix& T, double s);
 

@@ -19,9 +19,45 @@ constexpr double largest_turn = std::numbers::pi / 3;
 /// counts as seen edge-on.
 constexpr double smallest_sine = 1e-6;
 
-double elements_of(const model::Edge& edge, double size) {
-  const double by_length = elements_along(edge.length(), size);
-  return edge.arc ? std::max(by_length, elements_along(std::abs(edge.arc->sweep), largest_turn)) : by_length;
+/// A part of an edge as the boundary of the super-element is run, counter-clockwise around the scaling centre: from and to
+/// count along the edge's own direction.
+struct Run {
+  int edge = -1;
+  double from = 0.0, to = 1.0;
+};
+
+/// The runs of the boundary: all edges, without side faces, from the mouth of a crack to its other side.
+std::vector<Run> runs_of(const model::Body& body) {
+  const int count = static_cast<int>(body.outline.edges.size());
+  std::vector<Run> runs;
+  if (!body.cracks.empty()) {
+    const model::Crack& crack = body.cracks.front();
+    runs.push_back({crack.edge, crack.at, 1.0});
+    for (int k = 1; k < count; ++k) runs.push_back({(crack.edge + k) % count});
+    if (crack.at > 0.0) runs.push_back({crack.edge, 0.0, crack.at});
+    return runs;
+  }
+  const int corner = body.mesh.centre_corner;  // edge `corner` leaves it, the one before arrives
+  if (corner >= 0) {
+    for (int k = 1; k + 1 < count; ++k) runs.push_back({(corner + k) % count});
+  } else {
+    for (int k = 0; k < count; ++k) runs.push_back({k});
+  }
+  if (body.outside) {  // the outline runs clockwise around the hole
+    std::reverse(runs.begin(), runs.end());
+    for (Run& run : runs) std::swap(run.from, run.to);
+  }
+  return runs;
+}
+
+double elements_of(const model::Edge& edge, const Run& run, double size) {
+  const double part = std::abs(run.to - run.from);
+  const double by_length = elements_along(part * edge.length(), size);
+  return edge.arc ? std::max(by_length, elements_along(part * std::abs(edge.arc->sweep), largest_turn)) : by_length;
+}
+
+double elements_of(const model::Body& body, const Run& run) {
+  return elements_of(body.outline.edges[static_cast<std::size_t>(run.edge)], run, body.mesh.size);
 }
 
 }  // namespace
@@ -33,35 +69,68 @@ double elements_along(double length, double size) {
 
 double count_boundary_nodes(const model::Body& body) {
   double elements = 0.0;
-  for (const model::Edge& edge : body.outline.edges) elements += elements_of(edge, body.mesh.size);
-  return elements * body.mesh.order;
+  for (const Run& run : runs_of(body)) elements += elements_of(body, run);
+  return elements * body.mesh.order + (body.open() ? 1.0 : 0.0);
 }
 
-BodyMesh divide_boundary(const model::Body& body) {
-  const int order = body.mesh.order;
-  const std::vector<double> points = lobatto_points(order);
-  const int total = static_cast<int>(count_boundary_nodes(body));
+namespace {
 
+/// Elements along one run, their nodes appended; those of the run's last element but one node.
+std::vector<LineElement> divide_run(const model::Body& body, const Run& run, int total, std::vector<Vec2>& nodes) {
+  const model::Edge& edge = body.outline.edges[static_cast<std::size_t>(run.edge)];
+  const int order = body.mesh.order, elements = static_cast<int>(elements_of(body, run));
+  const std::vector<double> points = lobatto_points(order);
+  std::vector<LineElement> line;
+  for (int k = 0; k < elements; ++k) {
+    LineElement& element = line.emplace_back();
+    for (int i = 0; i <= order; ++i) {
+      element.nodes.push_back(static_cast<int>(nodes.size()) % total);  // closed: the last node is the first again
+      if (i == order) break;                                           // and belongs to the next element
+      const double part = (k + 0.5 * (1.0 + points[static_cast<std::size_t>(i)])) / elements;
+      nodes.push_back(k == 0 && i == 0 ? edge.at(run.from) : edge.at(run.from + part * (run.to - run.from)));
+    }
+  }
+  return line;
+}
+
+/// The elements of a run as those of its edge, in the edge's own direction.
+void add_to_edge(const Run& run, const std::vector<LineElement>& line, std::vector<LineElement>& edge) {
+  if (run.from < run.to) {
+    // A crack's first run is the later part of its edge.
+    edge.insert(run.from > 0.0 ? edge.end() : edge.begin(), line.begin(), line.end());
+    return;
+  }
+  for (auto element = line.rbegin(); element != line.rend(); ++element)
+    edge.push_back({{element->nodes.rbegin(), element->nodes.rend()}});
+}
+
+}  // namespace
+
+BodyMesh divide_boundary(const model::Body& body) {
+  const std::size_t edges = body.outline.edges.size();
+  const int total = static_cast<int>(count_boundary_nodes(body));
   BodyMesh mesh;
-  mesh.nodes.reserve(total);
+  mesh.nodes.reserve(static_cast<std::size_t>(total));
+  mesh.edges.resize(edges);
+  mesh.corners.assign(edges, -1);
   SuperElement whole;
   whole.centre = body.mesh.centre;
-  for (const model::Edge& edge : body.outline.edges) {
-    const int elements = static_cast<int>(elements_of(edge, body.mesh.size));
-    mesh.corners.push_back(static_cast<int>(mesh.nodes.size()));
-    std::vector<LineElement>& line = mesh.edges.emplace_back();
-    for (int k = 0; k < elements; ++k) {
-      LineElement element;
-      for (int i = 0; i <= order; ++i) {
-        const int next = static_cast<int>(mesh.nodes.size());
-        element.nodes.push_back(next % total);  // the last node is the first again
-        if (i == order) break;                  // and belongs to the next element
-        const bool corner = k == 0 && i == 0;
-        mesh.nodes.push_back(corner ? edge.start : edge.at((k + 0.5 * (1.0 + points[i])) / elements));
-      }
-      line.push_back(element);
-      whole.boundary.push_back(std::move(element));
-    }
+  const std::vector<Run> runs = runs_of(body);
+  for (const Run& run : runs) {
+    const std::vector<LineElement> line = divide_run(body, run, total, mesh.nodes);
+    add_to_edge(run, line, mesh.edges[static_cast<std::size_t>(run.edge)]);
+    const auto corner_at = [&](double end) -> int& {
+      return mesh.corners[(static_cast<std::size_t>(run.edge) + (end == 1.0 ? 1 : 0)) % edges];
+    };
+    if (run.from == 0.0 || run.from == 1.0) corner_at(run.from) = line.front().nodes.front();
+    if (run.to == 0.0 || run.to == 1.0) corner_at(run.to) = line.back().nodes.back();
+    whole.boundary.insert(whole.boundary.end(), line.begin(), line.end());
+    if (!body.sector_materials.empty())
+      mesh.materials.insert(mesh.materials.end(), line.size(), body.sector_materials[static_cast<std::size_t>(run.edge)]);
+  }
+  if (body.open()) {
+    const Run& last = runs.back();
+    mesh.nodes.push_back(body.outline.edges[static_cast<std::size_t>(last.edge)].at(last.to));
   }
   ensure(static_cast<int>(mesh.nodes.size()) == total, "the boundary has the nodes that were counted");
   mesh.super_elements.push_back(std::move(whole));
@@ -81,9 +150,10 @@ std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& me
     }
     const Eigen::MatrixX2d at = shape * x;
     const Eigen::MatrixX2d along = slope * x;
+    const double sense = body.outside ? -1.0 : 1.0;  // the edges of an outside body run clockwise
     for (Eigen::Index k = 0; k < at.rows(); ++k) {
       const Vec2 ray = at.row(k);
-      const Vec2 tangent = along.row(k);
+      const Vec2 tangent = sense * along.row(k);
       if (!(cross(ray, tangent) > smallest_sine * ray.norm() * tangent.norm())) return false;
     }
     return true;

@@ -1,4 +1,6 @@
-// Division of an outline into line elements: the boundary of one closed super-element.
+// Division of an outline into line elements: the boundary of one super-element, closed, or open from side face to side
+// face. The boundary is run counter-clockwise around the scaling centre, also where the body lies outside it; the edges of a
+// BodyMesh keep the outline's direction.
 //
 // Every edge is divided into n equal elements, none longer than `size` and none turning by more than 60
 // degrees, with nodes at the Gauss-Lobatto-Legendre points of the edge's arc length. Between the nodes of an

@@ -18,6 +18,18 @@ std::optional<Place> read_side(Reading& reading, const Value& value, int& body) 
   body = read.body;
   if (read.body >= 0) reading.state(read.body).touched = true;
   if (!read.place) return {};
+  if (read.place->kind == Place::Kind::face) {
+    reading.report.error(value, fmt::format("'{}' is a side face, which is not divided: contact on it needs a body divided "
+                                            "into several, with the crack between them",
+                                            read.place->text));
+    return {};
+  }
+  for (const Crack& crack : reading.body(read.place->body).cracks)
+    if (crack.edge == read.place->index && read.place->kind == Place::Kind::edge) {
+      reading.report.error(value, fmt::format("the mouth of crack '{}' lies on '{}': contact needs an edge without one",
+                                              crack.name, read.place->text));
+      return {};
+    }
   if (read.place->kind != Place::Kind::edge) {
     reading.report.error(
         value, fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is "

@@ -11,17 +11,29 @@
 
 namespace scabo::model {
 
+namespace {
+constexpr long most_modes = 1000;
+}
+
 void read_analysis(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"type", "plane", "thickness"},
+  const MapReader map(reading.report, value, {"type", "plane", "thickness", "modes"},
                       "{plane: strain, thickness: 1.0}");
+  Analysis& analysis = reading.model.analysis;
+  bool type_known = true;
   if (const auto type = map.get("type")) {
     const std::string remedy = "write static";
-    read_choice(reading.report, *type, {"static"},
-                {{"modal", remedy},
-                 {"dynamic", remedy},
-                 {"harmonic", remedy},
-                 {"buckling", remedy},
-                 {"fracture", remedy}});
+    const auto choice = read_choice(
+        reading.report, *type, {"static", "modal"},
+        {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}});
+    if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
+    type_known = choice.has_value();
+  }
+  if (const auto modes = map.get("modes")) {
+    if (analysis.type == AnalysisType::modal || !type_known) {
+      analysis.modes = static_cast<int>(read_integer(reading.report, *modes, 1, most_modes).value_or(10));
+    } else {
+      map.refuse("modes", "belongs to a modal analysis: write type: modal, or leave it out");
+    }
   }
   if (const auto plane = map.get("plane")) {
     const auto choice =
@@ -74,7 +86,7 @@ void check_version(Reading& reading, const MapReader& map) {
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts",
-                       "steps", "solver"},
+                       "steps", "solver", "output"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) return;
   check_version(reading, map);
@@ -82,6 +94,7 @@ void read_sections(Reading& reading, const Value& root) {
     reading.model.title = read_text(reading.report, *title).value_or("");
   if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);
   if (const auto solver = map.get("solver")) read_solver(reading, *solver);
+  if (const auto output = map.get("output")) read_output(reading, *output);
 
   reading.materials_known = map.has("materials");
   if (const auto materials = map.get("materials")) read_materials(reading, *materials);
@@ -102,6 +115,33 @@ void read_sections(Reading& reading, const Value& root) {
   reading.steps_known = reading.report.count() == before_steps;
   // A misspelt section may be the one that is missing.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
+}
+
+/// Says of a modal analysis what of the file plays no part in it, so that one file serves both kinds of analysis.
+void tell_what_has_no_effect(Reading& reading, const Value& root) {
+  Model& model = reading.model;
+  if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
+  std::vector<std::string> parts;
+  for (const char* section : {"loads", "contacts", "steps", "solver"}) {
+    const MapEntry* entry = root.node->find(section);
+    if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
+  }
+  if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.rigid; }))
+    parts.emplace_back("rigid bodies");
+  if (!parts.empty()) {
+    std::string list = parts.front();
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      list += i + 1 < parts.size() ? ", " : " and ";
+      list += parts[i];
+    }
+    model.warnings.push_back(fmt::format("a modal analysis leaves out the model's {}{}", list,
+                                         model.contacts.empty() ? "" : ": every body vibrates by itself"));
+  }
+  for (const Support& support : model.supports)
+    if (std::any_of(support.displacement.begin(), support.displacement.end(),
+                    [](const auto& u) { return u.value_or(0.0) != 0.0; }))
+      model.warnings.push_back(fmt::format(
+          "a modal analysis holds support '{}' where it is, whatever displacement it prescribes", support.name));
 }
 
 /// Edges that lie on each other everywhere have neither gap nor interference.
@@ -169,12 +209,17 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
   const Value whole{root, ""};
   read_sections(reading, whole);
   check_density(reading);
-  check_bodies_held(reading);
-  check_something_loads(reading, whole);
+  check_expansion(reading);
+  const bool modal = reading.model.analysis.type == AnalysisType::modal;
+  if (!modal) {
+    check_bodies_held(reading);
+    check_something_loads(reading, whole);
+  }
   if (reading.steps_known) {
-    check_never_applied(reading);
+    if (!modal) check_never_applied(reading);
     check_conflicting_supports(reading);
   }
+  tell_what_has_no_effect(reading, whole);
   reading.report.throw_if_any(file);
   return std::move(reading.model);
 }

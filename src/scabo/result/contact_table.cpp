@@ -11,10 +11,7 @@ const std::string_view contact_table_header =
     "step,increment,contact,pair,x,y,gap,slip,normal_force,tangential_force,pressure,shear,state,"
     "normal_displacement_a,tangential_displacement_a,normal_displacement_b,tangential_displacement_b\n";
 
-namespace {
-
-/// As CSV wants it: in quotation marks, those inside doubled, where it holds what divides a table.
-std::string quoted(const std::string& text) {
+std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
   for (const char letter : text) {
@@ -23,8 +20,6 @@ std::string quoted(const std::string& text) {
   }
   return result + '"';
 }
-
-}  // namespace
 
 std::string_view name_of(contact::ContactState state) {
   switch (state) {
@@ -41,7 +36,7 @@ std::string_view name_of(contact::ContactState state) {
 std::string contact_table_rows(const analysis::IncrementResult& increment) {
   fmt::memory_buffer rows;
   for (const analysis::ContactResult& contact : increment.contacts) {
-    const std::string name = quoted(contact.name);
+    const std::string name = csv_quoted(contact.name);
     for (const analysis::PairResult& pair : contact.pairs)
       fmt::format_to(std::back_inserter(rows),
                      FMT_COMPILE("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n"), increment.step,

@@ -11,6 +11,9 @@ namespace scabo::result {
 /// First line, with the names of the columns.
 extern const std::string_view contact_table_header;
 
+/// As CSV wants it: in quotation marks, those inside doubled, where it holds what divides a table.
+std::string csv_quoted(const std::string& text);
+
 /// `open`, `stick` or `slip`.
 std::string_view name_of(contact::ContactState state);
 

@@ -13,7 +13,7 @@ namespace scabo::result {
 
 namespace {
 
-constexpr int ring_count = 10;
+constexpr int ring_count = 10, inner_rings = 6;
 
 double zz_of(const analysis::StaticSolution& solution, int material, const element::Vec3& stress,
              double temperature) {
@@ -195,6 +195,9 @@ std::vector<double> ring_levels(const element::Ring& ring) {
   std::vector<double> levels;
   double xi = 1.0, next = width;
   for (int i = 0; i < ring_count; ++i, xi -= next, next *= low) levels.push_back(xi);
+  // Stresses may grow without bound towards the centre of an open super-element: rings half as far away each.
+  if (ring.is_open())
+    for (int i = 0; i < inner_rings; ++i) levels.push_back(0.5 * levels.back());
   return levels;
 }
 

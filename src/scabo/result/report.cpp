@@ -101,6 +101,34 @@ std::string report_reactions(const model::Model& model, const analysis::Incremen
   return table(rows);
 }
 
+std::string report_cracks(const analysis::IncrementResult& increment) {
+  if (increment.cracks.empty()) return {};
+  const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string("-"); };
+  std::vector<std::vector<std::string>> rows = {{"crack", "kind", "K_I", "K_II", "T", "G", "J", "epsilon", "at length"}};
+  std::vector<std::vector<std::string>> corners = {{"corner", "K_tt", "K_rt", "at distance", "singular exponents"}};
+  for (const analysis::CrackResult& crack : increment.cracks) {
+    const element::StressIntensity& f = crack.factors;
+    if (f.kind == element::CornerKind::corner) {
+      std::string exponents;
+      for (const element::CornerTerm& term : f.terms) {
+        for (const auto& value : term.exponents)
+          exponents += (exponents.empty() ? "" : ", ") +
+                       (value.imag() == 0.0 ? fmt::format("{:.6g}", value.real()) : fmt::format("{:.6g}{:+.6g}i", value.real(), value.imag()));
+        if (term.defective) exponents += " (power-logarithmic)";
+      }
+      corners.push_back({crack.name, fmt::format("{:.6g}", f.K_I), fmt::format("{:.6g}", f.K_II),
+                         fmt::format("{:.6g}", f.reference_length), exponents.empty() ? "none" : exponents});
+      continue;
+    }
+    const bool interface = f.kind == element::CornerKind::interface_crack;
+    rows.push_back({crack.name, interface ? "interface" : "crack", fmt::format("{:.6g}", f.K_I), fmt::format("{:.6g}", f.K_II),
+                    interface ? number(f.T_left) + ", " + number(f.T_right) : number(f.T_left), number(f.G), number(f.J),
+                    interface ? fmt::format("{:.6g}", f.epsilon) : "-",
+                    interface ? fmt::format("{:.6g}", f.reference_length) : "-"});
+  }
+  return (rows.size() > 1 ? table(rows) : "") + (corners.size() > 1 ? table(corners) : "");
+}
+
 std::string report_warnings(const analysis::StaticSolution& solution) {
   std::string text;
   for (const std::string& warning : solution.warnings) text += fmt::format("warning: {}\n", warning);
@@ -144,6 +172,7 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
     text += report_contacts(*last);
     if (!last->contacts.empty() && !last->reactions.empty()) text += '\n';
     text += report_reactions(solution.model, *last);
+    if (!last->cracks.empty()) text += '\n' + report_cracks(*last);
   }
   if (!solution.warnings.empty()) text += '\n' + report_warnings(solution);
   return text + '\n' + report_timing(timing);

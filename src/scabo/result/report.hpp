@@ -24,6 +24,9 @@ std::string report_contacts(const analysis::IncrementResult& increment);
 /// Force of every support on its body; empty where there is none.
 std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment);
 
+/// Table of stress intensity factors; empty without cracks.
+std::string report_cracks(const analysis::IncrementResult& increment);
+
 /// One line for each warning.
 std::string report_warnings(const analysis::StaticSolution& solution);
 

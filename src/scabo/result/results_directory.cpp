@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "scabo/result/contact_table.hpp"
+#include "scabo/result/convergence.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/summary.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds between_summaries{2};
+constexpr const char* problems_name = "problems";
 
 /// Adds the time it lives to a figure.
 class Stopwatch {
@@ -49,6 +51,8 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   if (is_fields_name(name) || name == "fields.pvd") return vtk_mark;
   if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
   if (name == "contact.csv") return contact_table_header;
+  if (name == "convergence.csv") return convergence_table_header;
+  if (name == "convergence.svg" || name == "convergence.svg.part") return convergence_plot_mark;
   if (name == "log.txt") return "Scabo ";
   return std::nullopt;
 }
@@ -71,6 +75,26 @@ void create(const fs::path& path) {
   if (error) throw WriteError("cannot create the directory", path, error.message());
 }
 
+/// The discrete problems of an earlier run: HDF5 files with the group `scabo`, whose name stands near the beginning.
+void add_old_problems(const fs::path& path, std::vector<fs::path>& old) {
+  std::error_code error;
+  const auto refuse = [&](const std::string& name) {
+    throw WriteError("cannot write results to", path.parent_path(),
+                     fmt::format("Scabo did not write the problems/{} there: move it, or choose another directory", name));
+  };
+  if (!fs::exists(path, error)) return;
+  if (!fs::is_directory(path, error)) refuse("");
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() != ".hdf5") continue;
+    std::string beginning(4096, '\0');
+    std::ifstream(entry->path(), std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    if (entry->is_directory(error) || !beginning.starts_with("\x89HDF") || beginning.find("scabo") == std::string::npos)
+      refuse(entry->path().filename().string());
+    old.push_back(entry->path());
+  }
+  if (error) throw WriteError("cannot read the directory", path, error.message());
+}
+
 /// Takes away the results of an earlier run. First looks at everything, so that an error leaves the directory
 /// as it was.
 void remove_old_results(const fs::path& path) {
@@ -86,21 +110,37 @@ void remove_old_results(const fs::path& path) {
     old.push_back(entry->path());
   }
   if (error) throw WriteError("cannot read the directory", path, error.message());
+  add_old_problems(path / problems_name, old);
   for (const fs::path& file : old) {
     fs::remove(file, error);
     if (error) throw WriteError("cannot remove", file, error.message());
   }
+  fs::remove(path / problems_name, error);  // only when it is empty
+}
+
+/// A model without contact has none.
+bool has_iterations(const analysis::StaticSolution& solution) {
+  for (const analysis::IncrementResult& increment : solution.increments)
+    for (const analysis::AttemptResult& attempt : increment.attempts)
+      if (!attempt.iterations.empty()) return true;
+  return false;
 }
 
 }  // namespace
 
+void prepare_directory(const fs::path& path) {
+  create(path);
+  remove_old_results(path);
+}
+
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model) : path_(std::move(path)) {
   const Stopwatch writing(write_seconds_);
   for (const model::Step& step : model.steps) increments_of_step_.push_back(step.increments);
-  create(path_);
-  remove_old_results(path_);
+  prepare_directory(path_);
   contact_table_.emplace(path_ / "contact.csv");
   contact_table_->append(contact_table_header);
+  convergence_table_.emplace(path_ / "convergence.csv");
+  convergence_table_->append(convergence_table_header);
   collection_.emplace(path_ / "fields.pvd");
   log_.emplace(path_ / "log.txt");
   next_summary_ = Clock::now() + between_summaries;
@@ -124,14 +164,26 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution,
     collection_->add(pseudo_time(increment), file);
   }
   const Stopwatch writing(write_seconds_);
+  convergence_table_->append(convergence_table_rows(increment));
   begin_log(solution);
   log_->append(report_increment(solution.model, increment));
   if (Clock::now() >= next_summary_) write_running_summary(solution);
 }
 
+std::filesystem::path ResultsDirectory::problem_file(const analysis::IncrementResult& increment, std::size_t attempt) const {
+  const fs::path folder = path_ / problems_name;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw WriteError("cannot create the directory", folder, error.message());
+  std::string name = fmt::format("{}_{}", increment.step_name, increment.increment);
+  if (attempt + 1 < increment.attempts.size()) name += fmt::format(".attempt_{}", attempt + 1);
+  return folder / (name + ".hdf5");
+}
+
 void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
   {
     const Stopwatch writing(write_seconds_);
+    if (has_iterations(solution)) replace_file(path_ / "convergence.svg", convergence_plot(solution));
     begin_log(solution);
     log_->append(report_end(solution, complete(solution.timing)));
   }

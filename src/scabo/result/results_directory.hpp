@@ -1,5 +1,5 @@
 // The directory that a run leaves: summary.json, contact.csv, fields.pvd with one .vtu for each increment,
-// log.txt (docs/results.md). Increments are added as they finish, so that they can be read while the run goes
+// convergence.csv and .svg, log.txt, and where the model asks for it problems/ (docs/results.md). Increments are added as they finish, so that they can be read while the run goes
 // on, and after it was interrupted or killed.
 #pragma once
 
@@ -15,10 +15,13 @@
 
 namespace scabo::result {
 
+/// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
+/// removed; one of another origin that stands where a result has to go is an error. Throws WriteError.
+void prepare_directory(const std::filesystem::path& path);
+
 class ResultsDirectory {
  public:
-  /// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
-  /// removed; one of another origin that stands where a result has to go is an error. Throws WriteError.
+  /// Prepares the directory. Throws WriteError.
   ResultsDirectory(std::filesystem::path path, const model::Model& model);
 
   const std::filesystem::path& path() const { return path_; }
@@ -30,6 +33,10 @@ class ResultsDirectory {
   /// Writes summary.json and ends log.txt, however the run ended. `solution.timing` with the figures that
   /// only the caller knows: read and total. Throws WriteError.
   void finish(const analysis::StaticSolution& solution);
+
+  /// Where the discrete problem of attempt `attempt` (from 0) of an increment goes: problems/STEP_INCREMENT.hdf5 for the last
+  /// attempt, problems/STEP_INCREMENT.attempt_1.hdf5 and so on for those before it. Creates the directory. Throws WriteError.
+  std::filesystem::path problem_file(const analysis::IncrementResult& increment, std::size_t attempt) const;
 
   double recover_seconds() const { return recover_seconds_; }  ///< for interior fields
   double write_seconds() const { return write_seconds_; }      ///< for files
@@ -49,7 +56,7 @@ class ResultsDirectory {
   bool log_begun_ = false;
   double recover_seconds_ = 0.0, write_seconds_ = 0.0;
   Clock::time_point next_summary_;
-  std::optional<GrowingFile> contact_table_, log_;
+  std::optional<GrowingFile> contact_table_, convergence_table_, log_;
   std::optional<FieldCollection> collection_;
   std::optional<Recovery> recovery_;
 };

@@ -49,6 +49,47 @@ Json json_of(const analysis::Energy& energy) {
           {"friction", number_or_null(energy.friction)}};
 }
 
+Json json_of(const std::vector<std::complex<double>>& exponents) {
+  Json list = Json::array();
+  for (const std::complex<double>& value : exponents) list.push_back({number_or_null(value.real()), number_or_null(value.imag())});
+  return list;
+}
+
+Json number_or_null(const std::optional<double>& value) { return value ? number_or_null(*value) : Json(); }
+
+Json json_of(const element::CornerTerm& term) {
+  return {{"exponents", json_of(term.exponents)},
+          {"K_tt", number_or_null(term.factors[0])},
+          {"K_rt", number_or_null(term.factors[1])},
+          {"limit", term.limit ? Json{number_or_null((*term.limit)[0]), number_or_null((*term.limit)[1])} : Json()},
+          {"defective", term.defective}};
+}
+
+Json json_of(const element::StressIntensity& crack) {
+  Json json = {{"kind", name_of(crack.kind)}};
+  const bool corner = crack.kind == element::CornerKind::corner, interface = crack.kind == element::CornerKind::interface_crack;
+  json[corner ? "K_tt" : "K_I"] = number_or_null(crack.K_I);
+  json[corner ? "K_rt" : "K_II"] = number_or_null(crack.K_II);
+  if (interface) {
+    json["T_left"] = number_or_null(crack.T_left);
+    json["T_right"] = number_or_null(crack.T_right);
+  } else if (!corner) {
+    json["T"] = number_or_null(crack.T_left);
+  }
+  if (!corner) {
+    json["G"] = number_or_null(crack.G);
+    json["J"] = number_or_null(crack.J);
+  }
+  if (interface) json["epsilon"] = number_or_null(crack.epsilon);
+  if (interface || corner) json["reference_length"] = number_or_null(crack.reference_length);
+  json["exponents"] = json_of(crack.exponents);
+  if (!corner) return json;
+  json["ray"] = number_or_null(crack.ray);
+  json["terms"] = Json::array();
+  for (const element::CornerTerm& term : crack.terms) json["terms"].push_back(json_of(term));
+  return json;
+}
+
 /// An increment that did not converge has no contacts, reactions, certificate or energy: it is no result.
 Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
   Json json = {{"step", increment.step}, {"increment", increment.increment}};
@@ -59,6 +100,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   json["residual"] = number_or_null(increment.residual);
   json["contacts"] = Json::object();
   json["reactions"] = Json::object();
+  json["cracks"] = Json::object();
   json["certificate"] = nullptr;
   json["energy"] = nullptr;
   if (!increment.converged) return json;
@@ -67,6 +109,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   for (std::size_t i = 0; i < increment.reactions.size(); ++i)
     json["reactions"][model.supports[i].name] = {number_or_null(increment.reactions[i].x()),
                                                  number_or_null(increment.reactions[i].y())};
+  for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
   return json;
@@ -97,6 +140,18 @@ std::string_view name_of(analysis::Outcome outcome) {
       return "interrupted";
   }
   throw BrokenInvariant("an outcome without a name");
+}
+
+std::string_view name_of(element::CornerKind kind) {
+  switch (kind) {
+    case element::CornerKind::crack:
+      return "crack";
+    case element::CornerKind::interface_crack:
+      return "interface_crack";
+    case element::CornerKind::corner:
+      return "corner";
+  }
+  throw BrokenInvariant("a corner without a name");
 }
 
 ModelSizes sizes_of(const analysis::StaticSolution& solution) {

@@ -73,7 +73,32 @@ class Applied {
         element::body_force_loads(ring(), {gravity.value.x()}, {gravity.value.y()}, thickness(), density);
   }
 
+  void operator()(const model::FaceTraction& traction) {
+    const element::Ring ring = this->ring();
+    const auto face = place_->index == 0 ? element::Face::first : element::Face::last;
+    for (const model::FaceTraction::Term& term : traction.terms) {
+      const Vec2 value = traction.pressure ? Vec2(-term.value.x() * element::face_normal(ring, face)) : term.value;
+      element::add_radial_loads(interior.loads, {element::face_load(ring, face, term.power, value, thickness())}, 1.0);
+    }
+  }
+
+  void operator()(const model::BodyForce& force) {
+    interior.loads = element::body_force_loads(ring(), about_centre(force.x), about_centre(force.y), thickness());
+  }
+
+  void operator()(const model::Temperature& temperature) {
+    const element::Sectors sectors = element::sectors_of(model_, body_, body_mesh_);
+    const model::Linear& change = temperature.change;
+    interior.temperature = {change.constant, change.per_x, change.per_y};
+    interior.loads =
+        element::thermal_loads(ring(), sectors.D, sectors.unit_strain, about_centre(change), thickness());
+  }
+
  private:
+  element::LinearField about_centre(const model::Linear& field) const {
+    const Vec2& centre = body_mesh_.super_elements.front().centre;
+    return {field.constant + field.per_x * centre.x() + field.per_y * centre.y(), field.per_x, field.per_y};
+  }
   double thickness() const { return model_.analysis.thickness; }
   element::Ring ring() const { return element::ring_of(body_mesh_.super_elements.front(), body_mesh_.nodes); }
   void apply_traction(const mesh::PlaceNodes& at, const TractionField& traction) {
@@ -96,7 +121,8 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
     std::vector<Vector>& forces = structure.loads.emplace_back(model.bodies.size());
     std::vector<element::InteriorLoads>& interior = structure.interior.emplace_back(model.bodies.size());
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      if (load.on ? load.on->body != static_cast<int>(b) : model.bodies[b].rigid) continue;
+      // Without a place: on every elastic body of finite size.
+      if (load.on ? load.on->body != static_cast<int>(b) : model.bodies[b].rigid || model.bodies[b].outside) continue;
       Applied applied(model, mesh, *structure.bodies[b], b, load.on ? &*load.on : nullptr);
       std::visit(applied, load.kind);
       if (!applied.interior.loads.empty())

@@ -125,6 +125,8 @@ std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& bod
     case model::Place::Kind::edge: return {body.outline.edges[index].start, body.outline.edges[index].end};
     case model::Place::Kind::corner: return {body.outline.corners[index].position};
     case model::Place::Kind::near: return {place.near};
+    case model::Place::Kind::face:
+    case model::Place::Kind::mouth: break;  // of elastic bodies
   }
   return {};
 }
@@ -140,7 +142,7 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<Diagnostic> diagnostics;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (has_contact(model, mesh, static_cast<int>(b))) continue;
+    if (body.outside || has_contact(model, mesh, static_cast<int>(b))) continue;
     Vec2 reference;
     double lever = 0.0;
     Matrix free;
@@ -190,6 +192,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       continue;
     }
     Stiffness stiffness;
+    stiffness.unbounded = body.outside;
     if (super_elements[b]) {
       stiffness.dense = std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
     } else {

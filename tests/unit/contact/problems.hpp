@@ -18,37 +18,38 @@ inline int whole(std::mt19937& random, int from, int to) {
 
 /// A flexibility as elastic bodies have it: positive definite, decaying with distance along the interface,
 /// normal and tangent coupled.
-inline Matrix elastic_flexibility(std::mt19937& random, int pairs, double size = 1.0) {
+inline Matrix elastic_flexibility(std::mt19937& random, int pairs, double size = 1.0, int d = 2) {
   const double reach = uniform(random, 0.5, 4.0), coupling = uniform(random, 0.0, 0.5);
-  Matrix S = Matrix::Zero(2 * pairs, 2 * pairs);
+  Matrix S = Matrix::Zero(d * pairs, d * pairs);
   for (int i = 0; i < pairs; ++i)
     for (int j = 0; j < pairs; ++j) {
-      Mat2 block = Mat2::Identity();
-      block += coupling * Mat2::NullaryExpr([&] { return uniform(random, -1, 1); });
-      S.block<2, 2>(2 * i, 2 * j) = std::exp(-std::abs(i - j) / reach) * block;
+      Matrix block = Matrix::Identity(d, d);
+      block += coupling * Matrix::NullaryExpr(d, d, [&] { return uniform(random, -1, 1); });
+      S.block(d * i, d * j, d, d) = std::exp(-std::abs(i - j) / reach) * block;
     }
   const Matrix W = S * S.transpose();
   return size / W.diagonal().mean() * W;
 }
 
 /// Motions without contact forces: of mixed signs, some of them ties.
-inline Vector mixed_motion(std::mt19937& random, int pairs, double size = 1.0) {
-  Vector q(2 * pairs);
+inline Vector mixed_motion(std::mt19937& random, int pairs, double size = 1.0, int d = 2) {
+  Vector q(d * pairs);
   const double shift = uniform(random, -0.5, 0.5);
-  for (int i = 0; i < 2 * pairs; ++i) {
-    q[i] = size * (uniform(random, -1, 1) + (i % 2 == 0 ? shift : 0.0));
+  for (int i = 0; i < d * pairs; ++i) {
+    q[i] = size * (uniform(random, -1, 1) + (i % d == 0 ? shift : 0.0));
     if (whole(random, 0, 9) == 0) q[i] = 0.0;
   }
   return q;
 }
 
-inline contact::Problem held_problem(std::mt19937& random, int pairs, double most_friction) {
+inline contact::Problem held_problem(std::mt19937& random, int pairs, double most_friction, int d = 2) {
   contact::Problem problem;
-  problem.W = elastic_flexibility(random, pairs);
-  problem.q = mixed_motion(random, pairs);
+  problem.dimension = d;
+  problem.W = elastic_flexibility(random, pairs, 1.0, d);
+  problem.q = mixed_motion(random, pairs, 1.0, d);
   const double friction = whole(random, 0, 5) == 0 ? 0.0 : uniform(random, 0.0, most_friction);
   problem.mu = Vector::Constant(pairs, friction);
-  problem.G.resize(2 * pairs, 0);
+  problem.G.resize(d * pairs, 0);
   return problem;
 }
 
@@ -90,12 +91,15 @@ inline double violation(const contact::Problem& problem, const Vector& p, const 
   const double scale = std::max(p.size() > 0 ? p.cwiseAbs().maxCoeff() : 0.0,
                                 std::max(problem.q.cwiseAbs().maxCoeff(), 1e-300));
   double worst = 0.0;
+  const Eigen::Index d = problem.dimension;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    const double g = motion[2 * i], ds = motion[2 * i + 1], pn = p[2 * i], pt = p[2 * i + 1];
+    const double g = motion[d * i], pn = p[d * i];
+    const Vector slip = motion.segment(d * i + 1, d - 1), friction = p.segment(d * i + 1, d - 1);
+    const double ds = slip.norm(), pt = friction.norm();
     worst = std::max({worst, -g, -pn, std::min(std::abs(g), std::abs(pn))});
-    const double bound = problem.mu[i] * pn, to_bound = bound - std::abs(pt);
-    worst = std::max({worst, -to_bound, std::min(std::abs(ds), std::abs(to_bound))});
-    if (std::abs(ds) > 1e-7 * scale && std::abs(pt) > 1e-7 * scale && ds * pt > 0.0)
+    const double bound = problem.mu[i] * pn, to_bound = bound - pt;
+    worst = std::max({worst, -to_bound, std::min(ds, std::abs(to_bound))});
+    if (ds > 1e-7 * scale && pt > 1e-7 * scale && slip.dot(friction) > -(1.0 - 1e-9) * ds * pt)
       worst = scale;  // friction opposes slip
   }
   if (a.size() > 0) worst = std::max(worst, (problem.G.transpose() * p + problem.f).cwiseAbs().maxCoeff());

@@ -127,7 +127,7 @@ class Results : public testing::Test {
 TEST_F(Results, FilesOfARun) {
   const FinishedRun run(path_);
   EXPECT_THAT(names_in(path_), UnorderedElementsAre("summary.json", "contact.csv", "fields.pvd",
-                                                    "fields_0001.vtu", "fields_0002.vtu", "log.txt"));
+                                                    "fields_0001.vtu", "fields_0002.vtu", "convergence.csv", "log.txt"));
   EXPECT_GT(run.directory.recover_seconds(), 0.0);
   EXPECT_GT(run.directory.write_seconds(), 0.0);
 }
@@ -158,7 +158,7 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const Json& increment = summary["increments"][0];
   EXPECT_THAT(keys_of(increment),
               ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "residual",
-                          "contacts", "reactions", "certificate", "energy"));
+                          "contacts", "reactions", "cracks", "certificate", "energy"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
               ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap",
                           "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));
@@ -264,12 +264,12 @@ TEST_F(Results, AnEarlierRunLeavesNothingBehind) {
   auto solution = two_bodies();
   const ResultsDirectory directory(path_, solution.model);
   EXPECT_THAT(names_in(path_),
-              UnorderedElementsAre("contact.csv", "fields.pvd", "log.txt", "notes.txt", "fields_mine.vtu"));
+              UnorderedElementsAre("contact.csv", "fields.pvd", "convergence.csv", "log.txt", "notes.txt", "fields_mine.vtu"));
   EXPECT_EQ(content_of(path_ / "contact.csv"), contact_table_header);
 }
 
 TEST_F(Results, FilesOfOthersAreNeverOverwritten) {
-  for (const char* name : {"fields_0001.vtu", "summary.json", "contact.csv", "log.txt", "fields.pvd"}) {
+  for (const char* name : {"fields_0001.vtu", "summary.json", "contact.csv", "convergence.csv", "convergence.svg", "log.txt", "fields.pvd"}) {
     const TemporaryDirectory directory;
     { const FinishedRun run(directory.path()); }
     write_text(directory.path() / name, "of somebody else");

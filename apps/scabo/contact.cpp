@@ -1,0 +1,179 @@
+// `scabo contact`: a discrete problem that somebody saved, solved alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "commands.hpp"
+#include "contact_report.hpp"
+#include "scabo/contact/fclib.hpp"
+#include "scabo/contact/solvers.hpp"
+#include "scabo/contact/text_problem.hpp"
+#include "scabo/model/suggestions.hpp"
+#include "scabo/result/convergence.hpp"
+#include "scabo/result/files.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+contact::Method method_of(const std::string& name) {
+  if (const auto method = contact::method_named(name)) return *method;
+  const std::vector<std::string> names = contact::method_names();
+  std::string all;
+  for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
+  const std::string nearest = model::nearest_name(name, names);
+  throw InputError(
+      "--solver", {{{},
+                    fmt::format("no solver is called {}{}; there are {}", model::quoted_name(name),
+                                nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
+}
+
+double rounding_of(const contact::Problem& problem, const contact::Solution& solution) {
+  const double q = problem.q.norm();
+  return 16.0 * std::numeric_limits<double>::epsilon() * solution.p.norm() / (q > 0.0 ? q : 1.0);
+}
+
+/// See Judged.
+bool is_solved(const contact::Solution& solution, double tolerance, double rounding) {
+  return solution.status != contact::Status::mechanism && solution.certificate.rigid_balance <= tolerance &&
+         (solution.natural_map_residual <= tolerance ||
+          (solution.certificate.worst() <= tolerance && solution.natural_map_residual <= rounding));
+}
+
+/// Solves; where the certificate is met and the natural map is not, goes on with a sharper certificate.
+contact::Solution sharpened(const contact::SavedProblem& saved, contact::Method method,
+                            contact::SolverOptions options) {
+  const double tolerance = options.tolerance;
+  contact::Solution best = contact::solve_with(method, saved.problem, saved.start, options);
+  while (best.status != contact::Status::mechanism && best.certificate.worst() <= tolerance &&
+         options.tolerance > 1e-14 && !is_solved(best, tolerance, rounding_of(saved.problem, best))) {
+    options.tolerance = std::max(1e-14, 1e-2 * options.tolerance);
+    contact::Solution next = contact::solve_with(method, saved.problem, {best.p, best.a}, options);
+    if (!(next.natural_map_residual < best.natural_map_residual)) break;
+    for (contact::Iteration& iteration : next.trace) iteration.iteration += best.iterations;
+    next.trace.insert(next.trace.begin(), best.trace.begin(), best.trace.end());
+    next.iterations += best.iterations;
+    best = std::move(next);
+  }
+  return best;
+}
+
+Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) {
+  Judged judged;
+  judged.solver = options.solver;
+  judged.tolerance = options.tolerance;
+  contact::SolverOptions solver;
+  solver.tolerance = options.tolerance;
+  solver.force_scale = saved.force_scale;
+  // Units of a run of ours may hide the natural map behind rounding, and it does not know the balance of
+  // rigid motions. Other problems are judged as they are among others.
+  const bool by_certificate = saved.force_scale > 0.0 || saved.problem.G.cols() > 0;
+  solver.judge = by_certificate ? contact::Judge::certificate : contact::Judge::natural_map;
+  if (options.iterations > 0) solver.iterations = options.iterations;
+
+  const Clock::time_point start = Clock::now();
+  judged.solution = sharpened(saved, method_of(options.solver), solver);
+  judged.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+
+  const contact::Solution& solution = judged.solution;
+  judged.rounding = rounding_of(saved.problem, solution);
+  if (is_solved(solution, options.tolerance, judged.rounding)) {
+    judged.status = contact::Status::solved;
+    return judged;
+  }
+  judged.status = solution.status == contact::Status::mechanism ? contact::Status::mechanism
+                                                                : contact::Status::not_converged;
+  judged.reason = solution.reason;
+  if (judged.reason.empty())
+    judged.reason = fmt::format("the natural-map residual, {:.2g}, is above the tolerance {:.2g}",
+                                solution.natural_map_residual, options.tolerance);
+  return judged;
+}
+
+/// Throws InputError where `file` is there and does not begin as `mark`: it is not ours to replace.
+void refuse_files_of_others(const std::filesystem::path& file, std::string_view mark) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return;  // a new one, or a device
+  std::string beginning(512, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  if (stream.gcount() > 0 && beginning.find(mark) == std::string::npos)
+    throw InputError(
+        file.string(),
+        {{{}, "exists, and is no trace that Scabo wrote: name another file, as in --trace=FILE.csv"}});
+}
+
+/// Where the iterations go, and the picture of them.
+struct TraceFiles {
+  std::filesystem::path table, picture;
+};
+
+TraceFiles trace_files(const ContactOptions& options) {
+  TraceFiles files;
+  files.table = files.picture = options.trace.empty() ? options.file + ".trace.csv" : options.trace;
+  files.picture.replace_extension("svg");
+  if (files.picture == files.table)
+    throw InputError(options.trace,
+                     {{{}, "is the name of the picture: name the table, as in --trace=FILE.csv"}});
+  refuse_files_of_others(files.table, trace_header);
+  refuse_files_of_others(files.picture, result::convergence_plot_mark);
+  return files;
+}
+
+void write_trace(const TraceFiles& files, const contact::SavedProblem& saved, const ContactOptions& options,
+                 const Judged& judged) {
+  result::write_file(files.table, report_trace(judged.solution));
+  const std::string title = saved.title.empty() ? options.file : saved.title;
+  const result::ConvergenceCurve curve{judged.solver, judged.solution.trace,
+                                       judged.status == contact::Status::solved};
+  result::write_file(files.picture, result::convergence_plot({curve}, title, options.tolerance));
+}
+
+void refuse_to_overwrite(const std::string& file) {
+  std::error_code ignored;
+  if (!file.empty() && std::filesystem::exists(file, ignored))
+    throw InputError(file, {{{}, "exists: remove it, or name another file after --save"}});
+}
+
+/// The local form, also of a problem that was read in the global one; as text where the name says so.
+void save(const std::string& file, contact::SavedProblem saved, const Judged& judged) {
+  if (std::filesystem::path(file).extension() == ".dat") {
+    try {
+      result::write_file(file, contact::text_of(saved.problem));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(file, {{{}, error.what()}});
+    }
+    return;
+  }
+  saved.r = judged.status == contact::Status::solved ? judged.solution.p : Vector();
+  saved.a = judged.status == contact::Status::solved ? judged.solution.a : Vector();
+  contact::write_fclib(file, saved);
+}
+
+}  // namespace
+
+ExitStatus solve_contact(const ContactOptions& options) {
+  method_of(options.solver);  // before a large file is read
+  refuse_to_overwrite(options.save);
+  const contact::SavedProblem saved = contact::read_problem_file(options.file);
+  const TraceFiles trace = options.write_trace ? trace_files(options) : TraceFiles();
+  const Judged judged = judge(saved, options);
+  if (options.write_trace) write_trace(trace, saved, options, judged);
+  if (!options.save.empty()) save(options.save, saved, judged);
+  print_output(options.json ? report_json(options.file, saved, judged)
+                            : report_table(options.file, saved, judged));
+  if (judged.status == contact::Status::solved) return ExitStatus::solved;
+  print_error(fmt::format("{}: {}: {}", options.file,
+                          judged.status == contact::Status::mechanism ? "mechanism" : "did not converge",
+                          judged.reason));
+  return ExitStatus::not_converged;
+}
+
+}  // namespace scabo::app

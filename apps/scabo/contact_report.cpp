@@ -1,0 +1,168 @@
+#include "contact_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "scabo/result/contact_table.hpp"
+#include "scabo/result/report.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view name_of(contact::Status status) {
+  switch (status) {
+    case contact::Status::solved:
+      return "solved";
+    case contact::Status::not_converged:
+      return "not_converged";
+    case contact::Status::mechanism:
+      return "mechanism";
+  }
+  throw BrokenInvariant("a status without a name");
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json list(const Vector& values) {
+  Json json = Json::array();
+  for (const double value : values) json.push_back(number_or_null(value));
+  return json;
+}
+
+/// Figures of the certificate that the discrete problem has, in the order in which they are told.
+std::vector<std::pair<const char*, double>> figures(const contact::Certificate& certificate) {
+  return {{"penetration", certificate.penetration},         {"tension", certificate.tension},
+          {"friction_excess", certificate.friction_excess}, {"complementarity", certificate.complementarity},
+          {"slip_direction", certificate.slip_direction},   {"rigid_balance", certificate.rigid_balance}};
+}
+
+std::string describe_matrix(const contact::Problem& problem) {
+  const auto size = problem.q.size();
+  if (problem.W.is_sparse())
+    return fmt::format("W {0} x {0}, sparse with {1} entries", size, problem.W.sparse().nonZeros());
+  return fmt::format("W {0} x {0}, {1}", size, problem.W.is_dense() ? "dense" : "as an operator");
+}
+
+/// Relative motion of the pairs, u = W r + q + G a.
+Vector motion_of(const contact::Problem& problem, const contact::Solution& solution) {
+  Vector u = problem.q;
+  if (solution.p.size() == u.size()) u += problem.W.times(solution.p);
+  if (problem.G.cols() > 0 && solution.a.size() == problem.G.cols()) u += problem.G * solution.a;
+  return u;
+}
+
+/// One line for each contact where the file names them, else one for all pairs.
+std::string forces_table(const contact::SavedProblem& saved, const contact::Solution& solution) {
+  struct Sum {
+    int open = 0, stick = 0, slip = 0;
+    double normal = 0.0, largest = 0.0;
+  };
+  std::vector<Sum> sums(std::max<std::size_t>(1, saved.contacts.size()));
+  for (std::size_t i = 0; i < solution.states.size(); ++i) {
+    Sum& sum = sums[saved.contact_of_pair.empty() ? 0 : static_cast<std::size_t>(saved.contact_of_pair[i])];
+    const contact::ContactState state = solution.states[i];
+    ++(state == contact::ContactState::open    ? sum.open
+       : state == contact::ContactState::stick ? sum.stick
+                                               : sum.slip);
+    const double p_n = solution.p[static_cast<Eigen::Index>(i) * saved.problem.dimension];
+    sum.normal += p_n;
+    sum.largest = std::max(sum.largest, p_n);
+  }
+  std::vector<std::vector<std::string>> rows = {
+      {"contact", "open", "stick", "slip", "normal force", "largest"}};
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    rows.push_back({saved.contacts.empty() ? "all pairs" : saved.contacts[k], fmt::format("{}", sums[k].open),
+                    fmt::format("{}", sums[k].stick), fmt::format("{}", sums[k].slip),
+                    fmt::format("{:.6g}", sums[k].normal), fmt::format("{:.6g}", sums[k].largest)});
+  return result::table(rows);
+}
+
+}  // namespace
+
+std::string report_table(const std::string& file, const contact::SavedProblem& saved, const Judged& judged) {
+  const contact::Problem& problem = saved.problem;
+  const contact::Solution& solution = judged.solution;
+  std::string text = fmt::format("{}: {}\n", file, saved.layout);
+  if (!saved.title.empty()) text += saved.title + "\n";
+  text += fmt::format("{} in {}D, {}", count(problem.pairs(), "pair"), problem.dimension,
+                      describe_matrix(problem));
+  if (problem.G.cols() > 0) text += ", " + count(problem.G.cols(), "rigid motion");
+  if (saved.start.p.size() > 0) text += ", with a start";
+
+  const char* outcome = judged.status == contact::Status::solved      ? "Solved"
+                        : judged.status == contact::Status::mechanism ? "Mechanism"
+                                                                      : "Not converged";
+  text += fmt::format("\n\n{} by {}: {}, {:.3g} s\n\n", outcome, judged.solver,
+                      count(solution.iterations, "iteration"), judged.seconds);
+
+  std::vector<std::vector<std::string>> rows = {
+      {"certificate", fmt::format("tolerance {:.0e}", judged.tolerance), ""}};
+  for (const auto& [name, value] : figures(solution.certificate))
+    rows.push_back(
+        {name, fmt::format("{:.1e}", value), value <= judged.tolerance ? "" : "above the tolerance"});
+  const double natural = solution.natural_map_residual;
+  rows.push_back({"natural_map_residual", fmt::format("{:.1e}", natural),
+                  natural <= judged.tolerance  ? ""
+                  : natural <= judged.rounding ? "rounding of r"
+                                               : "above the tolerance"});
+  return text + result::table(rows) + "\n" + forces_table(saved, solution);
+}
+
+std::string report_json(const std::string& file, const contact::SavedProblem& saved, const Judged& judged) {
+  const contact::Problem& problem = saved.problem;
+  const contact::Solution& solution = judged.solution;
+  Json json = {{"status", name_of(judged.status)},
+               {"natural_map_residual", number_or_null(solution.natural_map_residual)},
+               {"iterations", solution.iterations},
+               {"seconds", judged.seconds},
+               {"solver", judged.solver},
+               {"r", list(solution.p)},
+               {"u", list(motion_of(problem, solution))},
+               {"l", list(solution.a)}};
+  if (saved.reduction && solution.p.size() == problem.q.size()) {
+    const Vector motion = saved.reduction->motion(solution.p);
+    const Eigen::Index n = saved.reduction->global().M.rows();
+    json["v"] = list(motion.head(n));
+    json["l"] = list(motion.tail(motion.size() - n));
+  }
+  json["states"] = Json::array();
+  for (const contact::ContactState state : solution.states) json["states"].push_back(result::name_of(state));
+  json["certificate"] = Json::object();
+  for (const auto& [name, value] : figures(solution.certificate))
+    json["certificate"][name] = number_or_null(value);
+  json["tolerance"] = judged.tolerance;
+  json["rounding"] = number_or_null(judged.rounding);
+  json["reason"] = judged.reason;
+  json["dimension"] = problem.dimension;
+  json["pairs"] = problem.pairs();
+  if (!saved.contact_of_pair.empty()) {
+    json["contacts"] = saved.contacts;
+    json["contact_of_pair"] = saved.contact_of_pair;
+    json["number_of_pair"] = saved.number_of_pair;
+  }
+  json["file"] = file;
+  json["layout"] = saved.layout;
+  json["title"] = saved.title;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+const std::string_view trace_header = "iteration,stage,residual,merit,step_length,states_changed\n";
+
+std::string report_trace(const contact::Solution& solution) {
+  fmt::memory_buffer rows;
+  fmt::format_to(std::back_inserter(rows), "{}", trace_header);
+  for (const contact::Iteration& at : solution.trace)
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{}\n", at.iteration,
+                   result::csv_quoted(at.stage), at.residual, at.merit, at.step_length, at.states_changed);
+  return fmt::to_string(rows);
+}
+
+}  // namespace scabo::app

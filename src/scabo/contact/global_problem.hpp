@@ -1,0 +1,55 @@
+// The frictional contact problem before it is condensed to the pairs (FCLIB's global form):
+//
+//     M v = f + H r + G l,   0 = G' v + b,   u = H' v + w,   u and r of every pair as in problem.hpp
+//
+// v (n) velocities or displacements, M (n x n) mass or stiffness, nonsingular; H (n x dN) forces of the pairs
+// on v; G (n x k) and l (k) bilateral constraints and their forces, k may be 0. With the symmetric
+//
+//     S = [M, -G; -G', 0],   S [v; l] = [f + H r; b]
+//
+// it is u = W r + q with W = [H; 0]' S^-1 [H; 0] and q = w + [H; 0]' S^-1 [f; b]. M need not be symmetric (it
+// is kept as it is, as data of others may be); W then is as unsymmetric as M^-1.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+#include <stdexcept>
+
+#include "scabo/contact/problem.hpp"
+
+namespace scabo::contact {
+
+struct GlobalProblem {
+  int dimension = 3;  // d: 2 or 3
+  Eigen::SparseMatrix<double> M, H, G;
+  Vector f, w, b;
+  Vector mu;  // N
+};
+
+/// A global problem and its factorisation.
+class GlobalReduction {
+ public:
+  /// Throws SingularProblem.
+  explicit GlobalReduction(GlobalProblem problem);
+  ~GlobalReduction();
+  GlobalReduction(const GlobalReduction&) = delete;
+  GlobalReduction& operator=(const GlobalReduction&) = delete;
+
+  const GlobalProblem& global() const { return global_; }
+  /// On the pairs. W is an operator where M is symmetric positive definite, G empty and W too dear to be
+  /// formed; sparse where the blocks of M leave it so; dense otherwise. Throws SingularProblem.
+  Problem problem() const;
+  /// [v; l] for forces r.
+  Vector motion(const Vector& r) const;
+
+ private:
+  struct Factor;
+  GlobalProblem global_;
+  std::unique_ptr<Factor> factor_;
+};
+
+struct SingularProblem : std::runtime_error {
+  SingularProblem() : std::runtime_error("M (with its constraints G) is singular") {}
+};
+
+}  // namespace scabo::contact

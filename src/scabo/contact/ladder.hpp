@@ -1,0 +1,56 @@
+// The attempts of solve() in order: starts for Newton, each followed by Newton on the problem itself.
+#pragma once
+
+#include "scabo/contact/newton.hpp"
+#include "scabo/contact/solve.hpp"
+
+namespace scabo::contact {
+
+/// The problem with motions as forces (W, q scaled by one stiffness), so that all unknowns are forces.
+struct Scaled {
+  Problem problem;
+  double stiffness = 1.0;  ///< force / length
+};
+Scaled scaled(const Problem& problem);
+
+class Ladder {
+ public:
+  /// `small`: the largest |H| at which Newton may stop; `content`: the judge of forces and (scaled) motions, where H is not it.
+  Ladder(const Problem& scaled_problem, const SolverOptions& options, double small,
+         std::function<bool(const Vector& p, const Vector& motion)> content);
+
+  /// The best end is returned when none converges.
+  NewtonEnd climb(const Vector& p, const Vector& a);
+
+  int iterations() const { return iterations_; }
+  std::vector<Iteration> take_trace() { return std::move(trace_); }
+
+ private:
+  struct Run {
+    std::string stage;
+    double regularisation = 0.0;
+    double r_factor = 1.0;
+    int iterations = 0;  ///< 0: those of the options
+  };
+  NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, const Run& how);
+  NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
+  NewtonEnd climb_elastic(const Vector& p, const Vector& a);
+  NewtonEnd climb_rank_deficient(const Vector& p);
+  NewtonEnd swept(const Vector& p, int sweeps, double regularisation);
+  NewtonEnd floating_proximal(Vector p, Vector a);
+  NewtonEnd vanishing_proximal(Vector p);
+  NewtonEnd growing_friction(const Vector& p, const Vector& a);
+  NewtonEnd growing_load(const Vector& p, const Vector& a);
+  NewtonEnd after_sweeps(const Vector& p, const Vector& a);
+  NewtonEnd after_pivoting(const Problem& held);
+  bool may_sweep() const;
+
+  const Problem& problem_;
+  const SolverOptions& options_;
+  double small_;
+  std::function<bool(const Vector&, const Vector&)> content_;
+  int iterations_ = 0;
+  std::vector<Iteration> trace_;
+};
+
+}  // namespace scabo::contact

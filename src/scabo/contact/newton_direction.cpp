@@ -1,0 +1,311 @@
+#include "scabo/contact/newton_direction.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/contact/gmres.hpp"
+#include "scabo/linalg/general_solver.hpp"
+
+namespace scabo::contact {
+
+struct NewtonDirection::Workspace {
+  Matrix A, factor;
+  linalg::GeneralSolver solver;
+  Vector column, full, image, residual;
+  Eigen::SparseMatrix<double> sparse;
+  std::vector<double> sum;
+  std::vector<int> touched;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_solver;
+  Matrix blocks;  // of W on its diagonal, for the preconditioner
+};
+
+namespace {
+
+constexpr Eigen::Index most_direct = 2500;  // unknowns of a dense factorisation
+constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
+
+}  // namespace
+
+NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
+    : equations_(equations), work_(std::make_unique<Workspace>()) {}
+NewtonDirection::~NewtonDirection() = default;
+
+bool NewtonDirection::find(Residual& at, double regularisation, Vector& d) {
+  constexpr int rounds = 8;
+  for (int round = 0; round < rounds; ++round) {
+    if (!solve(at, regularisation, d)) return round > 0 ? solve(at, 1e-8, d) : false;
+    if (equations_.follow(at, d) == 0) return true;
+  }
+  enumerate(at, regularisation, d);  // a direction of any branch is better than none
+  return true;
+}
+
+bool NewtonDirection::enumerate(Residual& at, double regularisation, Vector& d) {
+  std::vector<std::size_t> tied;
+  for (std::size_t i = 0; i < at.branches.size(); ++i)
+    if (at.branches[i].tied()) tied.push_back(i);
+  constexpr std::size_t most = 4;
+  if (tied.size() > most) return false;
+  const std::vector<Branch> before = at.branches;
+  const std::size_t combinations = std::size_t{1} << (3 * tied.size());
+  Vector tried;
+  for (std::size_t combination = 0; combination < combinations; ++combination) {
+    for (std::size_t k = 0; k < tied.size(); ++k) {
+      Branch& branch = at.branches[tied[k]];
+      const std::size_t bits = combination >> (3 * k) & 7;
+      if (branch.normal_tie) branch.contact = (bits & 1) == 0;
+      if (branch.bound_tie) branch.slope = (bits & 2) == 0 ? equations_.problem().mu[static_cast<int>(tied[k])] : 0.0;
+      if (branch.edge) branch.tangent = (bits & 4) == 0 ? Branch::Tangent::slip : Branch::Tangent::stick;
+      if (branch.tip) branch.tangent = (bits & 4) == 0 ? Branch::Tangent::stick : Branch::Tangent::free;
+    }
+    if (!solve(at, regularisation, tried)) continue;
+    Residual followed = at;
+    if (equations_.follow(followed, tried) != 0) continue;
+    d = tried;
+    return true;
+  }
+  at.branches = before;
+  return false;
+}
+
+void NewtonDirection::lay_out(const Residual& at) {
+  const Problem& problem = equations_.problem();
+  const Eigen::Index N = problem.pairs(), d = problem.dimension;
+  const Vector& r = equations_.r();
+  unknowns_.clear();
+  first_of_pair_.resize(static_cast<std::size_t>(N + 1));
+  known_.setZero(d * N);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    first_of_pair_[static_cast<std::size_t>(i)] = static_cast<int>(unknowns_.size());
+    const Branch& branch = at.branches[static_cast<std::size_t>(i)];
+    const auto pair = static_cast<int>(i);
+    const bool slips = branch.tangent == Branch::Tangent::slip;
+    Eigen::Vector3d normal(1.0, 0.0, 0.0);
+    if (slips) normal.tail<2>() = branch.slope * branch.along;
+    if (branch.contact) {
+      unknowns_.push_back({pair, Eigen::Vector3d::UnitX(), normal, r[d * i], 0.0});
+    } else {
+      for (Eigen::Index k = 0; k < d; ++k) known_[d * i + k] = -at.H[d * i] * normal[k];
+    }
+    if (branch.tangent == Branch::Tangent::stick) {
+      for (Eigen::Index k = 1; k < d; ++k)
+        unknowns_.push_back({pair, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Unit(k), r[d * i + k], 0.0});
+      continue;
+    }
+    const bool across = slips && d == 3 && branch.lambda > 1e-14;
+    if (!across) {
+      known_.segment(d * i + 1, d - 1) -= at.H.segment(d * i + 1, d - 1);
+      continue;
+    }
+    const double along = at.H.segment<2>(3 * i + 1).dot(branch.along);
+    known_.segment<2>(3 * i + 1) -= along * branch.along;
+    const Eigen::Vector3d side(0.0, -branch.along[1], branch.along[0]);
+    unknowns_.push_back({pair, side, side, branch.lambda * r[3 * i + 1], 1.0 - branch.lambda});
+  }
+  first_of_pair_.back() = static_cast<int>(unknowns_.size());
+}
+
+void NewtonDirection::expand(const Vector& y, Vector& dp) const {
+  const Eigen::Index d = equations_.problem().dimension;
+  for (std::size_t j = 0; j < unknowns_.size(); ++j)
+    for (Eigen::Index k = 0; k < d; ++k)
+      dp[d * unknowns_[j].pair + k] += unknowns_[j].column[k] * y[static_cast<Eigen::Index>(j)];
+}
+
+void NewtonDirection::gather(const Vector& motion, Vector& rows) const {
+  const Eigen::Index d = equations_.problem().dimension;
+  for (std::size_t j = 0; j < unknowns_.size(); ++j) {
+    const Unknown& unknown = unknowns_[j];
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < d; ++k) sum += unknown.row[k] * motion[d * unknown.pair + k];
+    rows[static_cast<Eigen::Index>(j)] = sum;
+  }
+}
+
+bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d) {
+  const Problem& problem = equations_.problem();
+  lay_out(at);
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index m = problem.G.cols(), forces = known_.size();
+  regularisation += equations_.proximal_weight();
+  moved_ = problem.W * known_;
+  right_.resize(size + m);
+  gather(moved_, right_);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    double H = 0.0;
+    for (Eigen::Index k = 0; k < problem.dimension; ++k) H += unknown.row[k] * at.H[problem.dimension * unknown.pair + k];
+    right_[j] = -H - unknown.scale * right_[j];
+  }
+  if (m > 0) right_.tail(m) = -at.H.tail(m) - problem.G.transpose() * known_;
+
+  bool solved = false;
+  if (problem.W.is_sparse() && m == 0 && size >= least_sparse)
+    solved = solve_sparse(regularisation);
+  else if (size + m <= most_direct && (m > 0 || problem.W.is_dense() || forces <= most_direct))
+    solved = solve_dense(regularisation);
+  else
+    solved = m == 0 && solve_iteratively(regularisation);
+  if (!solved) return false;
+  d.resize(forces + m);
+  expand(y_, known_);
+  d.head(forces) = known_;
+  d.tail(m) = y_.tail(m);
+  return d.allFinite();
+}
+
+bool NewtonDirection::solve_dense(double regularisation) {
+  const Problem& problem = equations_.problem();
+  const Matrix& W = problem.W.dense();
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
+  Matrix& A = work_->A;
+  if (A.rows() < n) A.resize(n, n), work_->factor.resize(n, n);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
+    work_->column.setZero(W.rows());
+    for (Eigen::Index k = 0; k < d; ++k)
+      if (from.column[k] != 0.0) work_->column.noalias() += from.column[k] * W.col(d * from.pair + k);
+    for (Eigen::Index row = 0; row < size; ++row) {
+      const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
+      double sum = 0.0;
+      for (Eigen::Index k = 0; k < d; ++k) sum += to.row[k] * work_->column[d * to.pair + k];
+      A(row, j) = to.scale * sum;
+    }
+    A(j, j) += regularisation * (1.0 - from.own) + from.own;
+    for (Eigen::Index g = 0; g < m; ++g) {
+      double force = 0.0, motion = 0.0;
+      for (Eigen::Index k = 0; k < d; ++k) {
+        force += from.column[k] * problem.G(d * from.pair + k, g);
+        motion += from.row[k] * problem.G(d * from.pair + k, g);
+      }
+      A(size + g, j) = force;
+      A(j, size + g) = from.scale * motion;
+    }
+  }
+  if (m > 0) A.block(size, size, m, m).setZero();
+  if (n == 0) {
+    y_.resize(0);
+    return true;
+  }
+  const auto matrix = A.topLeftCorner(n, n);
+  work_->factor.topLeftCorner(n, n) = matrix;
+  const double scale = 1e-9 * (right_.lpNorm<Eigen::Infinity>() + 1e-30 * matrix.cwiseAbs().maxCoeff());
+  if (work_->solver.factorise(work_->factor, n) && work_->solver.reciprocal_condition() > 1e-13) {
+    y_ = right_;
+    work_->solver.solve_in_place(y_);
+    work_->residual = right_;
+    work_->residual.noalias() -= matrix * y_;
+    work_->solver.solve_in_place(work_->residual);
+    y_ += work_->residual;  // one step of refinement: the certificate is judged at 1e-10
+    work_->residual = right_;
+    work_->residual.noalias() -= matrix * y_;
+    if (y_.allFinite() && work_->residual.lpNorm<Eigen::Infinity>() <= scale) return true;
+  }
+  if (n > 400) return false;
+  // Singular: the shortest solution, if there is one.
+  Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
+  shortest.setThreshold(1e-11);
+  shortest.compute(matrix);
+  y_ = shortest.solve(right_);
+  return y_.allFinite() && (matrix * y_ - right_).lpNorm<Eigen::Infinity>() <= scale;
+}
+
+bool NewtonDirection::solve_sparse(double regularisation) {
+  const Eigen::SparseMatrix<double>& W = equations_.problem().W.sparse();
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const int d = equations_.problem().dimension;
+  Workspace& work = *work_;
+  if (work.sum.size() < unknowns_.size()) work.sum.assign(unknowns_.size(), 0.0);
+  Eigen::SparseMatrix<double>& A = work.sparse;
+  A.resize(size, size);
+  A.reserve(3 * W.nonZeros() / 2 + size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
+    work.touched.clear();
+    const auto add = [&](int row, double value) {
+      double& sum = work.sum[static_cast<std::size_t>(row)];
+      if (sum == 0.0) work.touched.push_back(row);
+      sum += value == 0.0 ? 1e-300 : value;  // stays in the pattern
+    };
+    add(static_cast<int>(j), regularisation * (1.0 - from.own) + from.own);
+    for (int k = 0; k < d; ++k) {
+      if (from.column[k] == 0.0) continue;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(W, d * from.pair + k); it; ++it) {
+        const int pair = static_cast<int>(it.row()) / d, component = static_cast<int>(it.row()) % d;
+        for (int row = first_of_pair_[static_cast<std::size_t>(pair)];
+             row < first_of_pair_[static_cast<std::size_t>(pair) + 1]; ++row) {
+          const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
+          if (to.row[component] != 0.0) add(row, to.scale * to.row[component] * it.value() * from.column[k]);
+        }
+      }
+    }
+    std::sort(work.touched.begin(), work.touched.end());
+    work.touched.erase(std::unique(work.touched.begin(), work.touched.end()), work.touched.end());
+    A.startVec(j);
+    for (int row : work.touched) {
+      A.insertBack(row, j) = work.sum[static_cast<std::size_t>(row)];
+      work.sum[static_cast<std::size_t>(row)] = 0.0;
+    }
+  }
+  A.finalize();
+  work.sparse_solver.compute(A);
+  if (work.sparse_solver.info() != Eigen::Success) return false;
+  y_ = work.sparse_solver.solve(right_);
+  work.residual = right_ - A * y_;
+  y_ += work.sparse_solver.solve(work.residual);
+  work.residual = right_ - A * y_;
+  return y_.allFinite() &&
+         work.residual.lpNorm<Eigen::Infinity>() <= 1e-8 * (right_.lpNorm<Eigen::Infinity>() + 1e-300);
+}
+
+void NewtonDirection::apply(const Vector& y, double regularisation, Vector& result) {
+  Workspace& work = *work_;
+  work.full.setZero(equations_.problem().W.size());
+  expand(y, work.full);
+  work.image = equations_.problem().W * work.full;
+  result.resize(y.size());
+  gather(work.image, result);
+  for (std::size_t j = 0; j < unknowns_.size(); ++j) {
+    const Unknown& unknown = unknowns_[j];
+    const auto k = static_cast<Eigen::Index>(j);
+    result[k] = unknown.scale * result[k] + (regularisation * (1.0 - unknown.own) + unknown.own) * y[k];
+  }
+}
+
+bool NewtonDirection::solve_iteratively(double regularisation) {
+  const int d = equations_.problem().dimension;
+  Workspace& work = *work_;
+  if (work.blocks.size() == 0) work.blocks = equations_.problem().W.diagonal_blocks(d);
+  // The pairs on themselves, inverted.
+  std::vector<Eigen::Matrix3d> inverse(first_of_pair_.size() - 1);
+  for (std::size_t i = 0; i + 1 < first_of_pair_.size(); ++i) {
+    const int first = first_of_pair_[i], count = first_of_pair_[i + 1] - first;
+    Eigen::Matrix3d block = Eigen::Matrix3d::Identity(), W = Eigen::Matrix3d::Zero();
+    W.topLeftCorner(d, d) = work.blocks.middleCols(d * static_cast<Eigen::Index>(i), d);
+    for (int row = 0; row < count; ++row)
+      for (int column = 0; column < count; ++column) {
+        const Unknown& to = unknowns_[static_cast<std::size_t>(first + row)];
+        const Unknown& from = unknowns_[static_cast<std::size_t>(first + column)];
+        block(row, column) = to.scale * to.row.dot(W * from.column) +
+                             (row == column ? regularisation * (1.0 - from.own) + from.own : 0.0);
+      }
+    inverse[i] = block.inverse();
+    if (!inverse[i].allFinite()) inverse[i].setIdentity();
+  }
+  const auto precondition = [&](const Vector& x, Vector& result) {
+    result.resize(x.size());
+    for (std::size_t i = 0; i + 1 < first_of_pair_.size(); ++i) {
+      const int first = first_of_pair_[i], count = first_of_pair_[i + 1] - first;
+      result.segment(first, count).noalias() = inverse[i].topLeftCorner(count, count) * x.segment(first, count);
+    }
+  };
+  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
+  y_.setZero(right_.size());
+  return gmres(multiply, precondition, right_, y_, {1e-11, 80, 400}) <= 1e-8;
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,60 @@
+// The direction d of Newton's method: H(z) + H'(z; d) = 0.
+//
+// On chosen branches it is linear. Forces whose row holds no motion are eliminated (open normals, free tangents, in slip the
+// component along e, which follows the normal force); what remains are the unknowns y of
+//
+//     [ L'(R W + w + alpha) C + 1 - lambda   L'R G ] [ y  ]   [ -H - L'R W known ]
+//     [ G'C                                  0     ] [ da ] = [ -H_R - G' known  ]       dp = known + C y
+//
+// with a column in C and a row in L for each: n (+ mu e in slip), both tangents where it sticks, in space the tangent across e
+// with weight lambda where it slips. w: proximal term; alpha: regularisation where W is rank deficient, 0 where it need not be.
+//
+// At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the branches
+// of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
+//
+// Dense LU up to a few thousand unknowns, sparse LU where W is sparse, GMRES with the blocks of the pairs as preconditioner
+// otherwise.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scabo/contact/b_differentiable.hpp"
+
+namespace scabo::contact {
+
+class NewtonDirection {
+ public:
+  /// Keeps a reference.
+  explicit NewtonDirection(const BDifferentiableEquations& equations);
+  ~NewtonDirection();
+
+  /// d = [dp; da] for the branches of `at`, which at ties are changed to those of d. False where there is none.
+  bool find(Residual& at, double regularisation, Vector& d);
+
+ private:
+  struct Unknown {
+    int pair = 0;
+    Eigen::Vector3d row, column;  // components [n, t, t]
+    double scale = 0.0;           // of the row: r, r lambda
+    double own = 0.0;             // 1 - lambda
+  };
+  bool solve(const Residual& at, double regularisation, Vector& d);
+  bool enumerate(Residual& at, double regularisation, Vector& d);
+  void lay_out(const Residual& at);
+  bool solve_dense(double regularisation);
+  bool solve_sparse(double regularisation);
+  bool solve_iteratively(double regularisation);
+  void apply(const Vector& y, double regularisation, Vector& result);
+  void expand(const Vector& y, Vector& dp) const;
+  void gather(const Vector& motion, Vector& rows) const;
+
+  const BDifferentiableEquations& equations_;
+  std::vector<Unknown> unknowns_;
+  std::vector<int> first_of_pair_;  // N + 1
+  Vector known_, moved_, right_, y_;
+  struct Workspace;
+  std::unique_ptr<Workspace> work_;
+};
+
+}  // namespace scabo::contact

@@ -1,0 +1,36 @@
+// A discrete problem as a file holds it, with what a solver may want besides: where it starts, what is known
+// already.
+//
+// Three layouts (docs/methods/13_problem_files.md), told apart by their content:
+//   FCLIB, local form      HDF5, group fclib_local       fclib.hpp
+//   FCLIB, global form     HDF5, group fclib_global      fclib.hpp, reduced to the pairs by
+//   global_problem.hpp Siconos text           .dat                          text_problem.hpp
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scabo/contact/global_problem.hpp"
+#include "scabo/contact/problem.hpp"
+#include "scabo/contact/solve.hpp"
+
+namespace scabo::contact {
+
+struct SavedProblem {
+  Problem problem;
+  Start start;                        ///< history, or a guess of others; empty: none
+  Vector r, a;                        ///< a solution that the file holds; empty: none
+  double force_scale = 0.0;           ///< SolverOptions::force_scale; 0 where the file does not say
+  std::vector<std::string> contacts;  ///< names; empty in files of others
+  std::vector<int> contact_of_pair;   ///< N or empty: index into `contacts`
+  std::vector<int> number_of_pair;    ///< N or empty: from 1, as in contact.csv
+  std::string title, description;
+  std::string layout;                                ///< `FCLIB, local form`: for people
+  std::shared_ptr<const GlobalReduction> reduction;  ///< where the file has the global form
+};
+
+/// Reads whichever layout the file has. Throws InputError with file, dataset or line, and remedy.
+SavedProblem read_problem_file(const std::string& file);
+
+}  // namespace scabo::contact

@@ -1,0 +1,209 @@
+#include "scabo/contact/solvers.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/lemke.hpp"
+#include "scabo/contact/newton.hpp"
+#include "scabo/contact/newton.hpp"
+#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/solvers/alart_curnier.hpp"
+#include "scabo/contact/solvers/fischer_burmeister.hpp"
+#include "scabo/contact/solvers/gauss_seidel.hpp"
+#include "scabo/contact/solvers/proximal_point.hpp"
+#include "scabo/contact/solvers/quadratic_programme.hpp"
+#include "scabo/contact/solvers/siconos.hpp"
+#include "scabo/contact/solvers/tresca.hpp"
+#include "scabo/contact/solvers/trial_and_error.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+using solvers::Control;
+using solvers::End;
+using solvers::largest;
+
+/// What a method is called and what it handles.
+struct Road {
+  Method method;
+  const char* name;
+  bool plane, space, friction, strength, rigid;
+};
+constexpr Road roads[] = {
+    {Method::b_differentiable, "b_differentiable", true, true, true, true, true},
+    {Method::newton_only, "newton_only", true, true, true, true, true},
+    {Method::trial_and_error, "trial_and_error", true, true, true, false, true},
+    {Method::quadratic_programme, "quadratic_programme", true, true, false, false, false},
+    {Method::lemke, "lemke", true, false, true, false, false},
+    {Method::fischer_burmeister, "fischer_burmeister", true, true, true, false, true},
+    {Method::alart_curnier, "alart_curnier", true, true, true, true, true},
+    {Method::gauss_seidel, "gauss_seidel", true, true, true, false, false},
+    {Method::tresca, "tresca", true, true, true, true, true},
+    {Method::proximal_point, "proximal_point", true, true, true, true, true},
+    {Method::siconos_nsgs, "siconos_nsgs", true, true, true, false, false},
+    {Method::siconos_lemke, "siconos_lemke", true, false, true, false, false},
+    {Method::siconos_nsn_ac, "siconos_nsn_ac", false, true, true, false, false},
+    {Method::siconos_nsn_fb, "siconos_nsn_fb", false, true, true, false, false},
+};
+
+const Road& road_of(Method method) {
+  for (const Road& road : roads)
+    if (road.method == method) return road;
+  return roads[0];
+}
+
+bool is_built(const Road& road) { return road.method < Method::siconos_nsgs || solvers::siconos_is_built(); }
+
+/// Why the road cannot be taken; empty where it can.
+std::string refusal(const Road& road, const Problem& problem) {
+  const std::string who = std::string(road.name) + " does not handle ";
+  if (!is_built(road)) return std::string(road.name) + " is not in this build (CMake option SCABO_SICONOS)";
+  if (problem.dimension == 2 && !road.plane) return who + "problems in the plane";
+  if (problem.dimension == 3 && !road.space) return who + "problems in space";
+  if (!road.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0) return who + "friction: mu must be 0";
+  const auto some = [](const Vector& v) { return v.size() > 0 && v.maxCoeff() > 0.0; };
+  if (!road.strength && (some(problem.cohesion) || some(problem.tension))) return who + "cohesion and tension";
+  if (!road.rigid && problem.G.cols() > 0) return who + "rigid motions that contact alone holds";
+  return {};
+}
+
+End newton_only(const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options,
+                const Control& control) {
+  const BDifferentiableEquations equations(problem, options.r_factor);
+  NewtonOptions how;
+  how.small = control.small;
+  how.iterations = control.iterations;
+  NewtonEnd end = newton(equations, p, a, how);
+  return {end.p, end.a, end.converged, end.iterations, end.residual,
+          end.singular ? "no direction exists" : "Newton's iterations stalled", std::move(end.trace)};
+}
+
+End pivoted(const Problem& problem, const Vector& p_start, const Control& control) {
+  End end;
+  const std::optional<Vector> p = lemke(problem);
+  end.p = p.value_or(p_start);
+  end.reason = p ? "rounding of the pivots" : "the pivots end on a ray";
+  end.iterations = 1;
+  end.residual = largest(solvers::residual_of(problem, solvers::pair_stiffness(problem), end.p, Vector()));
+  end.converged = end.residual <= control.small;
+  end.trace.push_back({1, end.residual, 0.0, 1.0, 0, "lemke"});
+  return end;
+}
+
+End travel(const Road& road, const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options,
+           const Control& control) {
+  switch (road.method) {
+    case Method::newton_only: return newton_only(problem, p, a, options, control);
+    case Method::trial_and_error: return solvers::trial_and_error(problem, p, a, control);
+    case Method::quadratic_programme: return solvers::quadratic_programme(problem, control);
+    case Method::lemke: return pivoted(problem, p, control);
+    case Method::fischer_burmeister: return solvers::fischer_burmeister(problem, p, a, control);
+    case Method::alart_curnier: return solvers::alart_curnier(problem, p, a, control);
+    case Method::gauss_seidel: return solvers::gauss_seidel(problem, p, control);
+    case Method::tresca: return solvers::tresca(problem, p, a, control);
+    case Method::proximal_point: return solvers::proximal_point(problem, p, a, control);
+    case Method::b_differentiable: break;  // solve() does it all
+    default: return solvers::siconos(road.name, problem, p, control);
+  }
+  return {};
+}
+
+/// Gaps, slips, states.
+void describe(Solution& solution, const Problem& problem, const Scales& scales) {
+  const Eigen::Index d = problem.dimension, N = problem.pairs(), t = d - 1;
+  const Vector motion = solvers::motion_of(problem, solution.p, solution.a);
+  solution.gap.resize(N);
+  solution.slip_increment.resize(t * N);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    solution.gap[i] = motion[d * i];
+    solution.slip_increment.segment(t * i, t) = motion.segment(d * i + 1, t);
+    const double p_n = solution.p[d * i], slip = motion.segment(d * i + 1, t).norm();
+    const double bound = problem.friction_bound(i, p_n), friction = solution.p.segment(d * i + 1, t).norm();
+    if (p_n + problem.tension_of(i) <= 1e-13 * scales.force) solution.states.push_back(ContactState::open);
+    else if (friction < bound * (1.0 - 1e-10) || (bound > 0.0 && slip <= 1e-12 * scales.length))
+      solution.states.push_back(ContactState::stick);
+    else solution.states.push_back(ContactState::slip);
+  }
+}
+
+}  // namespace
+
+std::optional<Method> method_named(std::string_view name) {
+  for (const Road& road : roads)
+    if (name == road.name && is_built(road)) return road.method;
+  return std::nullopt;
+}
+
+std::string method_name(Method method) { return road_of(method).name; }
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Road& road : roads)
+    if (is_built(road)) names.emplace_back(road.name);
+  return names;
+}
+
+Solution solve_with(Method method, const Problem& problem, const Start& start, const SolverOptions& options) {
+  if (method == Method::b_differentiable) return solve(problem, start, options);
+  const Road& road = road_of(method);
+  const Eigen::Index size = problem.q.size(), m = problem.G.cols();
+  Solution solution;
+  solution.p = start.p.size() == size ? start.p : Vector(Vector::Zero(size));
+  solution.a = start.a.size() == m ? start.a : Vector(Vector::Zero(m));
+  solution.reason = refusal(road, problem);
+  const bool refused = !solution.reason.empty();
+  const auto motion = refused ? std::nullopt : find_mechanism(problem);
+  if (motion) {
+    solution.status = Status::mechanism;
+    solution.motion = *motion;
+    solution.reason = "a rigid motion is held neither by supports nor by contact and friction";
+  }
+
+  // Motions as forces, so that all unknowns are forces; scales as in solve().
+  const double mean = size > 0 ? problem.W.diagonal().mean() : 0.0, stiffness = mean > 0.0 ? 1.0 / mean : 1.0;
+  const double q_force = stiffness * largest(problem.q);
+  const double applied = std::max({options.force_scale, largest(problem.f), largest(solution.p)});
+  const double reference = applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q_force;
+  // Well below what the judge asks, but not below the rounding of the gaps themselves.
+  const double asked = options.judge == Judge::certificate
+                           ? 0.01 * options.tolerance * reference
+                           : 0.1 * options.tolerance * problem.q.norm() * std::min(1.0, stiffness);
+  const Control control{std::max(asked, rounding), options.iterations};
+
+  End end;
+  if (!refused && !motion) {
+    Problem in_forces = problem;
+    in_forces.W = problem.W.scaled(stiffness);
+    in_forces.q = stiffness * problem.q;
+    end = travel(road, in_forces, solution.p, stiffness * solution.a, options, control);
+    solution.p = end.p;
+    solution.a = m > 0 ? Vector(end.a / stiffness) : Vector(0);
+    solution.iterations = end.iterations;
+    solution.trace = std::move(end.trace);
+  }
+  const double force = std::max(reference, largest(solution.p));
+  const Scales scales{force, force / stiffness};
+  for (Iteration& iteration : solution.trace) iteration.residual /= force;
+  solution.residual = end.residual / force;
+  solution.certificate = certify(problem, solution.p, solution.a, scales);
+  solution.natural_map_residual = natural_map_residual(problem, solution.p, solution.a);
+  describe(solution, problem, scales);
+  if (refused || motion) return solution;
+  // The certificate sees a small turn of the friction away from the slip only squared (work): the residual has to be small too.
+  const double judged = options.judge == Judge::certificate
+                            ? std::max(solution.certificate.worst(), solution.residual)
+                            : solution.natural_map_residual;
+  if (judged <= options.tolerance) {
+    solution.status = Status::solved;
+    solution.undetermined = undetermined_motions(problem, solution.states);
+  } else {
+    solution.reason = std::string(road.name) + ": " +
+                      (end.reason.empty() ? "it ended, but what it ended with is not the law's to the tolerance" : end.reason);
+  }
+  return solution;
+}
+
+}  // namespace scabo::contact

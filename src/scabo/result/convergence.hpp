@@ -1,0 +1,39 @@
+// How the contact solver came to its solutions: convergence.csv, one line for every iteration, and
+// convergence.svg, the residual over the iterations for every increment (docs/results.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/contact/solution.hpp"
+
+namespace scabo::result {
+
+/// First line of convergence.csv, with the names of the columns.
+extern const std::string_view convergence_table_header;
+
+/// Lines of an increment, converged or not.
+std::string convergence_table_rows(const analysis::IncrementResult& increment);
+
+/// One curve of the plot.
+struct ConvergenceCurve {
+  std::string name;
+  std::vector<contact::Iteration> iterations;
+  bool converged = true;
+};
+
+/// An SVG picture that needs nothing else: residual (logarithmic) over iterations, the colours from the first
+/// curve to the last; red: not converged. Of more than 60 curves every n-th is drawn, and those that did not
+/// converge unless they are more than 60 themselves. Where there is a single curve, its stages are named.
+std::string convergence_plot(const std::vector<ConvergenceCurve>& curves, const std::string& title,
+                             double tolerance);
+
+/// The same for a run.
+std::string convergence_plot(const analysis::StaticSolution& solution);
+
+/// What the beginning of such a picture holds.
+extern const std::string_view convergence_plot_mark;
+
+}  // namespace scabo::result

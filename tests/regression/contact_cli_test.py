@@ -1,0 +1,337 @@
+"""`scabo contact`: problems in every layout solved, judged by a residual formed here; manners of the command."""
+import csv
+import importlib.util
+import json
+import shutil
+import subprocess
+import sys
+import unittest
+
+import h5py
+import numpy as np
+
+import support
+from problem_files import csc, csr, natural_map_residual, random_problem, triplets, write_global, write_local
+from support import BEAM, rows_of, scabo, summary_of
+
+SOLVED, WRONG_INPUT, NOT_CONVERGED, FAILURE = 0, 1, 2, 3
+KEYS = {"status": str, "natural_map_residual": float, "iterations": int, "seconds": float, "solver": str, "r": list}
+
+
+class Contact(support.InTemporaryDirectory):
+    def solve(self, file, *arguments, status=SOLVED):
+        run = scabo("contact", file, "--json", *arguments, cwd=self.directory)
+        self.assertEqual(run.returncode, status, run.stdout + run.stderr)
+        return json.loads(run.stdout)
+
+    def write(self, *problem, name="problem.hdf5", **options):
+        path = self.directory / name
+        write_local(path, *problem, **options)
+        return path
+
+
+class Solves(Contact):
+    def test_two_and_three_dimensions_in_every_storage(self):
+        for dimension in (2, 3):
+            W, q, mu = random_problem(6, dimension, seed=dimension)
+            W[0, 1] += 1e-9  # slightly unsymmetric, as data of others are
+            for storage in (csc, csr, triplets):
+                with self.subTest(dimension=dimension, storage=storage.__name__):
+                    solution = self.solve(self.write(W, q, mu, storage=storage))
+                    r = np.array(solution["r"])
+                    np.testing.assert_allclose(solution["u"], W @ r + q, atol=1e-12)
+                    self.assertLess(natural_map_residual(W @ r + q, r, mu, q), 1e-10)
+                    self.assertAlmostEqual(solution["natural_map_residual"], natural_map_residual(W @ r + q, r, mu, q),
+                                           delta=1e-13)
+                    self.assertEqual((solution["status"], solution["pairs"], solution["dimension"]), ("solved", 6, dimension))
+
+    def test_unsymmetric_entries_are_not_exchanged(self):
+        # Two pairs without friction, both pressed: W r = -q on the normals, and W is far from symmetric.
+        W = np.diag([2.0, 1.0, 2.0, 1.0])
+        W[0, 2] = 0.5
+        q = np.array([-1.0, 0.0, -1.0, 0.0])
+        for storage in (csc, csr, triplets):
+            solution = self.solve(self.write(W, q, [0, 0], storage=storage))
+            np.testing.assert_allclose(solution["r"], [0.375, 0, 0.5, 0], atol=1e-9)
+
+    def test_keys(self):
+        solution = self.solve(self.write(*random_problem(3, 2, seed=5)))
+        for key, kind in KEYS.items():
+            self.assertIsInstance(solution[key], kind, key)
+        self.assertEqual(solution["solver"], "b_differentiable")
+        self.assertEqual(len(solution["r"]), 6)
+        self.assertEqual(len(solution["states"]), 3)
+        self.assertLess(max(solution["certificate"].values()), 1e-10)
+
+    def test_rigid_motions_are_bilateral_constraints(self):
+        # A block on two springs, pressed by 3 and free to move and turn: 0 = V' r + s, u = W r + V l + q.
+        W, V = np.diag([1.0, 1.0, 1.0, 1.0]), np.array([[1.0, 1], [0, 0], [1, -1], [0, 0]])
+        solution = self.solve(self.write(W, np.zeros(4), [0, 0], V=V, s=[-3.0, 0.0]))
+        np.testing.assert_allclose(solution["r"], [1.5, 0, 1.5, 0], atol=1e-10)
+        np.testing.assert_allclose(solution["l"], [-1.5, 0], atol=1e-10)
+
+    def test_constraints_with_a_stiffness_are_eliminated(self):
+        W, q, mu = random_problem(4, 2, seed=8)
+        V, R, s = np.random.default_rng(9).normal(size=(8, 2)), np.array([[-2.0, 0.5], [0.5, -3.0]]), np.array([0.3, -0.2])
+        r = np.array(self.solve(self.write(W, q, mu, V=V, s=s, R=R))["r"])
+        l = np.linalg.solve(R, -(V.T @ r + s))
+        self.assertLess(natural_map_residual(W @ r + V @ l + q, r, mu, q), 1e-9)
+
+    def test_global_form(self):
+        random = np.random.default_rng(3)
+        M = np.kron(np.eye(4), np.diag([2.0, 3.0, 4.0])) + 0.01 * np.diag(np.ones(11), 1)
+        H, f, w, mu = random.normal(size=(12, 9)), random.normal(size=12), random.normal(size=9), np.full(3, 0.3)
+        G, b = random.normal(size=(12, 1)), np.array([0.2])
+        path = self.directory / "global.hdf5"
+        for constraints in ({}, {"G": G, "b": b}):
+            for storage in (csc, csr, triplets):
+                with self.subTest(storage=storage.__name__, constraints=list(constraints)):
+                    write_global(path, M, H, f, w, mu, storage=storage, **constraints)
+                    solution = self.solve(path)
+                    r, v, l = (np.array(solution[key]) for key in ("r", "v", "l"))
+                    balance = M @ v - f - H @ r
+                    if constraints:
+                        balance -= G @ l
+                        np.testing.assert_allclose(G.T @ v + b, 0, atol=1e-12)
+                    np.testing.assert_allclose(balance, 0, atol=1e-12)
+                    self.assertLess(natural_map_residual(H.T @ v + w, r, mu, w), 1e-9)
+
+    def test_text(self):
+        path = self.directory / "problem.dat"
+        path.write_text("2\n1\n0\n2\n2\n2\t2\n2 0\n0 1\n-1 0.1\n0.3\n")
+        np.testing.assert_allclose(self.solve(path)["r"], [0.5, -0.1], atol=1e-10)
+
+    def test_saved_problem_is_read_by_others_and_by_us(self):
+        W, q, mu = random_problem(5, 3, seed=4)
+        first = self.solve(self.write(W, q, mu), "--save", "saved.hdf5")
+        with h5py.File(self.directory / "saved.hdf5") as file:
+            np.testing.assert_array_equal(file["solution/r"][...], first["r"])
+            np.testing.assert_allclose(file["solution/u"][...], W @ first["r"] + q, atol=1e-12)
+            np.testing.assert_array_equal(file["fclib_local/vectors/q"][...], q)
+            self.assertEqual(file["fclib_local/spacedim"][...].tolist(), [3])
+        self.solve("saved.hdf5", "--save", "saved.dat")
+        np.testing.assert_allclose(self.solve("saved.dat")["r"], first["r"], atol=1e-9)
+        run = scabo("contact", "saved.dat", "--save", "saved.hdf5", cwd=self.directory)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("saved.hdf5: exists", run.stderr)
+
+
+@unittest.skipUnless(importlib.util.find_spec("siconos"), "python3-siconos is not installed")
+class Siconos(Contact):
+    """Siconos reads our text with equal bits, and we read its own."""
+    READ = """
+import json, sys
+import siconos.numerics as sn
+p = sn.frictionContact_new_from_filename(sys.argv[1])
+n = p.dimension * p.numberOfContacts
+W = [[sn.NM_get_value(p.M, i, j) for j in range(n)] for i in range(n)]
+sn.frictionContact_printInFilename(p, sys.argv[2])
+print(json.dumps([p.dimension, p.numberOfContacts, W, list(p.q.ravel()), list(p.mu.ravel())]))
+"""
+
+    def test_dense_and_sparse(self):
+        W, q, mu = random_problem(7, 2, seed=12)
+        W[0, 1] += 0.125  # unsymmetric
+        sparse = np.where(np.abs(W) > 0.3, W, 0.0)
+        for name, matrix in dict(dense=W, sparse=sparse).items():
+            with self.subTest(storage=name):
+                first = self.solve(self.write(matrix, q, mu), "--save", f"{name}.dat")
+                run = subprocess.run([sys.executable, "-c", self.READ, f"{name}.dat", f"{name}_2.dat"], cwd=self.directory,
+                                     text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                dimension, pairs, read, q_read, mu_read = json.loads(run.stdout.splitlines()[-1])
+                self.assertEqual((dimension, pairs, q_read, mu_read), (2, 7, list(q), list(mu)))
+                np.testing.assert_array_equal(read, matrix)
+                # What Siconos writes sparse has six digits.
+                np.testing.assert_allclose(self.solve(f"{name}_2.dat")["r"], first["r"],
+                                           atol=1e-9 if name == "dense" else 1e-4)
+
+
+class Manners(Contact):
+    def test_table(self):
+        run = scabo("contact", self.write(*random_problem(4, 3, seed=6)))
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""))
+        for word in ("FCLIB, local form", "Written by h5py", "4 pairs in 3D", "Solved by b_differentiable", "penetration",
+                     "natural_map_residual", "all pairs"):
+            self.assertIn(word, run.stdout)
+
+    def test_mechanism(self):
+        # Nothing presses the block down, so nothing holds it against the load along the floor.
+        V = np.array([[1.0, 0], [0, 1]])
+        solution = self.solve(self.write(np.eye(2), np.zeros(2), [0.3], V=V, s=[0.0, 1.0]), status=NOT_CONVERGED)
+        self.assertEqual(solution["status"], "mechanism")
+        self.assertTrue(solution["reason"])
+
+    def test_not_converged_is_a_status(self):
+        W, q, mu = random_problem(20, 2, seed=1, mu=0.9)
+        run = scabo("contact", self.write(W, q, mu), "--json", "--solver", "newton_only", "--iterations", "1")
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stdout)
+        solution = json.loads(run.stdout)
+        self.assertEqual(solution["status"], "not_converged")
+        self.assertGreater(solution["natural_map_residual"], 1e-10)
+        self.assertIn("did not converge: ", run.stderr)
+        self.assertIn(solution["reason"], run.stderr)
+
+    def test_unknown_solver(self):
+        run = scabo("contact", "no_such.hdf5", "--solver", "gaus_seidel")
+        self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+        self.assertIn("no solver is called 'gaus_seidel' (did you mean 'gauss_seidel'?); there are b_differentiable, ",
+                      run.stderr)
+
+    def test_wrong_command_lines(self):
+        for arguments in ([], ["a.hdf5", "b.hdf5"], ["a.hdf5", "--tolerance", "0"], ["a.hdf5", "--tolerance", "tight"],
+                          ["a.hdf5", "--iterations", "0"], ["a.hdf5", "--solver"], ["--trace"]):
+            with self.subTest(arguments=arguments):
+                run = scabo("contact", *arguments, cwd=self.directory)
+                self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+                self.assertRegex(run.stderr, r"^scabo: .* \(see `scabo contact --help`\)\n$")
+
+    def test_trace(self):
+        file = self.write(*random_problem(8, 3, seed=2))
+        for arguments, name in ((["--trace"], "problem.hdf5.trace.csv"), (["--trace=way.csv"], "way.csv"),
+                                (["--trace", "other.csv"], "other.csv"), (["--trace"], "problem.hdf5.trace.csv")):
+            solution = self.solve(file, *arguments)
+            with open(self.directory / name, newline="", encoding="utf-8") as trace:
+                rows = list(csv.DictReader(trace))
+            self.assertEqual(list(rows[0]), ["iteration", "stage", "residual", "merit", "step_length", "states_changed"])
+            self.assertGreaterEqual(len(rows), solution["iterations"])
+            self.assertLess(float(rows[-1]["residual"]), 1e-9)
+            picture = (self.directory / name).with_suffix(".svg").read_text(encoding="utf-8")
+            self.assertIn("</svg>", picture)
+        run = scabo("contact", "--json", "--trace", file, cwd=self.directory)  # the problem, not where its trace goes
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+
+    def test_trace_never_over_a_file_of_another_kind(self):
+        file = self.write(*random_problem(2, 2, seed=2))
+        shutil.copy(file, self.directory / "precious.hdf5")
+        run = scabo("contact", file, "--trace", "precious.hdf5", cwd=self.directory)
+        self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+        self.assertIn("precious.hdf5: exists, and is no trace", run.stderr)
+        self.assertEqual((self.directory / "precious.hdf5").read_bytes(), file.read_bytes())
+
+
+class Runs(Contact):
+    """Problems that a run left."""
+
+    def run_model(self, *settings, model=BEAM):
+        run = scabo("run", model, "-o", self.directory / "out", "--set", "output.discrete_problems=true", *settings)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        return self.directory / "out"
+
+    def forces_of(self, solution):
+        r = np.array(solution["r"]).reshape(-1, 2)
+        return {(solution["contacts"][contact], number): force
+                for contact, number, force in zip(solution["contact_of_pair"], solution["number_of_pair"], r)}
+
+    def compare(self, directory, solution, step, increment):
+        forces = self.forces_of(solution)
+        rows = [row for row in rows_of(directory) if (int(row["step"]), int(row["increment"])) == (step, increment)]
+        self.assertEqual(len(rows), len(forces))
+        largest = max(float(row["normal_force"]) for row in rows)
+        for row in rows:
+            force = forces[row["contact"], int(row["pair"])]
+            self.assertAlmostEqual(float(row["normal_force"]), force[0], delta=1e-9 * largest)
+            self.assertAlmostEqual(float(row["tangential_force"]), force[1], delta=1e-9 * largest)
+
+    def test_the_forces_are_those_of_contact_csv(self):
+        directory = self.run_model("--set", "steps.0.increments=3")
+        self.assertEqual(sorted(path.name for path in (directory / "problems").iterdir()),
+                         ["press_1.hdf5", "press_2.hdf5", "press_3.hdf5"])
+        for increment in (1, 2, 3):
+            file = directory / "problems" / f"press_{increment}.hdf5"
+            self.compare(directory, self.solve(file), 1, increment)
+            with h5py.File(file) as saved:
+                r, u = saved["solution/r"][...], saved["solution/u"][...]
+                W, q = saved["fclib_local/W/x"][...].reshape(len(r), len(r)).T, saved["fclib_local/vectors/q"][...]
+                np.testing.assert_allclose(W @ r + q, u, rtol=0, atol=1e-12 * abs(q).max())
+                # The next increment starts where this one ended.
+                if increment < 3:
+                    with h5py.File(directory / "problems" / f"press_{increment + 1}.hdf5") as after:
+                        np.testing.assert_array_equal(after["guesses/1/r"][...], r)
+
+    def test_bodies_that_contact_alone_holds(self):
+        model = self.directory / "model.yaml"
+        model.write_text("""
+scabo: 1
+materials: {stone: {young: 1e9, poisson: 0.2}}
+bodies:
+  base: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5}}
+  block: {material: stone, shape: {rectangle: {corner: [0, 1], size: [2, 1]}}, mesh: {size: 0.5}}
+supports: [{on: base.bottom, fix: [x, y]}]
+loads: {push: {on: block.top, force: [100, -1000]}}
+contacts: {joint: {between: [base.top, block.bottom], friction: 0.3}}
+""")
+        directory = self.run_model(model=model)
+        file = directory / "problems" / "step_1_1.hdf5"
+        with h5py.File(file) as saved:
+            self.assertEqual(saved["fclib_local/V/n"][...].tolist(), [3])
+            self.assertEqual(saved["fclib_local/R/nz"][...].tolist(), [-1])
+        self.compare(directory, self.solve(file, "--trace=way.csv"), 1, 1)
+        for table in (directory / "convergence.csv", self.directory / "way.csv"):
+            with open(table, newline="", encoding="utf-8") as rows:
+                for row in csv.DictReader(rows):  # stages have names with commas
+                    self.assertGreaterEqual(float(row["residual"]), 0.0)
+                    self.assertGreaterEqual(int(row["states_changed"]), 0)
+
+    def test_an_increment_that_failed_can_be_looked_at(self):
+        model = self.directory / "model.yaml"
+        model.write_text(LIFTED)
+        run = scabo("run", model, "--set", "output.discrete_problems=true", cwd=self.directory)
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+        files = {path.name for path in (self.directory / "model.results" / "problems").iterdir()}
+        self.assertEqual(files, {"press_1.hdf5", "lift_1.hdf5"})
+        solution = self.solve(self.directory / "model.results" / "problems" / "lift_1.hdf5", status=NOT_CONVERGED)
+        self.assertEqual(solution["status"], "mechanism")
+        with h5py.File(self.directory / "model.results" / "problems" / "lift_1.hdf5") as saved:
+            self.assertNotIn("solution", saved)
+
+    def test_old_problems_are_cleared_and_files_of_others_are_not(self):
+        directory = self.run_model("--set", "steps.0.increments=2")
+        self.run_model()
+        self.assertEqual([path.name for path in (directory / "problems").iterdir()], ["press_1.hdf5"])
+        with h5py.File(directory / "problems" / "mine.hdf5", "w") as file:
+            file["data"] = [1.0, 2.0]
+        run = scabo("run", BEAM, "-o", directory)
+        self.assertEqual(run.returncode, FAILURE)
+        self.assertIn("problems/mine.hdf5", run.stderr)
+        self.assertTrue((directory / "problems" / "press_1.hdf5").exists())
+
+    def test_without_the_key_there_are_none(self):
+        run = scabo("run", BEAM, "-o", self.directory / "out")
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        self.assertFalse((self.directory / "out" / "problems").exists())
+
+    def test_convergence_of_every_increment(self):
+        directory = self.run_model("--set", "steps.0.increments=2")
+        with open(directory / "convergence.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]), ["step", "increment", "attempt", "iteration", "stage", "residual", "merit", "step_length",
+                                         "states_changed"])
+        self.assertEqual({(row["step"], row["increment"], row["attempt"]) for row in rows}, {("1", "1", "1"), ("1", "2", "1")})
+        increments = summary_of(directory)["increments"]
+        for number, increment in enumerate(increments, 1):
+            of_increment = [row for row in rows if int(row["increment"]) == number]
+            self.assertGreaterEqual(len(of_increment), increment["newton_iterations"])
+            self.assertLess(float(of_increment[-1]["residual"]), 1e-9)
+        picture = (directory / "convergence.svg").read_text(encoding="utf-8")
+        for word in ("press 1", "press 2", "tolerance", "iteration", "residual", "</svg>"):
+            self.assertIn(word, picture)
+
+
+LIFTED = """
+scabo: 1
+materials: {stone: {young: 1e9, poisson: 0.2}}
+bodies:
+  base: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5}}
+  block: {material: stone, shape: {rectangle: {corner: [0, 1], size: [2, 1]}}, mesh: {size: 0.5}}
+supports: [{on: base.bottom, fix: [x, y]}]
+loads: {push: {on: block.top, force: [0, -1000]}}
+contacts: {joint: {between: [base.top, block.bottom], friction: 0.3}}
+steps:
+  - {name: press}
+  - {name: lift, loads: {push: -1}}
+"""
+
+
+if __name__ == "__main__":
+    support.main()
