@@ -59,8 +59,8 @@ struct CoefficientMatrices {
   Eigen::SparseMatrix<double> E0, E1, E2;  // n x n, n = 2 nodes
 };
 
-/// `thickness` multiplies all three. Throws BrokenInvariant when |J| <= 0: the mesh has made sure that the centre sees
-/// the whole boundary.
+/// `thickness` multiplies all three. Throws IllPosed, with the number of the boundary element, where it has no length, the
+/// centre does not see it (|J| <= 0), or its elasticity is not positive definite.
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
 
 /// Position of a boundary point and its derivative along eta, by values and derivatives of the shape functions.

@@ -4,31 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
+#include "scabo/element/ring_doubling.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {
 
 namespace {
-
-/// Largest exponent, roughly: the square root of the largest eigenvalue of E0^-1 E2, by a few power steps.
-double largest_exponent(const Matrix& E0, const Matrix& E2) {
-  Matrix L = E0;
-  ensure(linalg::cholesky_in_place(L), "E0 of a super-element is not positive definite");
-  Matrix x = Matrix::Constant(E0.rows(), 1, 1.0);
-  for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, 0) = i % 2 == 0 ? 1.0 : -0.7;  // high frequency: quick to settle
-  double growth = 1.0;
-  for (int step = 0; step < 8; ++step) {
-    Matrix y = E2 * x;
-    linalg::solve_lower_in_place(L, y);
-    linalg::solve_lower_in_place(L, y, true);
-    growth = y.norm() / x.norm();
-    if (growth == 0.0) return 1.0;
-    x = y / y.norm();
-  }
-  return std::sqrt(growth);
-}
 
 /// Rows J, as many as R has columns, on which R is as well conditioned as can be had by greedy choice, measured by the
 /// energy that E0 gives to a row: were the rows of a soft sector taken out, those of a stiff one would hold a near translation
@@ -70,17 +54,26 @@ Deflated deflate(const Block& block, const Matrix& E1, const Matrix& E2) {
   return d;
 }
 
-/// T' X T of a sparse matrix, symmetry block T.
-Matrix in_block(const Block& block, const Eigen::SparseMatrix<double>& X) {
-  return Matrix(Eigen::SparseMatrix<double>(block.T.transpose()) * X * block.T);
+/// T' X T, dense. A row of T has a few entries at most, so every entry of X goes to a few places: general products of
+/// sparse matrices took longer than the doubling of a small block.
+Matrix in_block(const Eigen::SparseMatrix<double>& T_transposed, const Eigen::SparseMatrix<double>& X) {
+  using Entries = Eigen::SparseMatrix<double>::InnerIterator;
+  Matrix result = Matrix::Zero(T_transposed.rows(), T_transposed.rows());
+  for (Eigen::Index column = 0; column < X.outerSize(); ++column)
+    for (Entries x(X, column); x; ++x)
+      for (Entries right(T_transposed, column); right; ++right)
+        for (Entries left(T_transposed, x.row()); left; ++left)
+          result(left.row(), right.row()) += left.value() * x.value() * right.value();
+  return result;
 }
 
 /// The translations that lie in this block (in a symmetry block: none, one or both), and the rows they are taken out of.
 void find_translations(const Matrix& translations, Block& block) {
   const Matrix projected = block.T.transpose() * translations;
-  const Eigen::JacobiSVD<Matrix> svd(projected, Eigen::ComputeThinV);
-  const auto m = (svd.singularValues().array() > 1e-8 * std::sqrt(static_cast<double>(translations.rows()))).count();
-  block.R = projected * svd.matrixV().leftCols(m);
+  // A direction lies in the block by all of its length or not at all.
+  const Eigen::SelfAdjointEigenSolver<Mat2> directions(Mat2(projected.transpose() * projected));
+  const auto m = (directions.eigenvalues().array() > 1e-10 * static_cast<double>(translations.rows())).count();
+  block.R = projected * directions.eigenvectors().rightCols(m);
   block.J = rows_taken_out(block.R, block.E0.diagonal());
   for (int row = 0; row < static_cast<int>(block.R.rows()); ++row)
     if (!std::binary_search(block.J.begin(), block.J.end(), row)) block.I.push_back(row);
@@ -94,6 +87,17 @@ Matrix without_translations(const Block& block) {
   for (std::size_t i = 0; i < block.I.size(); ++i) Q(static_cast<Eigen::Index>(i), block.I[i]) = 1.0;
   for (std::size_t j = 0; j < block.J.size(); ++j) Q.col(block.J[j]) = -R_I.col(static_cast<Eigen::Index>(j));
   return Q;
+}
+
+/// K of a bounded block: K R = 0 and symmetry give the rows J.
+Matrix with_translations(const Block& block, const Matrix& K_I) {
+  const Matrix R_I = block.R(block.I, Eigen::all), K_IJ = -(K_I * R_I);
+  Matrix K(block.R.rows(), block.R.rows());
+  K(block.I, block.I) = K_I;
+  K(block.I, block.J) = K_IJ;
+  K(block.J, block.I) = K_IJ.transpose();
+  K(block.J, block.J) = -symmetrised(R_I.transpose() * K_IJ);
+  return K;
 }
 
 /// Stiffness of an unbounded block, eqs. (5) and (6): forces f = -q for every u. `K`: of v_h.
@@ -123,54 +127,24 @@ Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matr
                   const Domain& domain, Matrix& K, int& doublings) {
   Block block;
   block.T = std::move(T);
-  block.E0 = symmetrised(in_block(block, matrices.E0));
+  const Eigen::SparseMatrix<double> transposed = block.T.transpose();
+  block.E0 = symmetrised(in_block(transposed, matrices.E0));
   find_translations(translations, block);
-  const Deflated d = deflate(block, in_block(block, matrices.E1), symmetrised(in_block(block, matrices.E2)));
-  RingStiffness stiffness = ring_doubling(d.E0, d.E1, d.E2);
-  doublings = stiffness.doublings;
+  const Deflated d = deflate(block, in_block(transposed, matrices.E1), symmetrised(in_block(transposed, matrices.E2)));
+  const RingStiffness ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
+  doublings = ring.doublings;
 
   Matrix L = d.E0;
-  ensure(linalg::cholesky_in_place(L), "E0 of a super-element is not positive definite");
-  block.S = (domain.unbounded ? Matrix(-stiffness.outside) : stiffness.inside) - d.E1.transpose();
+  if (!linalg::cholesky_in_place(L)) throw IllPosed("E0 is not positive definite");
+  block.S = (domain.unbounded ? Matrix(-ring.K) : ring.K) - d.E1.transpose();
   linalg::solve_lower_in_place(L, block.S);
   linalg::solve_lower_in_place(L, block.S, true);
   block.A = -(Matrix(d.G(Eigen::all, block.I)) * block.S + Matrix(d.H(Eigen::all, block.I)));
-
-  if (domain.unbounded) {
-    K = unbounded_stiffness(block, d, stiffness.outside, domain.far);
-  } else {  // K R = 0 and symmetry give the rows J
-    const Matrix Q = without_translations(block);
-    K = symmetrised(linalg::multiply_transposed(Q, linalg::multiply(stiffness.inside, Q)));
-  }
+  K = domain.unbounded ? unbounded_stiffness(block, d, ring.K, domain.far) : with_translations(block, ring.K);
   return block;
 }
 
 }  // namespace
-
-RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
-  if (E0.rows() == 0) return {E0, E0, 0};
-  // The ring's factors (gamma - lambda) / (gamma + lambda) are smallest for exponents near gamma; those of a closed
-  // super-element begin at 1, of a crack at 1/2.
-  const double gamma = std::sqrt(largest_exponent(E0, E2));
-  const double d = 2.0 / gamma;
-  const Matrix even = E0 / d + d / 4.0 * E2, odd = 0.5 * (E1 + E1.transpose());
-  Matrix K22 = even + odd, K11 = even - odd;                                              // eq. (1)
-  Matrix K12 = -E0 / d + 0.5 * (E1 - E1.transpose()) + d / 4.0 * E2;
-  constexpr int most = 60;
-  for (int doublings = 1; doublings <= most; ++doublings) {                               // eq. (2)
-    Matrix B = K11 + K22;
-    ensure(linalg::cholesky_in_place(B), "a ring of a super-element is not positive definite");
-    Matrix X = K12, Y = K12.transpose();
-    linalg::solve_lower_in_place(B, X);
-    linalg::solve_lower_in_place(B, Y);
-    linalg::add_gram(K22, X, -1.0, 1.0);
-    linalg::add_gram(K11, Y, -1.0, 1.0);
-    K12 = linalg::multiply_transposed(Y, X, -1.0);
-    // |X'X| of the next step is about |K12|^2 / |B|: below rounding, K22 has arrived.
-    if (K12.cwiseAbs().maxCoeff() < 1e-10 * K22.cwiseAbs().maxCoeff()) return {K22, K11, doublings};
-  }
-  throw BrokenInvariant("ring doubling did not end");
-}
 
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads,
                                          const Domain& domain) {
@@ -191,11 +165,15 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
                                      doublings[i]);
   };
   linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
+  for (const int count : doublings) solution.doublings = std::max(solution.doublings, count);
+  if (bases.size() == 1) {  // T = 1
+    solution.K = std::move(stiffness.front());
+    return solution;
+  }
   solution.K = Matrix::Zero(n, n);
   for (std::size_t i = 0; i < bases.size(); ++i) {
     const Eigen::SparseMatrix<double>& basis = solution.blocks[i].T;
     solution.K += basis * stiffness[i] * basis.transpose();
-    solution.doublings = std::max(solution.doublings, doublings[i]);
   }
   solution.K = symmetrised(solution.K);
   return solution;

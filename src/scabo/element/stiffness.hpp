@@ -1,18 +1,6 @@
 // Static stiffness of a bounded super-element by ring doubling.
 //
-// In s = ln xi the scaled boundary equation has constant coefficients, so all rings [xi, xi e^d] are alike. One
-// midpoint (Cayley) step gives the symmetric stiffness of a ring on its inner (1) and outer (2) nodes,
-//
-//     K22 = E0/d + (E1 + E1')/2 + d/4 E2                                                                    (1)
-//     K11 = E0/d - (E1 + E1')/2 + d/4 E2
-//     K12 = -E0/d + (E1 - E1')/2 + d/4 E2
-//
-// and two equal rings joined eliminate their common nodes, with B = K11 + K22 symmetric positive definite:
-//
-//     K22 <- K22 - K12' B^-1 K12,   K11 <- K11 - K12 B^-1 K12',   K12 <- -K12 B^-1 K12                      (2)
-//
-// K22 tends to K, quadratically. The Cayley step keeps invariant subspaces, so the limit is exact although the
-// ring is not. Only Cholesky factors, triangular solves and symmetric products are used.
+// Rings are doubled (ring_doubling.hpp, eqs. 1 and 2) after the translations have been taken out.
 //
 // The translations R (E1' R = 0, E2 R = 0) carry no force, R'q = 0, and are taken out first: with M = R'E0R,
 // G = M^-1 R'E0, H = M^-1 R'E1' and u = R a + v, v = 0 in as many rows J as there are translations,
@@ -67,18 +55,10 @@ struct SuperElementSolution {
   int doublings = 0;          ///< largest number over the blocks
 };
 
-/// Solves the super-element. Throws BrokenInvariant when a ring is not positive definite or the doubling does not
-/// end, which positive definite material and a boundary that the centre sees rule out. Symmetry blocks are shared out among
+/// Solves the super-element. Throws IllPosed where the centre does not see the boundary, an elasticity is not positive definite,
+/// or, to working precision, a ring is not. Symmetry blocks are shared out among
 /// `threads` threads.
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1,
                                          const Domain& domain = {});
-
-/// q = K u of the bounded domain inside, and q = -K u of the unbounded one outside a ring, from E0, E1, E2 without zero
-/// exponents, by eqs. (1) and (2).
-struct RingStiffness {
-  Matrix inside, outside;
-  int doublings = 0;
-};
-RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2);
 
 }  // namespace scabo::element

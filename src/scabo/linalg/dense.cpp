@@ -4,6 +4,8 @@
 #include <lapacke.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/blas_kernels.hpp"
@@ -39,11 +41,54 @@ bool cholesky_in_place(Matrix& A) {
   return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', rows(A), A.data(), stride(A)) == 0;
 }
 
+namespace {
+
+constexpr int inverted_at_once = 32;
+
+/// Solves with the lower triangular n x n part of L at `l`; B at `b`, n x m. `room`: 32 x 32 and 32 x m. Halves are solved one after
+/// the other, with a product between; the last blocks by their inverse.
+void solve_by_halves(const double* l, int l_stride, int n, double* b, int b_stride, int m, bool transposed, double* room) {
+  if (n <= inverted_at_once) {
+    double *const inverse = room, *const copy = room + inverted_at_once * inverted_at_once;
+    for (int j = 0; j < n; ++j) {
+      std::fill(inverse + j * n, inverse + j * n + j, 0.0);
+      std::copy(l + j * l_stride + j, l + j * l_stride + n, inverse + j * n + j);
+    }
+    LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', n, inverse, n);
+    for (int j = 0; j < m; ++j) std::copy(b + static_cast<std::ptrdiff_t>(j) * b_stride, b + static_cast<std::ptrdiff_t>(j) * b_stride + n, copy + static_cast<std::ptrdiff_t>(j) * n);
+    cblas_dgemm(CblasColMajor, transposed ? CblasTrans : CblasNoTrans, CblasNoTrans, n, m, n, 1.0, inverse, n, copy, n, 0.0, b,
+                b_stride);
+    return;
+  }
+  const int top = (n / 2 + inverted_at_once - 1) / inverted_at_once * inverted_at_once, rest = n - top;
+  const double* const below = l + top;
+  const double* const last = below + static_cast<std::ptrdiff_t>(top) * l_stride;
+  if (transposed) {
+    solve_by_halves(last, l_stride, rest, b + top, b_stride, m, true, room);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, top, m, rest, -1.0, below, l_stride, b + top, b_stride, 1.0, b,
+                b_stride);
+    solve_by_halves(l, l_stride, top, b, b_stride, m, true, room);
+  } else {
+    solve_by_halves(l, l_stride, top, b, b_stride, m, false, room);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, m, top, -1.0, below, l_stride, b, b_stride, 1.0, b + top,
+                b_stride);
+    solve_by_halves(last, l_stride, rest, b + top, b_stride, m, false, room);
+  }
+}
+
+}  // namespace
+
 void solve_lower_in_place(const Matrix& L, Matrix& B, bool transposed) {
   ensure(L.rows() == L.cols() && L.rows() == B.rows(), "solve_lower_in_place: sizes differ");
   if (B.size() == 0) return;
-  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed ? CblasTrans : CblasNoTrans, CblasNonUnit,
-              rows(B), cols(B), 1.0, L.data(), stride(L), B.data(), stride(B));
+  constexpr int few = 16;  // right-hand sides or rows: nothing to gain
+  if (cols(B) < few || rows(B) < few) {
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed ? CblasTrans : CblasNoTrans, CblasNonUnit,
+                rows(B), cols(B), 1.0, L.data(), stride(L), B.data(), stride(B));
+    return;
+  }
+  std::vector<double> room(static_cast<std::size_t>(inverted_at_once * (inverted_at_once + B.cols())));
+  solve_by_halves(L.data(), stride(L), rows(L), B.data(), stride(B), cols(B), transposed, room.data());
 }
 
 void add_gram(Matrix& C, const Matrix& A, double alpha, double beta) {

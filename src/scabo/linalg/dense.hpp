@@ -12,7 +12,8 @@ void set_blas_threads(int threads);
 /// upper triangle is left as it was). False when A is not positive definite.
 [[nodiscard]] bool cholesky_in_place(Matrix& A);
 
-/// B <- L^-1 B, or L^-T B when `transposed`; L lower triangular, n x n; B n x m.
+/// B <- L^-1 B, or L^-T B when `transposed`; L lower triangular, n x n; B n x m. By products and inverses of 32 x 32 blocks: BLAS's own
+/// triangular solve reaches half of the speed of its product, with AVX-512 kernels a quarter.
 void solve_lower_in_place(const Matrix& L, Matrix& B, bool transposed = false);
 
 /// C <- beta C + alpha A' A, the full symmetric matrix.
