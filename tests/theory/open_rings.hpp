@@ -42,6 +42,12 @@ inline element::Ring open_ring(const std::vector<Vec2>& vertices, int divisions,
   return open_ring(vertices, std::vector<std::vector<double>>(vertices.size() - 1, equal_parts(divisions)), order);
 }
 
+inline element::Ring open_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions, int order) {
+  std::vector<std::vector<double>> ends;
+  for (const int count : divisions) ends.push_back(equal_parts(count));
+  return open_ring(vertices, ends, order);
+}
+
 inline Vec2 turned(const Vec2& x, double angle) {
   return {std::cos(angle) * x.x() - std::sin(angle) * x.y(), std::sin(angle) * x.x() + std::cos(angle) * x.y()};
 }

@@ -186,7 +186,9 @@ namespace {
 void check_density_of_modal_analysis(Reading& reading) {
   std::set<int> told;
   for (const Body& body : reading.model.bodies) {
-    if (body.material < 0) continue;
+    if (body.outside)
+      reading.report.error(body.source, "this body reaches to infinity and has no natural frequencies: leave it out of a modal analysis");
+    if (body.material < 0 || body.outside) continue;
     for (const int index : materials_of(body)) {
       const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
       if (material.density.value_or(0.0) > 0.0 || !told.insert(index).second) continue;
