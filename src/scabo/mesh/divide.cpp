@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <numeric>
 
 #include "scabo/mesh/lobatto.hpp"
 
@@ -37,27 +39,44 @@ double count_boundary_nodes(const model::Body& body) {
   return elements * body.mesh.order;
 }
 
-BodyMesh divide_boundary(const model::Body& body) {
-  const int order = body.mesh.order;
-  const std::vector<double> points = lobatto_points(order);
-  const int total = static_cast<int>(count_boundary_nodes(body));
-
-  BodyMesh mesh;
-  mesh.nodes.reserve(total);
-  SuperElement whole;
-  whole.centre = body.mesh.centre;
+BodyDivision uniform_division(const model::Body& body) {
+  BodyDivision division;
   for (const model::Edge& edge : body.outline.edges) {
     const int elements = static_cast<int>(elements_of(edge, body.mesh.size));
+    EdgeDivision& divided = division.emplace_back();
+    divided.orders.assign(static_cast<std::size_t>(elements), body.mesh.order);
+    for (int k = 0; k <= elements; ++k) divided.breaks.push_back(static_cast<double>(k) / elements);
+  }
+  return division;
+}
+
+BodyMesh divide_boundary(const model::Body& body) { return divide_boundary(body, uniform_division(body)); }
+
+BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) {
+  ensure(division.size() == body.outline.edges.size(), "a division speaks of every edge");
+  int total = 0;
+  for (const EdgeDivision& edge : division) total = std::accumulate(edge.orders.begin(), edge.orders.end(), total);
+
+  BodyMesh mesh;
+  mesh.nodes.reserve(static_cast<std::size_t>(total));
+  SuperElement whole;
+  whole.centre = body.mesh.centre;
+  for (std::size_t e = 0; e < division.size(); ++e) {
+    const model::Edge& edge = body.outline.edges[e];
+    const EdgeDivision& divided = division[e];
     mesh.corners.push_back(static_cast<int>(mesh.nodes.size()));
     std::vector<LineElement>& line = mesh.edges.emplace_back();
-    for (int k = 0; k < elements; ++k) {
+    for (std::size_t k = 0; k < divided.orders.size(); ++k) {
+      const int order = divided.orders[k];
+      const std::vector<double> points = lobatto_points(order);
       LineElement element;
       for (int i = 0; i <= order; ++i) {
         const int next = static_cast<int>(mesh.nodes.size());
         element.nodes.push_back(next % total);  // the last node is the first again
         if (i == order) break;                  // and belongs to the next element
         const bool corner = k == 0 && i == 0;
-        mesh.nodes.push_back(corner ? edge.start : edge.at((k + 0.5 * (1.0 + points[i])) / elements));
+        const double t = std::lerp(divided.breaks[k], divided.breaks[k + 1], 0.5 * (1.0 + points[i]));
+        mesh.nodes.push_back(corner ? edge.start : edge.at(t));
       }
       line.push_back(element);
       whole.boundary.push_back(std::move(element));
@@ -69,12 +88,20 @@ BodyMesh divide_boundary(const model::Body& body) {
 }
 
 std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& mesh) {
-  const LobattoBasis basis(body.mesh.order);
   // |J| is a polynomial of degree 2 p - 1 along an element: 2 p + 1 points, the ends among them.
-  const Matrix shape = basis.shape_at(lobatto_points(2 * body.mesh.order));
-  const Matrix slope = shape * basis.derivative;
-
+  struct Sampling {
+    Matrix shape, slope;
+  };
+  std::map<std::size_t, Sampling> of_order;
   const auto is_seen = [&](const LineElement& element) {
+    const auto [found, is_new] = of_order.try_emplace(element.nodes.size());
+    auto& [shape, slope] = found->second;
+    if (is_new) {
+      const int order = static_cast<int>(element.nodes.size()) - 1;
+      const LobattoBasis basis(order);
+      shape = basis.shape_at(lobatto_points(2 * order));
+      slope = shape * basis.derivative;
+    }
     Eigen::MatrixX2d x(element.nodes.size(), 2);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       x.row(i) = mesh.nodes[element.nodes[i]] - body.mesh.centre;

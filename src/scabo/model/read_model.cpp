@@ -74,7 +74,7 @@ void check_version(Reading& reading, const MapReader& map) {
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts",
-                       "steps", "solver"},
+                       "steps", "solver", "output"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) return;
   check_version(reading, map);
@@ -100,6 +100,7 @@ void read_sections(Reading& reading, const Value& root) {
   const std::size_t before_steps = reading.report.count();
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
+  if (const auto output = map.get("output")) read_output(reading, *output);
   // A misspelt section may be the one that is missing.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
 }
