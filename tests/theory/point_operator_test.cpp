@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scabo/element/point_operator.hpp"
+#include "scabo/element/radial_table.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {
@@ -74,6 +75,26 @@ TEST(PointOperator, ManyPointsOnThreadsAreTheSame) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(rows[i].N, condensation.at(points[i]).N);
     EXPECT_EQ(rows[i].B, condensation.at(points[i]).B);
+  }
+}
+
+TEST(RadialTable, MeetsTheFieldToRounding) {
+  std::mt19937 random(12);
+  for (const int n : {1, 4, 12}) {
+    const Ring ring = rectangle_ring(6.0, 1.5, 4 * n, n, 2);
+    const auto solution = solve_super_element(ring, elasticity(1.0, 0.3), 1.0);
+    const ModalSolution modal = modal_solution(solution);
+    const auto size = static_cast<Eigen::Index>(2 * ring.nodes.size());
+    const Vector u = Vector::NullaryExpr(size, [&] { return uniform(random, -1.0, 1.0); });
+    const RadialField field(solution, modal, u, {});
+    const RadialTable table(field, fastest_of(modal));
+    for (int k = 0; k < 60; ++k) {
+      const double xi = k < 20 ? 1.0 - std::pow(10.0, -0.25 * k) : uniform(random, 0.0, 1.0);
+      const auto exact = field.at(xi), found = table.at(xi);
+      EXPECT_LT(largest(exact.u - found.u), 1e-12 * largest(u)) << xi;
+      EXPECT_LT(largest(exact.u_part - found.u_part), 1e-12 * largest(exact.u_part) + 1e-12) << xi;
+      EXPECT_LT(largest(exact.u_xi - found.u_xi), 1e-11 * fastest_of(modal)) << xi;
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "scabo/analysis/refinement.hpp"
@@ -162,29 +163,37 @@ int largest_body(const mesh::Mesh& mesh) {
   return 2 * static_cast<int>(nodes);
 }
 
-/// What refinement goes by, of the worst increment.
+/// What refinement goes by.
 struct Judgement {
-  double sum = 0.0;    ///< eq. (1)
-  double error = 0.0;  ///< relative, of the whole model
-  std::vector<std::vector<double>> shares;
+  double sum = 0.0;    ///< eq. (1) of the worst increment
+  double error = 0.0;  ///< largest relative error of the whole model
+  std::size_t worst = 0;
 };
 Judgement judge(const StaticSolution& solution) {
-  Judgement worst;
-  for (const IncrementResult& increment : solution.increments) {
-    if (!increment.error) continue;
-    Judgement here;
-    here.error = increment.error->relative;
-    here.shares.resize(solution.model.bodies.size());
-    for (std::size_t b = 0; b < here.shares.size(); ++b) {
-      const auto& error = increment.error->bodies[b];
-      const auto& tolerance = solution.model.bodies[b].mesh.tolerance;
-      if (!error || !tolerance) continue;
-      here.sum += std::pow(error->relative / *tolerance, 2);
-      for (const double share : error->elements) here.shares[b].push_back(std::pow(share / *tolerance, 2));
-    }
-    if (worst.shares.empty() || here.sum > worst.sum) worst = std::move(here);
+  Judgement judgement;
+  for (std::size_t i = 0; i < solution.increments.size(); ++i) {
+    const auto& error = solution.increments[i].error;
+    if (!error) continue;
+    double sum = 0.0;
+    for (std::size_t b = 0; b < solution.model.bodies.size(); ++b)
+      if (const auto& tolerance = solution.model.bodies[b].mesh.tolerance; tolerance && error->bodies[b])
+        sum += std::pow(error->bodies[b]->relative / *tolerance, 2);
+    if (sum > judgement.sum) judgement.sum = sum, judgement.worst = i;
+    judgement.error = std::max(judgement.error, error->relative);
   }
-  return worst;
+  return judgement;
+}
+
+/// Parts of the sum that the elements hold in the worst increment.
+std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const StaticSolution& wider, std::size_t worst) {
+  std::vector<std::vector<double>> shares(solution.model.bodies.size());
+  for (std::size_t b = 0; b < shares.size(); ++b) {
+    const auto& tolerance = solution.model.bodies[b].mesh.tolerance;
+    if (!tolerance || !solution.super_elements[b]) continue;
+    for (const double error : element_errors(solution, solution.increments[worst], wider, wider.increments[worst], b))
+      shares[b].push_back(std::pow(error / *tolerance, 2));
+  }
+  return shares;
 }
 
 StaticSolution not_reached(StaticSolution solution, const std::string& why) {
@@ -235,31 +244,36 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
                        const IncrementResult& wider_increment) {
   ErrorEstimate error;
   error.bodies.resize(solution.model.bodies.size());
-  std::vector<element::OrderDifference> differences(error.bodies.size());
-  double whole = 0.0, energy = 0.0;
+  std::vector<double> squared(error.bodies.size(), 0.0);
+  double energy = 0.0;
   for (std::size_t b = 0; b < error.bodies.size(); ++b) {
     if (!solution.super_elements[b]) continue;
     const Matrix& K = wider.super_elements[b]->solution.K;
     const Vector& U = wider_increment.displacements[b];
-    differences[b] = element::order_difference({boundary_of(solution.mesh, b), solution.super_elements[b]->solution.K,
-                                                increment.displacements[b], boundary_of(wider.mesh, b), K, U,
-                                                !loaded_inside(increment, b)});
-    whole += differences[b].squared;
+    squared[b] = element::squared_difference({boundary_of(solution.mesh, b), solution.super_elements[b]->solution.K,
+                                              increment.displacements[b], boundary_of(wider.mesh, b), K, U,
+                                              !loaded_inside(increment, b)});
     energy += U.dot(K * U);
   }
   // FE bodies have energy too, though no estimate.
   energy = std::max(energy, 2.0 * wider_increment.energy.elastic);
   const double norm = std::sqrt(energy);
-  const auto relative = [&](double squared) { return norm > 0.0 ? std::sqrt(squared) / norm : 0.0; };
-  error.relative = relative(whole);
-  for (std::size_t b = 0; b < error.bodies.size(); ++b) {
-    if (!solution.super_elements[b]) continue;
-    BodyError& body = error.bodies[b].emplace();
-    body.absolute = std::sqrt(differences[b].squared);
-    body.relative = relative(differences[b].squared);
-    for (const double share : differences[b].elements) body.elements.push_back(relative(share));
-  }
+  const auto relative = [&](double square) { return norm > 0.0 ? std::sqrt(square) / norm : 0.0; };
+  error.relative = relative(std::accumulate(squared.begin(), squared.end(), 0.0));
+  for (std::size_t b = 0; b < error.bodies.size(); ++b)
+    if (solution.super_elements[b]) error.bodies[b] = BodyError{std::sqrt(squared[b]), relative(squared[b])};
   return error;
+}
+
+std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
+                                   const IncrementResult& wider_increment, std::size_t body) {
+  const SolvedSuperElement &narrow = *solution.super_elements[body], &wide = *wider.super_elements[body];
+  std::vector<double> errors =
+      element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), increment.displacements[body]},
+                                  {wide.ring, wide.solution, wide.modes(), wider_increment.displacements[body]}, wide.D);
+  const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
+  for (double& error : errors) error = sum > 0.0 ? increment.error->bodies[body]->relative * std::sqrt(error / sum) : 0.0;
+  return errors;
 }
 
 StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options) {
@@ -322,7 +336,7 @@ StaticSolution solve_refined(model::Model model, const Options& options) {
       return end(not_reached(std::move(solution), at() + ", and more of them do not help"));
     if (static_cast<int>(passes.size()) == most_passes)
       return end(not_reached(std::move(solution), fmt::format("after {} passes {}", most_passes, at())));
-    const RefinementPass refined = refinement.refine(solution.mesh, judgement.shares, frozen_elements(solution));
+    const RefinementPass refined = refinement.refine(solution.mesh, shares_of(solution, *wider, judgement.worst), frozen_elements(solution));
     passes.back().raised = refined.raised;
     passes.back().divided = refined.divided;
     if (refined.raised + refined.divided == 0)

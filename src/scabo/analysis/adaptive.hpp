@@ -39,4 +39,8 @@ StaticSolution solve_refined(model::Model model, const Options& options);
 ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
                        const IncrementResult& wider_increment);
 
+/// Errors of the boundary elements of a body whose error was estimated, relative as the body's; their squares sum to its square.
+std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
+                                   const IncrementResult& wider_increment, std::size_t body);
+
 }  // namespace scabo::analysis

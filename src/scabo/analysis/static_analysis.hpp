@@ -52,9 +52,8 @@ struct Energy {
 
 /// Estimated error of discretisation in the energy norm |u| = sqrt(u'K u) (element/two_orders.hpp).
 struct BodyError {
-  double absolute = 0.0;         ///< sqrt(force times length)
-  double relative = 0.0;         ///< to the norm of the whole model's displacement
-  std::vector<double> elements;  ///< relative, of every boundary element; their squares sum to the body's
+  double absolute = 0.0;  ///< sqrt(force times length)
+  double relative = 0.0;  ///< to the norm of the whole model's displacement
 };
 
 struct ErrorEstimate {

@@ -10,45 +10,23 @@ namespace {
 
 int order_of(const mesh::LineElement& element) { return static_cast<int>(element.nodes.size()) - 1; }
 
-/// The coefficient of eta^q of the polynomial through values at the points (a divided difference), as weights of the values.
-Vector leading_weights(const std::vector<double>& points) {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Vector weights = Vector::Ones(count);
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (Eigen::Index j = 0; j < count; ++j)
-      if (i != j) weights[i] /= points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>(j)];
-  return weights;
-}
-
-double legendre(int order, double x) {
-  double before = 1.0, value = x;
-  if (order == 0) return before;
-  for (int k = 2; k <= order; ++k) {
-    const double next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
-    before = value;
-    value = next;
+/// Points and weights of the integral over xi from 0 to 1: two Gauss points in each of the intervals between 1 - ratio^k.
+struct RadialPoint {
+  double xi, weight;
+};
+std::vector<RadialPoint> radial_points() {
+  constexpr int intervals = 16;
+  constexpr double ratio = 0.35;  // the last interval is 5e-8 wide
+  const GaussRule rule = gauss_rule(2);
+  std::vector<RadialPoint> points;
+  double width = 1.0;
+  for (int k = 0; k < intervals; ++k) {
+    const double from = 1.0 - width, to = k + 1 == intervals ? 1.0 : 1.0 - ratio * width;
+    for (std::size_t q = 0; q < 2; ++q)
+      points.push_back({0.5 * (from + to) + 0.5 * (to - from) * rule.points[q], 0.5 * (to - from) * rule.weights[q]});
+    width *= ratio;
   }
-  return value;
-}
-
-/// b.r of one element.
-double share_of(const mesh::LineElement& element, const Vector& e, const Vector& force) {
-  const int order = order_of(element);
-  const std::vector<double> points = mesh::lobatto_points(order);
-  const Vector weights = leading_weights(points);
-  Vector phi(order + 1);
-  for (int i = 0; i <= order; ++i) {
-    const double x = points[static_cast<std::size_t>(i)];
-    phi[i] = legendre(order, x) - legendre(order - 2, x);
-  }
-  phi /= weights.dot(phi);
-  Vec2 b = Vec2::Zero(), r = Vec2::Zero();
-  for (int i = 0; i <= order; ++i) {
-    const int node = element.nodes[static_cast<std::size_t>(i)];
-    b += weights[i] * e.segment<2>(2 * node);
-    r += phi[i] * force.segment<2>(2 * node);
-  }
-  return std::max(0.0, b.dot(r));
+  return points;
 }
 
 }  // namespace
@@ -76,21 +54,39 @@ Vector prolonged(const std::vector<mesh::LineElement>& from, const Vector& u, co
   return result;
 }
 
-OrderDifference order_difference(const TwoOrders& two) {
+double squared_difference(const TwoOrders& two) {
   const Vector Pu = prolonged(two.elements, two.u, two.wider_elements, two.U.size());
-  const Vector e = two.U - Pu, force = two.K * e;
-  OrderDifference difference;
-  difference.squared = std::max(0.0, e.dot(force));
-  if (two.relaxed) difference.squared += std::max(0.0, two.u.dot(two.k * two.u) - Pu.dot(two.K * Pu));   // eq. (1)
-  double sum = 0.0;
-  for (std::size_t i = 0; i < two.elements.size(); ++i) {
-    const bool stays = order_of(two.elements[i]) == order_of(two.wider_elements[i]);
-    difference.elements.push_back(stays ? 0.0 : share_of(two.wider_elements[i], e, force));
-    sum += difference.elements.back();
+  const Vector e = two.U - Pu;
+  double squared = std::max(0.0, e.dot(two.K * e));
+  if (two.relaxed) squared += std::max(0.0, two.u.dot(two.k * two.u) - Pu.dot(two.K * Pu));   // eq. (1)
+  return squared;
+}
+
+std::vector<double> sector_differences(const SuperElementField& narrower, const SuperElementField& wider, const Mat3& D) {
+  const RadialField u(narrower.solution, narrower.modal, narrower.u, {}), U(wider.solution, wider.modal, wider.u, {});
+  std::vector<double> energies(wider.ring.elements.size(), 0.0);
+  for (const RadialPoint& radial : radial_points()) {
+    const RadialField::Values of_u = u.at(radial.xi);
+    RadialField::Values difference = U.at(radial.xi);
+    const auto subtract = [&](Vector& from, const Vector& values) {
+      from -= prolonged(narrower.ring.elements, values, wider.ring.elements, from.size());
+    };
+    subtract(difference.u, of_u.u);
+    subtract(difference.u_xi, of_u.u_xi);
+    subtract(difference.u_part, of_u.u_part);
+    for (std::size_t e = 0; e < energies.size(); ++e) {
+      const mesh::LineElement& element = wider.ring.elements[e];
+      const GaussRule rule = gauss_rule(order_of(element) + 1);
+      // |J| varies little beside the difference: that of the chord will do for shares.
+      const double area = cross(wider.ring.nodes[static_cast<std::size_t>(element.nodes.front())],
+                                wider.ring.nodes[static_cast<std::size_t>(element.nodes.back())]);
+      for (std::size_t q = 0; q < rule.points.size(); ++q) {
+        const PointValues values = point_values(wider.ring, difference, D, static_cast<int>(e), rule.points[q]);
+        energies[e] += radial.weight * radial.xi * rule.weights[q] * area * values.stress.dot(values.strain);
+      }
+    }
   }
-  for (double& share : difference.elements)
-    share = sum > 0.0 ? share * difference.squared / sum : difference.squared / static_cast<double>(two.elements.size());
-  return difference;
+  return energies;
 }
 
 }  // namespace scabo::element

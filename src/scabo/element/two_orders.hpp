@@ -12,25 +12,20 @@
 // The estimate is that of the saturation assumption: |U - u| for the distance of u from the exact solution. It falls short by
 // sqrt(1 - r^2), r the ratio of the errors of p + 1 and p.
 //
-// Shares of the elements: U - P u has degree p + 1 in an element, with the leading part b phi, phi = P_(p+1) - P_(p-1) scaled to
-// a leading coefficient of 1. Without contact K e vanishes on everything of order p (Galerkin), so that e'K e is the sum of
-// b.r, r = phi'(K e) over the nodes of the element.
+// Where the error is: the field U(xi) - P u(xi) has an energy in the sector that every boundary element spans, the integral over
+// xi by quadrature with points that crowd towards xi = 1, where short elements have their say. On a built-in edge the boundary itself
+// knows nothing of the error behind it.
 #pragma once
 
 #include <vector>
 
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/interior_field.hpp"
 
 namespace scabo::element {
 
 /// P u: boundary displacements on elements of equal or higher order, element by element.
 Vector prolonged(const std::vector<mesh::LineElement>& from, const Vector& u, const std::vector<mesh::LineElement>& to,
                  Eigen::Index size);
-
-struct OrderDifference {
-  double squared = 0.0;          ///< eq. (1), force times length
-  std::vector<double> elements;  ///< squared, of every boundary element; they sum to `squared`
-};
 
 /// One displacement on the narrower elements and its counterpart on the wider.
 struct TwoOrders {
@@ -42,6 +37,17 @@ struct TwoOrders {
   const Vector& U;
   bool relaxed = true;  ///< with the second term of eq. (1)
 };
-OrderDifference order_difference(const TwoOrders& two);
+/// |U - u|^2 of eq. (1), force times length.
+double squared_difference(const TwoOrders& two);
+
+/// A super-element with one of its displacements.
+struct SuperElementField {
+  const Ring& ring;
+  const SuperElementSolution& solution;
+  const ModalSolution& modal;
+  const Vector& u;
+};
+/// Energy of the difference in the sector of every boundary element, up to a common factor and the error of the quadrature.
+std::vector<double> sector_differences(const SuperElementField& narrower, const SuperElementField& wider, const Mat3& D);
 
 }  // namespace scabo::element

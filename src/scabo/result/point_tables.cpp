@@ -15,11 +15,18 @@ namespace scabo::result {
 
 namespace {
 
-/// A point costs five exponentials to condense and one for each increment otherwise.
-constexpr int worth_condensing = 6;
+/// Exponentials of a field at many points, with RadialTable: some hundred.
+constexpr std::size_t of_table = 600;
+/// From so many points on, values along xi are interpolated.
+constexpr std::size_t many = 200;
 constexpr double most_condensed_bytes = 2e9;
 /// Of a body's size: nearer to the scaling centre a point counts as lying on it.
 constexpr double on_centre = 1e-9;
+
+/// To condense a point costs five exponentials, once.
+bool worth_condensing(std::size_t points, int increments) {
+  return 5 * points <= static_cast<std::size_t>(increments) * std::min(points, of_table);
+}
 
 bool loaded_inside(const analysis::IncrementResult& increment, std::size_t body) {
   return !increment.body_forces[body].isZero(0.0);
@@ -81,7 +88,7 @@ PointEvaluation::PointEvaluation(const analysis::StaticSolution& solution, std::
                                           points_[row].name));
       }
       const double bytes = 40.0 * static_cast<double>(super_element->solution.K.rows()) * static_cast<double>(body.rows.size());
-      if (increments >= worth_condensing && bytes <= most_condensed_bytes)
+      if (worth_condensing(body.rows.size(), increments) && bytes <= most_condensed_bytes)
         body.operators = element::PointCondensation(super_element->ring, super_element->solution)
                              .at(body.places, super_element->threads);
     }
@@ -99,6 +106,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
     const bool condensed = !body.operators.empty() && !loaded_inside(increment, b);
     std::optional<Probe> probe;
     if (!condensed) probe.emplace(solution, increment, body.body);
+    if (probe && body.rows.size() > many) probe->expect_many();
     for (std::size_t i = 0; i < body.rows.size(); ++i) {
       const Vec2& x = points_[body.rows[i]].at;
       PointResult& result = results[body.rows[i]];

@@ -92,6 +92,10 @@ Probe::Probe(const analysis::StaticSolution& solution, const analysis::Increment
                                  increment.body_forces[body_], super_element->thickness));
 }
 
+void Probe::expect_many() {
+  if (field_ && !table_) table_.emplace(*field_, element::fastest_of(solution_.super_elements[body_]->modes()));
+}
+
 std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   const model::Body& body = solution_.model.bodies[body_];
   if (body.rigid) {
@@ -105,7 +109,8 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   const Vec2& centre = solution_.mesh.bodies[body_].super_elements.front().centre;
   const auto point = element::locate(super_element.ring, x - centre);
   if (!point) return std::nullopt;
-  return element::point_values(super_element.ring, field_->at(point->xi), super_element.D, point->element, point->eta);
+  return element::point_values(super_element.ring, table_ ? table_->at(point->xi) : field_->at(point->xi), super_element.D,
+                               point->element, point->eta);
 }
 
 std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {
