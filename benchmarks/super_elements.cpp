@@ -22,7 +22,7 @@
 #include "scabo/element/batch_kernel.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/linalg/dense.hpp"
-#include "theory/rings.hpp"
+#include <theory/rings.hpp>
 
 namespace {
 

@@ -70,6 +70,7 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
   if (last) {
     text = fmt::format("{} solved and certified in {:.3g} s; worst figure of the certificate {:.1e}\n",
                        count(converged, "increment"), solution.timing.total, certificate);
+    if (last->error) text += fmt::format("Estimated error {:.2g} of the energy norm\n", last->error->relative);
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
     text += last->contacts.empty() ? result::report_reactions(solution.model, *last)
                                    : result::report_contacts(*last);
@@ -138,6 +139,7 @@ ExitStatus run(const RunOptions& options) {
 
   const ExitStatus status = status_of(solution, interrupt.signal());
   for (const std::string& warning : solution.warnings) print_warning(warning);
+  for (const std::string& warning : directory.warnings()) print_warning(warning);
   print_reason(solution, status);
   if (!options.quiet) print_output(summary_text(solution, directory.path()));
   return status;

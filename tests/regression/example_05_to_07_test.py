@@ -55,7 +55,7 @@ class EdgeCrack(Examples):
             "top: edge_4, bottom_right: vertex_2, top_right: vertex_4}}}",
             "bodies.plate.sectors={edge_1: glass, edge_2: glass, edge_6: glass}")
         crack = summary["increments"][-1]["cracks"]["plate.flaw"]
-        self.assertEqual(crack["kind"], "interface crack")
+        self.assertEqual(crack["kind"], "interface_crack")
         # E1 / E2 = 10, nu = 0.3, plane strain (VERIFICATION: 0.0758118)
         self.assertAlmostEqual(abs(crack["epsilon"]), 0.0758118, delta=1e-7)
 

@@ -4,11 +4,13 @@
 
 #include <chrono>
 
+#include "scabo/analysis/adaptive.hpp"
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "scabo/mesh/output_points.hpp"
 
 namespace scabo::analysis {
 
@@ -183,20 +185,32 @@ mesh::Mesh check(const model::Model& model) {
   mesh::Mesh mesh = mesh::make_mesh(model);
   system::check_supports(model, mesh);
   check_references(model, mesh);
+  check_refinable(model, mesh);
+  mesh::output_points(model);
   return mesh;
 }
 
 StaticSolution solve_static(model::Model model, const Options& options) {
+  double seconds = 0.0;
+  if (options.on_stage) options.on_stage("mesh");
+  mesh::Mesh mesh = timed(seconds, [&] { return check(model); });
+  StaticSolution solution = wants_refinement(model)  ? solve_refined(std::move(model), options)
+                            : model.output.error     ? solve_with_error(std::move(model), std::move(mesh), options)
+                                                     : solve_on_mesh(std::move(model), std::move(mesh), options);
+  solution.timing.mesh += seconds;
+  return solution;
+}
+
+StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options) {
   const auto stage = [&](const char* what) {
     if (options.on_stage) options.on_stage(what);
   };
   linalg::set_blas_threads(options.threads);
   StaticSolution solution;
   solution.model = std::move(model);
+  solution.mesh = std::move(mesh);
   Timing& timing = solution.timing;
 
-  stage("mesh");
-  solution.mesh = timed(timing.mesh, [&] { return check(solution.model); });
   stage("super-elements");
   solution.super_elements = timed(timing.super_elements, [&] {
     return solve_super_elements(solution.model, solution.mesh, options.threads);

@@ -64,6 +64,17 @@ struct AttemptResult {
   bool accepted = false;
 };
 
+/// Estimated error of discretisation in the energy norm |u| = sqrt(u'K u) (element/two_orders.hpp).
+struct BodyError {
+  double absolute = 0.0;  ///< sqrt(force times length)
+  double relative = 0.0;  ///< to the norm of the whole model's displacement
+};
+
+struct ErrorEstimate {
+  double relative = 0.0;                        ///< of the whole model
+  std::vector<std::optional<BodyError>> bodies;  ///< nothing for rigid and FE bodies
+};
+
 struct IncrementResult {
   int step = 0;        ///< from 1
   std::string step_name;
@@ -77,6 +88,7 @@ struct IncrementResult {
   std::vector<Vec2> reactions;            ///< one for each support of the model, in its order: force on the body
   contact::Certificate certificate;
   Energy energy;
+  std::optional<ErrorEstimate> error;     ///< when asked for
   std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
   std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
   std::vector<CrackResult> cracks;        ///< of all bounded open super-elements
@@ -119,6 +131,13 @@ struct SolvedSuperElement {
   mutable std::unique_ptr<element::ModalSolution> modes_;
 };
 
+/// One pass of refinement (adaptive.hpp).
+struct RefinementPass {
+  int dofs = 0;
+  double error = 0.0;  ///< the largest of all increments
+  int raised = 0, divided = 0;  ///< elements changed after it
+};
+
 enum class Outcome { solved, not_converged, interrupted };
 
 struct StaticSolution {
@@ -126,6 +145,7 @@ struct StaticSolution {
   mesh::Mesh mesh;
   std::vector<std::shared_ptr<const SolvedSuperElement>> super_elements;  ///< per body; null for rigid and FE bodies
   std::vector<IncrementResult> increments;  ///< converged ones, then at most one that is not
+  std::vector<RefinementPass> passes;  ///< where the mesh was refined for a tolerance
   std::vector<std::string> warnings;
   Outcome outcome = Outcome::solved;
   std::string reason;  ///< when not solved
@@ -142,11 +162,15 @@ struct Options {
   std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
 };
 
-/// Meshes the model and looks whether every body is held (modal: it need not be), without solving anything. Throws InputError.
+/// Meshes the model and looks whether every body is held (modal: it need not be) and every output point lies in one, without
+/// solving anything. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of
 /// the result.
 StaticSolution solve_static(model::Model model, const Options& options = {});
+
+/// The same on a mesh of the model, once: without refinement or estimate of the error.
+StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options);
 
 }  // namespace scabo::analysis

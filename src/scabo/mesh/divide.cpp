@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <numeric>
 
 #include "scabo/mesh/lobatto.hpp"
 
@@ -73,21 +75,47 @@ double count_boundary_nodes(const model::Body& body) {
   return elements * body.mesh.order + (body.open() ? 1.0 : 0.0);
 }
 
+BodyDivision uniform_division(const model::Body& body) {
+  BodyDivision division(body.outline.edges.size());
+  for (const Run& run : runs_of(body)) {
+    const int elements = static_cast<int>(elements_of(body, run));
+    const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
+    EdgeDivision& divided = division[static_cast<std::size_t>(run.edge)];
+    std::vector<double> breaks;
+    for (int k = 0; k <= elements; ++k) breaks.push_back(k == elements ? high : std::lerp(low, high, static_cast<double>(k) / elements));
+    if (!divided.breaks.empty()) breaks.pop_back();  // a crack's last run ends where its first began
+    divided.breaks.insert(divided.breaks.begin(), breaks.begin(), breaks.end());
+    divided.orders.insert(divided.orders.end(), static_cast<std::size_t>(elements), body.mesh.order);
+  }
+  return division;
+}
+
+BodyMesh divide_boundary(const model::Body& body) { return divide_boundary(body, uniform_division(body)); }
+
 namespace {
 
 /// Elements along one run, their nodes appended; those of the run's last element but one node.
-std::vector<LineElement> divide_run(const model::Body& body, const Run& run, int total, std::vector<Vec2>& nodes) {
-  const model::Edge& edge = body.outline.edges[static_cast<std::size_t>(run.edge)];
-  const int order = body.mesh.order, elements = static_cast<int>(elements_of(body, run));
-  const std::vector<double> points = lobatto_points(order);
+std::vector<LineElement> divide_run(const model::Edge& edge, const EdgeDivision& divided, const Run& run, int total,
+                                    std::vector<Vec2>& nodes) {
+  const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
+  std::vector<std::size_t> elements;
+  for (std::size_t k = 0; k < divided.orders.size(); ++k) {
+    const double middle = 0.5 * (divided.breaks[k] + divided.breaks[k + 1]);
+    if (middle > low && middle < high) elements.push_back(k);
+  }
+  const bool backwards = run.to < run.from;
+  if (backwards) std::reverse(elements.begin(), elements.end());
   std::vector<LineElement> line;
-  for (int k = 0; k < elements; ++k) {
+  for (const std::size_t k : elements) {
+    const int order = divided.orders[k];
+    const std::vector<double> points = lobatto_points(order);
+    const double from = divided.breaks[backwards ? k + 1 : k], to = divided.breaks[backwards ? k : k + 1];
     LineElement& element = line.emplace_back();
     for (int i = 0; i <= order; ++i) {
       element.nodes.push_back(static_cast<int>(nodes.size()) % total);  // closed: the last node is the first again
       if (i == order) break;                                           // and belongs to the next element
-      const double part = (k + 0.5 * (1.0 + points[static_cast<std::size_t>(i)])) / elements;
-      nodes.push_back(k == 0 && i == 0 ? edge.at(run.from) : edge.at(run.from + part * (run.to - run.from)));
+      const bool first = line.size() == 1 && i == 0;
+      nodes.push_back(edge.at(first ? run.from : std::lerp(from, to, 0.5 * (1.0 + points[static_cast<std::size_t>(i)]))));
     }
   }
   return line;
@@ -106,9 +134,11 @@ void add_to_edge(const Run& run, const std::vector<LineElement>& line, std::vect
 
 }  // namespace
 
-BodyMesh divide_boundary(const model::Body& body) {
+BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) {
   const std::size_t edges = body.outline.edges.size();
-  const int total = static_cast<int>(count_boundary_nodes(body));
+  ensure(division.size() == edges, "a division speaks of every edge");
+  int total = body.open() ? 1 : 0;
+  for (const EdgeDivision& edge : division) total = std::accumulate(edge.orders.begin(), edge.orders.end(), total);
   BodyMesh mesh;
   mesh.nodes.reserve(static_cast<std::size_t>(total));
   mesh.edges.resize(edges);
@@ -117,16 +147,15 @@ BodyMesh divide_boundary(const model::Body& body) {
   whole.centre = body.mesh.centre;
   const std::vector<Run> runs = runs_of(body);
   for (const Run& run : runs) {
-    const std::vector<LineElement> line = divide_run(body, run, total, mesh.nodes);
-    add_to_edge(run, line, mesh.edges[static_cast<std::size_t>(run.edge)]);
-    const auto corner_at = [&](double end) -> int& {
-      return mesh.corners[(static_cast<std::size_t>(run.edge) + (end == 1.0 ? 1 : 0)) % edges];
-    };
+    const auto e = static_cast<std::size_t>(run.edge);
+    const std::vector<LineElement> line = divide_run(body.outline.edges[e], division[e], run, total, mesh.nodes);
+    add_to_edge(run, line, mesh.edges[e]);
+    const auto corner_at = [&](double end) -> int& { return mesh.corners[(e + (end == 1.0 ? 1 : 0)) % edges]; };
     if (run.from == 0.0 || run.from == 1.0) corner_at(run.from) = line.front().nodes.front();
     if (run.to == 0.0 || run.to == 1.0) corner_at(run.to) = line.back().nodes.back();
     whole.boundary.insert(whole.boundary.end(), line.begin(), line.end());
     if (!body.sector_materials.empty())
-      mesh.materials.insert(mesh.materials.end(), line.size(), body.sector_materials[static_cast<std::size_t>(run.edge)]);
+      mesh.materials.insert(mesh.materials.end(), line.size(), body.sector_materials[e]);
   }
   if (body.open()) {
     const Run& last = runs.back();
@@ -138,12 +167,20 @@ BodyMesh divide_boundary(const model::Body& body) {
 }
 
 std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& mesh) {
-  const LobattoBasis basis(body.mesh.order);
   // |J| is a polynomial of degree 2 p - 1 along an element: 2 p + 1 points, the ends among them.
-  const Matrix shape = basis.shape_at(lobatto_points(2 * body.mesh.order));
-  const Matrix slope = shape * basis.derivative;
-
+  struct Sampling {
+    Matrix shape, slope;
+  };
+  std::map<std::size_t, Sampling> of_order;
   const auto is_seen = [&](const LineElement& element) {
+    const auto [found, is_new] = of_order.try_emplace(element.nodes.size());
+    auto& [shape, slope] = found->second;
+    if (is_new) {
+      const int order = static_cast<int>(element.nodes.size()) - 1;
+      const LobattoBasis basis(order);
+      shape = basis.shape_at(lobatto_points(2 * order));
+      slope = shape * basis.derivative;
+    }
     Eigen::MatrixX2d x(element.nodes.size(), 2);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       x.row(i) = mesh.nodes[element.nodes[i]] - body.mesh.centre;

@@ -66,7 +66,9 @@ bool is_edge(const model::Place& place) { return place.kind == model::Place::Kin
 
 }  // namespace
 
-Mesh make_mesh(const model::Model& model) {
+Mesh make_mesh(const model::Model& model) { return make_mesh(model, Division(model.bodies.size())); }
+
+Mesh make_mesh(const model::Model& model, const Division& division) {
   Mesh mesh;
   std::vector<Diagnostic> mistakes;
   const auto add = [&](std::vector<Diagnostic> more) {
@@ -80,7 +82,9 @@ Mesh make_mesh(const model::Model& model) {
     const model::Body& body = model.bodies[b];
     if (body.rigid || add(obstacles(body, nodes))) continue;
     const bool fem = body.mesh.kind == model::MeshKind::fem;
-    mesh.bodies[b] = fem ? divide_grid(body) : divide_boundary(body);
+    mesh.bodies[b] = fem                    ? divide_grid(body)
+                     : division[b].empty() ? divide_boundary(body)
+                                           : divide_boundary(body, division[b]);
     if (!fem) add(unseen_edges(body, mesh.bodies[b]));
     nodes += static_cast<double>(mesh.bodies[b].nodes.size());
   }

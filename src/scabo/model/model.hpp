@@ -97,6 +97,9 @@ struct MeshOptions {
   int order = 2;               ///< polynomial order of a boundary element, 1 to 16
   Vec2 centre = Vec2::Zero();  ///< scaling centre: given by the user, a crack's tip, or the centroid
   int centre_corner = -1;      ///< corner of the outline at the scaling centre, or -1: its two edges are side faces
+  /// Wanted of the estimated error in the energy norm, relative to the whole model's; `size` and `order` are then those to
+  /// begin with.
+  std::optional<double> tolerance;
   Source source;
 };
 
@@ -210,9 +213,40 @@ struct SolverOptions {
   int halvings = 6;          ///< of an increment that did not converge
 };
 
-/// What a run writes besides the files that it always writes.
+/// A point whose values are wanted. `body`: -1 for every body that holds it.
+struct OutputPoint {
+  std::string name;
+  Vec2 at = Vec2::Zero();
+  int body = -1;
+  Source source;
+};
+
+/// `points` equally spaced points from `from` to `to`, both included.
+struct OutputLine {
+  std::string name;
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  int points = 101;  ///< 2 or more
+  int body = -1;
+  Source source;
+};
+
+/// The points of a rectangular grid that lie in bodies: `spacing` apart within the bodies' box, or counts[0] x counts[1]
+/// points from `low` to `high`.
+struct OutputGrid {
+  std::optional<double> spacing;  ///< > 0
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  std::array<int, 2> counts{};  ///< without spacing: 1 or more each
+  int body = -1;
+  Source source;
+};
+
+/// What is wanted besides the files that every run writes.
 struct Output {
-  bool discrete_problems = false;  ///< the contact problem of every increment
+  std::vector<OutputPoint> points;
+  std::vector<OutputLine> lines;
+  std::optional<OutputGrid> grid;
+  bool error = false;  ///< estimate the error of every increment
+  bool discrete_problems = false;  ///< the contact problem of every increment, as a file
 };
 
 struct Model {

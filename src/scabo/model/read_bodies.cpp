@@ -90,7 +90,8 @@ void check_side_faces(Reading& reading, const Value& at, const Outline& outline,
 std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"size", "order", "kind", "centre"}, "{size: 0.1, order: 2}");
+  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance"},
+                      "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
   if (const auto kind = map.get("kind")) {
@@ -103,8 +104,20 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
     }
   }
   const bool fem = mesh.kind == MeshKind::fem;
-  const auto size = map.need("size");
-  if (size) mesh.size = read_positive(report, *size).value_or(0.0);
+  if (fem) map.refuse("tolerance", "only a superelement is refined: leave it out for fem");
+  if (const auto tolerance = fem ? std::nullopt : map.get("tolerance")) {
+    const auto number = read_number(report, *tolerance);
+    if (number && *number >= 1e-6 && *number <= 0.5) mesh.tolerance = *number;
+    if (number && !mesh.tolerance) {
+      report.error(*tolerance, fmt::format("must be from 1e-6 to 0.5, not {}", tolerance->node->text));
+    }
+  }
+  const auto size = mesh.tolerance ? map.get("size") : map.need("size");
+  if (size) {
+    mesh.size = read_positive(report, *size).value_or(0.0);
+  } else if (mesh.tolerance && outline != nullptr) {
+    for (const Edge& edge : outline->edges) mesh.size = std::max(mesh.size, 0.25 * edge.length());
+  }
   if (const auto order = map.get("order")) {
     mesh.order = static_cast<int>(read_integer(report, *order, 1, 16).value_or(2));
     if (fem && mesh.order != 2) {
@@ -125,7 +138,7 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   const double dofs = estimated_dofs(*outline, mesh.kind, mesh.size, mesh.order);
   const double most = fem ? most_fem_dofs : most_superelement_dofs;
   if (dofs > most) {
-    report.error(*size,
+    report.error(size ? *size : value,
                  fmt::format("gives {:.6g} degrees of freedom, {} take at most {:.6g}: use a larger size{}",
                              dofs, fem ? "finite elements" : "one super-element can", most,
                              fem ? "" : " or divide the body"));

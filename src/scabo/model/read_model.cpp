@@ -113,6 +113,7 @@ void read_sections(Reading& reading, const Value& root) {
   const std::size_t before_steps = reading.report.count();
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
+  if (const auto output = map.get("output")) read_output(reading, *output);
   // A misspelt section may be the one that is missing.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
 }

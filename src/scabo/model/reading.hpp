@@ -53,6 +53,7 @@ void read_loads(Reading& reading, const Value& value);
 void read_contacts(Reading& reading, const Value& value);
 /// Without a section (nothing): one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
+void read_output(Reading& reading, const Value& value);
 
 /// `shape` of a body; nothing when it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);

@@ -83,6 +83,10 @@ Probe::Probe(const analysis::StaticSolution& solution, const analysis::Increment
   field_.emplace(super_element->solution, super_element->modes(), u_, interior_.loads);
 }
 
+void Probe::expect_many() {
+  if (field_ && !table_) table_.emplace(*field_, element::fastest_of(solution_.super_elements[body_]->modes()));
+}
+
 std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   const model::Body& body = solution_.model.bodies[body_];
   if (body.rigid) {
@@ -98,8 +102,8 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   if (!point) return std::nullopt;
   const element::Vec3 free = super_element.sectors.unit_strain_of(static_cast<std::size_t>(point->element)) *
                              interior_.temperature.at(x);
-  return element::point_values(super_element.ring, field_->at(point->xi), super_element.sectors.D, point->element,
-                               point->eta, free);
+  return element::point_values(super_element.ring, table_ ? table_->at(point->xi) : field_->at(point->xi), super_element.sectors.D,
+                               point->element, point->eta, free);
 }
 
 std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {

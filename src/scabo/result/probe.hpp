@@ -7,6 +7,7 @@
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/plane_element8.hpp"
+#include "scabo/element/radial_table.hpp"
 
 namespace scabo::result {
 
@@ -15,6 +16,12 @@ namespace scabo::result {
 class Probe {
  public:
   Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body);
+
+  Probe(const Probe&) = delete;
+  Probe& operator=(const Probe&) = delete;
+
+  /// Makes many points cheap: fields of super-elements are interpolated along xi, to rounding.
+  void expect_many();
 
   /// Nothing when the point lies outside the body. Between finite elements (super-elements: boundary
   /// elements) that of one of them is taken. A rigid body has displacement only.
@@ -28,6 +35,7 @@ class Probe {
   const Vector& u_;
   const element::InteriorLoads& interior_;
   std::optional<element::RadialField> field_;  // of a super-element
+  std::optional<element::RadialTable> table_;  // of field_
 };
 
 /// The same for a single point.

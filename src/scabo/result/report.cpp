@@ -60,7 +60,16 @@ std::string report_header(const analysis::StaticSolution& solution) {
                       count(sizes.nodes, "node"), fmt::format("{} degrees of freedom", sizes.dofs));
   if (sizes.super_elements > 0) text += ", " + count(sizes.super_elements, "super-element");
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
-  return text + ", " + count(sizes.contact_pairs, "contact pair") + "\n\n";
+  return text + ", " + count(sizes.contact_pairs, "contact pair") + "\n\n" + report_passes(solution);
+}
+
+std::string report_passes(const analysis::StaticSolution& solution) {
+  if (solution.passes.empty()) return {};
+  std::vector<std::vector<std::string>> rows = {{"pass", "dofs", "estimated error", "raised", "divided"}};
+  for (const analysis::RefinementPass& pass : solution.passes)
+    rows.push_back({fmt::format("{}", rows.size()), fmt::format("{}", pass.dofs), fmt::format("{:.3g}", pass.error),
+                    fmt::format("{}", pass.raised), fmt::format("{}", pass.divided)});
+  return table(rows) + "\n";
 }
 
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment) {
@@ -75,6 +84,7 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
   text += count(increment.newton_iterations, "iteration");
   if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));
   text += fmt::format(", residual {:.2g}", increment.residual);
+  if (increment.error) text += fmt::format(", estimated error {:.2g}", increment.error->relative);
   if (increment.converged) return text + fmt::format(", certificate {:.2g}\n", increment.certificate.worst());
   return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
 }

@@ -90,6 +90,17 @@ Json json_of(const element::StressIntensity& crack) {
   return json;
 }
 
+Json json_of(const analysis::ErrorEstimate& error, const model::Model& model) {
+  Json json = {{"relative_energy_norm", number_or_null(error.relative)}, {"bodies", Json::object()}};
+  for (std::size_t b = 0; b < error.bodies.size(); ++b) {
+    const auto& body = error.bodies[b];
+    if (body)
+      json["bodies"][model.bodies[b].name] = {{"absolute", number_or_null(body->absolute)},
+                                              {"relative", number_or_null(body->relative)}};
+  }
+  return json;
+}
+
 /// An increment that did not converge has no contacts, reactions, certificate or energy: it is no result.
 Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
   Json json = {{"step", increment.step}, {"increment", increment.increment}};
@@ -103,6 +114,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   json["cracks"] = Json::object();
   json["certificate"] = nullptr;
   json["energy"] = nullptr;
+  json["error"] = nullptr;
   if (!increment.converged) return json;
   for (const analysis::ContactResult& contact : increment.contacts)
     json["contacts"][contact.name] = json_of(contact);
@@ -112,6 +124,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
+  json["error"] = increment.error ? json_of(*increment.error, model) : Json();
   return json;
 }
 
@@ -196,6 +209,12 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
                    {"dofs", sizes.dofs},
                    {"super_elements", sizes.super_elements},
                    {"contact_pairs", sizes.contact_pairs}};
+  json["passes"] = Json::array();
+  for (const analysis::RefinementPass& pass : solution.passes)
+    json["passes"].push_back({{"dofs", pass.dofs},
+                              {"error", number_or_null(pass.error)},
+                              {"raised", pass.raised},
+                              {"divided", pass.divided}});
   json["increments"] = Json::array();
   for (const analysis::IncrementResult& increment : solution.increments)
     json["increments"].push_back(json_of(increment, solution.model));

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
 #include "scabo/element/plane_element8.hpp"
 #include "theory/rings.hpp"
