@@ -94,7 +94,6 @@ void read_sections(Reading& reading, const Value& root) {
     reading.model.title = read_text(reading.report, *title).value_or("");
   if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);
   if (const auto solver = map.get("solver")) read_solver(reading, *solver);
-  if (const auto output = map.get("output")) read_output(reading, *output);
 
   reading.materials_known = map.has("materials");
   if (const auto materials = map.get("materials")) read_materials(reading, *materials);
