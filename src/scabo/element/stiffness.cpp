@@ -99,6 +99,25 @@ Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matr
   return block;
 }
 
+/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it: 5e-10 of K where
+/// lengths differ by 1e6, 1e-15 where they are alike. K t = 0 of the translations, perpendicular to r, stays.
+Matrix without_rotation(const Matrix& K, const Ring& ring) {
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& x : ring.nodes) mean += x / static_cast<double>(ring.nodes.size());
+  Vector r(K.rows());
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
+    const Vec2 arm = ring.nodes[i] - mean;
+    r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-arm.y(), arm.x());
+  }
+  r.normalize();
+  const Vector force = K * r;
+  const Vector half = force - 0.5 * r.dot(force) * r;
+  Matrix freed = K;
+  freed.noalias() -= r * half.transpose();
+  freed.noalias() -= half * r.transpose();
+  return symmetrised(freed);
+}
+
 }  // namespace
 
 Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& doublings) {
@@ -150,7 +169,7 @@ SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double
     solution.K += basis * stiffness[i] * basis.transpose();
     solution.doublings = std::max(solution.doublings, doublings[i]);
   }
-  solution.K = symmetrised(solution.K);
+  solution.K = without_rotation(symmetrised(solution.K), ring);
   return solution;
 }
 
