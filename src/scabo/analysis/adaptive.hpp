@@ -31,9 +31,15 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh);
 /// solve_static() with the error of every increment estimated.
 StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options);
 
-/// solve_static() on the first mesh that meets eq. (1); its increments are reported when it is found. Where none does within the limits
-/// (5,000 degrees of freedom in a body, 40 passes, no progress in 4), the outcome is not_converged with the last mesh's results.
-StaticSolution solve_refined(model::Model model, const Options& options);
+struct RefinementLimits {
+  int dofs = 5000;              ///< in one body
+  int passes = 40;
+  int without_progress = 4;     ///< passes that together take less than a fifth off the sum of eq. (1)
+};
+
+/// solve_static() on the first mesh that meets eq. (1); its increments are reported when it is found. Where none does within the
+/// limits, the outcome is not_converged, with the last mesh's results.
+StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits = {});
 
 /// The error of an increment: `increment` on the narrower mesh of `solution`, `wider` on the wider one.
 ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,

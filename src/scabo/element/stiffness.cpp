@@ -144,6 +144,25 @@ Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matr
   return block;
 }
 
+/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it: 5e-10 of K where
+/// lengths differ by 1e6, 1e-15 where they are alike. K t = 0 of the translations, perpendicular to r, stays.
+Matrix without_rotation(const Matrix& K, const Ring& ring) {
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& x : ring.nodes) mean += x / static_cast<double>(ring.nodes.size());
+  Vector r(K.rows());
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
+    const Vec2 arm = ring.nodes[i] - mean;
+    r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-arm.y(), arm.x());
+  }
+  r.normalize();
+  const Vector force = K * r;
+  const Vector half = force - 0.5 * r.dot(force) * r;
+  Matrix freed = K;
+  freed.noalias() -= r * half.transpose();
+  freed.noalias() -= half * r.transpose();
+  return symmetrised(freed);
+}
+
 }  // namespace
 
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads,
@@ -168,14 +187,15 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   for (const int count : doublings) solution.doublings = std::max(solution.doublings, count);
   if (bases.size() == 1) {  // T = 1
     solution.K = std::move(stiffness.front());
-    return solution;
+  } else {
+    solution.K = Matrix::Zero(n, n);
+    for (std::size_t i = 0; i < bases.size(); ++i) {
+      const Eigen::SparseMatrix<double>& basis = solution.blocks[i].T;
+      solution.K += basis * stiffness[i] * basis.transpose();
+    }
+    solution.K = symmetrised(solution.K);
   }
-  solution.K = Matrix::Zero(n, n);
-  for (std::size_t i = 0; i < bases.size(); ++i) {
-    const Eigen::SparseMatrix<double>& basis = solution.blocks[i].T;
-    solution.K += basis * stiffness[i] * basis.transpose();
-  }
-  solution.K = symmetrised(solution.K);
+  if (!domain.unbounded) solution.K = without_rotation(solution.K, ring);  // what is unbounded resists rotation
   return solution;
 }
 

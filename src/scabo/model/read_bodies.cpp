@@ -112,7 +112,7 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
       report.error(*tolerance, fmt::format("must be from 1e-6 to 0.5, not {}", tolerance->node->text));
     }
   }
-  const auto size = map.has("tolerance") ? map.get("size") : map.need("size");
+  const auto size = map.has("tolerance") && !fem ? map.get("size") : map.need("size");
   if (size) {
     mesh.size = read_positive(report, *size).value_or(0.0);
   } else if (mesh.tolerance && outline != nullptr) {

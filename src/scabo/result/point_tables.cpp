@@ -117,13 +117,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
         result.values.stress =
             super_element->sectors.D.of(static_cast<std::size_t>(body.places[i].element)) * result.values.strain;
       } else {
-        auto values = probe->at(x);
-        if (!values && super_element) {  // a little outside of a divided arc
-          const element::ScaledPoint& place = body.places[i];
-          const Vec2 on_boundary = element::boundary_position(super_element->ring, place.element, place.eta);
-          values = probe->at(solution.mesh.bodies[b].super_elements.front().centre +
-                             (super_element->domain.unbounded ? 1.0 + 1e-14 : 1.0 - 1e-14) * on_boundary);
-        }
+        const auto values = super_element ? std::optional(probe->at(x, body.places[i])) : probe->at(x);
         ensure(values.has_value(), "a point of a body has no value");
         result.values = *values;
       }

@@ -98,12 +98,18 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   if (!field_) return in_finite_elements(x);
   const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
   const Vec2& centre = solution_.mesh.bodies[body_].super_elements.front().centre;
-  const auto point = element::locate(super_element.ring, x - centre, super_element.domain.unbounded);
-  if (!point) return std::nullopt;
-  const element::Vec3 free = super_element.sectors.unit_strain_of(static_cast<std::size_t>(point->element)) *
-                             interior_.temperature.at(x);
-  return element::point_values(super_element.ring, table_ ? table_->at(point->xi) : field_->at(point->xi), super_element.sectors.D,
-                               point->element, point->eta, free);
+  const auto place = element::locate(super_element.ring, x - centre, super_element.domain.unbounded);
+  if (!place) return std::nullopt;
+  return at(x, *place);
+}
+
+element::PointValues Probe::at(const Vec2& x, const element::ScaledPoint& place) const {
+  ensure(field_.has_value(), "only super-elements have scaled boundary coordinates");
+  const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
+  const element::Vec3 free =
+      super_element.sectors.unit_strain_of(static_cast<std::size_t>(place.element)) * interior_.temperature.at(x);
+  return element::point_values(super_element.ring, table_ ? table_->at(place.xi) : field_->at(place.xi), super_element.sectors.D,
+                               place.element, place.eta, free);
 }
 
 std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {

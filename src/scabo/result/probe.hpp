@@ -26,6 +26,8 @@ class Probe {
   /// Nothing when the point lies outside the body. Between finite elements (super-elements: boundary
   /// elements) that of one of them is taken. A rigid body has displacement only.
   std::optional<element::PointValues> at(const Vec2& x) const;
+  /// The same where its place in the super-element is known already.
+  element::PointValues at(const Vec2& x, const element::ScaledPoint& place) const;
 
  private:
   std::optional<element::PointValues> in_finite_elements(const Vec2& x) const;
