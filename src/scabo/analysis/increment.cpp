@@ -5,7 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
-#include "scabo/contact/solve.hpp"
+#include "scabo/contact/uniqueness.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::analysis {
@@ -67,8 +67,13 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.external += 0.5 * (from.reactions[b] + to.reactions[b]).dot(to.prescribed[b] - from.prescribed[b]);
     energy.elastic += prepared.structure.bodies[b]->elastic_energy(to.u[b]);
   }
-  for (Eigen::Index i = 0; i < to.slip.size(); ++i)
-    energy.friction -= 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]) * (to.slip[i] - from.slip[i]);
+  for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
+    const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)], &after = to.history[static_cast<std::size_t>(i)];
+    // Where the strength fell at once, the slip took place under what was left of it.
+    const bool fell = before.broken != after.broken || before.slipped != after.slipped;
+    const double p_t = fell ? to.p[2 * i + 1] : 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]);
+    energy.friction -= p_t * (to.slip[i] - from.slip[i]);
+  }
   return energy;
 }
 
@@ -200,7 +205,10 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     row.state = state.states[i];
     row.displacement_a = displacement_at(prepared, state, contact.a.body, pair.node_a, pair.point_a, pair.normal);
     row.displacement_b = displacement_at(prepared, state, contact.b.body, pair.node_b, pair.point_b, pair.normal);
-    results[static_cast<std::size_t>(at.contact)].pairs.push_back(row);
+    ContactResult& result = results[static_cast<std::size_t>(at.contact)];
+    result.pairs.push_back(row);
+    if (contact.cohesion > 0.0 || contact.tension > 0.0)
+      result.broken = result.broken.value_or(0) + state.history[i].broken;
     index_of_pair[static_cast<std::size_t>(at.contact)].push_back(at.index);
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
@@ -209,6 +217,27 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     add_totals(results[c]);
   }
   return results;
+}
+
+/// Looks for other solutions; where one is nearer to the accepted forces than the one at hand, the increment goes there, so that
+/// the branch connected to the history is followed.
+std::optional<UniquenessResult> follow_history(const contact::Problem& problem, const contact::JointLaws& laws,
+                                               const contact::History& history, const contact::Start& start,
+                                               const contact::SolverOptions& options, contact::Evolution& evolution) {
+  if (evolution.solution.status != contact::Status::solved) return std::nullopt;
+  contact::UniquenessReport report =
+      contact::examine_uniqueness(evolution.problem, start, evolution.solution, options);
+  if (report.nearest >= 0) {
+    const contact::Start nearer{report.others[static_cast<std::size_t>(report.nearest)], evolution.solution.a};
+    contact::Evolution other = contact::evolve(problem, laws, history, nearer, options);
+    if (other.solution.status == contact::Status::solved) {
+      other.solution.iterations += evolution.solution.iterations;
+      evolution = std::move(other);
+      report = contact::examine_uniqueness(evolution.problem, start, evolution.solution, options);
+    }
+  }
+  return UniquenessResult{contact::name_of(report.unique), static_cast<int>(report.others.size()), report.complete,
+                          report.bound, report.index};
 }
 
 }  // namespace
@@ -231,6 +260,7 @@ State initial_state(const Prepared& prepared) {
   state.a = Vector::Zero(prepared.contact.rigid_motions());
   state.gap = prepared.contact.gap;
   state.slip = Vector::Zero(N);
+  state.history.assign(prepared.contact.pairs.size(), {});
   state.states.assign(prepared.contact.pairs.size(), contact::ContactState::open);
   state.forces = applied_forces(prepared, state.factors.loads);
   state.prescribed = prescribed_values(prepared, state.factors.supports);
@@ -254,7 +284,6 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::Problem problem;
   problem.W = system.W;
   problem.q = Vector::Zero(2 * N);
-  problem.mu = system.mu;
   problem.G = system.G;
   problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -276,8 +305,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
 
   result.start = {from.p, from.a};
   result.force_scale = options.force_scale;
-  result.solution = contact::solve(problem, result.start, options);
-  result.problem = std::move(problem);
+  contact::Evolution evolution = contact::evolve(problem, system.laws, from.history, result.start, options);
+  if (prepared.model.solver.uniqueness && N > 0)
+    result.uniqueness = follow_history(problem, system.laws, from.history, result.start, options, evolution);
+  result.solution = std::move(evolution.solution);
+  result.problem = std::move(evolution.problem);
+  to.history = std::move(evolution.history);
   to.p = result.solution.p;
   to.a = result.solution.a;
   to.gap = result.solution.gap;

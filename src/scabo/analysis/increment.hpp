@@ -29,6 +29,7 @@ struct State {
   Vector p;                        // 2N, contact forces on B
   Vector a;                        // m, rigid motions
   Vector gap, slip;                // N; slip since the start
+  contact::History history;        // N, of the laws
   std::vector<contact::ContactState> states;
   std::vector<Vector> u;           // per body
   std::vector<Vector> forces;      // per body: applied forces without contact
@@ -47,6 +48,7 @@ struct Attempt {
   contact::Problem problem;  ///< what was solved, from `start`; W is shared, not copied
   contact::Start start;
   double force_scale = 0.0;
+  std::optional<UniquenessResult> uniqueness;
 };
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors);
 

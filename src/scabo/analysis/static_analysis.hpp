@@ -38,6 +38,7 @@ struct ContactResult {
   double normal_force = 0.0;      ///< sum of the pairs' normal forces
   double tangential_force = 0.0;  ///< sum of the pairs' tangential forces
   int open = 0, stick = 0, slip = 0;
+  std::optional<int> broken;      ///< pairs that lost cohesion and tensile strength; nothing where the contact has none
   double max_gap = 0.0;           ///< of the open pairs; 0 when none is open
   double max_pressure = 0.0;
   std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; nothing when all are open
@@ -56,6 +57,15 @@ struct AttemptResult {
   bool accepted = false;
 };
 
+/// What is known of other solutions of an increment (contact/uniqueness.hpp), for `solver: {uniqueness: true}`.
+struct UniquenessResult {
+  std::string verdict;      ///< `proven`, `several found`, `not decided`
+  int others = 0;           ///< other solutions found
+  bool complete = false;    ///< there are no more
+  double bound = 0.0;       ///< below 1: proven; infinite where the condition does not apply
+  int index = 0;            ///< sign of det H'; 0: on a kink or not computed
+};
+
 struct IncrementResult {
   int step = 0;        ///< from 1
   std::string step_name;
@@ -72,6 +82,7 @@ struct IncrementResult {
   std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
   std::vector<Vec2> body_forces;          ///< per body: density times gravity times factor, force / length^3
   std::string reason;                     ///< why it did not converge
+  std::optional<UniquenessResult> uniqueness;  ///< where asked for
   std::vector<AttemptResult> attempts;    ///< one; more where the increment was halved
 };
 

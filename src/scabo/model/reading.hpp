@@ -54,6 +54,9 @@ void read_contacts(Reading& reading, const Value& value);
 /// Without a section (nothing): one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 
+/// What a contact carries: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
+void read_law(Reading& reading, const MapReader& map, Contact& contact);
+
 /// `shape` of a body; nothing when it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);
 /// `mesh` of an elastic body whose outline is known, or not (nullptr).
