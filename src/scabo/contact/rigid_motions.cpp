@@ -98,9 +98,10 @@ std::optional<Vector> mechanism_against_strengths(const Problem& problem, const 
   for (int round = 0; round < most; ++round) {
     const Vector residual = b - A * linalg::nonnegative_least_squares(A, b);
     const Vector v = residual.head(m);
-    if (residual.norm() <= 1e-9 * scale) return std::nullopt;
-    const Vector strongest = resisting(problem, v);
-    if (v.dot(strongest) + scale * residual[m] <= 1e-12 * scale * residual.norm())
+    if (residual.norm() <= 3e-8 * scale) return std::nullopt;  // its square must stand out of rounding
+    // Were there balance, |residual|^2 = residual'b would be at most this, the weights being 1 in all; half is for rounding.
+    const double most_of_hull = v.dot(resisting(problem, v)) + scale * residual[m];
+    if (most_of_hull <= 0.5 * residual.squaredNorm())
       return slide_of(problem, -v.normalized());
     A.conservativeResize(Eigen::NoChange, A.cols() + 1);
     add(A.cols() - 1, v);

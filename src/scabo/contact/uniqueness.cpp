@@ -74,6 +74,9 @@ bool may_enumerate(const Problem& problem) {
          problem.cohesion.size() == 0 && problem.tension.size() == 0;
 }
 
+/// Off the kink of the gap: its rows of H' are those of dp whatever the slope of the bound, and enter no determinant.
+bool is_open(const Branch& branch) { return !branch.contact && !branch.normal_tie && branch.bound_tie; }
+
 /// Newton alone from `p`: forces where it ends in a solution.
 std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options) {
   const BDifferentiableEquations equations(problem, options.r_factor);
@@ -161,7 +164,7 @@ int index_of(const Problem& problem, const Vector& p, const Vector& a) {
   const BDifferentiableEquations equations(problem, 1.0);
   const Residual at = equations.residual(p, a);
   for (const Branch& branch : at.branches)
-    if (branch.tied()) return 0;
+    if (branch.tied() && !is_open(branch)) return 0;
   Matrix H(n, n);
   for (Eigen::Index k = 0; k < n; ++k) H.col(k) = equations.derivative(at, Vector::Unit(n, k));
   for (Eigen::Index row = 0; row < n; ++row)

@@ -168,7 +168,7 @@ TEST(FewPairs, IndicesOfAllSolutionsSumToOne) {
   int several = 0, counted = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Problem problem = test::held_problem(random, test::whole(random, 1, 3), 0.0);
-    problem.mu = Vector::Constant(problem.mu.size(), 3.0);
+    problem.mu = Vector::Constant(problem.mu.size(), 10.0);
     for (Eigen::Index i = 0; i < problem.q.size(); ++i) problem.q[i] = test::uniform(random, -1, 1);  // no ties
     const auto all = all_solutions(problem, 1e-10);
     ASSERT_TRUE(all.has_value());
