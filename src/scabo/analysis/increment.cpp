@@ -293,7 +293,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
-  options.force_scale = std::max({prepared.force_scale, largest_force(from), largest_force(to)});
+  options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
   std::vector<Vector> free;  // without contact
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
@@ -326,7 +326,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   }
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
-  certify_structure(prepared, to, std::max(options.force_scale, largest_force(to)), result.certificate);
+  to.largest_force = std::max(from.largest_force, largest_force(to));
+  certify_structure(prepared, to, std::max(options.force_scale, to.largest_force), result.certificate);
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;

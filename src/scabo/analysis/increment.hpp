@@ -35,6 +35,7 @@ struct State {
   std::vector<Vector> forces;      // per body: applied forces without contact
   std::vector<Vector> reactions;   // per body, one for each constraint
   std::vector<Vector> prescribed;  // per body, one for each constraint
+  double largest_force = 0.0;      ///< so far: what a force is small against once a joint broke and all is unloaded
   Energy energy;
 };
 State initial_state(const Prepared& prepared);
