@@ -4,6 +4,7 @@
 #   make build       the program, build/bin/scabo
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
+#   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
 #   make packages    everything that apt can bring
 #   make install     to PREFIX (/usr/local)
 #   make clean       removes build/ and build-*/
@@ -17,7 +18,7 @@ FUZZ_SECONDS ?= 60
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build test test-release test-asan fuzz bench packages install clean
+.PHONY: help demo build test test-release test-asan fuzz bench bench-contact packages install clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -55,6 +56,11 @@ bench:
 	@cmake/install_packages.sh build bench
 	@$(MAKE) --no-print-directory build
 	@$(with_python) benchmarks/peers/run.py --scabo build/bin/scabo
+
+bench-contact:
+	@cmake/install_packages.sh build bench
+	@$(MAKE) --no-print-directory build
+	@/usr/bin/python3 benchmarks/contact/run.py $(PROBLEMS) --scabo build/bin/scabo --output build/bench-contact
 
 packages:
 	@cmake/install_packages.sh build test bench

@@ -63,7 +63,7 @@ NewtonEnd Ladder::climb(const Vector& p, const Vector& a) {
 }
 
 NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a) {
-  NewtonEnd best = newton_alone(p, a, {"newton"});
+  NewtonEnd best = p.isZero(0.0) && may_sweep() ? without_history(p, a) : newton_alone(p, a, {"newton"});
   const auto better = [&](NewtonEnd end) {
     if (end.converged || end.residual < best.residual) best = std::move(end);
     return best.converged;
@@ -80,6 +80,18 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a) {
     if (better(newton_alone(p, a, {"newton, other r", 0.0, factor}))) return best;
   if (held) better(vanishing_proximal(best.p));
   return best;
+}
+
+/// At zero force every pair lies on the tip of its cone, which says nothing of stick and slip. A few sweeps cost less than one
+/// factorisation and say more: on the block of Raous, 32 to 256 pairs, mu = 0.3, 1 and 3, 30 sweeps with bodies held as
+/// stiffly as a pair took Newton's iterations from 94 in all to 60.
+NewtonEnd Ladder::without_history(const Vector& p, const Vector& a) {
+  constexpr int sweeps = 30;
+  if (problem_.G.cols() == 0) return newton_alone(gauss_seidel(problem_, p, sweeps), a, {"newton"});
+  const double soft = 0.7;
+  const Vector p_swept = gauss_seidel(held_at(problem_, a, soft), p, sweeps);
+  NewtonEnd end = newton_alone(p_swept, a + (problem_.G.transpose() * p_swept + problem_.f) / soft, {"newton"});
+  return end.converged ? end : newton_alone(p, a, {"newton from zero"});
 }
 
 // Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps and

@@ -35,6 +35,7 @@ class Ladder {
   NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, const Run& how);
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
   NewtonEnd climb_elastic(const Vector& p, const Vector& a);
+  NewtonEnd without_history(const Vector& p, const Vector& a);
   NewtonEnd climb_rank_deficient(const Vector& p);
   NewtonEnd swept(const Vector& p, int sweeps, double regularisation);
   NewtonEnd floating_proximal(Vector p, Vector a);

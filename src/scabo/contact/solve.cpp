@@ -72,7 +72,9 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
   }
 
   const double q_force = largest_of(scaled_problem.problem.q);
-  const double applied = std::max({options.force_scale, largest_of(problem.f), largest_of(p_start)});
+  // What rounding left of forces that are gone is no force to measure by.
+  const double from_history = largest_of(p_start) > 1e-10 * q_force ? largest_of(p_start) : 0.0;
+  const double applied = std::max({options.force_scale, largest_of(problem.f), from_history});
   const double reference = applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
 
   // Well below the tolerance, but not below the rounding of the gaps themselves (a body that hovers far away).

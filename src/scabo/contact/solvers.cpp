@@ -6,7 +6,6 @@
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/lemke.hpp"
 #include "scabo/contact/newton.hpp"
-#include "scabo/contact/newton.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/solvers/alart_curnier.hpp"
 #include "scabo/contact/solvers/fischer_burmeister.hpp"
@@ -30,22 +29,24 @@ struct Road {
   Method method;
   const char* name;
   bool plane, space, friction, strength, rigid;
+  Eigen::Index most = 0;  ///< contact unknowns, where its matrices are dense; 0: as many as there are
 };
+constexpr Eigen::Index dense = 6000;  // 0.3 GB a matrix
 constexpr Road roads[] = {
     {Method::b_differentiable, "b_differentiable", true, true, true, true, true},
     {Method::newton_only, "newton_only", true, true, true, true, true},
-    {Method::trial_and_error, "trial_and_error", true, true, true, false, true},
-    {Method::quadratic_programme, "quadratic_programme", true, true, false, false, false},
-    {Method::lemke, "lemke", true, false, true, false, false},
-    {Method::fischer_burmeister, "fischer_burmeister", true, true, true, false, true},
-    {Method::alart_curnier, "alart_curnier", true, true, true, true, true},
+    {Method::trial_and_error, "trial_and_error", true, true, true, false, true, dense},
+    {Method::quadratic_programme, "quadratic_programme", true, true, false, false, false, dense},
+    {Method::lemke, "lemke", true, false, true, false, false, dense / 2},
+    {Method::fischer_burmeister, "fischer_burmeister", true, true, true, false, true, dense},
+    {Method::alart_curnier, "alart_curnier", true, true, true, true, true, dense},
     {Method::gauss_seidel, "gauss_seidel", true, true, true, false, false},
-    {Method::tresca, "tresca", true, true, true, true, true},
-    {Method::proximal_point, "proximal_point", true, true, true, true, true},
-    {Method::siconos_nsgs, "siconos_nsgs", true, true, true, false, false},
-    {Method::siconos_lemke, "siconos_lemke", true, false, true, false, false},
-    {Method::siconos_nsn_ac, "siconos_nsn_ac", false, true, true, false, false},
-    {Method::siconos_nsn_fb, "siconos_nsn_fb", false, true, true, false, false},
+    {Method::tresca, "tresca", true, true, true, true, true, dense},
+    {Method::proximal_point, "proximal_point", true, true, true, true, true, dense},
+    {Method::siconos_nsgs, "siconos_nsgs", true, true, true, false, false, dense},
+    {Method::siconos_lemke, "siconos_lemke", true, false, true, false, false, dense / 2},
+    {Method::siconos_nsn_ac, "siconos_nsn_ac", false, true, true, false, false, dense},
+    {Method::siconos_nsn_fb, "siconos_nsn_fb", false, true, true, false, false, dense},
 };
 
 const Road& road_of(Method method) {
@@ -62,10 +63,15 @@ std::string refusal(const Road& road, const Problem& problem) {
   if (!is_built(road)) return std::string(road.name) + " is not in this build (CMake option SCABO_SICONOS)";
   if (problem.dimension == 2 && !road.plane) return who + "problems in the plane";
   if (problem.dimension == 3 && !road.space) return who + "problems in space";
-  if (!road.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0) return who + "friction: mu must be 0";
+  if (!road.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0)
+    return who + "friction: mu must be 0";
   const auto some = [](const Vector& v) { return v.size() > 0 && v.maxCoeff() > 0.0; };
-  if (!road.strength && (some(problem.cohesion) || some(problem.tension))) return who + "cohesion and tension";
+  if (!road.strength && (some(problem.cohesion) || some(problem.tension)))
+    return who + "cohesion and tension";
   if (!road.rigid && problem.G.cols() > 0) return who + "rigid motions that contact alone holds";
+  if (road.most > 0 && problem.q.size() > road.most)
+    return who + "more than " + std::to_string(road.most) +
+           " contact unknowns (its matrices are dense), here " + std::to_string(problem.q.size());
   return {};
 }
 
@@ -76,8 +82,13 @@ End newton_only(const Problem& problem, const Vector& p, const Vector& a, const 
   how.small = control.small;
   how.iterations = control.iterations;
   NewtonEnd end = newton(equations, p, a, how);
-  return {end.p, end.a, end.converged, end.iterations, end.residual,
-          end.singular ? "no direction exists" : "Newton's iterations stalled", std::move(end.trace)};
+  return {end.p,
+          end.a,
+          end.converged,
+          end.iterations,
+          end.residual,
+          end.singular ? "no direction exists" : "Newton's iterations stalled",
+          std::move(end.trace)};
 }
 
 End pivoted(const Problem& problem, const Vector& p_start, const Control& control) {
@@ -92,20 +103,31 @@ End pivoted(const Problem& problem, const Vector& p_start, const Control& contro
   return end;
 }
 
-End travel(const Road& road, const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options,
-           const Control& control) {
+End travel(const Road& road, const Problem& problem, const Vector& p, const Vector& a,
+           const SolverOptions& options, const Control& control) {
   switch (road.method) {
-    case Method::newton_only: return newton_only(problem, p, a, options, control);
-    case Method::trial_and_error: return solvers::trial_and_error(problem, p, a, control);
-    case Method::quadratic_programme: return solvers::quadratic_programme(problem, control);
-    case Method::lemke: return pivoted(problem, p, control);
-    case Method::fischer_burmeister: return solvers::fischer_burmeister(problem, p, a, control);
-    case Method::alart_curnier: return solvers::alart_curnier(problem, p, a, control);
-    case Method::gauss_seidel: return solvers::gauss_seidel(problem, p, control);
-    case Method::tresca: return solvers::tresca(problem, p, a, control);
-    case Method::proximal_point: return solvers::proximal_point(problem, p, a, control);
-    case Method::b_differentiable: break;  // solve() does it all
-    default: return solvers::siconos(road.name, problem, p, control);
+    case Method::newton_only:
+      return newton_only(problem, p, a, options, control);
+    case Method::trial_and_error:
+      return solvers::trial_and_error(problem, p, a, control);
+    case Method::quadratic_programme:
+      return solvers::quadratic_programme(problem, control);
+    case Method::lemke:
+      return pivoted(problem, p, control);
+    case Method::fischer_burmeister:
+      return solvers::fischer_burmeister(problem, p, a, control);
+    case Method::alart_curnier:
+      return solvers::alart_curnier(problem, p, a, control);
+    case Method::gauss_seidel:
+      return solvers::gauss_seidel(problem, p, control);
+    case Method::tresca:
+      return solvers::tresca(problem, p, a, control);
+    case Method::proximal_point:
+      return solvers::proximal_point(problem, p, a, control);
+    case Method::b_differentiable:
+      break;  // solve() does it all
+    default:
+      return solvers::siconos(road.name, problem, p, control);
   }
   return {};
 }
@@ -121,10 +143,12 @@ void describe(Solution& solution, const Problem& problem, const Scales& scales) 
     solution.slip_increment.segment(t * i, t) = motion.segment(d * i + 1, t);
     const double p_n = solution.p[d * i], slip = motion.segment(d * i + 1, t).norm();
     const double bound = problem.friction_bound(i, p_n), friction = solution.p.segment(d * i + 1, t).norm();
-    if (p_n + problem.tension_of(i) <= 1e-13 * scales.force) solution.states.push_back(ContactState::open);
+    if (p_n + problem.tension_of(i) <= 1e-13 * scales.force)
+      solution.states.push_back(ContactState::open);
     else if (friction < bound * (1.0 - 1e-10) || (bound > 0.0 && slip <= 1e-12 * scales.length))
       solution.states.push_back(ContactState::stick);
-    else solution.states.push_back(ContactState::slip);
+    else
+      solution.states.push_back(ContactState::slip);
   }
 }
 
@@ -192,7 +216,8 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
   solution.natural_map_residual = natural_map_residual(problem, solution.p, solution.a);
   describe(solution, problem, scales);
   if (refused || motion) return solution;
-  // The certificate sees a small turn of the friction away from the slip only squared (work): the residual has to be small too.
+  // The certificate sees a small turn of the friction away from the slip only squared (work): the residual
+  // has to be small too.
   const double judged = options.judge == Judge::certificate
                             ? std::max(solution.certificate.worst(), solution.residual)
                             : solution.natural_map_residual;
@@ -200,8 +225,10 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
     solution.status = Status::solved;
     solution.undetermined = undetermined_motions(problem, solution.states);
   } else {
-    solution.reason = std::string(road.name) + ": " +
-                      (end.reason.empty() ? "it ended, but what it ended with is not the law's to the tolerance" : end.reason);
+    solution.reason =
+        std::string(road.name) + ": " +
+        (end.reason.empty() ? "it ended, but what it ended with is not the law's to the tolerance"
+                            : end.reason);
   }
   return solution;
 }

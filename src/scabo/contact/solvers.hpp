@@ -1,21 +1,27 @@
-// The solvers of a discrete contact problem, by name. One is the product: `b_differentiable`, Newton on the B-differentiable equations
-// with all its ways back (solve.hpp). The others are the roads that the literature took before, kept for comparison and as
-// ways back; each has its page of equations and limits in solvers/. docs/methods/14_other_solvers.md compares them.
+// The solvers of a discrete contact problem, by name. One is the product: `b_differentiable`, Newton on the
+// B-differentiable equations with all its ways back (solve.hpp). The others are the roads that the literature
+// took before, kept for comparison and as ways back; each has its page of equations and limits in solvers/.
+// docs/methods/14_other_solvers.md compares them.
 //
-//     name                 dimension  friction          cohesion, tension  rigid motions
-//     b_differentiable     2, 3       Coulomb           yes                yes       Newton, line search, other starts
-//     newton_only          2, 3       Coulomb           yes                yes       its first attempt alone
-//     trial_and_error      2, 3       Coulomb           no                 yes       states assumed and corrected
-//     quadratic_programme  2, 3       none              no                 no        active set; exact
-//     lemke                2          Coulomb           no                 no        pivots on a complementarity problem
-//     fischer_burmeister   2, 3       Coulomb           no                 yes       smoothing Newton on the cone
-//     alart_curnier        2, 3       Coulomb           yes                yes       nonsmooth Newton, augmented force
-//     gauss_seidel         2, 3       Coulomb           no                 no        pair by pair
-//     tresca               2, 3       Coulomb           yes                yes       fixed point on the friction bound
-//     proximal_point       2, 3       Coulomb           yes                yes       W + alpha, again and again
-//     siconos_nsgs, siconos_lemke (2), siconos_nsn_ac (3), siconos_nsn_fb (3): of Siconos, Coulomb only, where built with SCABO_SICONOS
+//     name                 space  friction  cohesion  rigid    how
+//     b_differentiable     2, 3   yes       yes       yes      Newton, line search, other starts
+//     newton_only          2, 3   yes       yes       yes      its first attempt alone
+//     trial_and_error      2, 3   yes       no        yes      states assumed and corrected
+//     quadratic_programme  2, 3   no        no        no       active set; exact
+//     lemke                2      yes       no        no       pivots on a complementarity problem
+//     fischer_burmeister   2, 3   yes       no        yes      smoothing Newton on the cone
+//     alart_curnier        2, 3   yes       yes       yes      nonsmooth Newton, augmented force
+//     gauss_seidel         2, 3   yes       no        no       pair by pair
+//     tresca               2, 3   yes       yes       yes      fixed point on the friction bound
+//     proximal_point       2, 3   yes       yes       yes      W + alpha, again and again
+//     siconos_nsgs         2, 3   yes       no        no       of Siconos, where built with SCABO_SICONOS
+//     siconos_lemke        2      yes       no        no       likewise
+//     siconos_nsn_ac       3      yes       no        no       likewise
+//     siconos_nsn_fb       3      yes       no        no       likewise
 //
-// What a solver does not handle it refuses: not_converged, with the reason. None is called solved without the certificate.
+// cohesion: and tension; rigid: rigid motions that contact alone holds.
+// What a solver does not handle it refuses: not_converged, with the reason. None is called solved without the
+// certificate.
 #pragma once
 
 #include <optional>
@@ -50,6 +56,7 @@ std::string method_name(Method method);
 /// Of this build, the default first.
 std::vector<std::string> method_names();
 
-Solution solve_with(Method method, const Problem& problem, const Start& start = {}, const SolverOptions& options = {});
+Solution solve_with(Method method, const Problem& problem, const Start& start = {},
+                    const SolverOptions& options = {});
 
 }  // namespace scabo::contact

@@ -8,7 +8,8 @@
 namespace scabo::test {
 namespace {
 
-/// Failures of the roads that may fail, of every 60: those without a line search, and Siconos's at our tolerance.
+/// Failures of the roads that may fail, of every 60: those without a line search, and Siconos's at our
+/// tolerance.
 const std::map<Method, int> may_fail = {{Method::trial_and_error, 10}, {Method::siconos_nsgs, 60},
                                         {Method::siconos_lemke, 60},   {Method::siconos_nsn_ac, 60},
                                         {Method::siconos_nsn_fb, 60},  {Method::newton_only, 6}};
@@ -35,7 +36,8 @@ void expect_agreement(int dimension, double mu, int cases) {
   }
   for (const auto& [method, count] : failures) {
     const auto allowed = may_fail.find(method);
-    EXPECT_LE(count, allowed == may_fail.end() ? 0 : allowed->second * cases / 60) << contact::method_name(method);
+    EXPECT_LE(count, allowed == may_fail.end() ? 0 : allowed->second * cases / 60)
+        << contact::method_name(method);
   }
 }
 

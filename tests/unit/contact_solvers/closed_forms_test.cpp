@@ -23,7 +23,8 @@ class OnePair : public testing::TestWithParam<int> {
     Vector p(GetParam());
     p << p_n, p_t * direction();
     for (Method method : frictional_methods(GetParam())) {
-      if (method == Method::siconos_nsn_fb && given.mu[0] == 0.0) continue;  // its Jacobian is singular without friction
+      if (method == Method::siconos_nsn_fb && given.mu[0] == 0.0)
+        continue;  // its Jacobian is singular without friction
       const Solution solution = contact::solve_with(method, given);
       EXPECT_EQ(solution.status, Status::solved) << contact::method_name(method) << ": " << solution.reason;
       EXPECT_LT((solution.p - p).norm(), 1e-10) << contact::method_name(method);

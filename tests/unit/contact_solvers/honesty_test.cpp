@@ -55,7 +55,8 @@ TEST(Roads, RefuseWhatTheyDoNotHandle) {
   };
   const Problem space = elastic_problem(random, 3, 3, 0.3);
   EXPECT_EQ(reason(Method::lemke, space), "lemke does not handle problems in space");
-  EXPECT_EQ(reason(Method::quadratic_programme, space), "quadratic_programme does not handle friction: mu must be 0");
+  EXPECT_EQ(reason(Method::quadratic_programme, space),
+            "quadratic_programme does not handle friction: mu must be 0");
   Problem strong = elastic_problem(random, 2, 3, 0.3);
   strong.cohesion = Vector::Ones(3);
   EXPECT_EQ(reason(Method::gauss_seidel, strong), "gauss_seidel does not handle cohesion and tension");
@@ -64,6 +65,23 @@ TEST(Roads, RefuseWhatTheyDoNotHandle) {
   for (int i = 0; i < 3; ++i) floating.G(2 * i, 0) = 1.0;
   floating.f = Vector::Constant(1, -1.0);
   EXPECT_EQ(reason(Method::lemke, floating), "lemke does not handle rigid motions that contact alone holds");
+}
+
+TEST(Roads, RefuseWhatIsTooLargeForDenseMatrices) {
+  const int N = 3500;
+  Eigen::SparseMatrix<double> W(2 * N, 2 * N);
+  W.setIdentity();
+  Problem problem = one_pair(Matrix::Identity(2, 2), Vec2(-1.0, 0.2), 0.3);
+  problem.W = contact::Delassus(W);
+  problem.q = Vec2(-1.0, 0.2).replicate(N, 1);
+  problem.mu = Vector::Constant(N, 0.3);
+  problem.G.resize(2 * N, 0);
+  const Solution refused = contact::solve_with(Method::lemke, problem);
+  EXPECT_EQ(refused.reason,
+            "lemke does not handle more than 3000 contact unknowns (its matrices are dense), here 7000");
+  const Solution swept = contact::solve_with(Method::gauss_seidel, problem);  // needs none
+  EXPECT_EQ(swept.status, Status::solved);
+  EXPECT_LT((swept.p - Vec2(1.0, -0.2).replicate(N, 1)).norm(), 1e-9);
 }
 
 TEST(TrialAndError, SaysThatItGoesAround) {

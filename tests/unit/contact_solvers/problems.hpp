@@ -17,7 +17,8 @@ inline double uniform(std::mt19937& random, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(random);
 }
 
-/// Positive definite, decaying along the interface, normal and tangents coupled: little friction gives one solution.
+/// Positive definite, decaying along the interface, normal and tangents coupled: little friction gives one
+/// solution.
 inline Problem elastic_problem(std::mt19937& random, int dimension, int pairs, double mu) {
   const int d = dimension;
   Matrix S(d * pairs, d * pairs);

@@ -55,7 +55,8 @@ class AlartCurnier {
       const Eigen::Index i = held[static_cast<std::size_t>(k)];
       const LocalMatrix A = at.A.middleCols(d * i, d), B = at.B.middleCols(d * i, d);
       for (Eigen::Index l = 0; l < n / d; ++l)
-        J.block(d * k, d * l, d, d).noalias() = A * W_.block(d * i, d * held[static_cast<std::size_t>(l)], d, d);
+        J.block(d * k, d * l, d, d).noalias() =
+            A * W_.block(d * i, d * held[static_cast<std::size_t>(l)], d, d);
       J.block(d * k, d * k, d, d) += B + alpha * A;
       right.segment(d * k, d) = -at.F.segment(d * i, d) - A * moved.segment(d * i, d);
       if (m == 0) continue;
@@ -69,7 +70,8 @@ class AlartCurnier {
     if (!solved.allFinite()) return false;
     solved += lu.solve(right - J * solved);
     if (!solved.allFinite() || (J * solved - right).norm() > 1e-6 * right.norm()) return false;
-    for (Eigen::Index k = 0; k < n / d; ++k) step.segment(d * held[static_cast<std::size_t>(k)], d) = solved.segment(d * k, d);
+    for (Eigen::Index k = 0; k < n / d; ++k)
+      step.segment(d * held[static_cast<std::size_t>(k)], d) = solved.segment(d * k, d);
     step.tail(m) = solved.tail(m);
     return true;
   }
@@ -117,7 +119,7 @@ class AlartCurnier {
 
   const Problem& problem_;
   const Vector* bound_;
-  Matrix r_;         // 2 x N
+  Matrix r_;  // 2 x N
   const Matrix& W_;
 };
 
@@ -137,7 +139,8 @@ End alart_curnier(const Problem& problem, Vector p, Vector a, const Control& con
   while (true) {
     const double residual = largest(at.F);
     best.offer(p, a, residual);
-    end.trace.push_back({end.iterations, residual, at.merit(), step_length, changes(before, at.states), "alart_curnier"});
+    end.trace.push_back(
+        {end.iterations, residual, at.merit(), step_length, changes(before, at.states), "alart_curnier"});
     before = at.states;
     end.converged = residual <= control.small;
     if (end.converged) return end;

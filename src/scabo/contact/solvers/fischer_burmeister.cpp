@@ -19,7 +19,8 @@ LocalMatrix product_matrix(const Local& x) {
 /// z in the cone with z o z = w: spectral values w_0 +- |w_t|.
 Local root(const Local& w) {
   const double length = w.tail(w.size() - 1).norm();
-  const double upper = std::sqrt(std::max(w[0] + length, 0.0)), lower = std::sqrt(std::max(w[0] - length, 0.0));
+  const double upper = std::sqrt(std::max(w[0] + length, 0.0)),
+               lower = std::sqrt(std::max(w[0] - length, 0.0));
   Local z = Local::Zero(w.size());
   z[0] = 0.5 * (upper + lower);
   if (length > 0.0) z.tail(w.size() - 1) = 0.5 * (upper - lower) / length * w.tail(w.size() - 1);
@@ -120,7 +121,8 @@ End fischer_burmeister(const Problem& problem, Vector p, Vector a, const Control
     const Equations now = Smoothed(problem, eps).at(p, a);
     const std::vector<int> states = states_at(problem, r, p, motion_of(problem, p, a));
     best.offer(p, a, residual);
-    end.trace.push_back({end.iterations, residual, now.merit(), step_length, changes(before, states), "fischer_burmeister"});
+    end.trace.push_back(
+        {end.iterations, residual, now.merit(), step_length, changes(before, states), "fischer_burmeister"});
     before = states;
     end.converged = residual <= control.small;
     if (end.converged) return end;

@@ -57,7 +57,8 @@ class SlipInSpace {
  private:
   double denominator(const Vec2& e) const { return W_(0, 0) + mu_ * (W_(0, 1) * e[0] + W_(0, 2) * e[1]); }
   Vec2 sliding(const Vec2& e) const {  // u_t per p_n
-    return Vec2(W_(1, 0), W_(2, 0)) + mu_ * Vec2(W_(1, 1) * e[0] + W_(1, 2) * e[1], W_(2, 1) * e[0] + W_(2, 2) * e[1]);
+    return Vec2(W_(1, 0), W_(2, 0)) +
+           mu_ * Vec2(W_(1, 1) * e[0] + W_(1, 2) * e[1], W_(2, 1) * e[0] + W_(2, 2) * e[1]);
   }
 
   const LocalMatrix& W_;
@@ -134,7 +135,8 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
       const Vector H = residual_of(problem, r, p, Vector());
       best.offer(p, Vector(), largest(H));
       const std::vector<int> states = states_at(problem, r, p, motion);
-      end.trace.push_back({sweep, largest(H), 0.5 * H.squaredNorm(), 1.0, changes(before, states), "gauss_seidel"});
+      end.trace.push_back(
+          {sweep, largest(H), 0.5 * H.squaredNorm(), 1.0, changes(before, states), "gauss_seidel"});
       before = states;
       end.iterations = sweep;
       end.converged = largest(H) <= control.small;
@@ -149,13 +151,16 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
         const double step = next[k] - last[k];
         if (step == 0.0) continue;
         const Eigen::Index column = d * i + k;
-        if (sparse) motion += step * problem.W.sparse().col(column);
-        else motion.noalias() += step * problem.W.dense().col(column);
+        if (sparse)
+          motion += step * problem.W.sparse().col(column);
+        else
+          motion.noalias() += step * problem.W.dense().col(column);
       }
       p.segment(d * i, d) = next;
     }
   }
-  end.reason = p.allFinite() ? "the sweeps did not reach the tolerance in their limit" : "the sweeps went to infinity";
+  end.reason =
+      p.allFinite() ? "the sweeps did not reach the tolerance in their limit" : "the sweeps went to infinity";
   return end;
 }
 

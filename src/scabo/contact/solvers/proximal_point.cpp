@@ -6,7 +6,8 @@ namespace scabo::contact::solvers {
 
 namespace {
 
-/// The problem held at (p, a), rigid motions eliminated: a = a_k + (G'p + f) / beta. alpha and beta in the units of forces.
+/// The problem held at (p, a), rigid motions eliminated: a = a_k + (G'p + f) / beta. alpha and beta in the
+/// units of forces.
 Problem held_at(const Problem& problem, const Vector& p, const Vector& a, double alpha, double beta) {
   Problem held = problem;
   Matrix W = problem.W.dense();
@@ -42,7 +43,8 @@ End proximal_point(const Problem& problem, Vector p, Vector a, const Control& co
     const Vector H = residual_here();
     const std::vector<int> states = states_at(problem, r, p, motion_of(problem, p, a));
     best.offer(p, a, largest(H));
-    end.trace.push_back({end.iterations, largest(H), 0.5 * H.squaredNorm(), 1.0, changes(before, states), "proximal_point"});
+    end.trace.push_back(
+        {end.iterations, largest(H), 0.5 * H.squaredNorm(), 1.0, changes(before, states), "proximal_point"});
     before = states;
     end.converged = largest(H) <= control.small;
     if (end.converged) return end;

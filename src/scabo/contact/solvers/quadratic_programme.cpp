@@ -8,8 +8,8 @@ namespace scabo::contact::solvers {
 
 namespace {
 
-/// Where the forces of the set want to go: to the minimum on the set, or, where it has none, along a force that moves
-/// nothing but lowers the value for ever.
+/// Where the forces of the set want to go: to the minimum on the set, or, where it has none, along a force
+/// that moves nothing but lowers the value for ever.
 struct Way {
   Vector d;
   bool endless = false;
@@ -41,7 +41,8 @@ Matrix of_set(const Matrix& M, const std::vector<Eigen::Index>& set) {
   const auto n = static_cast<Eigen::Index>(set.size());
   Matrix part(n, n);
   for (Eigen::Index k = 0; k < n; ++k)
-    for (Eigen::Index l = 0; l < n; ++l) part(k, l) = M(set[static_cast<std::size_t>(k)], set[static_cast<std::size_t>(l)]);
+    for (Eigen::Index l = 0; l < n; ++l)
+      part(k, l) = M(set[static_cast<std::size_t>(k)], set[static_cast<std::size_t>(l)]);
   return part;
 }
 
@@ -65,7 +66,9 @@ End quadratic_programme(const Problem& problem, const Control& control) {
     const Vector H = residual_of(problem, pair_stiffness(problem), end.p, Vector());
     end.residual = largest(H);
     end.converged = end.residual <= control.small;
-    if (!end.converged) end.reason = reason.empty() ? "rounding: the set is right, its equations are not solved well enough" : reason;
+    if (!end.converged)
+      end.reason =
+          reason.empty() ? "rounding: the set is right, its equations are not solved well enough" : reason;
     return end;
   };
   while (true) {
@@ -74,7 +77,8 @@ End quadratic_programme(const Problem& problem, const Control& control) {
     double most = -0.5 * control.small;
     for (Eigen::Index i = 0; i < N; ++i)
       if (!is_in[static_cast<std::size_t>(i)] && r[i] * gap[i] < most) most = r[enters = i] * gap[i];
-    end.trace.push_back({end.iterations, enters < 0 ? 0.0 : -most, 0.5 * p_n.dot(gap + q_n), 1.0, 1, "quadratic_programme"});
+    end.trace.push_back(
+        {end.iterations, enters < 0 ? 0.0 : -most, 0.5 * p_n.dot(gap + q_n), 1.0, 1, "quadratic_programme"});
     if (enters < 0) return finish("");
     if (++end.iterations > 10 * N + 100) return finish("the active set did not settle");
     in.push_back(enters);
@@ -93,8 +97,10 @@ End quadratic_programme(const Problem& problem, const Control& control) {
       std::vector<Eigen::Index> kept;
       const double zero = 1e-15 * largest(p_n);
       for (std::size_t k = 0; k < in.size(); ++k) {
-        if (p_n[in[k]] > zero || go.d[static_cast<Eigen::Index>(k)] >= 0.0) kept.push_back(in[k]);
-        else p_n[in[k]] = 0.0, is_in[static_cast<std::size_t>(in[k])] = false;
+        if (p_n[in[k]] > zero || go.d[static_cast<Eigen::Index>(k)] >= 0.0)
+          kept.push_back(in[k]);
+        else
+          p_n[in[k]] = 0.0, is_in[static_cast<std::size_t>(in[k])] = false;
       }
       if (kept.size() == in.size()) break;
       in = std::move(kept);

@@ -59,8 +59,10 @@ std::vector<int> states_at(const Problem& problem, const Matrix& r, const Vector
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const PairLaw law = pair_law(problem, i);
     const Local trial = p.segment(d * i + 1, d - 1) - r(1, i) * motion.segment(d * i + 1, d - 1);
-    if (p[d * i] + law.tension < r(0, i) * motion[d * i]) states.push_back(0);
-    else states.push_back(trial.norm() <= law.bound(p[d * i]) ? 1 : 2);
+    if (p[d * i] + law.tension < r(0, i) * motion[d * i])
+      states.push_back(0);
+    else
+      states.push_back(trial.norm() <= law.bound(p[d * i]) ? 1 : 2);
   }
   return states;
 }

@@ -1,17 +1,18 @@
-// What the other solvers ("roads") of a discrete contact problem share. They exist for comparison and as a way back where Newton on
-// the B-differentiable equations fails; ../solvers.hpp lists and calls them.
+// What the other solvers ("roads") of a discrete contact problem share. They exist for comparison and as a
+// way back where Newton on the B-differentiable equations fails; ../solvers.hpp lists and calls them.
 //
-// A road gets the problem in forces: W and q times one stiffness, the inverse of the mean of W_ii, so that every unknown
-// and every residual is a force. It ends with the best point it saw, and says why where that is not good enough. It
-// does not judge itself solved: ../solvers.cpp certifies.
+// A road gets the problem in forces: W and q times one stiffness, the inverse of the mean of W_ii, so that
+// every unknown and every residual is a force. It ends with the best point it saw, and says why where that is
+// not good enough. It does not judge itself solved: ../solvers.cpp certifies.
 //
 // The residual of all roads is the largest component, a force, of
 //
 //     p_n - (p_n - r_n g)+                                     = min(r_n g, p_n)
 //     p_t - P_D( p_t - r_t ds ),  D = { |p_t| <= mu (p_n)+ }    P: nearest point of the disk (2D: interval)
 //
-// with cohesion c and tensile strength T: (p_n + T) in the place of p_n in the first row, c + mu (p_n)+ as bound.
-// r_n = 1/W_nn, r_t = 1/mean of W_tt for each pair: one r for both tangents, so that the cone stays round.
+// with cohesion c and tensile strength T: (p_n + T) in the place of p_n in the first row, c + mu (p_n)+ as
+// bound. r_n = 1/W_nn, r_t = 1/mean of W_tt for each pair: one r for both tangents, so that the cone stays
+// round.
 #pragma once
 
 #include <string>
@@ -34,8 +35,8 @@ struct End {
   Vector p, a;             ///< best point: forces (dN), rigid motions (m)
   bool converged = false;  ///< residual <= small
   int iterations = 0;
-  double residual = 0.0;   ///< largest, force
-  std::string reason;      ///< where not converged: what happened
+  double residual = 0.0;  ///< largest, force
+  std::string reason;     ///< where not converged: what happened
   std::vector<Iteration> trace;
 };
 
@@ -56,7 +57,8 @@ Vector motion_of(const Problem& problem, const Vector& p, const Vector& a);
 Vector residual_of(const Problem& problem, const Matrix& r, const Vector& p, const Vector& a);
 double largest(const Vector& v);
 
-/// State of every pair by its forces and motions, for the count of changes in a trace: open 0, stick 1, slip 2.
+/// State of every pair by its forces and motions, for the count of changes in a trace: open 0, stick 1,
+/// slip 2.
 std::vector<int> states_at(const Problem& problem, const Matrix& r, const Vector& p, const Vector& motion);
 int changes(const std::vector<int>& before, const std::vector<int>& after);
 

@@ -2,18 +2,18 @@
 
 #ifdef SCABO_SICONOS
 
-#include <algorithm>
-#include <cmath>
-#include <csetjmp>
-#include <cstdlib>
-#include <memory>
-
 #include <FrictionContactProblem.h>
 #include <Friction_cst.h>
 #include <NonSmoothDrivers.h>
 #include <NumericsMatrix.h>
 #include <SolverOptions.h>
 #include <sn_error_handling.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csetjmp>
+#include <cstdlib>
+#include <memory>
 
 namespace scabo::contact::solvers {
 
@@ -53,10 +53,12 @@ int solver_of(const std::string& name, int dimension) {
 
 constexpr int gave_up = -1000;
 
-/// The driver. Siconos ends the process on its own fatal errors unless somebody catches its long jump: no C++ object lives here.
+/// The driver. Siconos ends the process on its own fatal errors unless somebody catches its long jump: no C++
+/// object lives here.
 int drive(int dimension, FrictionContactProblem* problem, double* p, double* u, SolverOptions* options) {
   if (setjmp(*sn_get_jmp_buf()) != 0) return gave_up;
-  const int status = dimension == 2 ? fc2d_driver(problem, p, u, options) : fc3d_driver(problem, p, u, options);
+  const int status =
+      dimension == 2 ? fc2d_driver(problem, p, u, options) : fc3d_driver(problem, p, u, options);
   sn_release_jmp_buf();
   return status;
 }
@@ -83,8 +85,8 @@ End siconos(const std::string& name, const Problem& problem, const Vector& p, co
   options->dparam[SICONOS_DPARAM_TOL] = control.small / (q_size > 0.0 ? q_size : 1.0);
   if (solver == SICONOS_FRICTION_3D_NSGS)
     solver_options_update_internal(options.get(), 0, SICONOS_FRICTION_3D_ONECONTACT_NSN_GP);
-  const Value value(frictionContactProblem_new_with_data(problem.dimension, problem.pairs(), matrix_of(problem),
-                                                         copied(problem.q.data(), size),
+  const Value value(frictionContactProblem_new_with_data(problem.dimension, problem.pairs(),
+                                                         matrix_of(problem), copied(problem.q.data(), size),
                                                          copied(problem.mu.data(), problem.pairs())),
                     &frictionContactProblem_free);
   Vector u = motion_of(problem, p, Vector());
