@@ -1,5 +1,6 @@
-// Closed forms of contact laws on whole models. Uniform states: without Poisson's ratio, a block with the shear traction of its
-// top on its sides as well has sigma_yy = -p and tau everywhere, and every pair its share of the area.
+// Closed forms of contact laws on whole models. Uniform states: without Poisson's ratio, a block with the
+// shear traction of its top on its sides as well has sigma_yy = -p and tau everywhere, and every pair its
+// share of the area.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -73,7 +74,8 @@ TEST(TrescaBlock, SlidesAtItsShearStrengthWhateverThePressure) {
 }
 
 /// The block's top is moved by (u_x, u_y) in the steps given; its foot is joined by `law`.
-std::string moved_block(double u_x, double u_y, const std::string& law, const std::string& steps = "[{increments: 1}]") {
+std::string moved_block(double u_x, double u_y, const std::string& law,
+                        const std::string& steps = "[{increments: 1}]") {
   return fmt::format(R"(
 scabo: 1
 materials: {{m: {{young: 1e9, poisson: 0}}}}
@@ -91,8 +93,8 @@ steps: {}
                      u_y, u_x, law, steps);
 }
 
-// Lifted by u the joint carries E u / h per area; at the strength it breaks, opens by u and stays open on the way back, where it
-// closes again at u = 0 and carries pressure, but no pull any more.
+// Lifted by u the joint carries E u / h per area; at the strength it breaks, opens by u and stays open on the
+// way back, where it closes again at u = 0 and carries pressure, but no pull any more.
 TEST(BrittleJoint, BreaksAtItsClosedFormLiftAndStaysBroken) {
   const double strength = 2e4, limit = strength * 1.0 / 1e9, force = 2.0 * strength;
   const auto model = [&](double lift, const std::string& steps) {
@@ -102,7 +104,9 @@ TEST(BrittleJoint, BreaksAtItsClosedFormLiftAndStaysBroken) {
   const analysis::ContactResult& joint = last(holds).contacts.front();
   EXPECT_NEAR(joint.normal_force, -force * just_below, 1e-8 * force);
   EXPECT_EQ(joint.broken, 0);
-  const auto breaks = run(model(limit * just_above, "[{increments: 3}, {name: back, loads: {lift: 0.5}}, {name: press, loads: {lift: -1}}]"));
+  const auto breaks =
+      run(model(limit * just_above,
+                "[{increments: 3}, {name: back, loads: {lift: 0.5}}, {name: press, loads: {lift: -1}}]"));
   last(breaks);
   ASSERT_EQ(breaks.increments.size(), 5u);
   EXPECT_NEAR(breaks.increments[1].contacts.front().normal_force, -force * just_above * 2 / 3, 1e-8 * force);
@@ -157,9 +161,12 @@ std::string cantilever(bool halves) {
                                     : R"(
   upper: {material: m, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.25}})";
   const std::string lower_support = halves ? "\n  - {on: lower.left, fix: [x, y]}" : "";
-  const std::string joint = halves ? "contacts: {joint: {between: [lower.top, upper.bottom], bond: true}}\n" : "";
-  return "scabo: 1\nmaterials: {m: {young: 1e9, poisson: 0.3}}\nbodies:" + bodies + "\nsupports:" + lower_support +
-         "\n  - {on: upper.left, fix: [x, y]}\nloads:\n  top: {on: upper.top, traction: [3e3, -1e4]}\n" + joint;
+  const std::string joint =
+      halves ? "contacts: {joint: {between: [lower.top, upper.bottom], bond: true}}\n" : "";
+  return "scabo: 1\nmaterials: {m: {young: 1e9, poisson: 0.3}}\nbodies:" + bodies +
+         "\nsupports:" + lower_support +
+         "\n  - {on: upper.left, fix: [x, y]}\nloads:\n  top: {on: upper.top, traction: [3e3, -1e4]}\n" +
+         joint;
 }
 
 // Same elements, same nodes: two halves bonded are the body in one piece, node by node.

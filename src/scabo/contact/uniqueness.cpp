@@ -19,7 +19,8 @@ double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infin
 
 /// Scales of a certificate for forces p, as solve() judges them.
 Scales scales_of(const Problem& problem, const Vector& p, const SolverOptions& options) {
-  const double mean = problem.W.size() > 0 ? problem.W.diagonal().mean() : 1.0, length = mean > 0.0 ? mean : 1.0;
+  const double mean = problem.W.size() > 0 ? problem.W.diagonal().mean() : 1.0,
+               length = mean > 0.0 ? mean : 1.0;
   double applied = std::max({options.force_scale, largest_of(problem.f)});
   if (applied == 0.0) applied = largest_of(problem.q) / length;
   const double force = std::max({applied, largest_of(p), 1e-300});
@@ -43,9 +44,10 @@ void add_if_new(std::vector<Vector>& solutions, const Vector& p) {
 /// States of plane pairs as they are tried.
 enum class Trial { open, stick, slip_plus, slip_minus };
 
-/// Forces of a plane problem whose pairs all have these states; nothing where there are none. `determined` becomes false where
-/// there are many.
-std::optional<Vector> forces_with(const Problem& problem, const std::vector<Trial>& states, bool& determined) {
+/// Forces of a plane problem whose pairs all have these states; nothing where there are none. `determined`
+/// becomes false where there are many.
+std::optional<Vector> forces_with(const Problem& problem, const std::vector<Trial>& states,
+                                  bool& determined) {
   Matrix A = problem.W.dense();
   Vector b = -problem.q;
   const double scale = A.cwiseAbs().maxCoeff();
@@ -70,15 +72,17 @@ std::optional<Vector> forces_with(const Problem& problem, const std::vector<Tria
 }
 
 bool may_enumerate(const Problem& problem) {
-  return problem.dimension == 2 && problem.G.cols() == 0 && problem.pairs() > 0 && problem.pairs() <= most_enumerated &&
-         problem.cohesion.size() == 0 && problem.tension.size() == 0;
+  return problem.dimension == 2 && problem.G.cols() == 0 && problem.pairs() > 0 &&
+         problem.pairs() <= most_enumerated && problem.cohesion.size() == 0 && problem.tension.size() == 0;
 }
 
-/// Off the kink of the gap: its rows of H' are those of dp whatever the slope of the bound, and enter no determinant.
+/// Off the kink of the gap: its rows of H' are those of dp whatever the slope of the bound, and enter no
+/// determinant.
 bool is_open(const Branch& branch) { return !branch.contact && !branch.normal_tie && branch.bound_tie; }
 
 /// Newton alone from `p`: forces where it ends in a solution.
-std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options) {
+std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const Vector& a,
+                                  const SolverOptions& options) {
   const BDifferentiableEquations equations(problem, options.r_factor);
   NewtonOptions newton_options;
   newton_options.iterations = options.iterations;
@@ -88,8 +92,10 @@ std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const
   return end.p;
 }
 
-/// Starts that lead elsewhere: open, frictionless, stuck, friction turned round, and a few at random in the cones.
-std::vector<Vector> other_starts(const Problem& problem, const Solution& solution, const SolverOptions& options) {
+/// Starts that lead elsewhere: open, frictionless, stuck, friction turned round, and a few at random in the
+/// cones.
+std::vector<Vector> other_starts(const Problem& problem, const Solution& solution,
+                                 const SolverOptions& options) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   std::vector<Vector> starts{Vector::Zero(d * N)};
   Problem changed = problem;
@@ -183,7 +189,8 @@ std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double 
   std::vector<Vector> solutions;
   std::vector<Trial> states(static_cast<std::size_t>(problem.pairs()));
   for (int combination = 0; combination < 1 << (2 * problem.pairs()); ++combination) {
-    for (std::size_t i = 0; i < states.size(); ++i) states[i] = static_cast<Trial>(combination >> (2 * i) & 3);
+    for (std::size_t i = 0; i < states.size(); ++i)
+      states[i] = static_cast<Trial>(combination >> (2 * i) & 3);
     bool determined = true;
     const auto p = forces_with(problem, states, determined);
     if (!determined) return std::nullopt;
@@ -212,8 +219,10 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
       if (const auto other = newton_from(problem, p, solution.a, options)) add_if_new(found, *other);
   }
   report.others.assign(found.begin() + 1, found.end());
-  if (!report.others.empty()) report.unique = Uniqueness::several;
-  else if (report.complete && uniqueness_bound(problem) < HUGE_VAL) report.unique = Uniqueness::proven;
+  if (!report.others.empty())
+    report.unique = Uniqueness::several;
+  else if (report.complete && uniqueness_bound(problem) < HUGE_VAL)
+    report.unique = Uniqueness::proven;
   if (start.p.size() != solution.p.size()) return report;
   double least = (1.0 - 1e-9) * (solution.p - start.p).norm();
   for (std::size_t k = 0; k < report.others.size(); ++k)
@@ -226,7 +235,8 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
 
 std::string why_no_solution(const Problem& problem, const SolverOptions& options) {
   if (const auto all = all_solutions(problem, options.tolerance); all && all->empty())
-    return "no combination of open, sticking and slipping pairs meets all conditions: the problem has no solution";
+    return "no combination of open, sticking and slipping pairs meets all conditions: the problem has no "
+           "solution";
   constexpr int most_pivoted = 100;
   const bool plain = problem.dimension == 2 && problem.G.cols() == 0 && problem.cohesion.size() == 0 &&
                      problem.tension.size() == 0 && problem.pairs() > 0 && problem.pairs() <= most_pivoted;

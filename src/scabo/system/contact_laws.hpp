@@ -1,5 +1,6 @@
-// The laws of the pairs, from the contacts of the model. Strengths are per area; a pair's area is its tributary length, int N_i ds
-// over the elastic edge (A's when both are: as pressures are recovered), times the thickness.
+// The laws of the pairs, from the contacts of the model. Strengths are per area; a pair's area is its
+// tributary length, int N_i ds over the elastic edge (A's when both are: as pressures are recovered), times
+// the thickness.
 #pragma once
 
 #include "scabo/system/contact_system.hpp"

@@ -1,4 +1,5 @@
-// Laws with memory on small problems: a joint breaks where it should, pair by pair, and stays broken; friction falls with slip.
+// Laws with memory on small problems: a joint breaks where it should, pair by pair, and stays broken;
+// friction falls with slip.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +35,8 @@ Problem pair_on_springs(double w, double u_n, double u_t) {
   return problem;
 }
 
-Evolution one(const LawPointer& law, const Problem& problem, const PairHistory& history = {}, double area = 1.0) {
+Evolution one(const LawPointer& law, const Problem& problem, const PairHistory& history = {},
+              double area = 1.0) {
   return evolve(problem, all(law, 1, area), {history}, {}, {});
 }
 
@@ -74,8 +76,9 @@ TEST(CohesiveJoint, ShearedUnderPressureFallsToFrictionAlone) {
   EXPECT_NEAR(breaks.history[0].slip, w * (limit * (1 + 1e-6) - mu * p_n), 1e-12);
 }
 
-// A row of pairs that share a pull: the overloaded end breaks, its load goes to the next. With W = w (1 + k [i = j]) the
-// remaining n pairs carry u / (w (n + k)) each, so that a joint that breaks at all breaks wholly when k is small.
+// A row of pairs that share a pull: the overloaded end breaks, its load goes to the next. With W = w (1 + k
+// [i = j]) the remaining n pairs carry u / (w (n + k)) each, so that a joint that breaks at all breaks wholly
+// when k is small.
 TEST(CohesiveJoint, FailsPairByPairFromTheMostOverloaded) {
   const int N = 4;
   const double w = 1.0, k = 0.5;
@@ -89,7 +92,9 @@ TEST(CohesiveJoint, FailsPairByPairFromTheMostOverloaded) {
   problem.q = Vector::Zero(2 * N);
   const Vector pull = (Vector(N) << 4.0, 4.1, 4.2, 4.3).finished();
   for (int i = 0; i < N; ++i) problem.q[2 * i] = pull[i];
-  const auto run = [&](double strength) { return evolve(problem, all(cohesive(0.0, 100.0, strength), N), History(N), {}, {}); };
+  const auto run = [&](double strength) {
+    return evolve(problem, all(cohesive(0.0, 100.0, strength), N), History(N), {}, {});
+  };
   // Whole: p_i = -(u_i - s) / (w k), s = w sum p; the last pair carries most.
   const double sum = pull.sum() / (N + k), most = (pull[3] - sum) / k;
   const Evolution whole = run(most * (1 + 1e-6));
@@ -142,7 +147,8 @@ TEST(Incline, WithCohesionSlipsAtItsClosedFormAngle) {
         ASSERT_EQ(evolution.solution.status, Status::solved) << degrees << ": " << evolution.solution.reason;
         EXPECT_NEAR(evolution.solution.p[1], -weight * std::sin(angle) / N, 1e-8);
       } else {
-        ASSERT_EQ(evolution.solution.status, Status::mechanism) << degrees << ": " << evolution.solution.reason;
+        ASSERT_EQ(evolution.solution.status, Status::mechanism)
+            << degrees << ": " << evolution.solution.reason;
         EXPECT_GT(evolution.solution.motion[0], 0.9);
         EXPECT_EQ(evolution.history, History(N));  // what did not converge leaves no history
       }
@@ -161,7 +167,8 @@ TEST(Incline, OverhangHoldsByTensileStrength) {
   }
 }
 
-// Driven by u_t through a spring: mu_s N until slip begins, then mu_d N at once; the way back starts from there.
+// Driven by u_t through a spring: mu_s N until slip begins, then mu_d N at once; the way back starts from
+// there.
 TEST(SlipWeakening, FallsAtOnceWithoutASlipDistance) {
   const double w = 0.01, p_n = 100.0;
   const LawPointer law = std::make_shared<SlipWeakening>(0.5, 0.3, 0.0);
@@ -212,7 +219,8 @@ TEST(Tresca, BoundDoesNotDependOnPressure) {
   for (double p_n : {1.0, 1000.0}) {
     EXPECT_NEAR(one(law, pair_on_springs(w, -w * p_n, w * 19.0), {}, area).solution.p[1], -19.0, 1e-9);
     for (int repeat = 0; repeat < 2; ++repeat)  // slip does not use it up
-      EXPECT_NEAR(one(law, pair_on_springs(w, -w * p_n, w * 500.0), {3.0, false, false}, area).solution.p[1], -20.0, 1e-9);
+      EXPECT_NEAR(one(law, pair_on_springs(w, -w * p_n, w * 500.0), {3.0, false, false}, area).solution.p[1],
+                  -20.0, 1e-9);
   }
 }
 
@@ -240,8 +248,8 @@ TEST(Frictionless, IsCoulombWithoutFriction) {
   EXPECT_EQ(without.solution.p, zero.solution.p);
 }
 
-// Random joints with strengths: every solution is certified, nothing is broken that did not have to be given what broke before
-// it, and the history of an increment is the same whether it is solved once or again.
+// Random joints with strengths: every solution is certified, nothing is broken that did not have to be given
+// what broke before it, and the history of an increment is the same whether it is solved once or again.
 TEST(RandomJoints, EndCertifiedWithoutOverload) {
   std::mt19937 random(9);
   int broken = 0, whole = 0;
@@ -249,15 +257,18 @@ TEST(RandomJoints, EndCertifiedWithoutOverload) {
     const int N = test::whole(random, 1, 12);
     const Problem problem = test::held_problem(random, N, 0.8);
     const JointLaws laws = all(cohesive(test::uniform(random, 0.0, 0.8), test::uniform(random, 0.05, 1.0),
-                                        test::uniform(random, 0.0, 0.5)), N);
+                                        test::uniform(random, 0.0, 0.5)),
+                               N);
     const Evolution evolution = evolve(problem, laws, History(static_cast<std::size_t>(N)), {}, {});
     ASSERT_EQ(evolution.solution.status, Status::solved) << trial << ": " << evolution.solution.reason;
     EXPECT_LE(evolution.solution.certificate.worst(), 1e-10);
     for (int i = 0; i < N; ++i) {
       const bool gone = evolution.history[static_cast<std::size_t>(i)].broken;
       (gone ? broken : whole) += 1;
-      if (gone) EXPECT_GE(evolution.solution.p[2 * i], -1e-10);
-      else EXPECT_LT(std::abs(evolution.solution.gap[i]) + std::abs(evolution.solution.slip_increment[i]), 1e-8);
+      if (gone)
+        EXPECT_GE(evolution.solution.p[2 * i], -1e-10);
+      else
+        EXPECT_LT(std::abs(evolution.solution.gap[i]) + std::abs(evolution.solution.slip_increment[i]), 1e-8);
     }
   }
   EXPECT_GT(broken, 100);

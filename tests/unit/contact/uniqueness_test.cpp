@@ -27,7 +27,8 @@ UniquenessReport examined(const Problem& problem, const Start& start = {}) {
   return examine_uniqueness(problem, start, solve(problem, start), {});
 }
 
-// q = [0.1, 1], mu = 1.5: open, p = [0.8, -0.9] (stick), p = [0.2, -0.3] (slip); the one in the middle has index -1.
+// q = [0.1, 1], mu = 1.5: open, p = [0.8, -0.9] (stick), p = [0.2, -0.3] (slip); the one in the middle has
+// index -1.
 TEST(OnePair, AllThreeSolutionsAreFoundFromEachOfThem) {
   const Problem problem = one_pair(1.5, Eigen::Vector2d(0.1, 1.0));
   const std::vector<Vector> known{Vector::Zero(2), Eigen::Vector2d(0.8, -0.9), Eigen::Vector2d(0.2, -0.3)};
@@ -60,13 +61,15 @@ TEST(OnePair, BelowTheLimitThereIsOneWhateverTheMotion) {
   }
 }
 
-// The condition is sufficient: here W = [1 1; 1 2], (W^-1)_nn = 2, W_tt = 2, so mu^2 2 2 < 1 means mu < 1/2 (the limit is 1).
+// The condition is sufficient: here W = [1 1; 1 2], (W^-1)_nn = 2, W_tt = 2, so mu^2 2 2 < 1 means mu < 1/2
+// (the limit is 1).
 TEST(OnePair, TheConditionHasItsClosedForm) {
-  for (double mu : {0.1, 0.5, 1.0}) EXPECT_NEAR(uniqueness_bound(one_pair(mu, Vector::Zero(2))), 4.0 * mu * mu, 1e-12);
+  for (double mu : {0.1, 0.5, 1.0})
+    EXPECT_NEAR(uniqueness_bound(one_pair(mu, Vector::Zero(2))), 4.0 * mu * mu, 1e-12);
 }
 
-// Pressed and stuck, then lifted little by little: where three solutions exist the pair stays stuck although p = 0 solves
-// the problem as well, up to the end of its branch at |p_t| = mu p_n.
+// Pressed and stuck, then lifted little by little: where three solutions exist the pair stays stuck although
+// p = 0 solves the problem as well, up to the end of its branch at |p_t| = mu p_n.
 TEST(OnePair, TheBranchOfTheHistoryIsFollowedUnderLoad) {
   const double mu = 1.5;
   Start start;
@@ -101,11 +104,12 @@ TEST(OnePair, TheSolutionNearestToTheHistoryIsNamed) {
   const UniquenessReport report =
       examine_uniqueness(problem, {Eigen::Vector2d(0.82, -0.91), Vector()}, solve(problem), {});
   ASSERT_GE(report.nearest, 0);
-  EXPECT_LT((report.others[static_cast<std::size_t>(report.nearest)] - Eigen::Vector2d(0.8, -0.9)).norm(), 1e-12);
+  EXPECT_LT((report.others[static_cast<std::size_t>(report.nearest)] - Eigen::Vector2d(0.8, -0.9)).norm(),
+            1e-12);
 }
 
-// A slider on a rail of slope k, W = [1 k]'[1 k], that friction jams (mu k > 1) while the motion asks it to pass: no
-// forces at all. No failure to converge: none of the four combinations of states works.
+// A slider on a rail of slope k, W = [1 k]'[1 k], that friction jams (mu k > 1) while the motion asks it to
+// pass: no forces at all. No failure to converge: none of the four combinations of states works.
 TEST(JammedSlider, HasNoSolutionAndIsToldSo) {
   const double k = 2.0;
   Problem problem;
@@ -118,7 +122,8 @@ TEST(JammedSlider, HasNoSolutionAndIsToldSo) {
   const Solution solution = solve(problem);
   EXPECT_EQ(solution.status, Status::not_converged);
   EXPECT_EQ(why_no_solution(problem, {}),
-            "no combination of open, sticking and slipping pairs meets all conditions: the problem has no solution");
+            "no combination of open, sticking and slipping pairs meets all conditions: the problem has no "
+            "solution");
   problem.mu[0] = 0.4;  // mu k = 0.8: passes with p_n = 1 / (1 - mu k)
   const Solution passes = solve(problem);
   ASSERT_EQ(passes.status, Status::solved) << passes.reason;
@@ -169,7 +174,8 @@ TEST(FewPairs, IndicesOfAllSolutionsSumToOne) {
   for (int trial = 0; trial < 200; ++trial) {
     Problem problem = test::held_problem(random, test::whole(random, 1, 3), 0.0);
     problem.mu = Vector::Constant(problem.mu.size(), 10.0);
-    for (Eigen::Index i = 0; i < problem.q.size(); ++i) problem.q[i] = test::uniform(random, -1, 1);  // no ties
+    for (Eigen::Index i = 0; i < problem.q.size(); ++i)
+      problem.q[i] = test::uniform(random, -1, 1);  // no ties
     const auto all = all_solutions(problem, 1e-10);
     ASSERT_TRUE(all.has_value());
     ASSERT_FALSE(all->empty());

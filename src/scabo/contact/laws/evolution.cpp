@@ -37,12 +37,14 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
     // An open pair without tension still slides where it has cohesion.
     if (state == ContactState::open && problem.cohesion_of(i) > 0.0 && sliding > rounding) end.slid = true;
     end.slip = end.slid && state == ContactState::slip ? slip : 0.0;
-    ends.overload[i] = ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
+    ends.overload[i] =
+        ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
   }
   return ends;
 }
 
-/// The pairs most overloaded among those whose marks the solution changes take their new marks. Whether there was one.
+/// The pairs most overloaded among those whose marks the solution changes take their new marks. Whether there
+/// was one.
 bool let_fall(const JointLaws& laws, const Ends& ends, History& trial) {
   History next = trial;
   double largest = -1.0;
@@ -73,9 +75,11 @@ class Following {
     for (std::size_t i = 0; i < trial.size(); ++i) {
       PairHistory reached = trial[i];
       reached.slip = from[i].slip + ends.of_pair[i].slip;
-      const double mu = laws.of_pair[i]->limits(trial[i]).mu, mu_reached = laws.of_pair[i]->limits(reached).mu;
+      const double mu = laws.of_pair[i]->limits(trial[i]).mu,
+                   mu_reached = laws.of_pair[i]->limits(reached).mu;
       settled = settled && std::abs(mu_reached - mu) <= tolerance * std::max(mu, mu_reached);
-      const double change = reached.slip - trial[i].slip, ratio = before_[i] != 0.0 ? change / before_[i] : 0.0;
+      const double change = reached.slip - trial[i].slip,
+                   ratio = before_[i] != 0.0 ? change / before_[i] : 0.0;
       before_[i] = change;
       trial[i].slip = extrapolate && std::abs(ratio) < 0.95
                           ? std::max(from[i].slip, trial[i].slip + change / (1.0 - ratio))
@@ -94,7 +98,8 @@ class Following {
 };
 
 bool remembers(const JointLaws& laws) {
-  return std::any_of(laws.of_pair.begin(), laws.of_pair.end(), [](const auto& law) { return law->remembers(); });
+  return std::any_of(laws.of_pair.begin(), laws.of_pair.end(),
+                     [](const auto& law) { return law->remembers(); });
 }
 
 History after(const History& from, const History& trial, const Ends& ends) {
@@ -166,7 +171,8 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   result.problem = std::move(problem);
   result.solution.trace = std::move(total.trace);
   result.solution.status = Status::not_converged;
-  result.solution.reason = "the strengths of the joints did not settle within " + std::to_string(result.rounds) +
+  result.solution.reason = "the strengths of the joints did not settle within " +
+                           std::to_string(result.rounds) +
                            " rounds; the increment may be too large, or failure runs away";
   return result;
 }

@@ -1,12 +1,13 @@
-// A law of contact: what a pair can carry, from its parameters and its history (docs/methods/20_contact_laws.md).
+// A law of contact: what a pair can carry, from its parameters and its history
+// (docs/methods/20_contact_laws.md).
 //
 // The discrete problem knows one set of forces for a pair (contact/problem.hpp),
 //
 //     p_n >= -tau_t A,   |p_t| <= c A + mu (p_n)+                    A: tributary area of the pair
 //
-// and a law says which mu, c, tau_t hold now, and what a solution makes of the history: laws whose strength falls (a joint that
-// breaks, friction that falls once slip begins) are solved again within the increment until nothing changes
-// (laws/evolution.hpp). Laws never change; histories are values.
+// and a law says which mu, c, tau_t hold now, and what a solution makes of the history: laws whose strength
+// falls (a joint that breaks, friction that falls once slip begins) are solved again within the increment
+// until nothing changes (laws/evolution.hpp). Laws never change; histories are values.
 #pragma once
 
 #include "scabo/contact/problem.hpp"
