@@ -5,7 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
-#include "scabo/contact/solve.hpp"
+#include "scabo/analysis/branch.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::analysis {
@@ -67,8 +67,13 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.external += 0.5 * (from.reactions[b] + to.reactions[b]).dot(to.prescribed[b] - from.prescribed[b]);
     energy.elastic += prepared.structure.bodies[b]->elastic_energy(to.u[b]);
   }
-  for (Eigen::Index i = 0; i < to.slip.size(); ++i)
-    energy.friction -= 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]) * (to.slip[i] - from.slip[i]);
+  for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
+    const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)], &after = to.history[static_cast<std::size_t>(i)];
+    // Where the strength fell at once, the slip took place under what was left of it.
+    const bool fell = before.broken != after.broken || before.slipped != after.slipped;
+    const double p_t = fell ? to.p[2 * i + 1] : 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]);
+    energy.friction -= p_t * (to.slip[i] - from.slip[i]);
+  }
   return energy;
 }
 
@@ -201,7 +206,10 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     row.state = state.states[i];
     row.displacement_a = displacement_at(prepared, state, contact.a.body, pair.node_a, pair.point_a, pair.normal);
     row.displacement_b = displacement_at(prepared, state, contact.b.body, pair.node_b, pair.point_b, pair.normal);
-    results[static_cast<std::size_t>(at.contact)].pairs.push_back(row);
+    ContactResult& result = results[static_cast<std::size_t>(at.contact)];
+    result.pairs.push_back(row);
+    if (contact.cohesion > 0.0 || contact.tension > 0.0)
+      result.broken = result.broken.value_or(0) + state.history[i].broken;
     index_of_pair[static_cast<std::size_t>(at.contact)].push_back(at.index);
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
@@ -239,6 +247,7 @@ State initial_state(const Prepared& prepared) {
   state.a = Vector::Zero(prepared.contact.rigid_motions());
   state.gap = prepared.contact.gap;
   state.slip = Vector::Zero(N);
+  state.history.assign(prepared.contact.pairs.size(), {});
   state.states.assign(prepared.contact.pairs.size(), contact::ContactState::open);
   state.forces = applied_forces(prepared, state.factors.loads);
   state.prescribed = prescribed_values(prepared, state.factors.supports);
@@ -262,7 +271,6 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::Problem problem;
   problem.W = system.W;
   problem.q = Vector::Zero(2 * N);
-  problem.mu = system.mu;
   problem.G = system.G;
   problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -272,7 +280,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
-  options.force_scale = std::max({prepared.force_scale, largest_force(from), largest_force(to)});
+  options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
   std::vector<Vector> free;  // without contact
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
@@ -284,8 +292,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
 
   result.start = {from.p, from.a};
   result.force_scale = options.force_scale;
-  result.solution = contact::solve(problem, result.start, options);
-  result.problem = std::move(problem);
+  contact::Evolution evolution = contact::evolve(problem, system.laws, from.history, result.start, options);
+  if (prepared.model.solver.uniqueness && N > 0)
+    result.uniqueness = follow_history(problem, system.laws, from.history, result.start, options, evolution);
+  result.solution = std::move(evolution.solution);
+  result.problem = std::move(evolution.problem);
+  to.history = std::move(evolution.history);
   to.p = result.solution.p;
   to.a = result.solution.a;
   to.gap = result.solution.gap;
@@ -301,7 +313,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   }
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
-  certify_structure(prepared, to, std::max(options.force_scale, largest_force(to)), result.certificate);
+  to.largest_force = std::max(from.largest_force, largest_force(to));
+  certify_structure(prepared, to, std::max(options.force_scale, to.largest_force), result.certificate);
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;

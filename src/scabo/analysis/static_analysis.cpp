@@ -9,6 +9,7 @@
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
+#include "scabo/contact/uniqueness.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/mesh/output_points.hpp"
 
@@ -42,6 +43,7 @@ struct Reached {
   int iterations = 0, halvings = 0;
   double residual = 0.0;
   Matrix undetermined;
+  std::optional<UniquenessResult> uniqueness;
   std::string reason;  ///< empty: there
   std::vector<AttemptResult> attempts;
   std::vector<DiscreteProblem> problems;  ///< of the attempts, where they are asked for
@@ -65,6 +67,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       reached.certificate = tried.certificate;
       reached.residual = tried.solution.residual;
       reached.undetermined = std::move(tried.solution.undetermined);
+      reached.uniqueness = tried.uniqueness;
       done = next;
       continue;
     }
@@ -81,6 +84,13 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       else
         reached.reason = fmt::format("contact did not converge after {} halvings: {}", reached.halvings,
                                      tried.solution.reason);
+      if (tried.solution.status == contact::Status::not_converged) {
+        contact::SolverOptions solver;
+        solver.tolerance = prepared.model.solver.tolerance;
+        solver.force_scale = tried.force_scale;
+        if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
+          reached.reason += "; " + why;
+      }
       return reached;
     }
     ++reached.halvings;
@@ -142,6 +152,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       result.certificate = reached.certificate;
       result.reason = reached.reason;
       result.attempts = std::move(reached.attempts);
+      result.uniqueness = reached.uniqueness;
       if (there) add_warnings(prepared, reached, result, solution.warnings);
       solution.increments.push_back(std::move(result));
       if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);

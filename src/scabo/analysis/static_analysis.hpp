@@ -40,6 +40,7 @@ struct ContactResult {
   double normal_force = 0.0;      ///< sum of the pairs' normal forces
   double tangential_force = 0.0;  ///< sum of the pairs' tangential forces
   int open = 0, stick = 0, slip = 0;
+  std::optional<int> broken;      ///< pairs that lost cohesion and tensile strength; nothing where the contact has none
   double max_gap = 0.0;           ///< of the open pairs; 0 when none is open
   double max_pressure = 0.0;
   std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; nothing when all are open
@@ -75,6 +76,15 @@ struct ErrorEstimate {
   std::vector<std::optional<BodyError>> bodies;  ///< nothing for rigid and FE bodies
 };
 
+/// What is known of other solutions of an increment (contact/uniqueness.hpp), for `solver: {uniqueness: true}`.
+struct UniquenessResult {
+  std::string verdict;      ///< `proven`, `several found`, `not decided`
+  int others = 0;           ///< other solutions found
+  bool complete = false;    ///< there are no more
+  double bound = 0.0;       ///< below 1: proven; infinite where the condition does not apply
+  int index = 0;            ///< sign of det H'; 0: on a kink or not computed
+};
+
 struct IncrementResult {
   int step = 0;        ///< from 1
   std::string step_name;
@@ -93,6 +103,7 @@ struct IncrementResult {
   std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
   std::vector<CrackResult> cracks;        ///< of all bounded open super-elements
   std::string reason;                     ///< why it did not converge
+  std::optional<UniquenessResult> uniqueness;  ///< where asked for
   std::vector<AttemptResult> attempts;    ///< one; more where the increment was halved
 };
 

@@ -189,11 +189,24 @@ struct Load {
   Source source;
 };
 
-/// Unilateral contact with Coulomb friction between two edges; A is named first.
+/// Coefficient of friction at a position from 0 to 1 along a contact.
+struct FrictionPoint {
+  double position = 0.0, friction = 0.0;
+};
+
+/// Unilateral contact between two edges; A is named first. Friction beside cohesion and tension, or one of bond and shear
+/// strength instead of all of them.
 struct Contact {
   std::string name;
   Place a, b;
-  double friction = 0.0;  ///< coefficient, >= 0
+  double friction = 0.0;  ///< coefficient, >= 0; static where there is a dynamic one
+  std::optional<double> dynamic_friction;     ///< coefficient, <= friction
+  double slip_distance = 0.0;                 ///< length over which friction falls to the dynamic one; 0: at once
+  std::vector<FrictionPoint> friction_along;  ///< instead of one coefficient; positions ascend
+  double cohesion = 0.0;                 ///< force / length^2, until first failure
+  double tension = 0.0;                  ///< tensile strength, force / length^2, until first failure
+  bool bond = false;                     ///< neither opens nor slips
+  std::optional<double> shear_strength;  ///< prescribed bound of friction (Tresca), force / length^2
   double gap = 0.0;       ///< length, added to the geometric gap; negative: an interference fit
   Source source;
 };
@@ -211,6 +224,7 @@ struct SolverOptions {
   double tolerance = 1e-10;  ///< certificate: every scaled figure below this
   int iterations = 50;       ///< of Newton in one attempt
   int halvings = 6;          ///< of an increment that did not converge
+  bool uniqueness = false;   ///< look for other solutions of every increment
 };
 
 /// A point whose values are wanted. `body`: -1 for every body that holds it.

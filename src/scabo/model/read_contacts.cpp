@@ -68,10 +68,9 @@ std::optional<std::pair<Place, Place>> read_between(Reading& reading, const Valu
 std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, entry.value, {"between", "friction", "gap"}, contact_example,
-                      {{"cohesion", "leave it out, contact has Coulomb friction only"},
-                       {"tension", "leave it out, contact has Coulomb friction only"},
-                       {"kind", "leave it out, every contact is node to node"},
+  const MapReader map(report, entry.value,
+                      {"between", "friction", "gap", "cohesion", "tension", "bond", "shear_strength"}, contact_example,
+                      {{"kind", "leave it out, every contact is node to node"},
                        {"penalty", "leave it out, contact is solved exactly"}});
   Contact contact;
   contact.name = entry.key;
@@ -79,10 +78,9 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
   const auto between_value = map.need("between");
   if (!between_value) reading.places_known = false;
   const auto between = between_value ? read_between(reading, *between_value) : std::nullopt;
-  if (const auto friction = map.get("friction")) {
-    contact.friction = read_not_negative(report, *friction).value_or(0.0);
-  }
+  read_law(reading, map, contact);
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
+  if (contact.bond && map.has("gap")) map.refuse("gap", "a bonded contact holds its sides as they are at the start: leave it out");
   if (report.count() > before || !between) return {};
   contact.a = between->first;
   contact.b = between->second;

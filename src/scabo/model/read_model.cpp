@@ -46,7 +46,8 @@ void read_analysis(Reading& reading, const Value& value) {
 }
 
 void read_solver(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings"}, "{tolerance: 1e-10}");
+  const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings", "uniqueness"},
+                      "{tolerance: 1e-10}");
   SolverOptions& solver = reading.model.solver;
   if (const auto tolerance = map.get("tolerance")) {
     const auto number = read_number(reading.report, *tolerance);
@@ -63,6 +64,8 @@ void read_solver(Reading& reading, const Value& value) {
   if (const auto halvings = map.get("halvings")) {
     solver.halvings = static_cast<int>(read_integer(reading.report, *halvings, 0, 30).value_or(6));
   }
+  if (const auto uniqueness = map.get("uniqueness"))
+    solver.uniqueness = read_flag(reading.report, *uniqueness).value_or(false);
 }
 
 namespace {

@@ -55,6 +55,9 @@ void read_contacts(Reading& reading, const Value& value);
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);
 
+/// What a contact carries: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
+void read_law(Reading& reading, const MapReader& map, Contact& contact);
+
 /// `shape` of a body; nothing when it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);
 /// The same outline run the other way round; every edge and corner keeps its names.

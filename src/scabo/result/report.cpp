@@ -85,7 +85,11 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
   if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));
   text += fmt::format(", residual {:.2g}", increment.residual);
   if (increment.error) text += fmt::format(", estimated error {:.2g}", increment.error->relative);
-  if (increment.converged) return text + fmt::format(", certificate {:.2g}\n", increment.certificate.worst());
+  if (increment.converged) {
+    text += fmt::format(", certificate {:.2g}", increment.certificate.worst());
+    if (increment.uniqueness) text += fmt::format(", unique: {}", increment.uniqueness->verdict);
+    return text + '\n';
+  }
   return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
 }
 

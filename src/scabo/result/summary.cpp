@@ -22,7 +22,7 @@ Json value_or_null(const std::optional<Value>& value) {
 }
 
 Json json_of(const analysis::ContactResult& contact) {
-  return {{"normal_force", number_or_null(contact.normal_force)},
+  Json json = {{"normal_force", number_or_null(contact.normal_force)},
           {"tangential_force", number_or_null(contact.tangential_force)},
           {"open", contact.open},
           {"stick", contact.stick},
@@ -31,6 +31,16 @@ Json json_of(const analysis::ContactResult& contact) {
           {"max_pressure", number_or_null(contact.max_pressure)},
           {"first_pair_in_contact", value_or_null(contact.first_in_contact)},
           {"last_pair_in_contact", value_or_null(contact.last_in_contact)}};
+  if (contact.broken) json["broken"] = *contact.broken;
+  return json;
+}
+
+Json json_of(const analysis::UniquenessResult& uniqueness) {
+  return {{"unique", uniqueness.verdict},
+          {"others", uniqueness.others},
+          {"complete", uniqueness.complete},
+          {"bound", number_or_null(uniqueness.bound)},
+          {"index", uniqueness.index}};
 }
 
 Json json_of(const contact::Certificate& certificate) {
@@ -125,6 +135,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
   json["error"] = increment.error ? json_of(*increment.error, model) : Json();
+  if (increment.uniqueness) json["uniqueness"] = json_of(*increment.uniqueness);
   return json;
 }
 
