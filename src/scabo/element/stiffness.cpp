@@ -144,8 +144,28 @@ Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matr
   return block;
 }
 
+/// Adds a part of T K_k T' to K that gives the whole when its transpose is added.
+void add_half(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K) {
+  using Entries = Eigen::SparseMatrix<double>::InnerIterator;
+  for (Eigen::Index b = 0; b < K_k.cols(); ++b)
+    for (Entries right(T, b); right; ++right)
+      for (Eigen::Index a = b; a < K_k.rows(); ++a) {
+        const double value = (a == b ? 0.5 : 1.0) * K_k(a, b) * right.value();
+        for (Entries left(T, a); left; ++left) K(left.row(), right.row()) += left.value() * value;
+      }
+}
+
+/// Nothing that went wrong on the way leaves the rotation free of force.
+bool rotates_freely(const Matrix& K, const Ring& ring) {
+  Vector r(K.rows());
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i)
+    r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-ring.nodes[i].y(), ring.nodes[i].x());
+  return (K * r).norm() <= 1e-9 * K.norm() * r.norm();
+}
+
 }  // namespace
 
+bool CHECK = false;
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads,
                                          const Domain& domain) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, thickness);
@@ -168,14 +188,13 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   for (const int count : doublings) solution.doublings = std::max(solution.doublings, count);
   if (bases.size() == 1) {  // T = 1
     solution.K = std::move(stiffness.front());
-    return solution;
+  } else {
+    solution.K = Matrix::Zero(n, n);
+    for (std::size_t i = 0; i < bases.size(); ++i) add_half(solution.blocks[i].T, stiffness[i], solution.K);
+    solution.K = solution.K + Matrix(solution.K.transpose());
   }
-  solution.K = Matrix::Zero(n, n);
-  for (std::size_t i = 0; i < bases.size(); ++i) {
-    const Eigen::SparseMatrix<double>& basis = solution.blocks[i].T;
-    solution.K += basis * stiffness[i] * basis.transpose();
-  }
-  solution.K = symmetrised(solution.K);
+  if (CHECK && !domain.unbounded && !rotates_freely(solution.K, ring))
+    throw IllPosed("its stiffness resists rotation: digits were lost");
   return solution;
 }
 
