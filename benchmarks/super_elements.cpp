@@ -195,7 +195,7 @@ void recover_table(int most) {
     gradient << 1e-3, 2e-4, -3e-4, -5e-4;
     const Vec3 stress = concrete * Vec3(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
     const Vector u = at_nodes(ring.nodes, [&](const Vec2& x) { return Vec2(gradient * x); });
-    const RadialField field(solution, modes, u, Vector());
+    const RadialField field(solution, modes, u, {});
     PointValues values;
     const double point = seconds([&] { values = point_values(ring, field.at(0.4), concrete, 7, 0.3); });
     const CoefficientMatrices matrices = coefficient_matrices(ring, concrete, 1.0);

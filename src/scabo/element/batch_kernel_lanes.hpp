@@ -202,7 +202,7 @@ int heaviest_node(const V* E0, int n) {
   return heaviest;
 }
 
-/// Eqs. (4) and (1) of stiffness.hpp: the first ring, without the rows J = out, out + 1. m x m, lower triangles of K11, K22.
+/// Eq. (4) of stiffness.hpp and (1) of ring_doubling.hpp: the first ring, without the rows J = out, out + 1. m x m, lower triangles of K11, K22.
 void first_ring(const V* E0, const V* E1, const V* E2, int n, int out, V* G, V* F, V* K11, V* K22, V* K12) {
   // G(a, i) = (R'E0)_ai, F(a, i) = (E1 R)_ia; M = R'E0R.
   V m00 = {}, m01 = {}, m11 = {};
@@ -238,26 +238,26 @@ void first_ring(const V* E0, const V* E1, const V* E2, int n, int out, V* G, V* 
   }
 }
 
-/// Largest over the lanes of the sum of |K12| over that of |K22|, lanes that failed left out.
-double coupling(const V* K12, const V* K22, int m) {
-  V across = {}, own = {};
+/// Largest entry of K12 over all lanes where the diagonal of K22 is scaled to 1, lanes that failed left out. `scale`: m vectors.
+double coupling(const V* K12, const V* K22, int m, V* scale) {
+  for (long i = 0; i < m; ++i) scale[i] = 1.0 / square_root(positive(K22[i * m + i]));
+  V largest = {};
   for (long i = 0; i < m; ++i)
     for (long j = 0; j < m; ++j) {
-      across += absolute(K12[i * m + j]);
-      if (j <= i) own += absolute(K22[i * m + j]);
+      const V value = absolute(K12[i * m + j]) * scale[i] * scale[j];
+      largest = value > largest ? value : largest;
     }
-  double largest = 0.0;
-  for (int l = 0; l < lanes; ++l)
-    if (across[l] > largest * own[l]) largest = across[l] / own[l];
-  return largest;
+  double most = 0.0;
+  for (int l = 0; l < lanes; ++l) most = largest[l] > most ? largest[l] : most;
+  return most;
 }
 
-/// Eq. (2) of stiffness.hpp until K22 has arrived.
-void double_rings(int m, V* K11, V* K22, V* K12, V* L, V* Z) {
+/// Eq. (2) of ring_doubling.hpp until K22 has arrived.
+void double_rings(int m, V* K11, V* K22, V* K12, V* L, V* Z, V* scale) {
   constexpr int most = 16;  // what needs more goes to solve_super_element: its residual shows it
   const long stride = 2 * static_cast<long>(m);
   for (int doubling = 0; doubling < most; ++doubling) {
-    const double ratio = coupling(K12, K22, m);
+    const double ratio = coupling(K12, K22, m, scale);
     if (!(ratio > 1e-10)) return;  // the next step would change K22 by the square of it
     const bool last = ratio < 1e-5;  // and the step after the next by its fourth power: K22 is all that is needed
     for (long i = 0; i < m; ++i)
@@ -333,7 +333,7 @@ void solve(const BatchShape& shape, const BatchLanes& data, double* workspace) {
                 E0, E1, E2);
   const int out = heaviest_node(E0, n);
   first_ring(E0, E1, E2, n, out, vectors, vectors + 2 * n, K11, K22, K12);
-  double_rings(m, K11, K22, K12, E0, E1);  // the coefficient matrices are not needed any more: room for L (m^2), Z (2 m^2)
+  double_rings(m, K11, K22, K12, E0, E1, vectors);  // the coefficient matrices are not needed any more: room for L (m^2), Z (2 m^2)
   V* const K = reinterpret_cast<V*>(data.K);
   put_back(K22, n, out, vectors, K);
   *reinterpret_cast<V*>(data.residual) = rotation_residual(K, x, n, vectors);

@@ -162,10 +162,11 @@ void integrate(const Ring& ring, std::size_t e, const Mat3& D, double thickness,
 
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness) {
   ensure(D.fits(ring), "a super-element has one elasticity, or one for each boundary element");
+  if (!(thickness > 0.0)) throw IllPosed("the thickness is not positive");
   Assembly assembly(ring);
   ElementBlocks blocks;
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
-    if (!(thickness > 0.0) || Eigen::LLT<Mat3>(D.of(e)).info() != Eigen::Success)
+    if (!D.of(e).allFinite() || Eigen::LLT<Mat3>(D.of(e)).info() != Eigen::Success)
       throw IllPosed("the elasticity of boundary element " + std::to_string(e) + " is not positive definite");
     integrate(ring, e, D.of(e), thickness, blocks);
     const auto& nodes = ring.elements[e].nodes;

@@ -144,8 +144,20 @@ Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matr
   return block;
 }
 
+/// Adds a part of T K_k T' to K that gives the whole when its transpose is added.
+void add_half(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K) {
+  using Entries = Eigen::SparseMatrix<double>::InnerIterator;
+  for (Eigen::Index b = 0; b < K_k.cols(); ++b)
+    for (Entries right(T, b); right; ++right)
+      for (Eigen::Index a = b; a < K_k.rows(); ++a) {
+        const double value = (a == b ? 0.5 : 1.0) * K_k(a, b) * right.value();
+        for (Entries left(T, a); left; ++left) K(left.row(), right.row()) += left.value() * value;
+      }
+}
+
 /// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it: 5e-10 of K where
-/// lengths differ by 1e6, 1e-15 where they are alike. K t = 0 of the translations, perpendicular to r, stays.
+/// lengths differ by 1e6, 1e-15 where they are alike. K t = 0 of the translations, perpendicular to r, stays. What left more
+/// than that lost digits on the way, and is told.
 Matrix without_rotation(const Matrix& K, const Ring& ring) {
   Vec2 mean = Vec2::Zero();
   for (const Vec2& x : ring.nodes) mean += x / static_cast<double>(ring.nodes.size());
@@ -156,6 +168,7 @@ Matrix without_rotation(const Matrix& K, const Ring& ring) {
   }
   r.normalize();
   const Vector force = K * r;
+  if (!(force.norm() <= 1e-8 * K.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
   const Vector half = force - 0.5 * r.dot(force) * r;
   Matrix freed = K;
   freed.noalias() -= r * half.transpose();
@@ -189,11 +202,8 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
     solution.K = std::move(stiffness.front());
   } else {
     solution.K = Matrix::Zero(n, n);
-    for (std::size_t i = 0; i < bases.size(); ++i) {
-      const Eigen::SparseMatrix<double>& basis = solution.blocks[i].T;
-      solution.K += basis * stiffness[i] * basis.transpose();
-    }
-    solution.K = symmetrised(solution.K);
+    for (std::size_t i = 0; i < bases.size(); ++i) add_half(solution.blocks[i].T, stiffness[i], solution.K);
+    solution.K = solution.K + Matrix(solution.K.transpose());
   }
   if (!domain.unbounded) solution.K = without_rotation(solution.K, ring);  // what is unbounded resists rotation
   return solution;

@@ -4,8 +4,9 @@
 #include <lapacke.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <vector>
+#include <memory>
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/blas_kernels.hpp"
@@ -45,17 +46,30 @@ namespace {
 
 constexpr int inverted_at_once = 32;
 
+/// Inverse of a small lower triangular matrix, column by column; zeros above. Triangular inverses of LAPACK start too slowly.
+void invert_lower(const double* l, std::ptrdiff_t l_stride, int n, double* inverse) {
+  std::array<double, inverted_at_once> over;
+  for (int k = 0; k < n; ++k) over[static_cast<std::size_t>(k)] = 1.0 / l[k * l_stride + k];
+  for (int j = 0; j < n; ++j) {
+    double* const x = inverse + j * n;
+    std::fill(x, x + n, 0.0);
+    x[j] = 1.0;
+    for (int k = j; k < n; ++k) {
+      const double* const column = l + k * l_stride;
+      const double value = x[k] * over[static_cast<std::size_t>(k)];
+      x[k] = value;
+      for (int i = k + 1; i < n; ++i) x[i] -= value * column[i];
+    }
+  }
+}
+
 /// Solves with the lower triangular n x n part of L at `l`; B at `b`, n x m. `room`: 32 x 32 and 32 x m. Halves are solved one after
 /// the other, with a product between; the last blocks by their inverse.
 void solve_by_halves(const double* l, int l_stride, int n, double* b, int b_stride, int m, bool transposed, double* room) {
   if (n <= inverted_at_once) {
     double *const inverse = room, *const copy = room + inverted_at_once * inverted_at_once;
-    for (int j = 0; j < n; ++j) {
-      std::fill(inverse + j * n, inverse + j * n + j, 0.0);
-      std::copy(l + j * l_stride + j, l + j * l_stride + n, inverse + j * n + j);
-    }
-    LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', n, inverse, n);
-    for (int j = 0; j < m; ++j) std::copy(b + static_cast<std::ptrdiff_t>(j) * b_stride, b + static_cast<std::ptrdiff_t>(j) * b_stride + n, copy + static_cast<std::ptrdiff_t>(j) * n);
+    invert_lower(l, l_stride, n, inverse);
+    for (std::ptrdiff_t j = 0; j < m; ++j) std::copy(b + j * b_stride, b + j * b_stride + n, copy + j * n);
     cblas_dgemm(CblasColMajor, transposed ? CblasTrans : CblasNoTrans, CblasNoTrans, n, m, n, 1.0, inverse, n, copy, n, 0.0, b,
                 b_stride);
     return;
@@ -87,8 +101,9 @@ void solve_lower_in_place(const Matrix& L, Matrix& B, bool transposed) {
                 rows(B), cols(B), 1.0, L.data(), stride(L), B.data(), stride(B));
     return;
   }
-  std::vector<double> room(static_cast<std::size_t>(inverted_at_once * (inverted_at_once + B.cols())));
-  solve_by_halves(L.data(), stride(L), rows(L), B.data(), stride(B), cols(B), transposed, room.data());
+  const auto room = std::make_unique_for_overwrite<double[]>(
+      static_cast<std::size_t>(inverted_at_once * (inverted_at_once + B.cols())));
+  solve_by_halves(L.data(), stride(L), rows(L), B.data(), stride(B), cols(B), transposed, room.get());
 }
 
 void add_gram(Matrix& C, const Matrix& A, double alpha, double beta) {
@@ -99,12 +114,25 @@ void add_gram(Matrix& C, const Matrix& A, double alpha, double beta) {
   mirror_lower(C);
 }
 
+void add_gram_lower(Matrix& C, const Eigen::Ref<const Matrix>& A, double alpha) {
+  ensure(C.rows() == A.cols() && C.cols() == A.cols(), "add_gram_lower: sizes differ");
+  if (C.size() == 0) return;
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, cols(C), static_cast<int>(A.rows()), alpha, A.data(),
+              static_cast<int>(A.outerStride()), 1.0, C.data(), stride(C));
+}
+
+void set_multiply_transposed(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B, double alpha, Matrix& C) {
+  ensure(A.rows() == B.rows(), "set_multiply_transposed: sizes differ");
+  C.resize(A.cols(), B.cols());
+  if (A.rows() == 0) C.setZero();
+  if (C.size() == 0 || A.rows() == 0) return;
+  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, rows(C), cols(C), static_cast<int>(A.rows()), alpha, A.data(),
+              static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()), 0.0, C.data(), stride(C));
+}
+
 Matrix multiply_transposed(const Matrix& A, const Matrix& B, double alpha) {
-  ensure(A.rows() == B.rows(), "multiply_transposed: sizes differ");
-  Matrix C = Matrix::Zero(A.cols(), B.cols());
-  if (C.size() == 0 || A.rows() == 0) return C;
-  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, cols(A), cols(B), rows(A), alpha, A.data(), stride(A),
-              B.data(), stride(B), 0.0, C.data(), stride(C));
+  Matrix C;
+  set_multiply_transposed(A, B, alpha, C);
   return C;
 }
 
