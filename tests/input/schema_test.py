@@ -28,7 +28,8 @@ BEYOND_SCHEMA = re.compile(
     r"|place_(unknown|near_far|near_a_rigid)"
     r"|support_(conflict|name_)|load_(on_unknown|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
     r"|contact_(with_itself|unknown_edge|twice|of_two_rigid|at_a_corner)"
-    r"|number_underflow|step_(unknown|name_twice|never|names)|later_")
+    r"|number_underflow|step_(unknown|name_twice|never|names)"
+    r"|output_(body_unknown|line_without_length|name_twice)|later_")
 
 
 class Loader(yaml.SafeLoader):
