@@ -12,13 +12,15 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import matplotlib.ticker
 import meshio
 import numpy as np
-from matplotlib.tri import Triangulation
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODEL = HERE / "model.yaml"
 TOLERANCES = ["1e-1", "3e-2", "1e-2", "3e-3", "1e-3", "3e-4", "1e-4"]
+CORNERS = [[0, 0], [48, 44], [48, 60], [0, 44]]
+EDGES = ", ".join(f"{{from: {CORNERS[k]}, to: {CORNERS[(k + 1) % 4]}, name: side_{k + 1}}}" for k in range(4))
 EQUAL = {1: [16, 8, 4, 2, 1], 2: [16, 8, 4, 2, 1], 4: [32, 16, 8, 4, 2]}  # order: sizes
 BLUE, RED, GREY = "#2b5c8a", "#c1442e", "0.55"
 
@@ -43,7 +45,8 @@ def main():
     equal = {order: [run(options.scabo, options.results / f"order_{order}_size_{size}",
                          f"bodies.panel.mesh={{size: {size}, order: {order}}}", "output.error=true")
                      for size in sizes] for order, sizes in EQUAL.items()}
-    for name, figure in {"stress": stress(refined["1e-3"]), "section": section(refined["1e-3"]),
+    with_edges = run(options.scabo, options.results / "edges", f"output.lines=[{EDGES}]")
+    for name, figure in {"stress": stress(with_edges), "section": section(refined["1e-3"]),
                          "convergence": convergence(refined, equal)}.items():
         path = options.output / f"{name}.png"
         figure.savefig(path)
@@ -84,19 +87,13 @@ def boundary_nodes(run):
 
 
 def stress(run):
-    """Von Mises stress from grid.csv, and the boundary nodes that refinement left."""
-    grid = run.table("grid")
-    figure, axis = plt.subplots(figsize=(6.2, 5.6))
-    figure.subplots_adjust(left=0.08, right=0.99, top=0.99, bottom=0.07)
-    triangles = Triangulation(grid["x"], grid["y"])
-    corners = np.array([[0, 0], [48, 44], [48, 60], [0, 44], [0, 0]])
-    middle = np.column_stack([grid["x"][triangles.triangles].mean(1), grid["y"][triangles.triangles].mean(1)])
-    sides = [np.sqrt(np.diff(grid[k][triangles.triangles][:, [0, 1, 2, 0]], axis=1) ** 2).max(1) for k in "xy"]
-    outside = (middle[:, 1] < 44 / 48 * middle[:, 0]) | (middle[:, 1] > 44 + 16 / 48 * middle[:, 0])
-    triangles.set_mask(outside | (np.maximum(*sides) > 2))
+    """Von Mises stress from grid.csv and, along the edges, lines.csv; and the boundary nodes that refinement left."""
+    tables = [run.table("grid"), run.table("lines")]
+    x, y, values = (np.concatenate([table[key] for table in tables]) for key in ("x", "y", "von_mises"))
+    figure, axis = plt.subplots(figsize=(6.2, 5.8), layout="constrained")
     levels = np.linspace(0, 0.3, 16)
-    drawn = axis.tricontourf(triangles, grid["von_mises"], levels=levels, cmap="YlOrRd", extend="max")
-    axis.plot(*corners.T, color="black", linewidth=0.8)
+    drawn = axis.tricontourf(x, y, values, levels=levels, cmap="YlOrRd", extend="max")
+    axis.plot(*np.array(CORNERS + CORNERS[:1]).T, color="black", linewidth=0.8)
     nodes = boundary_nodes(run)
     axis.plot(*nodes.T, ".", color=BLUE, markersize=4, clip_on=False)
     axis.plot([0, 0], [-1, 45], color="black", linewidth=3)
@@ -104,7 +101,7 @@ def stress(run):
     axis.set(xlim=(-2, 52.5), ylim=(-2, 62), aspect="equal", xlabel="x", ylabel="y")
     for side in ("top", "right"):
         axis.spines[side].set_visible(False)
-    figure.colorbar(drawn, ax=axis, label="Von Mises stress", fraction=0.04, pad=0.02)
+    figure.colorbar(drawn, ax=axis, label="Von Mises stress", orientation="horizontal", shrink=0.8, aspect=40)
     return figure
 
 
@@ -137,6 +134,8 @@ def convergence(refined, equal):
     axis.loglog([r.dofs for r in runs[:-1]], [true(r) for r in runs[:-1]], "o-", color=RED, markersize=3,
                 label="to a tolerance, true")
     axis.set(xlabel="degrees of freedom", ylabel="relative error in the energy norm")
+    axis.set_xticks([30, 50, 100, 200, 500], labels=["30", "50", "100", "200", "500"])
+    axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
     axis.grid(which="major", color="0.9", linewidth=0.6)
     axis.legend(frameon=False)
     return figure

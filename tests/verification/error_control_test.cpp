@@ -38,40 +38,34 @@ double true_error(const analysis::StaticSolution& solution, double exact) {
 
 double estimated(const analysis::StaticSolution& solution) { return last(solution).error->relative; }
 
-double exact_energy_of_cook() {
-  static const double energy =
-      elastic(run(cook, {"bodies.panel.mesh.tolerance=2e-5", "bodies.panel.mesh.order=4"}));
-  return energy;
-}
+/// From this model to a tolerance of 1e-4 (12.0208030021, 458 degrees of freedom) and 2e-5 (12.0208030119, 590), with the rest of
+/// the estimated errors; good to 5e-8, or 6e-5 in the norm.
+constexpr double exact_energy_of_cook = 12.02080304;
 
 TEST(ErrorEstimate, IsBetweenHalfAndTwiceTheTrueErrorOfCooksMembrane) {
-  const double exact = exact_energy_of_cook();
+  const double exact = exact_energy_of_cook;
   // Half of the work of the load, 1 in total, on the mean deflection of the loaded edge: near that of its middle, 23.966.
-  EXPECT_NEAR(2 * exact, 23.966, 0.15);
+  EXPECT_NEAR(2 * exact, 23.966, 0.1);
   for (const int order : {1, 2, 3, 4, 6})
     for (const char* size : {"22", "11", "5.5"}) {
       const auto solution = run(cook, {"bodies.panel.mesh.order=" + std::to_string(order), std::string("bodies.panel.mesh.size=") + size});
       const double effectivity = estimated(solution) / true_error(solution, exact);
-      std::cout << "Cook, order " << order << ", size " << size << ": " << 2 * solution.mesh.nodes() << " dofs, true "
-                << true_error(solution, exact) << ", effectivity " << effectivity << "\n";
-      EXPECT_GT(effectivity, 0.5) << "order " << order << ", size " << size;
+        EXPECT_GT(effectivity, 0.5) << "order " << order << ", size " << size;
       EXPECT_LT(effectivity, 2.0) << "order " << order << ", size " << size;
     }
 }
 
 TEST(Refinement, MeetsTheToleranceOfCooksMembrane) {
-  const double exact = exact_energy_of_cook();
-  for (const double tolerance : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4}) {
+  const double exact = exact_energy_of_cook;
+  for (const double tolerance : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4}) {
     const auto solution = run(cook, {fmt_setting("bodies.panel.mesh.tolerance", tolerance)});
-    std::cout << "Cook, tolerance " << tolerance << ": " << solution.passes.size() << " passes, " << 2 * solution.mesh.nodes()
-              << " dofs, estimated " << estimated(solution) << ", true " << true_error(solution, exact) << "\n";
     EXPECT_LE(estimated(solution), tolerance);
     EXPECT_LE(true_error(solution, exact), 2 * tolerance);
   }
 }
 
 TEST(Refinement, TakesFewerDegreesOfFreedomThanEqualElements) {
-  const double exact = exact_energy_of_cook();
+  const double exact = exact_energy_of_cook;
   const auto refined = run(cook, {"bodies.panel.mesh.tolerance=1e-3"});
   const auto equal = run(cook, {"bodies.panel.mesh.size=1"});
   std::cout << "refined " << 2 * refined.mesh.nodes() << " dofs, true " << true_error(refined, exact) << "; equal quadratic "
@@ -121,7 +115,6 @@ TEST(ErrorEstimate, OfTwoBeamsInContactFallsWithTheSize) {
     const std::string value = size;
     const auto solution = run(beams, {"bodies.lower.mesh.size=" + value, "bodies.upper.mesh.size=" + value});
     const analysis::ErrorEstimate& error = *last(solution).error;
-    std::cout << "beams, size " << value << ": estimated " << error.relative << "\n";
     EXPECT_LT(error.relative, 0.9 * before);
     EXPECT_NEAR(std::pow(error.relative, 2), std::pow(error.bodies[0]->relative, 2) + std::pow(error.bodies[1]->relative, 2),
                 1e-10);
@@ -131,13 +124,10 @@ TEST(ErrorEstimate, OfTwoBeamsInContactFallsWithTheSize) {
 
 TEST(Refinement, OfTwoBeamsKeepsTheirNodesMatching) {
   double dofs = 0;
-  for (const double tolerance : {3e-2, 1e-2, 3e-3}) {
+  for (const double tolerance : {3e-2, 1e-2, 1e-3}) {
     const auto solution = run(beams, {fmt_setting("bodies.lower.mesh.tolerance", tolerance),
                                       fmt_setting("bodies.upper.mesh.tolerance", tolerance)});
     const analysis::IncrementResult& increment = last(solution);
-    std::cout << "beams, tolerance " << tolerance << ": " << solution.passes.size() << " passes, " << 2 * solution.mesh.nodes()
-              << " dofs, estimated " << increment.error->relative << ", normal force " << increment.contacts[0].normal_force
-              << "\n";
     EXPECT_LE(increment.error->bodies[0]->relative, tolerance);
     EXPECT_LE(increment.error->bodies[1]->relative, tolerance);
     EXPECT_GE(solution.mesh.nodes(), dofs);

@@ -151,8 +151,6 @@ TEST(ErrorByTwoOrders, IsBetweenHalfAndTwiceTheTrueErrorOfSmoothSolutions) {
         const double truth = std::sqrt(difference(coarse, exact)), estimated = std::sqrt(difference(coarse, wider));
         const double effectivity = estimated / truth;
         if (truth < 1e-6 * std::sqrt(2 * energy(exact))) continue;  // near rounding
-        std::cout << of.name << " order " << order << " n " << n << ": relative error "
-                  << truth / std::sqrt(2 * energy(exact)) << ", effectivity " << effectivity << "\n";
         EXPECT_GT(effectivity, 0.5) << of.name << ", order " << order;
         EXPECT_LT(effectivity, 1.01) << of.name << ", order " << order;  // 1, but for the quadrature of the tractions
       }

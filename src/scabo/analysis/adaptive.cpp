@@ -89,6 +89,21 @@ Frozen frozen_elements(const StaticSolution& solution) {
   return frozen;
 }
 
+/// Elements of refined bodies that end at the corner of a point force.
+std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, const mesh::Division& division) {
+  std::vector<mesh::EdgeElement> elements;
+  for (const model::Load& load : model.loads) {
+    if (!load.on || load.on->kind != model::Place::Kind::corner || !std::holds_alternative<model::Force>(load.kind)) continue;
+    const int b = load.on->body, corner = load.on->index;
+    if (!model.bodies[static_cast<std::size_t>(b)].mesh.tolerance) continue;
+    const mesh::BodyDivision& body = division[static_cast<std::size_t>(b)];
+    const int count = static_cast<int>(body.size()), before = (corner + count - 1) % count;
+    elements.push_back({b, corner, 0});
+    elements.push_back({b, before, static_cast<int>(body[static_cast<std::size_t>(before)].orders.size()) - 1});
+  }
+  return elements;
+}
+
 /// `near` places as the nodes they mean on this mesh, so that they mean the same point on the next.
 void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
   const auto hold = [&](model::Place& place) {
@@ -295,6 +310,7 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
   std::vector<RefinementPass> passes;
   std::vector<double> sums;
   std::optional<StaticSolution> last;
+  bool begun = false;
   const auto end = [&](StaticSolution solution) {
     solution.passes = passes;
     if (solution.outcome != Outcome::interrupted) warn_of_frozen(solution);
@@ -310,7 +326,12 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
       if (!last) throw;
       return end(not_reached(std::move(*last), error.diagnostics().front().message));
     }
-    if (passes.empty()) hold_near_places(model, mesh);
+    if (passes.empty() && !begun) {
+      hold_near_places(model, mesh);
+      refinement.divide_at_corners(mesh, elements_at_forces(model, refinement.division()));
+      begun = true;
+      continue;
+    }
     StaticSolution solution = solve_on_mesh(model, std::move(mesh), quiet(options, name));
     if (solution.outcome != Outcome::solved) return end(std::move(solution));
     std::string why;

@@ -15,7 +15,7 @@
 //
 // Stress under a point force is infinite, and so is its energy. The elements beside point forces, beside point supports that carry a
 // reaction and beside `near` places keep their length and order in all meshes, the finer one of the estimate included: the force
-// counts as spread over them.
+// counts as spread over them. Before the first pass those at the corner of a force are divided once, 0.15 : 0.85.
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"

@@ -13,6 +13,9 @@ class Refinement {
 
   const mesh::Division& division() const { return division_; }
 
+  /// Divides elements that end at a corner, the small part at the corner; those that face them alike.
+  void divide_at_corners(const mesh::Mesh& mesh, const std::vector<mesh::EdgeElement>& elements);
+
   /// Refines after a pass. `shares`: [body][boundary element], each element's part of the sum of eq. (1) of adaptive.hpp;
   /// `frozen` elements stay. Returns how many were raised and divided; none: nothing can be refined any more.
   RefinementPass refine(const mesh::Mesh& mesh, const std::vector<std::vector<double>>& shares,
@@ -22,6 +25,7 @@ class Refinement {
   enum class Change { none, raise, divide };
   Change change_for(const mesh::EdgeElement& at, double share) const;
   bool at_corner(const mesh::EdgeElement& at, bool start) const;
+  double cut_of(const mesh::EdgeElement& at) const;
   void apply(const mesh::EdgeElement& at, Change change, double cut, double share);
 
   const model::Model& model_;

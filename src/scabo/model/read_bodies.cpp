@@ -107,9 +107,9 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   if (fem) map.refuse("tolerance", "only a superelement is refined: leave it out for fem");
   if (const auto tolerance = fem ? std::nullopt : map.get("tolerance")) {
     const auto number = read_number(report, *tolerance);
-    if (number && *number >= 1e-6 && *number <= 0.5) mesh.tolerance = *number;
+    if (number && *number >= 1e-5 && *number <= 0.5) mesh.tolerance = *number;
     if (number && !mesh.tolerance) {
-      report.error(*tolerance, fmt::format("must be from 1e-6 to 0.5, not {}", tolerance->node->text));
+      report.error(*tolerance, fmt::format("must be from 1e-5 to 0.5, not {}", tolerance->node->text));
     }
   }
   const auto size = map.has("tolerance") && !fem ? map.get("size") : map.need("size");
