@@ -29,6 +29,12 @@ else()
   list(APPEND missing hdf5.h)
 endif()
 
+find_path(SCABO_SPECTRA_INCLUDE Spectra/SymGEigsShiftSolver.h)
+mark_as_advanced(SCABO_SPECTRA_INCLUDE)
+if(NOT SCABO_SPECTRA_INCLUDE)
+  list(APPEND missing Spectra)
+endif()
+
 if(missing)
   list(JOIN missing ", " missing)
   message(FATAL_ERROR "Scabo needs what was not found: ${missing}.\n"

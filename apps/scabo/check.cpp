@@ -38,6 +38,8 @@ std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
 }
 
 std::string steps_table(const model::Model& model) {
+  if (model.analysis.type == model::AnalysisType::modal)
+    return fmt::format("Modal analysis: the lowest {}.\n", count(model.analysis.modes, "mode"));
   std::vector<std::vector<std::string>> rows = {{"step", "increments"}};
   for (const model::Step& step : model.steps) rows.push_back({step.name, fmt::format("{}", step.increments)});
   return result::table(rows);
@@ -48,6 +50,7 @@ std::string steps_table(const model::Model& model) {
 ExitStatus check(const CheckOptions& options) {
   const model::Model model = model::read_model(options.model, parse_settings(options.settings));
   const mesh::Mesh mesh = analysis::check(model);
+  for (const std::string& warning : model.warnings) print_warning(warning);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
   text += describe_sizes(sizes_of(model, mesh)) + "\n\n" + bodies_table(model, mesh);
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);

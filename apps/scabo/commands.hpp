@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exit_status.hpp"
+#include "scabo/model/model.hpp"
 
 namespace scabo::app {
 
@@ -25,6 +26,12 @@ struct RunOptions {
   bool quiet = false;            ///< only errors and warnings
 };
 
+struct ExponentsOptions {
+  std::string model;
+  std::vector<std::string> settings;
+  bool json = false;
+};
+
 struct ContactOptions {
   std::string file;                         ///< a discrete problem: HDF5 in FCLIB's layout, or Siconos's text
   std::string solver = "b_differentiable";  ///< one of contact::method_names()
@@ -37,7 +44,11 @@ struct ContactOptions {
 };
 
 ExitStatus run(const RunOptions& options);
+/// `run` of a model with `type: modal` that took `reading` seconds to read.
+ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
+                     double reading);
 ExitStatus check(const CheckOptions& options);
+ExitStatus print_exponents(const ExponentsOptions& options);
 ExitStatus solve_contact(const ContactOptions& options);
 ExitStatus print_schema();
 

@@ -1,4 +1,4 @@
-// The command line of Scabo: scabo run | check | contact | schema.
+// The command line of Scabo: scabo run | check | exponents | contact | schema.
 #include <fmt/format.h>
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -36,6 +36,11 @@ Ctrl-C ends the run after the increment at work, a second one at once.)";
 
 constexpr const char* check_example = R"(Example:
   scabo check model.yaml --set bodies.upper.mesh.size=0.1)";
+
+constexpr const char* exponents_example = R"(Example:
+  scabo exponents notch.yaml --set bodies.plate.mesh.order=8
+
+Displacements grow as xi^exponent from the scaling centre: below 1 stress is infinite there.)";
 
 constexpr const char* contact_example = R"(Example:
   scabo contact model.results/problems/press_3.hdf5 --json > solution.json
@@ -96,6 +101,11 @@ class CommandLine {
     add_settings(*check_, check_options_.settings);
     check_->footer(check_example);
 
+    exponents_->add_option("MODEL", exponents_options_.model, model_help)->required()->option_text(" ");
+    add_settings(*exponents_, exponents_options_.settings);
+    exponents_->add_flag("--json", exponents_options_.json, "Prints JSON instead of tables");
+    exponents_->footer(exponents_example);
+
     contact_->add_option("FILE", contact_options_.file, "Discrete contact problem")->option_text(" ");
     contact_->add_option("--solver", contact_options_.solver, solver_help())->option_text("NAME");
     contact_->add_option("--tolerance", contact_options_.tolerance, "Of natural-map residual and certificate; default 1e-10")
@@ -131,6 +141,7 @@ class CommandLine {
   ExitStatus execute() const {
     if (*run_) return run(run_options_);
     if (*check_) return check(check_options_);
+    if (*exponents_) return print_exponents(exponents_options_);
     if (*contact_) return solve_contact(contact_options_);
     return print_schema();
   }
@@ -147,7 +158,7 @@ class CommandLine {
     if (chosen.empty() && error.get_name() == "RequiredError") {
       const bool named = !words.empty() && !words.front().starts_with("-");
       message = (named ? fmt::format("no command '{}'", words.front()) : "no command given") +
-                ": there are run, check, contact, schema";
+                ": there are run, check, exponents, contact, schema";
     }
     print_error(fmt::format("{} (see `{} --help`)", message, command));
     return ExitStatus::wrong_input;
@@ -171,11 +182,13 @@ class CommandLine {
   CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
   CLI::App* check_ =
       app_.add_subcommand("check", "Reads and meshes a model, reports its sizes; solves nothing");
+  CLI::App* exponents_ = app_.add_subcommand("exponents", "Prints the exponents of every super-element");
   CLI::App* contact_ = app_.add_subcommand("contact", "Solves a discrete contact problem from a file, and certifies it");
   CLI::Option* trace_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   RunOptions run_options_;
   CheckOptions check_options_;
+  ExponentsOptions exponents_options_;
   ContactOptions contact_options_;
 };
 

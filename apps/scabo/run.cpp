@@ -70,9 +70,11 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
   if (last) {
     text = fmt::format("{} solved and certified in {:.3g} s; worst figure of the certificate {:.1e}\n",
                        count(converged, "increment"), solution.timing.total, certificate);
+    if (last->error) text += fmt::format("Estimated error {:.2g} of the energy norm\n", last->error->relative);
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
     text += last->contacts.empty() ? result::report_reactions(solution.model, *last)
                                    : result::report_contacts(*last);
+    text += result::report_cracks(*last);
   }
   return text + fmt::format("Results: {}\n", directory.string());
 }
@@ -106,11 +108,12 @@ ExitStatus run(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const model::Model model = model::read_model(options.model, parse_settings(options.settings));
   const double reading = seconds_since(start);
+  const auto output = options.output.empty() ? default_output(options.model) : options.output;
+  if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);
 
   // Looked through before the directory is made or cleared, and the directory made before the long work: a
   // mistake in either costs seconds and no results. Meshing twice is a hundredth of a solve.
   analysis::check(model);
-  const auto output = options.output.empty() ? default_output(options.model) : options.output;
   result::ResultsDirectory directory(output, model);
 
   const Interrupt interrupt;
@@ -136,6 +139,7 @@ ExitStatus run(const RunOptions& options) {
 
   const ExitStatus status = status_of(solution, interrupt.signal());
   for (const std::string& warning : solution.warnings) print_warning(warning);
+  for (const std::string& warning : directory.warnings()) print_warning(warning);
   print_reason(solution, status);
   if (!options.quiet) print_output(summary_text(solution, directory.path()));
   return status;

@@ -40,13 +40,8 @@ Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactF
   const Vector f =
       system::traction_forces(ring.elements, ring.nodes, thickness,
                               [&](const Vec2& x, const Vec2& n) { return traction_of(exact.stress(x), n); });
-  Vector F_b, h = Vector::Zero(u.size());
-  if (!exact.body_force.isZero()) {
-    const Vector weights = body_load_weights(ring) * thickness;
-    F_b.resize(u.size());
-    for (Eigen::Index i = 0; i < weights.size(); ++i) F_b.segment<2>(2 * i) = weights[i] * exact.body_force;
-    h = equivalent_body_load(solution, F_b);
-  }
+  const std::vector<RadialLoad> loads = uniform_body_force(ring, exact.body_force, thickness);
+  const Vector h = equivalent_load(solution, loads);
   Errors errors;
   errors.forces = largest(solution.K * u - h - f) / std::max(largest(f), largest(h));
 
@@ -54,7 +49,7 @@ Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactF
   double stress_size = 0.0;  // |D| |strain|: a stress may vanish where its strain does not
   for (const Vec2& node : ring.nodes)
     stress_size = std::max(stress_size, largest(D) * largest(D.inverse() * exact.stress(node)));
-  const RadialField field(solution, modal, u, F_b);
+  const RadialField field(solution, modal, u, loads);
   for (int k = 0; k < 10; ++k) {
     const double xi = k == 0 ? 1.0 : uniform(random, 0.0, 1.0), eta = uniform(random, -1.0, 1.0);
     const int element = whole(random, 0, static_cast<int>(ring.elements.size()) - 1);

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "scabo/element/coefficient_matrices.hpp"
+#include "scabo/element/radial_load.hpp"
 
 namespace scabo::test {
 
@@ -34,6 +34,10 @@ inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::
 
 inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, int divisions, int order) {
   return polygon_ring(vertices, std::vector<int>(vertices.size(), divisions), order);
+}
+
+inline std::vector<element::RadialLoad> uniform_body_force(const element::Ring& ring, const Vec2& b, double thickness) {
+  return element::body_force_loads(ring, {b.x()}, {b.y()}, thickness);
 }
 
 inline std::vector<Vec2> rectangle(double width, double height) {

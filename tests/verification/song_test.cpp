@@ -1,7 +1,7 @@
-// Song, The Scaled Boundary Finite Element Method, 2018: exponents and stiffness of two super-elements.
+// Song, The Scaled Boundary Finite Element Method, 2018: exponents, stiffness and mass of two super-elements.
 #include <gtest/gtest.h>
 
-#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/mass.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {
@@ -27,6 +27,12 @@ TEST(PublishedSuperElement, SquareOfSongsExample) {
   const std::vector<double> expected = {0, 0, 1, 1, 1, 1, 1.91485, 1.91485};
   ASSERT_EQ(exponents.size(), 8u);
   for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(exponents[i], expected[i], i < 6 ? 1e-12 : 5e-6);
+}
+
+TEST(PublishedSuperElement, MassOfTheSquareOfSongsExample) {
+  const Ring ring = polygon_ring(rectangle(2, 2), 1, 1);
+  const auto solution = solve_super_element(ring, elasticity(10, 0), 1.0);
+  EXPECT_NEAR(mass_matrix(ring, solution, modal_solution(solution), {2.0}, 1.0)(0, 0), 0.89538, 5e-6);
 }
 
 // Song 2018, example 3.2: a regular pentagon in the unit circle, standing on an edge.

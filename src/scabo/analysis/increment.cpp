@@ -5,7 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
-#include "scabo/contact/solve.hpp"
+#include "scabo/analysis/branch.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::analysis {
@@ -67,8 +67,13 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.external += 0.5 * (from.reactions[b] + to.reactions[b]).dot(to.prescribed[b] - from.prescribed[b]);
     energy.elastic += prepared.structure.bodies[b]->elastic_energy(to.u[b]);
   }
-  for (Eigen::Index i = 0; i < to.slip.size(); ++i)
-    energy.friction -= 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]) * (to.slip[i] - from.slip[i]);
+  for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
+    const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)], &after = to.history[static_cast<std::size_t>(i)];
+    // Where the strength fell at once, the slip took place under what was left of it.
+    const bool fell = before.broken != after.broken || before.slipped != after.slipped;
+    const double p_t = fell ? to.p[2 * i + 1] : 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]);
+    energy.friction -= p_t * (to.slip[i] - from.slip[i]);
+  }
   return energy;
 }
 
@@ -102,7 +107,8 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
     const system::BodySystem& body = *prepared.structure.bodies[b];
     Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
     certificate.equilibrium = std::max(certificate.equilibrium, body.imbalance(state.u[b], forces) / scale);
-    if (prepared.model.bodies[b].rigid) continue;  // imbalance() is its balance
+    // Of a rigid body imbalance() is the balance; what acts on an outside body goes to infinity.
+    if (prepared.model.bodies[b].rigid || prepared.model.bodies[b].outside) continue;
     for (std::size_t c = 0; c < body.constraints().size(); ++c)
       forces[body.constraints()[c].dof] += state.reactions[b][static_cast<Eigen::Index>(c)];
     // Against all forces on the body: those of a fine mesh are small, and many.
@@ -200,7 +206,10 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     row.state = state.states[i];
     row.displacement_a = displacement_at(prepared, state, contact.a.body, pair.node_a, pair.point_a, pair.normal);
     row.displacement_b = displacement_at(prepared, state, contact.b.body, pair.node_b, pair.point_b, pair.normal);
-    results[static_cast<std::size_t>(at.contact)].pairs.push_back(row);
+    ContactResult& result = results[static_cast<std::size_t>(at.contact)];
+    result.pairs.push_back(row);
+    if (contact.cohesion > 0.0 || contact.tension > 0.0)
+      result.broken = result.broken.value_or(0) + state.history[i].broken;
     index_of_pair[static_cast<std::size_t>(at.contact)].push_back(at.index);
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
@@ -209,6 +218,13 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     add_totals(results[c]);
   }
   return results;
+}
+
+void add(element::InteriorLoads& to, const element::InteriorLoads& loads, double factor) {
+  element::add_radial_loads(to.loads, loads.loads, factor);
+  to.temperature.constant += factor * loads.temperature.constant;
+  to.temperature.per_x += factor * loads.temperature.per_x;
+  to.temperature.per_y += factor * loads.temperature.per_y;
 }
 
 }  // namespace
@@ -231,6 +247,7 @@ State initial_state(const Prepared& prepared) {
   state.a = Vector::Zero(prepared.contact.rigid_motions());
   state.gap = prepared.contact.gap;
   state.slip = Vector::Zero(N);
+  state.history.assign(prepared.contact.pairs.size(), {});
   state.states.assign(prepared.contact.pairs.size(), contact::ContactState::open);
   state.forces = applied_forces(prepared, state.factors.loads);
   state.prescribed = prescribed_values(prepared, state.factors.supports);
@@ -254,7 +271,6 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::Problem problem;
   problem.W = system.W;
   problem.q = Vector::Zero(2 * N);
-  problem.mu = system.mu;
   problem.G = system.G;
   problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -264,7 +280,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
-  options.force_scale = std::max({prepared.force_scale, largest_force(from), largest_force(to)});
+  options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
   std::vector<Vector> free;  // without contact
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
@@ -276,8 +292,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
 
   result.start = {from.p, from.a};
   result.force_scale = options.force_scale;
-  result.solution = contact::solve(problem, result.start, options);
-  result.problem = std::move(problem);
+  contact::Evolution evolution = contact::evolve(problem, system.laws, from.history, result.start, options);
+  if (prepared.model.solver.uniqueness && N > 0)
+    result.uniqueness = follow_history(problem, system.laws, from.history, result.start, options, evolution);
+  result.solution = std::move(evolution.solution);
+  result.problem = std::move(evolution.problem);
+  to.history = std::move(evolution.history);
   to.p = result.solution.p;
   to.a = result.solution.a;
   to.gap = result.solution.gap;
@@ -293,7 +313,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   }
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
-  certify_structure(prepared, to, std::max(options.force_scale, largest_force(to)), result.certificate);
+  to.largest_force = std::max(from.largest_force, largest_force(to));
+  certify_structure(prepared, to, std::max(options.force_scale, to.largest_force), result.certificate);
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;
@@ -321,7 +342,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   result.energy = state.energy;
   result.displacements = state.u;
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
-  result.body_forces.assign(state.u.size(), Vec2::Zero());
+  result.interior.resize(state.u.size());
   for (std::size_t b = 0; b < state.u.size(); ++b) {
     const system::BodySystem& body = *prepared.structure.bodies[b];
     if (prepared.model.bodies[b].rigid) result.displacements[b][2] /= body.lever();
@@ -332,7 +353,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
           state.reactions[b][static_cast<Eigen::Index>(c)];
     }
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
-      result.body_forces[b] += state.factors.loads[load] * prepared.structure.body_forces[load][b];
+      add(result.interior[b], prepared.structure.interior[load][b], state.factors.loads[load]);
   }
   return result;
 }

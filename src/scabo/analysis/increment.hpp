@@ -29,11 +29,13 @@ struct State {
   Vector p;                        // 2N, contact forces on B
   Vector a;                        // m, rigid motions
   Vector gap, slip;                // N; slip since the start
+  contact::History history;        // N, of the laws
   std::vector<contact::ContactState> states;
   std::vector<Vector> u;           // per body
   std::vector<Vector> forces;      // per body: applied forces without contact
   std::vector<Vector> reactions;   // per body, one for each constraint
   std::vector<Vector> prescribed;  // per body, one for each constraint
+  double largest_force = 0.0;      ///< so far: what a force is small against once a joint broke and all is unloaded
   Energy energy;
 };
 State initial_state(const Prepared& prepared);
@@ -47,6 +49,7 @@ struct Attempt {
   contact::Problem problem;  ///< what was solved, from `start`; W is shared, not copied
   contact::Start start;
   double force_scale = 0.0;
+  std::optional<UniquenessResult> uniqueness;
 };
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors);
 

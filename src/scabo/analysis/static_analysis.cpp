@@ -4,9 +4,14 @@
 
 #include <chrono>
 
+#include "scabo/analysis/adaptive.hpp"
+#include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
+#include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
+#include "scabo/contact/uniqueness.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "scabo/mesh/output_points.hpp"
 
 namespace scabo::analysis {
 
@@ -38,6 +43,7 @@ struct Reached {
   int iterations = 0, halvings = 0;
   double residual = 0.0;
   Matrix undetermined;
+  std::optional<UniquenessResult> uniqueness;
   std::string reason;  ///< empty: there
   std::vector<AttemptResult> attempts;
   std::vector<DiscreteProblem> problems;  ///< of the attempts, where they are asked for
@@ -61,6 +67,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       reached.certificate = tried.certificate;
       reached.residual = tried.solution.residual;
       reached.undetermined = std::move(tried.solution.undetermined);
+      reached.uniqueness = tried.uniqueness;
       done = next;
       continue;
     }
@@ -77,6 +84,13 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       else
         reached.reason = fmt::format("contact did not converge after {} halvings: {}", reached.halvings,
                                      tried.solution.reason);
+      if (tried.solution.status == contact::Status::not_converged) {
+        contact::SolverOptions solver;
+        solver.tolerance = prepared.model.solver.tolerance;
+        solver.force_scale = tried.force_scale;
+        if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
+          reached.reason += "; " + why;
+      }
       return reached;
     }
     ++reached.halvings;
@@ -100,6 +114,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
                             motion));
   }
   if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
+  if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
+    add("reaches to infinity", relative);
 }
 
 void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
@@ -119,7 +135,13 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       });
       const bool there = reached.reason.empty();
       IncrementResult result;
-      if (there) result = timed(solution.timing.recover, [&] { return describe(prepared, reached.state); });
+      if (there)
+        result = timed(solution.timing.recover, [&] {
+          IncrementResult described = describe(prepared, reached.state);
+          refer_displacements(solution, described);
+          described.cracks = crack_results(solution, described);
+          return described;
+        });
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
       result.increment = k;
@@ -130,6 +152,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       result.certificate = reached.certificate;
       result.reason = reached.reason;
       result.attempts = std::move(reached.attempts);
+      result.uniqueness = reached.uniqueness;
       if (there) add_warnings(prepared, reached, result, solution.warnings);
       solution.increments.push_back(std::move(result));
       if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
@@ -163,22 +186,42 @@ std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolut
 }  // namespace
 
 mesh::Mesh check(const model::Model& model) {
+  if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free, and do not touch
+    model::Model apart = model;
+    apart.contacts.clear();
+    mesh::Mesh mesh = mesh::make_mesh(apart);
+    system::constraints_of(apart, mesh);
+    return mesh;
+  }
   mesh::Mesh mesh = mesh::make_mesh(model);
   system::check_supports(model, mesh);
+  check_references(model, mesh);
+  check_refinable(model, mesh);
+  mesh::output_points(model);
   return mesh;
 }
 
 StaticSolution solve_static(model::Model model, const Options& options) {
+  double seconds = 0.0;
+  if (options.on_stage) options.on_stage("mesh");
+  mesh::Mesh mesh = timed(seconds, [&] { return check(model); });
+  StaticSolution solution = wants_refinement(model)  ? solve_refined(std::move(model), options)
+                            : model.output.error     ? solve_with_error(std::move(model), std::move(mesh), options)
+                                                     : solve_on_mesh(std::move(model), std::move(mesh), options);
+  solution.timing.mesh += seconds;
+  return solution;
+}
+
+StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options) {
   const auto stage = [&](const char* what) {
     if (options.on_stage) options.on_stage(what);
   };
   linalg::set_blas_threads(options.threads);
   StaticSolution solution;
   solution.model = std::move(model);
+  solution.mesh = std::move(mesh);
   Timing& timing = solution.timing;
 
-  stage("mesh");
-  solution.mesh = timed(timing.mesh, [&] { return check(solution.model); });
   stage("super-elements");
   solution.super_elements = timed(timing.super_elements, [&] {
     return solve_super_elements(solution.model, solution.mesh, options.threads);

@@ -12,6 +12,8 @@
 
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/modal_solution.hpp"
+#include "scabo/element/sectors.hpp"
+#include "scabo/element/stress_intensity.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
@@ -38,6 +40,7 @@ struct ContactResult {
   double normal_force = 0.0;      ///< sum of the pairs' normal forces
   double tangential_force = 0.0;  ///< sum of the pairs' tangential forces
   int open = 0, stick = 0, slip = 0;
+  std::optional<int> broken;      ///< pairs that lost cohesion and tensile strength; nothing where the contact has none
   double max_gap = 0.0;           ///< of the open pairs; 0 when none is open
   double max_pressure = 0.0;
   std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; nothing when all are open
@@ -50,10 +53,36 @@ struct Energy {
   double friction = 0.0;   ///< dissipated
 };
 
+/// A crack, or a corner at a scaling centre, after an increment.
+struct CrackResult {
+  std::string name;  ///< `body.crack`, or `body.corner`
+  element::StressIntensity factors;
+};
+
 /// How the contact solver went in one attempt at an increment, or at a part of it where it was halved.
 struct AttemptResult {
   std::vector<contact::Iteration> iterations;
   bool accepted = false;
+};
+
+/// Estimated error of discretisation in the energy norm |u| = sqrt(u'K u) (element/two_orders.hpp).
+struct BodyError {
+  double absolute = 0.0;  ///< sqrt(force times length)
+  double relative = 0.0;  ///< to the norm of the whole model's displacement
+};
+
+struct ErrorEstimate {
+  double relative = 0.0;                        ///< of the whole model
+  std::vector<std::optional<BodyError>> bodies;  ///< nothing for rigid and FE bodies
+};
+
+/// What is known of other solutions of an increment (contact/uniqueness.hpp), for `solver: {uniqueness: true}`.
+struct UniquenessResult {
+  std::string verdict;      ///< `proven`, `several found`, `not decided`
+  int others = 0;           ///< other solutions found
+  bool complete = false;    ///< there are no more
+  double bound = 0.0;       ///< below 1: proven; infinite where the condition does not apply
+  int index = 0;            ///< sign of det H'; 0: on a kink or not computed
 };
 
 struct IncrementResult {
@@ -69,9 +98,12 @@ struct IncrementResult {
   std::vector<Vec2> reactions;            ///< one for each support of the model, in its order: force on the body
   contact::Certificate certificate;
   Energy energy;
+  std::optional<ErrorEstimate> error;     ///< when asked for
   std::vector<Vector> displacements;      ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
-  std::vector<Vec2> body_forces;          ///< per body: density times gravity times factor, force / length^3
+  std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
+  std::vector<CrackResult> cracks;        ///< of all bounded open super-elements
   std::string reason;                     ///< why it did not converge
+  std::optional<UniquenessResult> uniqueness;  ///< where asked for
   std::vector<AttemptResult> attempts;    ///< one; more where the increment was halved
 };
 
@@ -95,15 +127,26 @@ struct Timing {
 /// A super-element solved once for all bodies that are alike.
 struct SolvedSuperElement {
   element::Ring ring;
-  element::Mat3 D;
+  element::Sectors sectors;
   double thickness = 1.0;
+  element::Domain domain;
   int threads = 1;  ///< for its modes
   element::SuperElementSolution solution;
   /// Modes for the interior, found when they are asked for first.
   const element::ModalSolution& modes() const;
+  /// The same for the factors of its crack or corner; the ring must be open.
+  const element::CornerAnalysis& corner() const;
 
  private:
+  mutable std::unique_ptr<element::CornerAnalysis> corner_;
   mutable std::unique_ptr<element::ModalSolution> modes_;
+};
+
+/// One pass of refinement (adaptive.hpp).
+struct RefinementPass {
+  int dofs = 0;
+  double error = 0.0;  ///< the largest of all increments
+  int raised = 0, divided = 0;  ///< elements changed after it
 };
 
 enum class Outcome { solved, not_converged, interrupted };
@@ -113,6 +156,7 @@ struct StaticSolution {
   mesh::Mesh mesh;
   std::vector<std::shared_ptr<const SolvedSuperElement>> super_elements;  ///< per body; null for rigid and FE bodies
   std::vector<IncrementResult> increments;  ///< converged ones, then at most one that is not
+  std::vector<RefinementPass> passes;  ///< where the mesh was refined for a tolerance
   std::vector<std::string> warnings;
   Outcome outcome = Outcome::solved;
   std::string reason;  ///< when not solved
@@ -129,11 +173,15 @@ struct Options {
   std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
 };
 
-/// Meshes the model and looks whether every body is held, without solving anything. Throws InputError.
+/// Meshes the model and looks whether every body is held (modal: it need not be) and every output point lies in one, without
+/// solving anything. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of
 /// the result.
 StaticSolution solve_static(model::Model model, const Options& options = {});
+
+/// The same on a mesh of the model, once: without refinement or estimate of the error.
+StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options);
 
 }  // namespace scabo::analysis

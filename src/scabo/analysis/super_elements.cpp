@@ -9,7 +9,8 @@ namespace scabo::analysis {
 namespace {
 
 bool alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
-  if (a.thickness != b.thickness || a.D != b.D || a.ring.nodes.size() != b.ring.nodes.size() ||
+  if (a.thickness != b.thickness || a.domain != b.domain || a.sectors.materials != b.sectors.materials ||
+      a.sectors.D != b.sectors.D || a.ring.nodes.size() != b.ring.nodes.size() ||
       a.ring.elements.size() != b.ring.elements.size())
     return false;
   for (std::size_t e = 0; e < a.ring.elements.size(); ++e)
@@ -29,10 +30,22 @@ void solve_all(const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
   const auto solve = [&](int i) {
     SolvedSuperElement& super_element = *distinct[static_cast<std::size_t>(i)];
     super_element.threads = threads;
-    super_element.solution = element::solve_super_element(super_element.ring, super_element.D, super_element.thickness,
-                                                          many ? 1 : threads);
+    super_element.solution = element::solve_super_element(super_element.ring, super_element.sectors.D,
+                                                          super_element.thickness, many ? 1 : threads,
+                                                          super_element.domain);
   };
   linalg::parallel_for(count, many ? threads : 1, solve);
+}
+
+/// An outside body's displacement vanishes, on average, as far away as its reference point; without one, a thousand radii away.
+element::Domain domain_of(const model::Body& body, const element::Ring& ring) {
+  element::Domain domain;
+  domain.unbounded = body.outside;
+  if (!body.outside || !body.reference) return domain;
+  double radius = 0.0;
+  for (const Vec2& x : ring.nodes) radius = std::max(radius, x.norm());
+  domain.far = std::max(10.0, (*body.reference - body.mesh.centre).norm() / radius);
+  return domain;
 }
 
 }  // namespace
@@ -40,6 +53,11 @@ void solve_all(const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
 const element::ModalSolution& SolvedSuperElement::modes() const {
   if (!modes_) modes_ = std::make_unique<element::ModalSolution>(element::modal_solution(solution, threads));
   return *modes_;
+}
+
+const element::CornerAnalysis& SolvedSuperElement::corner() const {
+  if (!corner_) corner_ = std::make_unique<element::CornerAnalysis>(ring, sectors.D, solution);
+  return *corner_;
 }
 
 std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(const model::Model& model,
@@ -50,8 +68,8 @@ std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(cons
     if (mesh.bodies[b].super_elements.empty()) continue;
     auto wanted = std::make_shared<SolvedSuperElement>();
     wanted->ring = element::ring_of(mesh.bodies[b].super_elements.front(), mesh.bodies[b].nodes);
-    wanted->D = element::elasticity_matrix(model.materials[static_cast<std::size_t>(model.bodies[b].material)],
-                                           model.analysis.plane);
+    wanted->sectors = element::sectors_of(model, model.bodies[b], mesh.bodies[b]);
+    wanted->domain = domain_of(model.bodies[b], wanted->ring);
     wanted->thickness = model.analysis.thickness;
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto& other) { return alike(*wanted, *other); });
     of_body[b] = same == distinct.end() ? wanted : *same;

@@ -63,6 +63,10 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
       raise(certificate.tension, -(p_n + tension) / scales.force);
       raise(certificate.complementarity, std::abs((p_n + tension) * g) / work);
     }
+    if (std::isinf(bound)) {  // nothing slips there
+      raise(certificate.slip_direction, ds / scales.length);
+      continue;
+    }
     raise(certificate.friction_excess, (friction - bound) / scales.force);
     // Friction opposes slip, and slip is only at the bound: |p_t| |ds| + p_t ds is 0 where they are opposite.
     if (d == 2) {

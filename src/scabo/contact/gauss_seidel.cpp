@@ -59,7 +59,7 @@ Eigen::Vector3d force_of(const Local& pair) {
   if (!(scale > 0.0)) return {-pair.u_n / pair.W_nn, 0.0, 0.0};
   if (A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0) > 1e-14 * scale * scale) {
     const Vec2 stick = tangential(A, c, 0.0);
-    if (normal(stick) >= 0.0 && excess(stick) <= 0.0) return {normal(stick), stick[0], stick[1]};
+    if (normal(stick) >= -pair.tension && excess(stick) <= 0.0) return {normal(stick), stick[0], stick[1]};
   }
   // Slip: u_t = -s p_t, excess(s) = 0; at s -> infinity it is negative.
   double low = 0.0, high = scale;
@@ -71,7 +71,7 @@ Eigen::Vector3d force_of(const Local& pair) {
   }
   double f_high = excess(at_high);
   double f_low = excess(tangential(A, c, std::max(low, 1e-14 * scale)));
-  if (!(f_low > 0.0)) return {std::max(normal(at_high), 0.0), at_high[0], at_high[1]};
+  if (!(f_low > 0.0)) return {std::max(normal(at_high), -pair.tension), at_high[0], at_high[1]};
   Vec2 p_t = at_high;
   for (int k = 0; k < 60; ++k) {
     double s = (low * f_high - high * f_low) / (f_high - f_low);

@@ -84,7 +84,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a) {
 
 /// At zero force every pair lies on the tip of its cone, which says nothing of stick and slip. A few sweeps cost less than one
 /// factorisation and say more: on the block of Raous, 32 to 256 pairs, mu = 0.3, 1 and 3, 30 sweeps with bodies held as
-/// stiffly as a pair took Newton's iterations from 94 in all to 60.
+/// stiffly as a pair took Newton's iterations from 94 in all to 60 (the best of 48 settings tried on these problems: docs/methods/12).
 NewtonEnd Ladder::without_history(const Vector& p, const Vector& a) {
   constexpr int sweeps = 30;
   if (problem_.G.cols() == 0) return newton_alone(gauss_seidel(problem_, p, sweeps), a, {"newton"});

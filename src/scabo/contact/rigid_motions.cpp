@@ -33,8 +33,9 @@ Matrix rays_of(const Problem& problem) {
   constexpr int sides = 16;
   const int count = d == 2 ? 2 : sides;
   Matrix rays(problem.G.cols(), count * N);
+  rays.setZero();  // of pairs whose forces are unlimited: unlimited()
   for (Eigen::Index i = 0; i < N; ++i)
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < count && !std::isinf(problem.tension_of(i)); ++k) {
       Vector ray = problem.G.row(d * i).transpose();
       if (d == 2) {
         ray += (k == 0 ? 1.0 : -1.0) * problem.mu[i] * problem.G.row(2 * i + 1).transpose();
@@ -47,14 +48,73 @@ Matrix rays_of(const Problem& problem) {
   return rays;
 }
 
+/// The directions in which bonded pairs carry any force, both ways.
+Matrix unlimited(const Problem& problem) {
+  const Eigen::Index d = problem.dimension;
+  std::vector<Vector> columns;
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    const bool normal = std::isinf(problem.tension_of(i)), tangent = normal || std::isinf(problem.cohesion_of(i));
+    for (Eigen::Index k = normal ? 0 : 1; k < d && tangent; ++k)
+      for (double sign : {-1.0, 1.0}) columns.emplace_back(sign * problem.G.row(d * i + k).transpose());
+  }
+  Matrix result(problem.G.cols(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = columns[k];
+  return result;
+}
+
+/// Effect of the strengths (p_n = -c_t, |p_t| = c) that resist the motion v most.
+Vector resisting(const Problem& problem, const Vector& v) {
+  const Eigen::Index d = problem.dimension;
+  Vector p = Vector::Zero(problem.G.rows());
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    if (std::isinf(problem.tension_of(i))) continue;
+    p[d * i] = -problem.tension_of(i);
+    const Vector slip = problem.G.middleRows(d * i + 1, d - 1) * v;
+    const double size = slip.norm();
+    if (size > 0.0 && !std::isinf(problem.cohesion_of(i)))
+      p.segment(d * i + 1, d - 1) = problem.cohesion_of(i) / size * slip;
+  }
+  return problem.G.transpose() * p;
+}
+
+/// With cohesion and tension the forces of a pair are no cone. Their convex hull is p_0 + Coulomb's cone over p_0 = [-c_t, at most
+/// c along the tangents]; what balances no point of the hull balances no force. Extreme points of the sum of the p_0 are made as
+/// they are needed: with weights that sum to 1 they are columns like the rays.
+std::optional<Vector> mechanism_against_strengths(const Problem& problem, const Matrix& cone) {
+  const Eigen::Index m = problem.G.cols();
+  const Matrix free = unlimited(problem);
+  Matrix A = Matrix::Zero(m + 1, cone.cols() + free.cols() + 1);
+  const double scale = problem.f.norm();
+  const auto add = [&](Eigen::Index column, const Vector& v) {
+    A.col(column).head(m) = resisting(problem, v);
+    A(m, column) = scale;
+  };
+  A.topLeftCorner(m, cone.cols()) = cone;
+  A.block(0, cone.cols(), m, free.cols()) = free;
+  Vector b(m + 1);
+  b << -problem.f, scale;
+  add(A.cols() - 1, -problem.f);
+  constexpr int most = 300;
+  for (int round = 0; round < most; ++round) {
+    const Vector residual = b - A * linalg::nonnegative_least_squares(A, b);
+    const Vector v = residual.head(m);
+    if (residual.norm() <= 3e-8 * scale) return std::nullopt;  // its square must stand out of rounding
+    // Were there balance, |residual|^2 = residual'b would be at most this, the weights being 1 in all; half is for rounding.
+    const double most_of_hull = v.dot(resisting(problem, v)) + scale * residual[m];
+    if (most_of_hull <= 0.5 * residual.squaredNorm())
+      return slide_of(problem, -v.normalized());
+    A.conservativeResize(Eigen::NoChange, A.cols() + 1);
+    add(A.cols() - 1, v);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Vector> find_mechanism(const Problem& problem) {
-  const Eigen::Index m = problem.G.cols(), N = problem.pairs();
-  if (m == 0 || problem.f.isZero(0.0)) return std::nullopt;
-  for (Eigen::Index i = 0; i < N; ++i)  // not a cone: no proof this way
-    if (problem.cohesion_of(i) > 0.0 || problem.tension_of(i) > 0.0) return std::nullopt;
+  if (problem.G.cols() == 0 || problem.f.isZero(0.0)) return std::nullopt;
   const Matrix rays = rays_of(problem);
+  if (problem.cohesion.size() > 0 || problem.tension.size() > 0) return mechanism_against_strengths(problem, rays);
   const Vector strengths = linalg::nonnegative_least_squares(rays, -problem.f);
   const Vector unbalanced = problem.f + rays * strengths;  // f'unbalanced = |unbalanced|^2 > 0, rays'unbalanced >= 0
   if (unbalanced.norm() <= 1e-9 * problem.f.norm()) return std::nullopt;

@@ -9,7 +9,8 @@
 namespace scabo::contact {
 
 /// A rigid motion v (m) that nothing holds although the loads drive it, f'v > 0: no forces in the friction cones
-/// balance f. Nothing where the loads can be balanced.
+/// balance f. With cohesion or tension: no forces in the convex hull of what the pairs carry. Nothing where the loads can be
+/// balanced.
 std::optional<Vector> find_mechanism(const Problem& problem);
 
 /// Rigid motions (columns, m x k) that change no gap in contact and no tangent that sticks: the forces are known, the

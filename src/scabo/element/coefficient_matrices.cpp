@@ -1,5 +1,10 @@
 #include "scabo/element/coefficient_matrices.hpp"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <string>
+
+#include "scabo/element/ill_posed.hpp"
 #include "scabo/element/line_basis.hpp"
 
 namespace scabo::element {
@@ -10,15 +15,10 @@ const LineBasis& basis_of(const mesh::LineElement& element) {
   return LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
 }
 
-/// Position and its derivative along eta at one point of an element.
-struct BoundaryPoint {
-  Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
-  double jacobian() const { return cross(x, x_eta); }
-};
+}  // namespace
 
-template <typename Values>
-BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Values& N,
-                             const Values& N_eta) {
+BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Vector& N,
+                             const Vector& N_eta) {
   BoundaryPoint point;
   for (std::size_t i = 0; i < element.nodes.size(); ++i) {
     const Vec2& node = ring.nodes[static_cast<std::size_t>(element.nodes[i])];
@@ -27,8 +27,6 @@ BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element,
   }
   return point;
 }
-
-}  // namespace
 
 Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes) {
   Ring ring{nodes, super_element.boundary};
@@ -56,55 +54,129 @@ StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& elemen
   return strain;
 }
 
-CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double thickness) {
-  using Triplet = Eigen::Triplet<double>;
-  std::vector<Triplet> entries0, entries1, entries2;
-  for (const mesh::LineElement& element : ring.elements) {
-    const LineBasis& basis = basis_of(element);
-    const int m = 2 * basis.nodes();
-    Matrix e0 = Matrix::Zero(m, m), e1 = e0, e2 = e0;
-    for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
-      const auto row = static_cast<Eigen::Index>(q);
-      const StrainMatrices strain =
-          strain_matrices(ring, element, basis.values_at_rule().row(row), basis.derivatives_at_rule().row(row));
-      const Mat3 weighted = D * (strain.J * basis.rule().weights[q] * thickness);
-      const Eigen::Matrix<double, 3, Eigen::Dynamic> DB1 = weighted * strain.B1, DB2 = weighted * strain.B2;
-      e0.noalias() += strain.B1.transpose() * DB1;
-      e1.noalias() += strain.B2.transpose() * DB1;
-      e2.noalias() += strain.B2.transpose() * DB2;
-    }
-    for (int i = 0; i < m; ++i)
-      for (int j = 0; j < m; ++j) {
-        const int row = 2 * element.nodes[static_cast<std::size_t>(i / 2)] + i % 2;
-        const int column = 2 * element.nodes[static_cast<std::size_t>(j / 2)] + j % 2;
-        // The exactly symmetric parts: products of B' D B differ in the last digit.
-        entries0.emplace_back(row, column, 0.5 * (e0(i, j) + e0(j, i)));
-        entries1.emplace_back(row, column, e1(i, j));
-        entries2.emplace_back(row, column, 0.5 * (e2(i, j) + e2(j, i)));
+namespace {
+
+/// Three matrices with the pattern of the ring: 2 x 2 blocks for every two nodes of one element.
+class Assembly {
+ public:
+  explicit Assembly(const Ring& ring) : neighbours_(ring.nodes.size()) {
+    for (const mesh::LineElement& element : ring.elements)
+      for (const int node : element.nodes) {
+        auto& list = neighbours_[static_cast<std::size_t>(node)];
+        list.insert(list.end(), element.nodes.begin(), element.nodes.end());
       }
+    const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
+    Eigen::SparseMatrix<double> pattern(n, n);
+    Eigen::Index entries = 0;
+    for (auto& list : neighbours_) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+      entries += 4 * static_cast<Eigen::Index>(list.size());
+    }
+    pattern.resizeNonZeros(entries);
+    int at = 0;
+    for (std::size_t node = 0; node < neighbours_.size(); ++node)
+      for (std::size_t c = 0; c < 2; ++c) {
+        pattern.outerIndexPtr()[2 * node + c] = at;
+        for (const int row : neighbours_[node])
+          for (int r = 0; r < 2; ++r) pattern.innerIndexPtr()[at++] = 2 * row + r;
+      }
+    pattern.outerIndexPtr()[n] = at;
+    std::fill(pattern.valuePtr(), pattern.valuePtr() + entries, 0.0);
+    matrices_ = {pattern, pattern, pattern};
   }
-  const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
-  CoefficientMatrices matrices{Eigen::SparseMatrix<double>(n, n), Eigen::SparseMatrix<double>(n, n),
-                               Eigen::SparseMatrix<double>(n, n)};
-  matrices.E0.setFromTriplets(entries0.begin(), entries0.end());
-  matrices.E1.setFromTriplets(entries1.begin(), entries1.end());
-  matrices.E2.setFromTriplets(entries2.begin(), entries2.end());
-  return matrices;
+
+  void add(int row, int column, const Mat2& e0, const Mat2& e1, const Mat2& e2) {
+    const auto& list = neighbours_[static_cast<std::size_t>(column)];
+    const auto place = 2 * (std::lower_bound(list.begin(), list.end(), row) - list.begin());
+    for (Eigen::Index c = 0; c < 2; ++c) {
+      const auto at = matrices_.E0.outerIndexPtr()[2 * column + c] + place;
+      for (Eigen::Index r = 0; r < 2; ++r) {
+        matrices_.E0.valuePtr()[at + r] += e0(r, c);
+        matrices_.E1.valuePtr()[at + r] += e1(r, c);
+        matrices_.E2.valuePtr()[at + r] += e2(r, c);
+      }
+    }
+  }
+
+  CoefficientMatrices take() { return std::move(matrices_); }
+
+ private:
+  std::vector<std::vector<int>> neighbours_;  // of each node, itself among them
+  CoefficientMatrices matrices_;
+};
+
+/// Throws what is wrong where |J| is not positive.
+[[noreturn]] void refuse_element(const Ring& ring, std::size_t e) {
+  const std::string name = "boundary element " + std::to_string(e);
+  const auto& nodes = ring.elements[e].nodes;
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    if (ring.nodes[static_cast<std::size_t>(nodes[i])] == ring.nodes[static_cast<std::size_t>(nodes[i - 1])])
+      throw IllPosed(name + " has no length");
+  throw IllPosed("the scaling centre does not see " + name);
 }
 
-Vector body_load_weights(const Ring& ring) {
-  Vector weights = Vector::Zero(static_cast<Eigen::Index>(ring.nodes.size()));
-  for (const mesh::LineElement& element : ring.elements) {
-    const LineBasis& basis = basis_of(element);
-    for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
-      const auto row = static_cast<Eigen::Index>(q);
-      const Vector N = basis.values_at_rule().row(row), N_eta = basis.derivatives_at_rule().row(row);
-      const double J = boundary_point(ring, element, N, N_eta).jacobian();
-      for (std::size_t i = 0; i < element.nodes.size(); ++i)
-        weights[element.nodes[i]] += N[static_cast<Eigen::Index>(i)] * J * basis.rule().weights[q];
+/// int over one element, 2 x 2 blocks e[i * count + j] for its nodes i, j.
+struct ElementBlocks {
+  std::vector<Mat2> e0, e1, e2;
+};
+
+void integrate(const Ring& ring, std::size_t e, const Mat3& D, double thickness, ElementBlocks& blocks) {
+  const mesh::LineElement& element = ring.elements[e];
+  const LineBasis& basis = basis_of(element);
+  const auto count = static_cast<Eigen::Index>(element.nodes.size());
+  for (auto* part : {&blocks.e0, &blocks.e1, &blocks.e2})
+    part->assign(static_cast<std::size_t>(count * count), Mat2::Zero());
+  for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
+    const auto N = basis.values_at_rule().row(static_cast<Eigen::Index>(q));
+    const auto N_eta = basis.derivatives_at_rule().row(static_cast<Eigen::Index>(q));
+    BoundaryPoint point;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Vec2& node = ring.nodes[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)])];
+      point.x += N[i] * node;
+      point.x_eta += N_eta[i] * node;
     }
+    const double J = point.jacobian();
+    if (!(J > 0.0)) refuse_element(ring, e);
+    const auto [x, y] = std::pair(point.x.x(), point.x.y());
+    const auto [x_eta, y_eta] = std::pair(point.x_eta.x(), point.x_eta.y());
+    Eigen::Matrix<double, 3, 2> b1, b2;  // times |J|
+    b1 << y_eta, 0.0, 0.0, -x_eta, -x_eta, y_eta;
+    b2 << -y, 0.0, 0.0, x, x, -y;
+    const Mat3 weighted = D * (basis.rule().weights[q] * thickness / J);
+    const Eigen::Matrix<double, 3, 2> Db1 = weighted * b1, Db2 = weighted * b2;
+    Mat2 c0 = b1.transpose() * Db1, c2 = b2.transpose() * Db2;
+    const Mat2 c1 = b2.transpose() * Db1;
+    c0(1, 0) = c0(0, 1), c2(1, 0) = c2(0, 1);  // exactly symmetric: they differ in the last digit
+    for (Eigen::Index i = 0; i < count; ++i)
+      for (Eigen::Index j = 0; j < count; ++j) {
+        const auto at = static_cast<std::size_t>(i * count + j);
+        blocks.e0[at] += (N[i] * N[j]) * c0;
+        blocks.e1[at] += (N_eta[i] * N[j]) * c1;
+        blocks.e2[at] += (N_eta[i] * N_eta[j]) * c2;
+      }
   }
-  return weights;
+}
+
+}  // namespace
+
+CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness) {
+  ensure(D.fits(ring), "a super-element has one elasticity, or one for each boundary element");
+  if (!(thickness > 0.0)) throw IllPosed("the thickness is not positive");
+  Assembly assembly(ring);
+  ElementBlocks blocks;
+  for (std::size_t e = 0; e < ring.elements.size(); ++e) {
+    if (!D.of(e).allFinite() || Eigen::LLT<Mat3>(D.of(e)).info() != Eigen::Success)
+      throw IllPosed("the elasticity of boundary element " + std::to_string(e) + " is not positive definite");
+    integrate(ring, e, D.of(e), thickness, blocks);
+    const auto& nodes = ring.elements[e].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j) {
+        const std::size_t at = i * nodes.size() + j;
+        assembly.add(nodes[i], nodes[j], blocks.e0[at], blocks.e1[at], blocks.e2[at]);
+      }
+  }
+  return assembly.take();
 }
 
 }  // namespace scabo::element

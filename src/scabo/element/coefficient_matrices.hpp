@@ -2,7 +2,8 @@
 //
 //     E0 xi^2 u,xixi + (E0 - E1 + E1') xi u,xi - E2 u = 0                            (Zhu 2017, eq. 1)
 //
-// knows of geometry and material. With the boundary point x_b(eta) = N(eta) x relative to the scaling centre,
+// knows of geometry and material. The material may differ from boundary element to boundary element: each spans a
+// sector of its own. With the boundary point x_b(eta) = N(eta) x relative to the scaling centre,
 //
 //     |J| = x y,eta - y x,eta > 0
 //     b1 = 1/|J| [[ y,eta, 0], [0, -x,eta], [-x,eta, y,eta]],   b2 = 1/|J| [[-y, 0], [0, x], [x, -y]]
@@ -17,10 +18,31 @@
 
 namespace scabo::element {
 
-/// The boundary of a super-element as its scaling centre sees it.
+/// The boundary of a super-element as its scaling centre sees it: closed around the centre, or open where the super-element
+/// has side faces (a crack, a notch, a corner), straight lines from the centre to the first and to the last node. The
+/// two faces of a crack are one line: its first and last node lie in the same place.
 struct Ring {
   std::vector<Vec2> nodes;                  ///< relative to the scaling centre, counter-clockwise
-  std::vector<mesh::LineElement> elements;  ///< closed
+  std::vector<mesh::LineElement> elements;  ///< each begins where the one before ends
+  bool is_open() const { return elements.front().nodes.front() != elements.back().nodes.back(); }
+  int first_node() const { return elements.front().nodes.front(); }
+  int last_node() const { return elements.back().nodes.back(); }
+};
+
+/// Elasticity of the sectors that the boundary elements span: one for all of them, or one for each.
+class Elasticity {
+ public:
+  Elasticity() = default;
+  Elasticity(const Mat3& everywhere) : D_{everywhere} {}
+  Elasticity(std::vector<Mat3> of_elements) : D_(std::move(of_elements)) {}
+
+  const Mat3& of(std::size_t element) const { return D_.size() == 1 ? D_.front() : D_[element]; }
+  std::size_t size() const { return D_.size(); }
+  bool fits(const Ring& ring) const { return D_.size() == 1 || D_.size() == ring.elements.size(); }
+  bool operator==(const Elasticity&) const = default;
+
+ private:
+  std::vector<Mat3> D_;  // force / length^2
 };
 
 Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes);
@@ -37,12 +59,15 @@ struct CoefficientMatrices {
   Eigen::SparseMatrix<double> E0, E1, E2;  // n x n, n = 2 nodes
 };
 
-/// `D` is force / length^2; `thickness` multiplies all three. Throws BrokenInvariant when |J| <= 0: the mesh has
-/// made sure that the centre sees the whole boundary.
-CoefficientMatrices coefficient_matrices(const Ring& ring, const Mat3& D, double thickness);
+/// `thickness` multiplies all three. Throws IllPosed, with the number of the boundary element, where it has no length, the
+/// centre does not see it (|J| <= 0), or its elasticity is not positive definite.
+CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
 
-/// int N |J| deta for every node: with a body force b (force / length^3) times thickness, the term xi^2 F_b of the
-/// scaled boundary equation. Sums to twice the area.
-Vector body_load_weights(const Ring& ring);
+/// Position of a boundary point and its derivative along eta, by values and derivatives of the shape functions.
+struct BoundaryPoint {
+  Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
+  double jacobian() const { return cross(x, x_eta); }  ///< |J|
+};
+BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Vector& N, const Vector& N_eta);
 
 }  // namespace scabo::element

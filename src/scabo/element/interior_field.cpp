@@ -31,8 +31,8 @@ Vec2 boundary_position(const Ring& ring, int element, double eta) {
   return interpolate(ring, element, basis_at(ring, element).values(eta));
 }
 
-std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x) {
-  if (x.norm() == 0.0) return ScaledPoint{0.0, 0, 0.0};
+std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x, bool unbounded) {
+  if (x.norm() == 0.0) return unbounded ? std::nullopt : std::optional(ScaledPoint{0.0, 0, 0.0});
   constexpr double slack = 1e-9;  // points on the boundary between two elements belong to one of them
   for (int e = 0; e < static_cast<int>(ring.elements.size()); ++e) {
     const auto& nodes = element_at(ring, e).nodes;
@@ -50,14 +50,14 @@ std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x) {
     }
     const double eta = 0.5 * (low + high);
     const double xi = x.norm() / interpolate(ring, e, basis.values(eta)).norm();
-    if (xi > 1.0 + slack) return std::nullopt;
-    return ScaledPoint{std::min(xi, 1.0), e, eta};
+    if (unbounded ? xi < 1.0 - slack : xi > 1.0 + slack) return std::nullopt;
+    return ScaledPoint{unbounded ? std::max(xi, 1.0) : std::min(xi, 1.0), e, eta};
   }
   return std::nullopt;
 }
 
-PointValues point_values(const Ring& ring, const RadialField::Values& values, const Mat3& D, int element,
-                         double eta) {
+PointValues point_values(const Ring& ring, const RadialField::Values& values, const Elasticity& D, int element,
+                         double eta, const Vec3& initial_strain) {
   const LineBasis& basis = basis_at(ring, element);
   const mesh::LineElement& line = element_at(ring, element);
   const Vector N = basis.values(eta);
@@ -69,7 +69,7 @@ PointValues point_values(const Ring& ring, const RadialField::Values& values, co
     point.strain += matrices.B1.middleCols<2>(local) * values.u_xi.segment<2>(global) +
                     matrices.B2.middleCols<2>(local) * values.u_part.segment<2>(global);
   }
-  point.stress = D * point.strain;
+  point.stress = D.of(static_cast<std::size_t>(element)) * (point.strain - initial_strain);
   return point;
 }
 

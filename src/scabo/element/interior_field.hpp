@@ -14,7 +14,7 @@ struct PointValues {
 };
 
 /// Scaled boundary coordinates of a point: on the ray through `element` at eta, at the fraction xi of the way from
-/// the scaling centre (0) to the boundary (1).
+/// the scaling centre (0) to the boundary (1); beyond it in an unbounded domain.
 struct ScaledPoint {
   double xi = 0.0;
   int element = 0;
@@ -24,11 +24,12 @@ struct ScaledPoint {
 /// The point of boundary element `element` at eta, relative to the scaling centre.
 Vec2 boundary_position(const Ring& ring, int element, double eta);
 
-/// (x, y), relative to the scaling centre, in scaled boundary coordinates; nothing when it lies outside.
-std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x);
+/// (x, y), relative to the scaling centre, in scaled boundary coordinates; nothing when it lies outside the domain. A point on
+/// a crack counts to the face at the beginning of the ring.
+std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x, bool unbounded = false);
 
-/// Values at a point of a ring: `values` = RadialField::at(xi).
-PointValues point_values(const Ring& ring, const RadialField::Values& values, const Mat3& D, int element,
-                         double eta);
+/// Values at a point of a ring: `values` = RadialField::at(xi). stress = D (strain - initial_strain).
+PointValues point_values(const Ring& ring, const RadialField::Values& values, const Elasticity& D, int element,
+                         double eta, const Vec3& initial_strain = Vec3::Zero());
 
 }  // namespace scabo::element

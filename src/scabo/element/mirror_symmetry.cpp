@@ -28,19 +28,32 @@ std::optional<Images> images_under(const Ring& ring, const Vec2& axis, int shift
   return images;
 }
 
-/// The elements, as sets of nodes, are mapped onto each other too.
-bool maps_elements(const Ring& ring, const Images& images) {
+/// Elasticity as seen in the mirror with unit vector `axis`: D' = T'D T, where T takes the strain of the image back.
+Mat3 mirrored(const Mat3& D, const Vec2& axis) {
+  const double c = 2.0 * axis.x() * axis.x() - 1.0, s = 2.0 * axis.x() * axis.y();  // of twice the angle of the axis
+  Mat3 T;  // [xx, yy, gamma_xy] of Q eps Q, Q = [[c, s], [s, -c]]
+  T << c * c, s * s, c * s, s * s, c * c, -c * s, 2.0 * c * s, -2.0 * c * s, s * s - c * c;
+  return T.transpose() * D * T;
+}
+
+/// The elements, as sets of nodes and by their elasticity, are mapped onto each other too.
+bool maps_elements(const Ring& ring, const Elasticity& D, const Vec2& axis, const Images& images) {
   const int n = static_cast<int>(ring.nodes.size());
   std::vector<int> element_from(static_cast<std::size_t>(n), -1);  // by first node: elements are counter-clockwise
   for (std::size_t e = 0; e < ring.elements.size(); ++e)
     element_from[static_cast<std::size_t>(ring.elements[e].nodes.front())] = static_cast<int>(e);
-  return std::all_of(ring.elements.begin(), ring.elements.end(), [&](const mesh::LineElement& element) {
+  for (std::size_t e = 0; e < ring.elements.size(); ++e) {
+    const mesh::LineElement& element = ring.elements[e];
     const int first = images[static_cast<std::size_t>(element.nodes.back())];
     const int other = element_from[static_cast<std::size_t>(first)];
-    return other >= 0 && ring.elements[static_cast<std::size_t>(other)].nodes.size() == element.nodes.size() &&
-           ring.elements[static_cast<std::size_t>(other)].nodes.back() ==
-               images[static_cast<std::size_t>(element.nodes.front())];
-  });
+    if (other < 0) return false;
+    const auto o = static_cast<std::size_t>(other);
+    if (ring.elements[o].nodes.size() != element.nodes.size() ||
+        ring.elements[o].nodes.back() != images[static_cast<std::size_t>(element.nodes.front())] ||
+        (mirrored(D.of(e), axis) - D.of(o)).cwiseAbs().maxCoeff() > 1e-13 * D.of(o).cwiseAbs().maxCoeff())
+      return false;
+  }
+  return true;
 }
 
 struct Mirror {
@@ -55,28 +68,41 @@ bool is_plain_ring(const Ring& ring) {
   for (const mesh::LineElement& element : ring.elements)
     for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
       if (element.nodes[i] != next++) return false;
-  return next == n;
+  return ring.is_open() ? next == n - 1 && ring.last_node() == n - 1 : next == n;
+}
+
+/// The line that exchanges the two ends of an open ring.
+std::vector<Mirror> mirror_of_open_ring(const Ring& ring, const Elasticity& D, double tolerance) {
+  const int last = static_cast<int>(ring.nodes.size()) - 1;
+  const Vec2 ends = ring.nodes.front().normalized() + ring.nodes.back().normalized();
+  // A half-plane's ends are opposite to each other: the line stands upright on them.
+  const Vec2 axis = ends.norm() > 1e-6 ? Vec2(ends.normalized())
+                                       : Vec2(-ring.nodes.front().y(), ring.nodes.front().x()).normalized();
+  auto images = images_under(ring, axis, last, tolerance);
+  if (!images || !maps_elements(ring, D, axis, *images)) return {};
+  return {{axis, std::move(*images)}};
 }
 
 /// A mirror line and, where there is one, the line perpendicular to it. A pair is preferred.
-std::vector<Mirror> find_mirrors(const Ring& ring) {
+std::vector<Mirror> find_mirrors(const Ring& ring, const Elasticity& D) {
   const int n = static_cast<int>(ring.nodes.size());
   if (!is_plain_ring(ring) || n < 4) return {};
   double size = 0.0;
   for (const Vec2& node : ring.nodes) size = std::max(size, node.norm());
   // Rounding of coordinates given to about 12 digits; the error in K is of the same relative size.
   const double tolerance = 1e-13 * size;
+  if (ring.is_open()) return mirror_of_open_ring(ring, D, tolerance);
   std::vector<Mirror> found;
   for (int shift = 0; shift < n; ++shift) {  // node 0 goes to node `shift`: that fixes the line
     const Vec2 sum = ring.nodes[0].normalized() + ring.nodes[static_cast<std::size_t>(shift)].normalized();
     if (sum.norm() < 1e-6) continue;  // opposite nodes: found as the partner of the perpendicular line
     const Vec2 axis = sum.normalized();
     const auto images = images_under(ring, axis, shift, tolerance);
-    if (!images || !maps_elements(ring, *images)) continue;
+    if (!images || !maps_elements(ring, D, axis, *images)) continue;
     const Vec2 perpendicular(-axis.y(), axis.x());
     for (int other = 0; other < n; ++other) {
       const auto second = images_under(ring, perpendicular, other, tolerance);
-      if (second && maps_elements(ring, *second))
+      if (second && maps_elements(ring, D, perpendicular, *second))
         return {{axis, *images}, {perpendicular, *second}};
     }
     if (found.empty()) found.push_back({axis, *images});
@@ -86,9 +112,9 @@ std::vector<Mirror> find_mirrors(const Ring& ring) {
 
 }  // namespace
 
-std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring) {
+std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const Elasticity& D) {
   const int nodes = static_cast<int>(ring.nodes.size());
-  const std::vector<Mirror> mirrors = find_mirrors(ring);
+  const std::vector<Mirror> mirrors = find_mirrors(ring, D);
   if (mirrors.empty()) {
     Eigen::SparseMatrix<double> identity(2 * nodes, 2 * nodes);
     identity.setIdentity();

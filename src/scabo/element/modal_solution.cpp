@@ -10,15 +10,34 @@ namespace scabo::element {
 
 namespace {
 
-/// h of one block, eq. (4), in its coordinates: with u = E v + R a the transposed problem is triangular by blocks.
-Vector equivalent_load(const Block& block, const Vector& F) {
-  const Vector h_a = 0.5 * block.R.transpose() * F;
-  const Matrix shifted = block.S.transpose() + 2.0 * Matrix::Identity(block.S.rows(), block.S.cols());
-  const Vector h_v = shifted.partialPivLu().solve(Vector(F(block.I)) - block.A.transpose() * h_a);
-  Vector h(F.size());
+/// h of one load in one block, eq. (4), in its coordinates: with u = E v + R a the transposed problem is triangular by
+/// blocks.
+Vector equivalent_load(const Block& block, const RadialLoad& load) {
+  const Matrix R_I = block.R(block.I, Eigen::all);
+  const auto of_block = [&](const Vector& F) { return Vector(block.T.transpose() * F); };
+  const Vector g = of_block(load.g);
+  const Vector h_a = block.R.transpose() * g / load.power;
+  Vector right = Vector(g(block.I)) - block.A.transpose() * h_a;
+  if (load.c.size() > 0) {
+    const Vector c = of_block(load.c);
+    right += block.S.transpose() * Vector(c(block.I)) + block.A.transpose() * (block.R.transpose() * c);
+  }
+  const Matrix shifted = block.S.transpose() + load.power * Matrix::Identity(block.S.rows(), block.S.cols());
+  const Vector h_v = shifted.partialPivLu().solve(right);
+  Vector h(g.size());
   h(block.I) = h_v;
-  h(block.J) = h_a - Matrix(block.R(block.I, Eigen::all)).transpose() * h_v;
+  h(block.J) = h_a - R_I.transpose() * h_v;
   return h;
+}
+
+/// See ModalSolution::slowest.
+double slowest_of(const ModalSolution& modal) {
+  double slowest = 1.0;
+  for (const ModalBlock& block : modal.blocks)
+    for (const std::complex<double>& value : block.modes.eigenvalues())
+      if (std::abs(value.real()) < 1.0 - 1e-9)  // rotation: 1, but for rounding
+        slowest = std::min(slowest, std::abs(value.real()) - std::abs(value.imag()));
+  return std::max(slowest, 0.0);
 }
 
 }  // namespace
@@ -45,57 +64,105 @@ ModalSolution modal_solution(const SuperElementSolution& solution, int threads) 
   std::sort(modal.exponents.begin(), modal.exponents.end(), [](const auto& a, const auto& b) {
     return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
   });
+  modal.slowest = slowest_of(modal);
   return modal;
 }
 
-Vector equivalent_body_load(const SuperElementSolution& solution, const Vector& F_b) {
-  Vector h = Vector::Zero(F_b.size());
-  for (const Block& block : solution.blocks) h += block.T * equivalent_load(block, block.T.transpose() * F_b);
+Vector equivalent_load(const SuperElementSolution& solution, const std::vector<RadialLoad>& loads) {
+  Vector h = Vector::Zero(solution.K.rows());
+  for (const RadialLoad& load : loads) {
+    ensure(!solution.domain.unbounded && load.power > 0.0, "loads act inside bounded super-elements");
+    for (const Block& block : solution.blocks) h += block.T * equivalent_load(block, load);
+  }
   return h;
 }
 
+void RadialField::set_loads(const Block& block, const ModalBlock& modes, const std::vector<RadialLoad>& loads,
+                            Part& part) const {
+  if (loads.empty()) return;
+  const Matrix R_I = block.R(block.I, Eigen::all), a_of_psi = modes.Phi(block.J, Eigen::all);
+  const Eigen::LLT<Matrix> E0(block.E0);
+  for (const RadialLoad& load : loads) {
+    Vector remaining = -equivalent_load(block, load);
+    if (load.c.size() > 0) remaining += block.T.transpose() * load.c;
+    const Vector w = E0.solve(remaining);
+    const Vector w_a = w(block.J);
+    linalg::Forcing forcing{load.power, modes.modes.U().transpose() * (Vector(w(block.I)) - R_I * w_a)};
+    Translation translation{load.power, (w_a - a_of_psi * forcing.w) / load.power};
+    part.a0 -= translation.b;
+    part.w.push_back(std::move(forcing));
+    part.translations.push_back(std::move(translation));
+  }
+}
+
 RadialField::RadialField(const SuperElementSolution& solution, const ModalSolution& modal, const Vector& u,
-                         const Vector& F_b)
-    : solution_(solution), modal_(modal) {
+                         const std::vector<RadialLoad>& loads)
+    : solution_(solution), modal_(modal), slowest_(modal.slowest) {
+  for (const RadialLoad& load : loads) slowest_ = std::min(slowest_, load.power);
+  ensure(loads.empty() || !solution.domain.unbounded, "loads act inside bounded super-elements");
   for (std::size_t k = 0; k < solution.blocks.size(); ++k) {
     const Block& block = solution.blocks[k];
     const ModalBlock& modal_block = modal.blocks[k];
     const Vector u_k = block.T.transpose() * u;
     const Vector a = u_k(block.J);
-    const Matrix R_I = block.R(block.I, Eigen::all);
+    Vector v = Vector(u_k(block.I)) - Matrix(block.R(block.I, Eigen::all)) * a;
     Part part;
-    part.c = modal_block.modes.U().transpose() * (Vector(u_k(block.I)) - R_I * a);
-    part.w = Vector::Zero(part.c.size());
-    part.b = Vector::Zero(a.size());
-    const Matrix a_of_psi = Matrix(modal_block.Phi(block.J, Eigen::all));  // A U T^-1, since R_J = 1
-    if (F_b.size() > 0) {
-      const Vector h = equivalent_load(block, block.T.transpose() * F_b);
-      const Vector w = block.E0.llt().solve(h);
-      const Vector w_a = w(block.J);
-      part.w = modal_block.modes.U().transpose() * (Vector(w(block.I)) - R_I * w_a);
-      part.b = 0.5 * (a_of_psi * part.w - w_a);
+    const Matrix a_of_psi = modal_block.Phi(block.J, Eigen::all);  // A U T^-1, since R_J = 1
+    if (solution.domain.unbounded && a.size() > 0) {
+      // F from f = K u: stiffness.hpp, R'q = F.
+      const Vector F = -(block.R.transpose() * (block.T.transpose() * (solution.K * u)));
+      part.constant = block.V * F;
+      part.growth = block.C * F;
+      v -= part.constant;
     }
-    part.a0 = a - a_of_psi * part.c - part.b;
+    part.c = modal_block.modes.U().transpose() * v;
+    part.a0 = a - a_of_psi * part.c;
+    set_loads(block, modal_block, loads, part);
     parts_.push_back(std::move(part));
   }
 }
 
 RadialField::Values RadialField::at(double xi) const {
-  xi = std::clamp(xi, 0.0, 1.0);
-  const double s = std::log(std::max(xi, 1e-9));  // nearer to the centre psi / xi does not change any more
+  const bool unbounded = solution_.domain.unbounded, finite = slowest_ == 1.0;
   const Eigen::Index n = solution_.K.rows();
   Values values{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const Part& part = parts_[k];
-    const Block& block = solution_.blocks[k];
-    const auto& modes = modal_.blocks[k].modes;
-    // psi / xi: strains near the centre are quotients of small numbers otherwise. No exponent is below 1.
-    const Vector psi = modes.propagate(part.c, part.w, s, 1.0);
-    const Vector slope = modes.T() * psi - xi * part.w;
-    const Vector moving = modal_.blocks[k].Phi * psi;
-    values.u += block.T * (xi * moving + block.R * (part.a0 + xi * xi * part.b));               // eq. (2)
-    values.u_part += block.T * moving;
-    values.u_xi += block.T * (modal_.blocks[k].Phi * slope + 2.0 * xi * block.R * part.b);       // eq. (3)
+  xi = unbounded ? std::max(xi, 1.0) : std::clamp(xi, 0.0, 1.0);
+  if (xi == 0.0 && !finite) {
+    for (std::size_t b = 0; b < parts_.size(); ++b) values.u += solution_.blocks[b].T * (solution_.blocks[b].R * parts_[b].a0);
+    values.u_xi.setConstant(std::nan(""));
+    values.u_part.setConstant(std::nan(""));
+    return values;
+  }
+  // psi / xi^shift: strains near the centre are quotients of small numbers otherwise. Nothing fades more slowly; what does not
+  // fade at all no longer changes below 1e-9.
+  const double shift = unbounded ? -slowest_ : slowest_;
+  const double s = std::log(finite ? std::max(xi, 1e-9) : xi);
+  const double scale = std::pow(xi, shift), strain_scale = std::pow(xi, shift - 1.0);
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    const Part& part = parts_[b];
+    const Block& block = solution_.blocks[b];
+    const auto& modes = modal_.blocks[b].modes;
+    const Vector psi = modes.propagate(part.c, part.w, s, shift);
+    Vector slope = modes.T() * psi;
+    for (const linalg::Forcing& forcing : part.w) slope += std::pow(xi, forcing.power - shift) * forcing.w;
+    const Vector moving = modal_.blocks[b].Phi * psi;
+    Vector a = part.a0, a_xi = Vector::Zero(part.a0.size());
+    for (const Translation& translation : part.translations) {
+      a += std::pow(xi, translation.power) * translation.b;
+      a_xi += translation.power * std::pow(xi, translation.power - 1.0) * translation.b;
+    }
+    if (part.growth.size() > 0) {
+      a += part.growth * s;
+      a_xi += part.growth / xi;
+    }
+    Vector u = scale * moving + block.R * a, u_part = strain_scale * moving;
+    if (part.constant.size() > 0) {
+      u(block.I) += part.constant;
+      u_part(block.I) += part.constant / xi;
+    }
+    values.u += block.T * u;                                                                    // eq. (2)
+    values.u_part += block.T * u_part;
+    values.u_xi += block.T * (strain_scale * (modal_.blocks[b].Phi * slope) + block.R * a_xi);  // eq. (3)
   }
   return values;
 }

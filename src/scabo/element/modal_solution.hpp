@@ -4,18 +4,22 @@
 // form, so that repeated, defective and ill-conditioned exponents do no harm. In each symmetry block, with v = U psi
 // and S = U T U' (stiffness.hpp for v, a, A, R):
 //
-//     xi psi,xi = T psi - xi^2 w                        w: the body force, 0 without                        (1)
-//     u = R (a0 + xi^2 b) + Phi psi                     Phi = U + R A U T^-1                                (2)
-//     xi u,xi = Phi (T psi - xi^2 w) + 2 xi^2 R b                                                           (3)
+//     xi psi,xi = T psi + sum of xi^j w                  w: loads inside                                    (1)
+//     u = R (a0 + sum of xi^j b) + Phi psi               Phi = U + R A U T^-1                               (2)
+//     xi u,xi = Phi (T psi + sum of xi^j w) + R sum of j xi^j b                                             (3)
 //
-// Body force: the inner domain of size xi is in equilibrium, q = K u - xi^2 h, with the equivalent nodal load
-//     h = int_0^1 xi (xi^S)' F_b dxi = (S' + 2)^-1 F_b                                                      (4)
-// (reciprocity), so xi u,xi = S u - xi^2 E0^-1 h. S' + 2 is never singular: no resonance has to be handled.
+// Loads (radial_load.hpp): the domain of size xi is in equilibrium, q = K u - xi^j h, with the equivalent nodal load h,
+//     (S' + j) h = S' c + g                                                                                 (4)
+// (reciprocity; without c, h = int_0^1 xi^(j-1) (xi^S)' g dxi), so xi u,xi = S u + xi^j E0^-1 (c - h). S' + j is never
+// singular, and a power that is an exponent makes a Jordan block of the system (1): no resonance has to be handled.
+//
+// Unbounded domain: exponents have negative real parts, xi >= 1, u gets R C F ln xi + V F as in stiffness.hpp, eq. (5).
 #pragma once
 
 #include <complex>
 #include <vector>
 
+#include "scabo/element/radial_load.hpp"
 #include "scabo/element/stiffness.hpp"
 #include "scabo/linalg/schur_exponential.hpp"
 
@@ -29,37 +33,49 @@ struct ModalBlock {
 struct ModalSolution {
   std::vector<ModalBlock> blocks;                  ///< one for each of SuperElementSolution::blocks
   std::vector<std::complex<double>> exponents;     ///< all n, ascending real part; the two translations are 0 exactly
+  /// Power of xi with which the slowest mode fades, a little less where it oscillates; at most 1. Below 1 strains are infinite
+  /// at the scaling centre. (Unbounded: of 1/xi.)
+  double slowest = 1.0;
 };
 
 /// Symmetry blocks are shared out among `threads` threads.
 ModalSolution modal_solution(const SuperElementSolution& solution, int threads = 1);
 
-/// h of eq. (4): nodal forces equivalent to a body force; `F_b` = int N' b |J| deta times thickness (n).
-Vector equivalent_body_load(const SuperElementSolution& solution, const Vector& F_b);
+/// h of eq. (4) for all loads together: the nodal forces equivalent to them (n).
+Vector equivalent_load(const SuperElementSolution& solution, const std::vector<RadialLoad>& loads);
 
-/// Boundary displacements, taken apart into modes, with the part that a body force adds inside.
+/// Boundary displacements, taken apart into modes, with the part that loads add inside.
 class RadialField {
  public:
-  /// `u`: boundary displacements (n); `F_b` as above, empty for none. Keeps references to both solutions.
-  RadialField(const SuperElementSolution& solution, const ModalSolution& modal, const Vector& u, const Vector& F_b);
+  /// `u`: boundary displacements (n), under `loads`. Keeps references to both solutions.
+  RadialField(const SuperElementSolution& solution, const ModalSolution& modal, const Vector& u,
+              const std::vector<RadialLoad>& loads = {});
 
   struct Values {
     Vector u;      ///< displacement of the ring at xi (n)
     Vector u_xi;   ///< u,xi
     Vector u_part; ///< (u - R a) / xi, what the circumferential part of the strain needs: B2 R = 0
   };
-  /// 0 <= xi <= 1; at the centre, the limit.
+  /// 0 <= xi <= 1; at the centre, the limit, and what is infinite there is not a number. Unbounded: xi >= 1.
   Values at(double xi) const;
 
  private:
-  struct Part {
-    Vector c;       // modal coordinates at xi = 1
-    Vector w;       // eq. (1)
-    Vector a0, b;   // eq. (2)
+  struct Translation {
+    double power = 0.0;
+    Vector b;  // eq. (2)
   };
+  struct Part {
+    Vector c;                              // modal coordinates at xi = 1
+    std::vector<linalg::Forcing> w;        // eq. (1)
+    Vector a0;                             // eq. (2)
+    std::vector<Translation> translations; // eq. (2)
+    Vector constant, growth;               // unbounded: V F, C F
+  };
+  void set_loads(const Block& block, const ModalBlock& modes, const std::vector<RadialLoad>& loads, Part& part) const;
   const SuperElementSolution& solution_;
   const ModalSolution& modal_;
   std::vector<Part> parts_;
+  double slowest_ = 1.0;  // of modes and loads
 };
 
 }  // namespace scabo::element

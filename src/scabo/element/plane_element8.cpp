@@ -74,6 +74,15 @@ Matrix16 plane_element8_stiffness(const Corners8& x, const Mat3& D, double thick
   return 0.5 * (K + K.transpose());
 }
 
+Matrix8 plane_element8_mass(const Corners8& x, double density, double thickness) {
+  Matrix8 M = Matrix8::Zero();
+  integrate(x, [&](const Shape& shape, double weight) {
+    const Eigen::Map<const Eigen::Matrix<double, 8, 1>> N(shape.N.data());
+    M.noalias() += N * N.transpose() * (weight * density * thickness);
+  });
+  return M;
+}
+
 std::array<double, 8> plane_element8_areas(const Corners8& x) {
   std::array<double, 8> areas{};
   integrate(x, [&](const Shape& shape, double weight) {

@@ -15,6 +15,10 @@ using Vector16 = Eigen::Matrix<double, 16, 1>;
 /// Stiffness, force / length; `D` force / length^2.
 Matrix16 plane_element8_stiffness(const Corners8& x, const Mat3& D, double thickness);
 
+/// Consistent mass of one component of the displacement, int N_i N_j rho dA thickness; `density` mass / length^3.
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+Matrix8 plane_element8_mass(const Corners8& x, double density, double thickness);
+
 /// int N_i dA for every node: a body force is this times force / length^3 times thickness.
 std::array<double, 8> plane_element8_areas(const Corners8& x);
 

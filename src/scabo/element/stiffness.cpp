@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
+#include "scabo/element/ring_doubling.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/parallel.hpp"
 
@@ -12,28 +14,12 @@ namespace scabo::element {
 
 namespace {
 
-/// Largest exponent, roughly: the square root of the largest eigenvalue of E0^-1 E2, by a few power steps.
-double largest_exponent(const Matrix& E0, const Matrix& E2) {
-  Matrix L = E0;
-  ensure(linalg::cholesky_in_place(L), "E0 of a super-element is not positive definite");
-  Matrix x = Matrix::Constant(E0.rows(), 1, 1.0);
-  for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, 0) = i % 2 == 0 ? 1.0 : -0.7;  // high frequency: quick to settle
-  double growth = 1.0;
-  for (int step = 0; step < 8; ++step) {
-    Matrix y = E2 * x;
-    linalg::solve_lower_in_place(L, y);
-    linalg::solve_lower_in_place(L, y, true);
-    growth = y.norm() / x.norm();
-    if (growth == 0.0) return 1.0;
-    x = y / y.norm();
-  }
-  return std::sqrt(growth);
-}
-
-/// Rows J, as many as R has columns, on which R is as well conditioned as can be had by greedy choice.
-std::vector<int> rows_taken_out(const Matrix& R) {
+/// Rows J, as many as R has columns, on which R is as well conditioned as can be had by greedy choice, measured by the
+/// energy that E0 gives to a row: were the rows of a soft sector taken out, those of a stiff one would hold a near translation
+/// of it, and what the deflation leaves of them would be the difference of large numbers.
+std::vector<int> rows_taken_out(const Matrix& R, const Vector& E0_diagonal) {
   std::vector<int> J;
-  Matrix rest = R;
+  Matrix rest = E0_diagonal.cwiseSqrt().asDiagonal() * R;
   for (Eigen::Index column = 0; column < R.cols(); ++column) {
     Eigen::Index row = 0, pivot = 0;
     rest.cwiseAbs().maxCoeff(&row, &pivot);
@@ -49,108 +35,177 @@ std::vector<int> rows_taken_out(const Matrix& R) {
 
 Matrix symmetrised(const Matrix& A) { return 0.5 * (A + A.transpose()); }
 
+/// E0, E1, E2 of one block without the translations, eq. (4).
+struct Deflated {
+  Matrix E0, E1, E2;  // (n_k - m) x (n_k - m)
+  Matrix G, H, M_inverse;  // m x n_k, m x n_k, m x m
+};
+
+Deflated deflate(const Block& block, const Matrix& E1, const Matrix& E2) {
+  const Matrix E0R = block.E0 * block.R, E1R = E1 * block.R;
+  const Matrix M = symmetrised(block.R.transpose() * E0R);
+  Deflated d;
+  d.M_inverse = M.inverse();
+  d.G = d.M_inverse * E0R.transpose();
+  d.H = d.M_inverse * E1R.transpose();
+  d.E0 = symmetrised(block.E0 - E0R * d.G)(block.I, block.I);
+  d.E1 = (E1 - E1R * d.G)(block.I, block.I);
+  d.E2 = symmetrised(E2 - d.H.transpose() * M * d.H)(block.I, block.I);
+  return d;
+}
+
+/// T' X T, dense. A row of T has a few entries at most, so every entry of X goes to a few places: general products of
+/// sparse matrices took longer than the doubling of a small block.
+Matrix in_block(const Eigen::SparseMatrix<double>& T_transposed, const Eigen::SparseMatrix<double>& X) {
+  using Entries = Eigen::SparseMatrix<double>::InnerIterator;
+  Matrix result = Matrix::Zero(T_transposed.rows(), T_transposed.rows());
+  for (Eigen::Index column = 0; column < X.outerSize(); ++column)
+    for (Entries x(X, column); x; ++x)
+      for (Entries right(T_transposed, column); right; ++right)
+        for (Entries left(T_transposed, x.row()); left; ++left)
+          result(left.row(), right.row()) += left.value() * x.value() * right.value();
+  return result;
+}
+
+/// The translations that lie in this block (in a symmetry block: none, one or both), and the rows they are taken out of.
+void find_translations(const Matrix& translations, Block& block) {
+  const Matrix projected = block.T.transpose() * translations;
+  // A direction lies in the block by all of its length or not at all.
+  const Eigen::SelfAdjointEigenSolver<Mat2> directions(Mat2(projected.transpose() * projected));
+  const auto m = (directions.eigenvalues().array() > 1e-10 * static_cast<double>(translations.rows())).count();
+  block.R = projected * directions.eigenvectors().rightCols(m);
+  block.J = rows_taken_out(block.R, block.E0.diagonal());
+  for (int row = 0; row < static_cast<int>(block.R.rows()); ++row)
+    if (!std::binary_search(block.J.begin(), block.J.end(), row)) block.I.push_back(row);
+  block.R = block.R * Matrix(block.R(block.J, Eigen::all)).inverse();
+}
+
+/// v = Q u = u_I - R_I u_J.
+Matrix without_translations(const Block& block) {
+  const Matrix R_I = block.R(block.I, Eigen::all);
+  Matrix Q = Matrix::Zero(R_I.rows(), block.R.rows());
+  for (std::size_t i = 0; i < block.I.size(); ++i) Q(static_cast<Eigen::Index>(i), block.I[i]) = 1.0;
+  for (std::size_t j = 0; j < block.J.size(); ++j) Q.col(block.J[j]) = -R_I.col(static_cast<Eigen::Index>(j));
+  return Q;
+}
+
+/// K of a bounded block: K R = 0 and symmetry give the rows J.
+Matrix with_translations(const Block& block, const Matrix& K_I) {
+  const Matrix R_I = block.R(block.I, Eigen::all), K_IJ = -(K_I * R_I);
+  Matrix K(block.R.rows(), block.R.rows());
+  K(block.I, block.I) = K_I;
+  K(block.I, block.J) = K_IJ;
+  K(block.J, block.I) = K_IJ.transpose();
+  K(block.J, block.J) = -symmetrised(R_I.transpose() * K_IJ);
+  return K;
+}
+
+/// Stiffness of an unbounded block, eqs. (5) and (6): forces f = -q for every u. `K`: of v_h.
+Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, double far) {
+  const auto m = static_cast<Eigen::Index>(block.J.size());
+  const Matrix Q = without_translations(block);
+  if (m == 0) return K;
+  const Matrix H_I = d.H(Eigen::all, block.I);
+  block.V = -d.E2.llt().solve(H_I.transpose());
+  block.C = d.M_inverse - H_I * block.V;
+  // F from u: a - A S^-1 v = -(C ln(far) + A S^-1 V) F.
+  const Matrix moving = block.S.transpose().partialPivLu().solve(block.A.transpose()).transpose();  // A S^-1
+  Matrix a_of_u = -moving * Q;
+  for (Eigen::Index j = 0; j < m; ++j) a_of_u(j, block.J[static_cast<std::size_t>(j)]) += 1.0;
+  const Matrix F_of_u = -(block.C * std::log(far) + moving * block.V).inverse() * a_of_u;
+  // q_I = -K v_h + (E1'V + G_I') F, and R'q = F.
+  const Matrix pull = d.E1.transpose() * block.V + Matrix(d.G(Eigen::all, block.I)).transpose();
+  const Matrix q_I = -K * (Q - block.V * F_of_u) + pull * F_of_u;
+  Matrix f(block.R.rows(), block.R.rows());
+  f(block.I, Eigen::all) = -q_I;
+  f(block.J, Eigen::all) = -(F_of_u - Matrix(block.R(block.I, Eigen::all)).transpose() * q_I);
+  return symmetrised(f);
+}
+
 /// Solves one block; sets its stiffness `K` in the coordinates of the block.
 Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& translations,
-                  Matrix& K, int& doublings) {
+                  const Domain& domain, Matrix& K, int& doublings) {
   Block block;
   block.T = std::move(T);
   const Eigen::SparseMatrix<double> transposed = block.T.transpose();
-  block.E0 = symmetrised(Matrix(transposed * matrices.E0 * block.T));
-  const Matrix E1 = transposed * matrices.E1 * block.T;
-  const Matrix E2 = symmetrised(Matrix(transposed * matrices.E2 * block.T));
+  block.E0 = symmetrised(in_block(transposed, matrices.E0));
+  find_translations(translations, block);
+  const Deflated d = deflate(block, in_block(transposed, matrices.E1), symmetrised(in_block(transposed, matrices.E2)));
+  const RingStiffness ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
+  doublings = ring.doublings;
 
-  // The translations that lie in this block (in a symmetry block: none, one or both).
-  const Matrix projected = transposed * translations;
-  const Eigen::JacobiSVD<Matrix> svd(projected, Eigen::ComputeThinV);
-  const auto m = (svd.singularValues().array() > 1e-8 * std::sqrt(static_cast<double>(translations.rows()))).count();
-  block.R = projected * svd.matrixV().leftCols(m);
-  block.J = rows_taken_out(block.R);
-  const auto n = static_cast<int>(block.E0.rows());
-  for (int row = 0; row < n; ++row)
-    if (!std::binary_search(block.J.begin(), block.J.end(), row)) block.I.push_back(row);
-  block.R = block.R * Matrix(block.R(block.J, Eigen::all)).inverse();
-
-  // Eq. (4).
-  const Matrix E0R = block.E0 * block.R;
-  const Matrix M = symmetrised(block.R.transpose() * E0R);
-  const Matrix M_inverse = M.inverse();
-  const Matrix G = M_inverse * E0R.transpose();
-  const Matrix E1R = E1 * block.R;
-  const Matrix H = M_inverse * E1R.transpose();
-  const Matrix E0_deflated = symmetrised(block.E0 - E0R * G)(block.I, block.I);
-  const Matrix E1_deflated = (E1 - E1R * G)(block.I, block.I);
-  const Matrix E2_deflated = symmetrised(E2 - H.transpose() * M * H)(block.I, block.I);
-
-  const Matrix K_deflated = ring_doubling(E0_deflated, E1_deflated, E2_deflated, doublings);
-
-  Matrix L = E0_deflated;
-  ensure(linalg::cholesky_in_place(L), "E0 of a super-element is not positive definite");
-  block.S = K_deflated - E1_deflated.transpose();
+  Matrix L = d.E0;
+  if (!linalg::cholesky_in_place(L)) throw IllPosed("E0 is not positive definite");
+  block.S = (domain.unbounded ? Matrix(-ring.K) : ring.K) - d.E1.transpose();
   linalg::solve_lower_in_place(L, block.S);
   linalg::solve_lower_in_place(L, block.S, true);
-  block.A = -(Matrix(G(Eigen::all, block.I)) * block.S + Matrix(H(Eigen::all, block.I)));
-
-  // K R = 0 and symmetry give the rows J: v = u_I - R_I u_J.
-  const Matrix R_I = block.R(block.I, Eigen::all);
-  Matrix Q = Matrix::Zero(static_cast<Eigen::Index>(block.I.size()), n);  // v = Q u
-  for (std::size_t i = 0; i < block.I.size(); ++i) Q(static_cast<Eigen::Index>(i), block.I[i]) = 1.0;
-  for (std::size_t j = 0; j < block.J.size(); ++j) Q.col(block.J[j]) = -R_I.col(static_cast<Eigen::Index>(j));
-  K = symmetrised(linalg::multiply_transposed(Q, linalg::multiply(K_deflated, Q)));
+  block.A = -(Matrix(d.G(Eigen::all, block.I)) * block.S + Matrix(d.H(Eigen::all, block.I)));
+  K = domain.unbounded ? unbounded_stiffness(block, d, ring.K, domain.far) : with_translations(block, ring.K);
   return block;
+}
+
+/// Adds a part of T K_k T' to K that gives the whole when its transpose is added.
+void add_half(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K) {
+  using Entries = Eigen::SparseMatrix<double>::InnerIterator;
+  for (Eigen::Index b = 0; b < K_k.cols(); ++b)
+    for (Entries right(T, b); right; ++right)
+      for (Eigen::Index a = b; a < K_k.rows(); ++a) {
+        const double value = (a == b ? 0.5 : 1.0) * K_k(a, b) * right.value();
+        for (Entries left(T, a); left; ++left) K(left.row(), right.row()) += left.value() * value;
+      }
+}
+
+/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it: 5e-10 of K where
+/// lengths differ by 1e6, 1e-15 where they are alike. K t = 0 of the translations, perpendicular to r, stays. What left more
+/// than that lost digits on the way, and is told.
+Matrix without_rotation(const Matrix& K, const Ring& ring) {
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& x : ring.nodes) mean += x / static_cast<double>(ring.nodes.size());
+  Vector r(K.rows());
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
+    const Vec2 arm = ring.nodes[i] - mean;
+    r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-arm.y(), arm.x());
+  }
+  r.normalize();
+  const Vector force = K * r;
+  if (!(force.norm() <= 1e-8 * K.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
+  const Vector half = force - 0.5 * r.dot(force) * r;
+  Matrix freed = K;
+  freed.noalias() -= r * half.transpose();
+  freed.noalias() -= half * r.transpose();
+  return symmetrised(freed);
 }
 
 }  // namespace
 
-Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& doublings) {
-  doublings = 0;
-  if (E0.rows() == 0) return E0;
-  // The ring's factors (gamma - lambda) / (gamma + lambda) are smallest for exponents near gamma; those of a closed
-  // super-element begin at 1.
-  const double gamma = std::sqrt(largest_exponent(E0, E2));
-  const double d = 2.0 / gamma;
-  const Matrix even = E0 / d + d / 4.0 * E2, odd = 0.5 * (E1 + E1.transpose());
-  Matrix K22 = even + odd, K11 = even - odd;                                              // eq. (1)
-  Matrix K12 = -E0 / d + 0.5 * (E1 - E1.transpose()) + d / 4.0 * E2;
-  constexpr int most = 60;
-  while (doublings < most) {                                                              // eq. (2)
-    Matrix B = K11 + K22;
-    ensure(linalg::cholesky_in_place(B), "a ring of a super-element is not positive definite");
-    Matrix X = K12, Y = K12.transpose();
-    linalg::solve_lower_in_place(B, X);
-    linalg::solve_lower_in_place(B, Y);
-    linalg::add_gram(K22, X, -1.0, 1.0);
-    linalg::add_gram(K11, Y, -1.0, 1.0);
-    K12 = linalg::multiply_transposed(Y, X, -1.0);
-    ++doublings;
-    // |X'X| of the next step is about |K12|^2 / |B|: below rounding, K22 has arrived.
-    if (K12.cwiseAbs().maxCoeff() < 1e-10 * K22.cwiseAbs().maxCoeff()) return K22;
-  }
-  throw BrokenInvariant("ring doubling did not end");
-}
-
-SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness, int threads) {
+SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads,
+                                         const Domain& domain) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, thickness);
   const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
   Matrix translations = Matrix::Zero(n, 2);
   for (Eigen::Index i = 0; i < n; ++i) translations(i, i % 2) = 1.0;
 
-  std::vector<Eigen::SparseMatrix<double>> bases = symmetry_blocks(ring);
+  std::vector<Eigen::SparseMatrix<double>> bases = symmetry_blocks(ring, D);
   SuperElementSolution solution;
+  solution.domain = domain;
   solution.blocks.resize(bases.size());
   std::vector<Matrix> stiffness(bases.size());
   std::vector<int> doublings(bases.size(), 0);
   const auto solve = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, translations, stiffness[i], doublings[i]);
+    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, translations, domain, stiffness[i],
+                                     doublings[i]);
   };
   linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
-  solution.K = Matrix::Zero(n, n);
-  for (std::size_t i = 0; i < bases.size(); ++i) {
-    const Eigen::SparseMatrix<double>& basis = solution.blocks[i].T;
-    solution.K += basis * stiffness[i] * basis.transpose();
-    solution.doublings = std::max(solution.doublings, doublings[i]);
+  for (const int count : doublings) solution.doublings = std::max(solution.doublings, count);
+  if (bases.size() == 1) {  // T = 1
+    solution.K = std::move(stiffness.front());
+  } else {
+    solution.K = Matrix::Zero(n, n);
+    for (std::size_t i = 0; i < bases.size(); ++i) add_half(solution.blocks[i].T, stiffness[i], solution.K);
+    solution.K = solution.K + Matrix(solution.K.transpose());
   }
-  solution.K = symmetrised(solution.K);
+  if (!domain.unbounded) solution.K = without_rotation(solution.K, ring);  // what is unbounded resists rotation
   return solution;
 }
 

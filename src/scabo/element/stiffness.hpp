@@ -1,18 +1,6 @@
 // Static stiffness of a bounded super-element by ring doubling.
 //
-// In s = ln xi the scaled boundary equation has constant coefficients, so all rings [xi, xi e^d] are alike. One
-// midpoint (Cayley) step gives the symmetric stiffness of a ring on its inner (1) and outer (2) nodes,
-//
-//     K22 = E0/d + (E1 + E1')/2 + d/4 E2                                                                    (1)
-//     K11 = E0/d - (E1 + E1')/2 + d/4 E2
-//     K12 = -E0/d + (E1 - E1')/2 + d/4 E2
-//
-// and two equal rings joined eliminate their common nodes, with B = K11 + K22 symmetric positive definite:
-//
-//     K22 <- K22 - K12' B^-1 K12,   K11 <- K11 - K12 B^-1 K12',   K12 <- -K12 B^-1 K12                      (2)
-//
-// K22 tends to K, quadratically. The Cayley step keeps invariant subspaces, so the limit is exact although the
-// ring is not. Only Cholesky factors, triangular solves and symmetric products are used.
+// Rings are doubled (ring_doubling.hpp, eqs. 1 and 2) after the translations have been taken out.
 //
 // The translations R (E1' R = 0, E2 R = 0) carry no force, R'q = 0, and are taken out first: with M = R'E0R,
 // G = M^-1 R'E0, H = M^-1 R'E1' and u = R a + v, v = 0 in as many rows J as there are translations,
@@ -21,6 +9,16 @@
 //     E0 -> P'E0P,  E1 -> E1P,  E2 -> E2 - H'MH,   P = 1 - RG, without rows and columns J                   (4)
 //
 // and they are put back exactly: K of the rows J follows from K R = 0.
+//
+// Unbounded domain (outside the ring, xi >= 1): -K11 takes the place of K22, S has the exponents with negative real part. Loads
+// on it need not be in equilibrium: their resultant, R'q = F for every xi, adds
+//
+//     v = v_h + V F,  V = -E2^-1 H',   xi a,xi = A v_h + C F,  C = M^-1 - H V                               (5)
+//
+// so that a grows with ln xi and the displacement is defined only up to a translation in proportion to F. The stiffness here
+// is that of a domain whose translation vanishes at xi = far (for F = 0: at infinity, whatever far is),
+//
+//     a = A S^-1 v_h - C F ln(far)                                                                          (6)
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -39,21 +37,28 @@ struct Block {
   Matrix E0;                      // n_k x n_k, not deflated
   Matrix S;                       // (n_k - m) x (n_k - m): xi v,xi = S v
   Matrix A;                       // m x (n_k - m): xi a,xi = A v                                          (3)
+  Matrix V, C;                    // unbounded: (n_k - m) x m, m x m                                       (5)
+};
+
+/// The domain that a ring belongs to: inside it, or outside to infinity.
+struct Domain {
+  bool unbounded = false;
+  double far = 1e3;  ///< > 1, eq. (6)
+  bool operator==(const Domain&) const = default;
 };
 
 /// Stiffness of a super-element and what its interior is recovered from.
 struct SuperElementSolution {
   Matrix K;                   // n x n, force / length per unit displacement of the boundary nodes; symmetric
   std::vector<Block> blocks;
+  Domain domain;
   int doublings = 0;          ///< largest number over the blocks
 };
 
-/// Solves the super-element. Throws BrokenInvariant when a ring is not positive definite or the doubling does not
-/// end, which positive definite material and a boundary that the centre sees rule out. Symmetry blocks are shared out among
+/// Solves the super-element. Throws IllPosed where the centre does not see the boundary, an elasticity is not positive definite,
+/// or, to working precision, a ring is not. Symmetry blocks are shared out among
 /// `threads` threads.
-SuperElementSolution solve_super_element(const Ring& ring, const Mat3& D, double thickness, int threads = 1);
-
-/// Stiffness of the bounded domain from E0, E1, E2 without zero exponents, by eqs. (1) and (2).
-Matrix ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, int& doublings);
+SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1,
+                                         const Domain& domain = {});
 
 }  // namespace scabo::element

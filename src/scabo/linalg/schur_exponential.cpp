@@ -16,24 +16,28 @@ struct ContourPoint {
   std::complex<double> z, weight;
 };
 
-constexpr int contour_points = 32;
-constexpr double sector = 55.0 * std::numbers::pi / 180.0;
+/// Midpoints of a hyperbola that holds all eigenvalues within `sector` of the negative axis.
+struct Contour {
+  double sector;  // radians
+  std::vector<ContourPoint> points;
+};
 
-std::array<ContourPoint, contour_points> make_contour() {
-  constexpr double m = 9.6, alpha = 0.6, h = 0.0863970588;
+Contour make_contour(double degrees, int points, double m, double alpha, double h) {
   constexpr std::complex<double> i(0.0, 1.0);
-  std::array<ContourPoint, contour_points> contour;
-  for (int k = 0; k < contour_points; ++k) {
+  Contour contour{degrees * std::numbers::pi / 180.0, {}};
+  for (int k = 0; k < points; ++k) {
     const std::complex<double> argument = i * ((k + 0.5) * h) - alpha;
     const std::complex<double> z = m * (1.0 + std::sin(argument));
-    contour[static_cast<std::size_t>(k)] = {z, h / (2.0 * std::numbers::pi) * std::exp(z) * m * std::cos(argument)};
+    contour.points.push_back({z, h / (2.0 * std::numbers::pi) * std::exp(z) * m * std::cos(argument)});
   }
   return contour;
 }
 
-const std::array<ContourPoint, contour_points>& the_contour() {
-  static const std::array<ContourPoint, contour_points> contour = make_contour();
-  return contour;
+/// Narrow to wide: the narrower the sector, the fewer the points and the smaller the error.
+const std::array<Contour, 2>& contours() {
+  static const std::array<Contour, 2> all = {make_contour(45.0, 28, 14.0, 0.8, 0.0766807),
+                                             make_contour(55.0, 32, 9.6, 0.6, 0.0863970588)};
+  return all;
 }
 
 bool pair_begins(const Matrix& T, Eigen::Index i) { return i + 1 < T.rows() && T(i + 1, i) != 0.0; }
@@ -46,12 +50,12 @@ std::complex<double> inverse(std::complex<double> z) {
 
 /// Solves one diagonal block of z - s T, rows first to last of X, all contour points (columns: real parts, then
 /// imaginary parts), by back substitution.
-void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::Index size, Matrix& X) {
-  const std::array<ContourPoint, contour_points>& contour = the_contour();
-  for (Eigen::Index point = 0; point < contour_points; ++point) {
-    const std::complex<double> z = contour[static_cast<std::size_t>(point)].z;
+void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::Index size, const Contour& contour, Matrix& X) {
+  const auto count = static_cast<Eigen::Index>(contour.points.size());
+  for (Eigen::Index point = 0; point < count; ++point) {
+    const std::complex<double> z = contour.points[static_cast<std::size_t>(point)].z;
     double* const x = X.col(point).data();
-    double* const y = X.col(contour_points + point).data();
+    double* const y = X.col(count + point).data();
     for (Eigen::Index j = start + size - 1; j >= start; --j) {
       const Eigen::Index first = j > start && pair_begins(T, j - 1) ? j - 1 : j;
       if (first < j) {
@@ -76,12 +80,12 @@ void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::
 
 /// X <- (z - s T)^-1 X for all contour points at once: what a block of rows contributes to those above it is one
 /// product of matrices.
-void solve_shifted(const Matrix& T, double s, Matrix& X) {
+void solve_shifted(const Matrix& T, double s, const Contour& contour, Matrix& X) {
   constexpr Eigen::Index rows_at_a_time = 32;
   for (Eigen::Index end = T.rows(); end > 0;) {
     Eigen::Index start = std::max<Eigen::Index>(0, end - rows_at_a_time);
     if (start > 0 && pair_begins(T, start - 1)) --start;  // 2 x 2 blocks stay whole
-    solve_diagonal_block(T, s, start, end - start, X);
+    solve_diagonal_block(T, s, start, end - start, contour, X);
     if (start > 0)
       add_product(s, T.block(0, start, start, end - start), X.middleRows(start, end - start), X.topRows(start));
     end = start;
@@ -101,42 +105,54 @@ SchurExponential::SchurExponential(const Matrix& S) : schur_(real_schur(S)) {
   }
 }
 
-bool SchurExponential::contour_holds(double s, double shift) const {
+double SchurExponential::widest_angle(double s, double shift) const {
+  double widest = 0.0;
   for (const std::complex<double>& value : eigenvalues_) {
     const std::complex<double> z = -s * (value - shift);  // s (S - k) lies in the left half plane: its mirror image
     const bool faded = z.real() > 40.0, near_origin = std::abs(z) < 1.0;
-    if (!faded && !near_origin && std::abs(std::arg(z)) > sector) return false;
+    if (!faded && !near_origin) widest = std::max(widest, std::abs(std::arg(z)));
   }
-  return true;
+  return widest;
 }
 
-Vector SchurExponential::propagate(const Vector& c, const Vector& w, double s, double shift) const {
+Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& forcings, double s,
+                                   double shift) const {
   const Eigen::Index n = c.size();
   if (s == 0.0 || n == 0) return c;
   Matrix T = schur_.T;
   T.diagonal().array() -= shift;
-  const double forced = 2.0 - shift;  // the exponent of w
-  if (!contour_holds(s, shift)) {  // rare: the dense exponential of [[T, -w], [0, 2]] s
-    Matrix augmented = Matrix::Zero(n + 1, n + 1);
+  // Forcings are further rows of the system, [[T, w ...], [0, power ...]], with the value 1 at s = 0.
+  const double angle = widest_angle(s, shift);
+  const auto contour = std::find_if(contours().begin(), contours().end(), [&](const Contour& one) { return angle <= one.sector; });
+  if (contour == contours().end()) {  // rare: the dense exponential
+    const auto terms = static_cast<Eigen::Index>(forcings.size());
+    Matrix augmented = Matrix::Zero(n + terms, n + terms);
     augmented.topLeftCorner(n, n) = T * s;
-    augmented.topRightCorner(n, 1) = -w * s;
-    augmented(n, n) = forced * s;
-    Vector start(n + 1);
-    start << c, 1.0;
+    for (Eigen::Index j = 0; j < terms; ++j) {
+      augmented.col(n + j).head(n) = s * forcings[static_cast<std::size_t>(j)].w;
+      augmented(n + j, n + j) = (forcings[static_cast<std::size_t>(j)].power - shift) * s;
+    }
+    Vector start = Vector::Ones(n + terms);
+    start.head(n) = c;
     return (augmented.exp() * start).head(n);
   }
-  Matrix X(n, 2 * contour_points);
-  for (Eigen::Index k = 0; k < contour_points; ++k) {
-    // Of w: the last row of the augmented system [[T, -w], [0, 2]].
-    const std::complex<double> forcing = -s * inverse(the_contour()[static_cast<std::size_t>(k)].z - forced * s);
-    X.col(k) = c + forcing.real() * w;
-    X.col(contour_points + k) = forcing.imag() * w;
+  const auto count = static_cast<Eigen::Index>(contour->points.size());
+  Matrix X(n, 2 * count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    X.col(k) = c;
+    X.col(count + k).setZero();
+    for (const Forcing& forcing : forcings) {
+      const std::complex<double> share =
+          s * inverse(contour->points[static_cast<std::size_t>(k)].z - (forcing.power - shift) * s);
+      X.col(k) += share.real() * forcing.w;
+      X.col(count + k) += share.imag() * forcing.w;
+    }
   }
-  solve_shifted(T, s, X);
+  solve_shifted(T, s, *contour, X);
   Vector psi = Vector::Zero(n);
-  for (Eigen::Index k = 0; k < contour_points; ++k) {
-    const std::complex<double> weight = the_contour()[static_cast<std::size_t>(k)].weight;
-    psi += 2.0 * weight.real() * X.col(k) - 2.0 * weight.imag() * X.col(contour_points + k);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::complex<double> weight = contour->points[static_cast<std::size_t>(k)].weight;
+    psi += 2.0 * weight.real() * X.col(k) - 2.0 * weight.imag() * X.col(count + k);
   }
   return psi;
 }

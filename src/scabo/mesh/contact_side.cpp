@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "scabo/mesh/edge_geometry.hpp"
@@ -9,31 +10,44 @@
 
 namespace scabo::mesh {
 
+namespace {
+
+int order_of(const LineElement& element) { return static_cast<int>(element.nodes.size()) - 1; }
+
+}  // namespace
+
 ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement>& body_elements,
                          const std::vector<Vec2>& body_nodes)
-    : edge(&edge_), element_length(edge_.length() / static_cast<double>(body_elements.size())) {
+    : edge(&edge_), element_length(edge_.length()) {
   ensure(!body_elements.empty(), "a contact edge has elements");
   closed = body_elements.front().nodes.front() == body_elements.back().nodes.back();
-  const int order = static_cast<int>(body_elements.front().nodes.size()) - 1;
-  const int count = static_cast<int>(body_elements.size()) * order + (closed ? 0 : 1);
+  int count = closed ? 0 : 1;
+  for (const LineElement& element : body_elements) count += order_of(element);
   nodes.resize(count);
+  int first = 0;
   for (const LineElement& element : body_elements) {
     LineElement local;
-    for (int i = 0; i <= order; ++i) {
-      const int place = (static_cast<int>(elements.size()) * order + i) % count;
+    for (int i = 0; i <= order_of(element); ++i) {
+      const int place = (first + i) % count;
       nodes[place] = element.nodes[i];
       local.nodes.push_back(place);
     }
+    first += order_of(element);
+    const double chord = (body_nodes[element.nodes.back()] - body_nodes[element.nodes.front()]).norm();
+    element_length = std::min(element_length, chord);
     elements.push_back(std::move(local));
   }
   for (const int node : nodes) points.push_back(body_nodes[node]);
 
   // N_i times the normal is of degree 2 p - 1, so Lobatto's quadrature at the nodes themselves is exact, and
   // of the integral remains the weight times the normal at the node.
-  const LobattoBasis basis(order);
   normals.assign(count, Vec2::Zero());
   spacing = std::numeric_limits<double>::max();
+  std::optional<LobattoBasis> of_order;
   for (const LineElement& element : elements) {
+    const int order = order_of(element);
+    if (!of_order || static_cast<int>(of_order->points.size()) != order + 1) of_order.emplace(order);
+    const LobattoBasis& basis = *of_order;
     for (int i = 0; i <= order; ++i) {
       Vec2 along = Vec2::Zero();
       for (int j = 0; j <= order; ++j) along += basis.derivative(i, j) * points[element.nodes[j]];

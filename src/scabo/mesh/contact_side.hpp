@@ -25,7 +25,7 @@ struct ContactSide {
   std::vector<Vec2> true_normals;  ///< those of the line or arc before it was divided
 
   bool closed = false;    ///< one edge is the whole boundary: the last node is followed by the first
-  double element_length;  ///< along the edge; its elements are equal
+  double element_length;  ///< of the shortest element
   double spacing;         ///< smallest distance between neighbouring nodes
 };
 

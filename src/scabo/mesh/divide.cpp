@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <numeric>
 
 #include "scabo/mesh/lobatto.hpp"
 
@@ -19,9 +21,45 @@ constexpr double largest_turn = std::numbers::pi / 3;
 /// counts as seen edge-on.
 constexpr double smallest_sine = 1e-6;
 
-double elements_of(const model::Edge& edge, double size) {
-  const double by_length = elements_along(edge.length(), size);
-  return edge.arc ? std::max(by_length, elements_along(std::abs(edge.arc->sweep), largest_turn)) : by_length;
+/// A part of an edge as the boundary of the super-element is run, counter-clockwise around the scaling centre: from and to
+/// count along the edge's own direction.
+struct Run {
+  int edge = -1;
+  double from = 0.0, to = 1.0;
+};
+
+/// The runs of the boundary: all edges, without side faces, from the mouth of a crack to its other side.
+std::vector<Run> runs_of(const model::Body& body) {
+  const int count = static_cast<int>(body.outline.edges.size());
+  std::vector<Run> runs;
+  if (!body.cracks.empty()) {
+    const model::Crack& crack = body.cracks.front();
+    runs.push_back({crack.edge, crack.at, 1.0});
+    for (int k = 1; k < count; ++k) runs.push_back({(crack.edge + k) % count});
+    if (crack.at > 0.0) runs.push_back({crack.edge, 0.0, crack.at});
+    return runs;
+  }
+  const int corner = body.mesh.centre_corner;  // edge `corner` leaves it, the one before arrives
+  if (corner >= 0) {
+    for (int k = 1; k + 1 < count; ++k) runs.push_back({(corner + k) % count});
+  } else {
+    for (int k = 0; k < count; ++k) runs.push_back({k});
+  }
+  if (body.outside) {  // the outline runs clockwise around the hole
+    std::reverse(runs.begin(), runs.end());
+    for (Run& run : runs) std::swap(run.from, run.to);
+  }
+  return runs;
+}
+
+double elements_of(const model::Edge& edge, const Run& run, double size) {
+  const double part = std::abs(run.to - run.from);
+  const double by_length = elements_along(part * edge.length(), size);
+  return edge.arc ? std::max(by_length, elements_along(part * std::abs(edge.arc->sweep), largest_turn)) : by_length;
+}
+
+double elements_of(const model::Body& body, const Run& run) {
+  return elements_of(body.outline.edges[static_cast<std::size_t>(run.edge)], run, body.mesh.size);
 }
 
 }  // namespace
@@ -33,35 +71,95 @@ double elements_along(double length, double size) {
 
 double count_boundary_nodes(const model::Body& body) {
   double elements = 0.0;
-  for (const model::Edge& edge : body.outline.edges) elements += elements_of(edge, body.mesh.size);
-  return elements * body.mesh.order;
+  for (const Run& run : runs_of(body)) elements += elements_of(body, run);
+  return elements * body.mesh.order + (body.open() ? 1.0 : 0.0);
 }
 
-BodyMesh divide_boundary(const model::Body& body) {
-  const int order = body.mesh.order;
-  const std::vector<double> points = lobatto_points(order);
-  const int total = static_cast<int>(count_boundary_nodes(body));
+BodyDivision uniform_division(const model::Body& body) {
+  BodyDivision division(body.outline.edges.size());
+  for (const Run& run : runs_of(body)) {
+    const int elements = static_cast<int>(elements_of(body, run));
+    const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
+    EdgeDivision& divided = division[static_cast<std::size_t>(run.edge)];
+    std::vector<double> breaks;
+    for (int k = 0; k <= elements; ++k) breaks.push_back(k == elements ? high : std::lerp(low, high, static_cast<double>(k) / elements));
+    if (!divided.breaks.empty()) breaks.pop_back();  // a crack's last run ends where its first began
+    divided.breaks.insert(divided.breaks.begin(), breaks.begin(), breaks.end());
+    divided.orders.insert(divided.orders.end(), static_cast<std::size_t>(elements), body.mesh.order);
+  }
+  return division;
+}
 
+BodyMesh divide_boundary(const model::Body& body) { return divide_boundary(body, uniform_division(body)); }
+
+namespace {
+
+/// Elements along one run, their nodes appended; those of the run's last element but one node.
+std::vector<LineElement> divide_run(const model::Edge& edge, const EdgeDivision& divided, const Run& run, int total,
+                                    std::vector<Vec2>& nodes) {
+  const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
+  std::vector<std::size_t> elements;
+  for (std::size_t k = 0; k < divided.orders.size(); ++k) {
+    const double middle = 0.5 * (divided.breaks[k] + divided.breaks[k + 1]);
+    if (middle > low && middle < high) elements.push_back(k);
+  }
+  const bool backwards = run.to < run.from;
+  if (backwards) std::reverse(elements.begin(), elements.end());
+  std::vector<LineElement> line;
+  for (const std::size_t k : elements) {
+    const int order = divided.orders[k];
+    const std::vector<double> points = lobatto_points(order);
+    const double from = divided.breaks[backwards ? k + 1 : k], to = divided.breaks[backwards ? k : k + 1];
+    LineElement& element = line.emplace_back();
+    for (int i = 0; i <= order; ++i) {
+      element.nodes.push_back(static_cast<int>(nodes.size()) % total);  // closed: the last node is the first again
+      if (i == order) break;                                           // and belongs to the next element
+      const bool first = line.size() == 1 && i == 0;
+      nodes.push_back(edge.at(first ? run.from : std::lerp(from, to, 0.5 * (1.0 + points[static_cast<std::size_t>(i)]))));
+    }
+  }
+  return line;
+}
+
+/// The elements of a run as those of its edge, in the edge's own direction.
+void add_to_edge(const Run& run, const std::vector<LineElement>& line, std::vector<LineElement>& edge) {
+  if (run.from < run.to) {
+    // A crack's first run is the later part of its edge.
+    edge.insert(run.from > 0.0 ? edge.end() : edge.begin(), line.begin(), line.end());
+    return;
+  }
+  for (auto element = line.rbegin(); element != line.rend(); ++element)
+    edge.push_back({{element->nodes.rbegin(), element->nodes.rend()}});
+}
+
+}  // namespace
+
+BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) {
+  const std::size_t edges = body.outline.edges.size();
+  ensure(division.size() == edges, "a division speaks of every edge");
+  int total = body.open() ? 1 : 0;
+  for (const EdgeDivision& edge : division) total = std::accumulate(edge.orders.begin(), edge.orders.end(), total);
   BodyMesh mesh;
-  mesh.nodes.reserve(total);
+  mesh.nodes.reserve(static_cast<std::size_t>(total));
+  mesh.edges.resize(edges);
+  mesh.corners.assign(edges, -1);
   SuperElement whole;
   whole.centre = body.mesh.centre;
-  for (const model::Edge& edge : body.outline.edges) {
-    const int elements = static_cast<int>(elements_of(edge, body.mesh.size));
-    mesh.corners.push_back(static_cast<int>(mesh.nodes.size()));
-    std::vector<LineElement>& line = mesh.edges.emplace_back();
-    for (int k = 0; k < elements; ++k) {
-      LineElement element;
-      for (int i = 0; i <= order; ++i) {
-        const int next = static_cast<int>(mesh.nodes.size());
-        element.nodes.push_back(next % total);  // the last node is the first again
-        if (i == order) break;                  // and belongs to the next element
-        const bool corner = k == 0 && i == 0;
-        mesh.nodes.push_back(corner ? edge.start : edge.at((k + 0.5 * (1.0 + points[i])) / elements));
-      }
-      line.push_back(element);
-      whole.boundary.push_back(std::move(element));
-    }
+  const std::vector<Run> runs = runs_of(body);
+  for (const Run& run : runs) {
+    const auto e = static_cast<std::size_t>(run.edge);
+    const std::vector<LineElement> line = divide_run(body.outline.edges[e], division[e], run, total, mesh.nodes);
+    add_to_edge(run, line, mesh.edges[e]);
+    const auto corner_at = [&](double end) -> int& { return mesh.corners[(e + (end == 1.0 ? 1 : 0)) % edges]; };
+    if (run.from == 0.0 || run.from == 1.0) corner_at(run.from) = line.front().nodes.front();
+    if (run.to == 0.0 || run.to == 1.0) corner_at(run.to) = line.back().nodes.back();
+    whole.boundary.insert(whole.boundary.end(), line.begin(), line.end());
+    if (!body.sector_materials.empty())
+      mesh.materials.insert(mesh.materials.end(), line.size(), body.sector_materials[e]);
+  }
+  if (body.open()) {
+    const Run& last = runs.back();
+    mesh.nodes.push_back(body.outline.edges[static_cast<std::size_t>(last.edge)].at(last.to));
   }
   ensure(static_cast<int>(mesh.nodes.size()) == total, "the boundary has the nodes that were counted");
   mesh.super_elements.push_back(std::move(whole));
@@ -69,21 +167,30 @@ BodyMesh divide_boundary(const model::Body& body) {
 }
 
 std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& mesh) {
-  const LobattoBasis basis(body.mesh.order);
   // |J| is a polynomial of degree 2 p - 1 along an element: 2 p + 1 points, the ends among them.
-  const Matrix shape = basis.shape_at(lobatto_points(2 * body.mesh.order));
-  const Matrix slope = shape * basis.derivative;
-
+  struct Sampling {
+    Matrix shape, slope;
+  };
+  std::map<std::size_t, Sampling> of_order;
   const auto is_seen = [&](const LineElement& element) {
+    const auto [found, is_new] = of_order.try_emplace(element.nodes.size());
+    auto& [shape, slope] = found->second;
+    if (is_new) {
+      const int order = static_cast<int>(element.nodes.size()) - 1;
+      const LobattoBasis basis(order);
+      shape = basis.shape_at(lobatto_points(2 * order));
+      slope = shape * basis.derivative;
+    }
     Eigen::MatrixX2d x(element.nodes.size(), 2);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       x.row(i) = mesh.nodes[element.nodes[i]] - body.mesh.centre;
     }
     const Eigen::MatrixX2d at = shape * x;
     const Eigen::MatrixX2d along = slope * x;
+    const double sense = body.outside ? -1.0 : 1.0;  // the edges of an outside body run clockwise
     for (Eigen::Index k = 0; k < at.rows(); ++k) {
       const Vec2 ray = at.row(k);
-      const Vec2 tangent = along.row(k);
+      const Vec2 tangent = sense * along.row(k);
       if (!(cross(ray, tangent) > smallest_sine * ray.norm() * tangent.norm())) return false;
     }
     return true;

@@ -60,6 +60,10 @@ class Matching {
   }
 
  private:
+  static bool holds(const model::Body& body, const Vec2& point) {
+    return encloses(body.outline, point) != body.outside;
+  }
+
   static ContactSide side_of(const model::Place& place, const model::Edge& edge,
                              const std::vector<BodyMesh>& bodies) {
     const BodyMesh& mesh = bodies[place.body];
@@ -190,7 +194,7 @@ class Matching {
     if (!deepest) return std::nullopt;
     for (const double s : {0.25, 0.75}) {
       const Vec2 point = deepest->point_a + s * (deepest->point_b - deepest->point_a);
-      if (encloses(body_a_.outline, point) && encloses(body_b_.outline, point)) return std::nullopt;
+      if (holds(body_a_, point) && holds(body_b_, point)) return std::nullopt;
     }
     return mistake(
         fmt::format("{} and {} face away from each other, {:.3g} back to back: name the two edges that "

@@ -43,11 +43,32 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
   return {};
 }
 
+/// Places `near` the mouth of a crack, where two nodes are equally near.
+std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& mesh) {
+  std::vector<Diagnostic> mistakes;
+  const auto look = [&](const model::Place& place, const Source& source) {
+    const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
+    if (place.kind != model::Place::Kind::near || body.cracks.empty() || mesh.bodies[static_cast<std::size_t>(place.body)].nodes.empty())
+      return;
+    const int node = nodes_of(place, mesh).nodes.front();
+    if (node != 0 && node + 1 != static_cast<int>(mesh.bodies[static_cast<std::size_t>(place.body)].nodes.size())) return;
+    mistakes.push_back({source, fmt::format("the nearest node is the mouth of crack '{1}', where there are two: write {0}.{1}.mouth_left "
+                                            "or {0}.{1}.mouth_right",
+                                            body.name, body.cracks.front().name)});
+  };
+  for (const model::Support& support : model.supports) look(support.on, support.on.source);
+  for (const model::Load& load : model.loads)
+    if (load.on) look(*load.on, load.on->source);
+  return mistakes;
+}
+
 bool is_edge(const model::Place& place) { return place.kind == model::Place::Kind::edge; }
 
 }  // namespace
 
-Mesh make_mesh(const model::Model& model) {
+Mesh make_mesh(const model::Model& model) { return make_mesh(model, Division(model.bodies.size())); }
+
+Mesh make_mesh(const model::Model& model, const Division& division) {
   Mesh mesh;
   std::vector<Diagnostic> mistakes;
   const auto add = [&](std::vector<Diagnostic> more) {
@@ -61,7 +82,9 @@ Mesh make_mesh(const model::Model& model) {
     const model::Body& body = model.bodies[b];
     if (body.rigid || add(obstacles(body, nodes))) continue;
     const bool fem = body.mesh.kind == model::MeshKind::fem;
-    mesh.bodies[b] = fem ? divide_grid(body) : divide_boundary(body);
+    mesh.bodies[b] = fem                    ? divide_grid(body)
+                     : division[b].empty() ? divide_boundary(body)
+                                           : divide_boundary(body, division[b]);
     if (!fem) add(unseen_edges(body, mesh.bodies[b]));
     nodes += static_cast<double>(mesh.bodies[b].nodes.size());
   }
@@ -78,6 +101,7 @@ Mesh make_mesh(const model::Model& model) {
       mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
     }
   }
+  add(ambiguous_points(model, mesh));
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
   return mesh;
 }

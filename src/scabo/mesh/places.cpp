@@ -26,6 +26,7 @@ int nearest_boundary_node(const BodyMesh& body, const Vec2& point) {
 std::vector<int> nodes_along(const std::vector<LineElement>& elements) {
   std::vector<int> nodes{elements.front().nodes.front()};
   for (const LineElement& element : elements) {
+    if (element.nodes.front() != nodes.back()) nodes.push_back(element.nodes.front());  // beyond a crack's mouth
     nodes.insert(nodes.end(), element.nodes.begin() + 1, element.nodes.end());
   }
   if (nodes.back() == nodes.front()) nodes.pop_back();  // an edge that is the whole boundary
@@ -49,6 +50,11 @@ PlaceNodes nodes_of(const model::Place& place, const Mesh& mesh) {
       break;
     case model::Place::Kind::corner:
       found.nodes = {body.corners.at(place.index)};
+      break;
+    case model::Place::Kind::face:
+      break;  // not divided
+    case model::Place::Kind::mouth:
+      found.nodes = {place.index == 0 ? 0 : static_cast<int>(body.nodes.size()) - 1};
       break;
     case model::Place::Kind::near:
       found.nodes = {nearest_boundary_node(body, place.near)};

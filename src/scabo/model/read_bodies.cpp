@@ -1,4 +1,4 @@
-// `materials` and `bodies`.
+// `bodies`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,34 +16,7 @@ namespace {
 constexpr double most_superelement_dofs = 20'000;  // dense matrices: 3 GB each at this number
 constexpr double most_fem_dofs = 1e6;
 
-constexpr const char* material_example = "{young: 10e9, poisson: 0.3}";
 constexpr const char* body_example = "{material: concrete, shape: {...}, mesh: {size: 0.1}}";
-
-std::optional<double> read_poisson(Reading& reading, const Value& value) {
-  const auto poisson = read_number(reading.report, value);
-  if (!poisson) return {};
-  const bool strain = reading.model.analysis.plane == Plane::strain;
-  if (*poisson > -1.0 && (*poisson < 0.5 || (!strain && *poisson == 0.5))) return poisson;
-  const char* range = strain ? "greater than -1 and less than 0.5 (plane strain)"
-                             : "greater than -1 and at most 0.5 (plane stress)";
-  reading.report.error(value, fmt::format("must be {}, not {}{}", range, value.node->text,
-                                          *poisson == 0.5 ? ": use 0.4999 for incompressible material" : ""));
-  return {};
-}
-
-std::optional<Material> read_material(Reading& reading, const Entry& entry) {
-  const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, entry.value, {"young", "poisson", "density"}, material_example);
-  Material material;
-  material.name = entry.key;
-  material.source = entry.key_source;
-  if (const auto value = map.need("young"))
-    material.young = read_positive(reading.report, *value).value_or(1.0);
-  if (const auto value = map.need("poisson")) material.poisson = read_poisson(reading, *value).value_or(0.0);
-  if (const auto value = map.get("density")) material.density = read_not_negative(reading.report, *value);
-  if (reading.report.count() > before) return {};
-  return material;
-}
 
 /// Pieces of at most `size` on `length`, without a piece more for the rounding of their quotient.
 double pieces(double length, double size) { return std::max(1.0, std::ceil(length / size * (1.0 - 1e-12))); }
@@ -69,9 +42,18 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
 
 /// Reports a scaling centre that does not see the whole boundary, with a better one where there is one.
 void check_centre(Reading& reading, const Source& at, const Outline& outline, const Vec2& centre,
-                  bool given) {
-  const std::vector<int> unseen = unseen_edges(outline, centre);
+                  bool given, int corner, const Crack* crack) {
+  std::vector<int> unseen = unseen_edges(outline, centre);
+  const int count = static_cast<int>(outline.edges.size());
+  if (corner >= 0)  // side faces are not divided
+    std::erase_if(unseen, [&](int e) { return e == corner || e == (corner + count - 1) % count; });
   if (unseen.empty()) return;
+  if (crack != nullptr) {
+    reading.report.error(crack->source, fmt::format("the tip {} of crack '{}', the scaling centre, does not see {}: move the tip, or "
+                                                    "divide the body into several",
+                                                    point_text(centre), crack->name, edge_names(outline, unseen)));
+    return;
+  }
   const auto better = seeing_point(outline);
   const std::string remedy =
       better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
@@ -79,33 +61,37 @@ void check_centre(Reading& reading, const Source& at, const Outline& outline, co
              : "no point sees the whole boundary: divide the body into several bodies";
   const std::string who =
       fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
-  if (!is_inside(outline, centre)) {
+  if (corner < 0 && !is_inside(outline, centre)) {
     reading.report.error(at, fmt::format("{} is not inside the body: {}", who, remedy));
   } else {
     reading.report.error(at, fmt::format("{} does not see {}: {}", who, edge_names(outline, unseen), remedy));
   }
 }
 
-}  // namespace
-
-void read_materials(Reading& reading, const Value& value) {
-  const std::size_t before = reading.report.count();
-  const auto entries =
-      read_named(reading.report, value, "materials", "{concrete: {young: 10e9, poisson: 0.3}}");
-  // A material whose name is no name is not in the list, but bodies may speak of it.
-  if (reading.report.count() > before) reading.materials_known = false;
-  for (const Entry& entry : entries) {
-    const auto material = read_material(reading, entry);
-    reading.material_names.push_back(entry.key);
-    reading.material_index.push_back(material ? static_cast<int>(reading.model.materials.size()) : -1);
-    if (material) reading.model.materials.push_back(*material);
-  }
+/// Corner of the outline at a point; -1 when there is none.
+int corner_at(const Outline& outline, const Vec2& point) {
+  for (std::size_t i = 0; i < outline.corners.size(); ++i)
+    if ((outline.corners[i].position - point).norm() <= 1e-9 * outline_size(outline)) return static_cast<int>(i);
+  return -1;
 }
 
-std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline) {
+/// The two edges at the scaling centre must be straight, and not all there is.
+void check_side_faces(Reading& reading, const Value& at, const Outline& outline, int corner) {
+  const auto count = outline.edges.size();
+  const auto c = static_cast<std::size_t>(corner);
+  for (const std::size_t edge : {c, (c + count - 1) % count})
+    if (outline.edges[edge].arc)
+      reading.report.error(at, fmt::format("{} meets the scaling centre and is an arc: side faces are straight",
+                                           shown_name(outline.edges[edge])));
+}
+
+}  // namespace
+
+std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"size", "order", "kind", "centre"}, "{size: 0.1, order: 2}");
+  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance"},
+                      "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
   if (const auto kind = map.get("kind")) {
@@ -118,8 +104,20 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
     }
   }
   const bool fem = mesh.kind == MeshKind::fem;
-  const auto size = map.need("size");
-  if (size) mesh.size = read_positive(report, *size).value_or(0.0);
+  if (fem) map.refuse("tolerance", "only a superelement is refined: leave it out for fem");
+  if (const auto tolerance = fem ? std::nullopt : map.get("tolerance")) {
+    const auto number = read_number(report, *tolerance);
+    if (number && *number >= 1e-5 && *number <= 0.5) mesh.tolerance = *number;
+    if (number && !mesh.tolerance) {
+      report.error(*tolerance, fmt::format("must be from 1e-5 to 0.5, not {}", tolerance->node->text));
+    }
+  }
+  const auto size = map.has("tolerance") && !fem ? map.get("size") : map.need("size");
+  if (size) {
+    mesh.size = read_positive(report, *size).value_or(0.0);
+  } else if (mesh.tolerance && outline != nullptr) {
+    for (const Edge& edge : outline->edges) mesh.size = std::max(mesh.size, 0.25 * edge.length());
+  }
   if (const auto order = map.get("order")) {
     mesh.order = static_cast<int>(read_integer(report, *order, 1, 16).value_or(2));
     if (fem && mesh.order != 2) {
@@ -127,7 +125,9 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
     }
   }
   if (fem) map.refuse("centre", "a scaling centre belongs to a superelement: leave it out for fem");
-  if (outline != nullptr) mesh.centre = outline->centroid();
+  if (fem && crack != nullptr) report.error(crack->source, "a crack belongs to a superelement: leave it out for fem");
+  if (outline != nullptr) mesh.centre = crack != nullptr ? crack->tip : outline->centroid();
+  if (crack != nullptr) map.refuse("centre", "the scaling centre of a body with a crack is the crack's tip: leave it out");
   const auto centre = fem ? std::nullopt : map.get("centre");
   if (centre) {
     const auto point = read_vector(report, *centre);
@@ -138,15 +138,23 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   const double dofs = estimated_dofs(*outline, mesh.kind, mesh.size, mesh.order);
   const double most = fem ? most_fem_dofs : most_superelement_dofs;
   if (dofs > most) {
-    report.error(*size,
+    report.error(size ? *size : value,
                  fmt::format("gives {:.6g} degrees of freedom, {} take at most {:.6g}: use a larger size{}",
                              dofs, fem ? "finite elements" : "one super-element can", most,
                              fem ? "" : " or divide the body"));
     return {};
   }
+  if (centre) {
+    mesh.centre_corner = corner_at(*outline, mesh.centre);
+    if (mesh.centre_corner >= 0) {
+      mesh.centre = outline->corners[static_cast<std::size_t>(mesh.centre_corner)].position;
+      check_side_faces(reading, *centre, *outline, mesh.centre_corner);
+    }
+  }
   if (!fem) {
     // Without mesh.centre the remedy is to give one: the body's mesh is where it goes.
-    check_centre(reading, centre ? centre->source() : mesh.source, *outline, mesh.centre, centre.has_value());
+    check_centre(reading, centre ? centre->source() : mesh.source, *outline, mesh.centre, centre.has_value(),
+                 mesh.centre_corner, crack);
     if (report.count() > before) return {};
   }
   return mesh;
@@ -154,23 +162,54 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
 
 namespace {
 
-void read_material_of(Reading& reading, const Value& value, Body& body, BodyState& state) {
+}  // namespace
+
+std::optional<int> read_material_name(Reading& reading, const Value& value) {
   const auto name = read_text(reading.report, value);
-  if (!name || !reading.materials_known) return;
+  if (!name || !reading.materials_known) return {};
   const auto found = std::find(reading.material_names.begin(), reading.material_names.end(), *name);
   if (found == reading.material_names.end()) {
     reading.report.error(value, fmt::format("no material named {}{}", quoted_name(*name),
                                             suggestion(*name, reading.material_names)));
-    return;
+    return {};
   }
-  body.material = reading.material_index[static_cast<std::size_t>(found - reading.material_names.begin())];
-  state.material = body.material >= 0;
+  return reading.material_index[static_cast<std::size_t>(found - reading.material_names.begin())];
+}
+
+namespace {
+
+/// What makes a body's super-element open or unbounded: read after the shape, before and after the mesh.
+void read_outside(Reading& reading, const MapReader& map, Body& body, bool shape_known) {
+  const auto outside = map.get("outside");
+  if (outside) body.outside = read_flag(reading.report, *outside).value_or(false);
+  const auto reference = map.get("reference");
+  if (reference && !body.outside) {
+    map.refuse("reference", "a reference point belongs to a body with outside: true");
+  } else if (reference) {
+    body.reference = read_vector(reading.report, *reference);
+    if (body.reference && shape_known && is_inside(body.outline, *body.reference)) {
+      reading.report.error(*reference, fmt::format("{} lies in the hole, not in the body", point_text(*body.reference)));
+      body.reference.reset();
+    }
+  }
+  if (!body.outside) return;
+  map.refuse("cracks", "a body with outside: true has no cracks in this version");
+  if (body.mesh.kind == MeshKind::fem) map.refuse("outside", "finite elements do not reach to infinity: use superelement");
+}
+
+/// An outside body's outline runs the other way round: its material is on the left again.
+void turn_outside(Body& body) {
+  const int count = static_cast<int>(body.outline.edges.size());
+  turn_round(body.outline);
+  std::reverse(body.sector_materials.begin(), body.sector_materials.end());
+  if (body.mesh.centre_corner >= 0) body.mesh.centre_corner = (count - body.mesh.centre_corner) % count;
 }
 
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
-      report, entry.value, {"material", "shape", "mesh", "rigid"}, body_example,
+      report, entry.value,
+      {"material", "shape", "mesh", "rigid", "cracks", "sectors", "outside", "reference"}, body_example,
       {{"file", "describe the body with shape"}, {"holes", "divide the body into bodies without holes"}});
   Body body;
   BodyState state;
@@ -188,13 +227,32 @@ void read_body(Reading& reading, const Entry& entry) {
     }
   }
   if (body.rigid) {
-    for (const char* key : {"material", "mesh"}) {
+    for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference"}) {
       map.refuse(key, "a rigid body has neither material nor mesh: leave it out");
     }
   } else if (rigid) {  // otherwise nobody knows what it needs
-    if (const auto material = map.need("material")) read_material_of(reading, *material, body, state);
+    if (const auto material = map.need("material"))
+      body.material = read_material_name(reading, *material).value_or(-1);
+    state.material = body.material >= 0;
+    if (const auto cracks = map.get("cracks"); cracks && state.shape) {
+      auto read = read_cracks(reading, *cracks, body);
+      if (read) body.cracks = std::move(*read);
+      else state.shape = false;
+    }
     if (const auto mesh = map.need("mesh")) {
-      body.mesh = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr).value_or(MeshOptions{});
+      const auto options = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
+                                     body.cracks.empty() ? nullptr : &body.cracks.front());
+      if (options) body.mesh = *options;
+      else if (mesh->node->kind == Node::Kind::map && mesh->node->find("centre")) state.shape = false;  // faces are not known
+    }
+    if (const auto sectors = map.get("sectors"); sectors && state.shape) {
+      if (body.mesh.kind == MeshKind::fem) map.refuse("sectors", "sectors belong to a superelement: leave them out for fem");
+      else body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
+    }
+    read_outside(reading, map, body, state.shape);
+    if (body.outside) {
+      state.held = true;
+      if (state.shape) turn_outside(body);
     }
   }
   reading.model.bodies.push_back(std::move(body));

@@ -18,6 +18,18 @@ std::optional<Place> read_side(Reading& reading, const Value& value, int& body) 
   body = read.body;
   if (read.body >= 0) reading.state(read.body).touched = true;
   if (!read.place) return {};
+  if (read.place->kind == Place::Kind::face) {
+    reading.report.error(value, fmt::format("'{}' is a side face, which is not divided: contact on it needs a body divided "
+                                            "into several, with the crack between them",
+                                            read.place->text));
+    return {};
+  }
+  for (const Crack& crack : reading.body(read.place->body).cracks)
+    if (crack.edge == read.place->index && read.place->kind == Place::Kind::edge) {
+      reading.report.error(value, fmt::format("the mouth of crack '{}' lies on '{}': contact needs an edge without one",
+                                              crack.name, read.place->text));
+      return {};
+    }
   if (read.place->kind != Place::Kind::edge) {
     reading.report.error(
         value, fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is "
@@ -56,10 +68,9 @@ std::optional<std::pair<Place, Place>> read_between(Reading& reading, const Valu
 std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, entry.value, {"between", "friction", "gap"}, contact_example,
-                      {{"cohesion", "leave it out, contact has Coulomb friction only"},
-                       {"tension", "leave it out, contact has Coulomb friction only"},
-                       {"kind", "leave it out, every contact is node to node"},
+  const MapReader map(report, entry.value,
+                      {"between", "friction", "gap", "cohesion", "tension", "bond", "shear_strength"}, contact_example,
+                      {{"kind", "leave it out, every contact is node to node"},
                        {"penalty", "leave it out, contact is solved exactly"}});
   Contact contact;
   contact.name = entry.key;
@@ -67,10 +78,9 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
   const auto between_value = map.need("between");
   if (!between_value) reading.places_known = false;
   const auto between = between_value ? read_between(reading, *between_value) : std::nullopt;
-  if (const auto friction = map.get("friction")) {
-    contact.friction = read_not_negative(report, *friction).value_or(0.0);
-  }
+  read_law(reading, map, contact);
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
+  if (contact.bond && map.has("gap")) map.refuse("gap", "a bonded contact holds its sides as they are at the start: leave it out");
   if (report.count() > before || !between) return {};
   contact.a = between->first;
   contact.b = between->second;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scabo/model/reading.hpp"
+#include "scabo/model/read_inner_loads.hpp"
 
 namespace scabo::model {
 
@@ -21,7 +21,10 @@ const char* kind_text(Place::Kind kind) {
     case Place::Kind::corner:
       return "a corner";
     case Place::Kind::near:
+    case Place::Kind::mouth:
       return "a point";
+    case Place::Kind::face:
+      return "a side face";
   }
   return "";
 }
@@ -30,13 +33,24 @@ const char* kind_text(Place::Kind kind) {
 bool check_place(Reading& reading, const Value& on, const Place& place, const std::string& kind) {
   const bool rigid = reading.body(place.body).rigid;
   const std::string& body = reading.body(place.body).name;
+  const bool outside = reading.body(place.body).outside;
   std::string why;
-  if (kind == "gravity") {
+  if (kind == "gravity" || kind == "body_force" || kind == "temperature") {
     if (place.kind != Place::Kind::body) {
-      why = fmt::format("gravity acts on a whole body: write on: {}", body);
+      why = fmt::format("{} acts on a whole body: write on: {}", kind, body);
     } else if (rigid) {
-      why = fmt::format("'{}' is rigid and has no weight: use a force on it", body);
+      why = fmt::format("'{}' is rigid: {}", body,
+                        kind == "temperature" ? "temperature does nothing to it" : "it has no weight, use a force on it");
+    } else if (outside) {
+      why = fmt::format("'{}' reaches to infinity: loads act on its boundary only", body);
+    } else if (kind != "gravity" && reading.body(place.body).mesh.kind == MeshKind::fem) {
+      why = fmt::format("{} is not available for finite elements: use kind superelement", kind);
     }
+  } else if (place.kind == Place::Kind::face && outside) {
+    why = fmt::format("'{}' reaches to infinity: loads act on its inner boundary only, not on its side faces", body);
+  } else if (place.kind == Place::Kind::face && kind == "force") {
+    why = "a side face carries a traction or a pressure: divide the force by its length and the thickness";
+  } else if (place.kind == Place::Kind::face) {
   } else if (kind == "force") {
     if (rigid && place.kind == Place::Kind::edge) {
       why = fmt::format("'{}' is rigid: put the force on the body or on a corner", body);
@@ -53,9 +67,15 @@ bool check_place(Reading& reading, const Value& on, const Place& place, const st
   return false;
 }
 
-std::optional<std::variant<Force, Traction, Pressure, Gravity>> read_kind(Reading& reading,
-                                                                          const Value& value,
-                                                                          const std::string& kind) {
+std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& value, const std::string& kind,
+                                              bool on_face) {
+  if (kind == "body_force") return read_body_force(reading, value);
+  if (kind == "temperature") return read_temperature(reading, value);
+  if (on_face) return read_face_traction(reading, value, kind == "pressure");
+  if ((kind == "traction" || kind == "pressure") && value.node->kind == Node::Kind::map) {
+    reading.report.error(value, fmt::format("powers and points of xi belong to side faces: on an edge, {} is constant", kind));
+    return {};
+  }
   if (kind == "pressure") {
     const auto pressure = read_number(reading.report, value);
     if (!pressure) return {};
@@ -72,38 +92,48 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const std::size_t before = report.count();
   const MapReader map(
-      report, entry.value, {"on", "force", "traction", "pressure", "gravity"}, load_example,
-      {{"moment", "use two opposite forces"}, {"temperature", "leave it out, loads are mechanical"}});
+      report, entry.value, {"on", "force", "traction", "pressure", "gravity", "body_force", "temperature"}, load_example,
+      {{"moment", "use two opposite forces"}});
   if (!map.is_map()) return {};
   Load load;
   load.name = entry.key;
   load.source = entry.key_source;
   std::vector<std::string> kinds;
-  for (const char* kind : {"force", "traction", "pressure", "gravity"}) {
+  for (const char* kind : {"force", "traction", "pressure", "gravity", "body_force", "temperature"}) {
     if (map.has(kind)) kinds.emplace_back(kind);
   }
   if (kinds.size() > 1) {
     report.error(entry.key_source,
-                 fmt::format("needs one of force, traction, pressure and gravity, not both {} and {}",
-                             kinds[0], kinds[1]));
+                 fmt::format("needs one of force, traction, pressure, gravity, body_force and temperature, not both {} and "
+                             "{}", kinds[0], kinds[1]));
     return {};
   }
   if (kinds.empty()) {
     if (report.count() == before)
-      report.error(entry.key_source, "needs one of force, traction, pressure and gravity");
+      report.error(entry.key_source, "needs one of force, traction, pressure, gravity, body_force and temperature");
     return {};
   }
   const std::string& kind = kinds.front();
-  const auto value = read_kind(reading, *map.get(kind), kind);
-  const auto on = kind == "gravity" ? map.get("on") : map.need("on");
+  const auto on = kind == "gravity" || kind == "temperature" ? map.get("on") : map.need("on");
   if (on) {
     const auto place = read_place(reading, *on).place;
     if (place && check_place(reading, *on, *place, kind)) load.on = place;
-    if (!load.on) return {};
   }
+  const bool on_face = load.on && load.on->kind == Place::Kind::face;
+  const bool value_known = !on || load.on || map.get(kind)->node->kind != Node::Kind::map;  // powers of what?
+  const auto value = value_known ? read_kind(reading, *map.get(kind), kind, on_face) : std::nullopt;
+  if (on && !load.on) return {};
   if (report.count() > before || !value) return {};
   load.kind = *value;
   return load;
+}
+
+/// Indices of the materials of a body, -1 for broken ones left out.
+std::set<int> materials_of(const Body& body) {
+  std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
+  if (materials.empty()) materials.insert(body.material);
+  materials.erase(-1);
+  return materials;
 }
 
 }  // namespace
@@ -130,18 +160,65 @@ void read_loads(Reading& reading, const Value& value) {
   reading.places_known = places_known;
 }
 
+void check_expansion(Reading& reading) {
+  std::set<int> told;
+  for (const Load& load : reading.model.loads) {
+    if (!std::holds_alternative<Temperature>(load.kind)) continue;
+    for (std::size_t i = 0; i < reading.model.bodies.size(); ++i) {
+      const Body& body = reading.model.bodies[i];
+      if (body.material < 0 || body.outside || (load.on && load.on->body != static_cast<int>(i))) continue;
+      if (!load.on && body.mesh.kind == MeshKind::fem)
+        reading.report.error(load.source, fmt::format("temperature is not available for finite elements, as in body '{}': name "
+                                                      "a body with 'on'", body.name));
+      for (const int index : materials_of(body)) {
+        const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
+        if (material.expansion || !told.insert(index).second) continue;
+        reading.report.error(material.source, fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'",
+                                                          load.name, body.name));
+      }
+    }
+  }
+}
+
+namespace {
+
+/// A body without mass has no frequencies.
+void check_density_of_modal_analysis(Reading& reading) {
+  std::set<int> told;
+  for (const Body& body : reading.model.bodies) {
+    if (body.outside)
+      reading.report.error(body.source, "this body reaches to infinity and has no natural frequencies: leave it out of a modal analysis");
+    if (body.material < 0 || body.outside) continue;
+    for (const int index : materials_of(body)) {
+      const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
+      if (material.density.value_or(0.0) > 0.0 || !told.insert(index).second) continue;
+      reading.report.error(material.source,
+                           fmt::format("'density' {}: a modal analysis needs the mass of body '{}'",
+                                       material.density ? "is 0" : "is missing", body.name));
+    }
+  }
+}
+
+}  // namespace
+
 void check_density(Reading& reading) {
+  if (reading.model.analysis.type == AnalysisType::modal) {
+    check_density_of_modal_analysis(reading);
+    return;
+  }
   for (const Load& load : reading.model.loads) {
     if (!std::holds_alternative<Gravity>(load.kind)) continue;
     std::set<int> told;
     for (std::size_t i = 0; i < reading.model.bodies.size(); ++i) {
       const Body& body = reading.model.bodies[i];
-      if (body.material < 0 || (load.on && load.on->body != static_cast<int>(i))) continue;
-      const Material& material = reading.model.materials[static_cast<std::size_t>(body.material)];
-      if (material.density || !told.insert(body.material).second) continue;
-      reading.report.error(
-          material.source,
-          fmt::format("'density' is missing: gravity of load '{}' acts on body '{}'", load.name, body.name));
+      if (body.material < 0 || body.outside || (load.on && load.on->body != static_cast<int>(i))) continue;
+      for (const int index : materials_of(body)) {
+        const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
+        if (material.density || !told.insert(index).second) continue;
+        reading.report.error(
+            material.source,
+            fmt::format("'density' is missing: gravity of load '{}' acts on body '{}'", load.name, body.name));
+      }
     }
   }
 }

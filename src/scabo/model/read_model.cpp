@@ -11,17 +11,29 @@
 
 namespace scabo::model {
 
+namespace {
+constexpr long most_modes = 1000;
+}
+
 void read_analysis(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"type", "plane", "thickness"},
+  const MapReader map(reading.report, value, {"type", "plane", "thickness", "modes"},
                       "{plane: strain, thickness: 1.0}");
+  Analysis& analysis = reading.model.analysis;
+  bool type_known = true;
   if (const auto type = map.get("type")) {
     const std::string remedy = "write static";
-    read_choice(reading.report, *type, {"static"},
-                {{"modal", remedy},
-                 {"dynamic", remedy},
-                 {"harmonic", remedy},
-                 {"buckling", remedy},
-                 {"fracture", remedy}});
+    const auto choice = read_choice(
+        reading.report, *type, {"static", "modal"},
+        {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}});
+    if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
+    type_known = choice.has_value();
+  }
+  if (const auto modes = map.get("modes")) {
+    if (analysis.type == AnalysisType::modal || !type_known) {
+      analysis.modes = static_cast<int>(read_integer(reading.report, *modes, 1, most_modes).value_or(10));
+    } else {
+      map.refuse("modes", "belongs to a modal analysis: write type: modal, or leave it out");
+    }
   }
   if (const auto plane = map.get("plane")) {
     const auto choice =
@@ -34,7 +46,8 @@ void read_analysis(Reading& reading, const Value& value) {
 }
 
 void read_solver(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings"}, "{tolerance: 1e-10}");
+  const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings", "uniqueness"},
+                      "{tolerance: 1e-10}");
   SolverOptions& solver = reading.model.solver;
   if (const auto tolerance = map.get("tolerance")) {
     const auto number = read_number(reading.report, *tolerance);
@@ -51,6 +64,8 @@ void read_solver(Reading& reading, const Value& value) {
   if (const auto halvings = map.get("halvings")) {
     solver.halvings = static_cast<int>(read_integer(reading.report, *halvings, 0, 30).value_or(6));
   }
+  if (const auto uniqueness = map.get("uniqueness"))
+    solver.uniqueness = read_flag(reading.report, *uniqueness).value_or(false);
 }
 
 namespace {
@@ -82,7 +97,6 @@ void read_sections(Reading& reading, const Value& root) {
     reading.model.title = read_text(reading.report, *title).value_or("");
   if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);
   if (const auto solver = map.get("solver")) read_solver(reading, *solver);
-  if (const auto output = map.get("output")) read_output(reading, *output);
 
   reading.materials_known = map.has("materials");
   if (const auto materials = map.get("materials")) read_materials(reading, *materials);
@@ -101,8 +115,36 @@ void read_sections(Reading& reading, const Value& root) {
   const std::size_t before_steps = reading.report.count();
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
+  if (const auto output = map.get("output")) read_output(reading, *output);
   // A misspelt section may be the one that is missing.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
+}
+
+/// Says of a modal analysis what of the file plays no part in it, so that one file serves both kinds of analysis.
+void tell_what_has_no_effect(Reading& reading, const Value& root) {
+  Model& model = reading.model;
+  if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
+  std::vector<std::string> parts;
+  for (const char* section : {"loads", "contacts", "steps", "solver"}) {
+    const MapEntry* entry = root.node->find(section);
+    if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
+  }
+  if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.rigid; }))
+    parts.emplace_back("rigid bodies");
+  if (!parts.empty()) {
+    std::string list = parts.front();
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      list += i + 1 < parts.size() ? ", " : " and ";
+      list += parts[i];
+    }
+    model.warnings.push_back(fmt::format("a modal analysis leaves out the model's {}{}", list,
+                                         model.contacts.empty() ? "" : ": every body vibrates by itself"));
+  }
+  for (const Support& support : model.supports)
+    if (std::any_of(support.displacement.begin(), support.displacement.end(),
+                    [](const auto& u) { return u.value_or(0.0) != 0.0; }))
+      model.warnings.push_back(fmt::format(
+          "a modal analysis holds support '{}' where it is, whatever displacement it prescribes", support.name));
 }
 
 /// Edges that lie on each other everywhere have neither gap nor interference.
@@ -170,12 +212,17 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
   const Value whole{root, ""};
   read_sections(reading, whole);
   check_density(reading);
-  check_bodies_held(reading);
-  check_something_loads(reading, whole);
+  check_expansion(reading);
+  const bool modal = reading.model.analysis.type == AnalysisType::modal;
+  if (!modal) {
+    check_bodies_held(reading);
+    check_something_loads(reading, whole);
+  }
   if (reading.steps_known) {
-    check_never_applied(reading);
+    if (!modal) check_never_applied(reading);
     check_conflicting_supports(reading);
   }
+  tell_what_has_no_effect(reading, whole);
   reading.report.throw_if_any(file);
   return std::move(reading.model);
 }

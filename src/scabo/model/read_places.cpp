@@ -26,21 +26,69 @@ bool has_name(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Side face of a notch or corner that an edge is, 0 at the beginning of the boundary, 1 at its end; -1 for other edges.
+int face_of_edge(const Body& body, int edge) {
+  const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
+  if (corner < 0) return -1;
+  if (edge == corner) return body.outside ? 1 : 0;
+  return edge == (corner + count - 1) % count ? (body.outside ? 0 : 1) : -1;
+}
+
+/// Faces and mouths of a crack: seen from the mouth towards the tip, `left` is the end of the boundary.
+void add_crack_places(const Crack& crack, std::vector<std::pair<std::string, Place>>& places) {
+  const auto add = [&](const char* part, Place::Kind kind, int index) {
+    Place place;
+    place.kind = kind;
+    place.index = index;
+    places.emplace_back(crack.name + part, place);
+  };
+  add(".left", Place::Kind::face, 1);
+  add(".right", Place::Kind::face, 0);
+  add(".mouth_left", Place::Kind::mouth, 1);
+  add(".mouth_right", Place::Kind::mouth, 0);
+}
+
 ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_view part,
                     const std::string& text) {
   ReadPlace result{{}, body};
   if (!reading.state(body).shape) return result;
   const Outline& outline = reading.body(body).outline;
   std::vector<std::string> known;
+  for (const Crack& crack : reading.body(body).cracks) {
+    std::vector<std::pair<std::string, Place>> places;
+    add_crack_places(crack, places);
+    for (auto& [name, place] : places) {
+      known.push_back(name);
+      if (name != part) continue;
+      place.body = body;
+      place.text = text;
+      place.source = value.source();
+      result.place = place;
+      return result;
+    }
+  }
   for (std::size_t i = 0; i < outline.edges.size(); ++i) {
     if (has_name(outline.edges[i].names, part)) {
-      result.place = Place{Place::Kind::edge, body, static_cast<int>(i), Vec2::Zero(), text, value.source()};
+      const int face = face_of_edge(reading.body(body), static_cast<int>(i));
+      result.place = Place{face >= 0 ? Place::Kind::face : Place::Kind::edge, body,
+                           face >= 0 ? face : static_cast<int>(i), Vec2::Zero(), text, value.source()};
       return result;
     }
     known.insert(known.end(), outline.edges[i].names.rbegin(), outline.edges[i].names.rend());
   }
   for (std::size_t i = 0; i < outline.corners.size(); ++i) {
     if (has_name(outline.corners[i].names, part)) {
+      if (static_cast<int>(i) == reading.body(body).mesh.centre_corner) {
+        reading.report.error(value, fmt::format("'{}' is the scaling centre, which has no node: nothing can be put there", text));
+        return result;
+      }
+      for (const Crack& crack : reading.body(body).cracks)
+        if (crack.at == 0.0 && crack.edge == static_cast<int>(i)) {
+          reading.report.error(value, fmt::format("'{0}' is the mouth of crack '{1}', where there are two nodes: write {2}.{1}.mouth_left "
+                                                  "or {2}.{1}.mouth_right",
+                                                  text, crack.name, reading.body(body).name));
+          return result;
+        }
       result.place =
           Place{Place::Kind::corner, body, static_cast<int>(i), Vec2::Zero(), text, value.source()};
       return result;

@@ -41,7 +41,8 @@ void number_names(Outline& outline) {
   }
 }
 
-/// The same outline run the other way round; every edge and corner keeps its names.
+}  // namespace
+
 void turn_round(Outline& outline) {
   const std::size_t n = outline.edges.size();
   // Edge i, from corner i to i + 1, becomes number n - 1 - i and then starts at corner i + 1.
@@ -59,6 +60,8 @@ void turn_round(Outline& outline) {
   turned.rectangle = outline.rectangle;
   outline = std::move(turned);
 }
+
+namespace {
 
 /// Where the mistakes of the outline as a whole are reported.
 bool check_extent(Reading& reading, const Value& at, const Outline& outline) {

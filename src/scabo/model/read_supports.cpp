@@ -86,6 +86,11 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   const ReadPlace place = on ? read_place(reading, *on) : ReadPlace{};
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
+  if (place.place && place.place->kind == Place::Kind::face) {
+    report.error(*on, fmt::format("'{}' is a side face, which is not divided: a support holds edges, corners and points",
+                                  place.place->text));
+    return {};
+  }
   std::optional<Displacement> displacement;
   if (map.has("fix") == map.has("displacement")) {
     if (map.has("fix") || report.count() == before) {
@@ -141,6 +146,8 @@ bool includes_corner(const Place& place, int corner, int corners) {
       return place.index == corner;
     case Place::Kind::edge:
       return place.index == corner || (place.index + 1) % corners == corner;
+    case Place::Kind::face:
+    case Place::Kind::mouth:
     case Place::Kind::near:
       return false;  // only the mesh knows
   }
@@ -148,9 +155,11 @@ bool includes_corner(const Place& place, int corner, int corners) {
 }
 
 /// Whether two places of the same body surely share a point.
-bool share_a_point(const Place& a, const Place& b, int corners) {
-  if (a.kind == Place::Kind::near && b.kind == Place::Kind::near) return a.near == b.near;
-  if (a.kind == Place::Kind::near || b.kind == Place::Kind::near) {
+bool share_a_point(const Place& a, const Place& b, const Body& body) {
+  const int corners = static_cast<int>(body.outline.corners.size());
+  const auto is_point = [](const Place& p) { return p.kind == Place::Kind::near || p.kind == Place::Kind::mouth; };
+  if (is_point(a) && is_point(b)) return a.kind == b.kind && a.near == b.near && a.index == b.index;
+  if (is_point(a) || is_point(b)) {
     return a.kind == Place::Kind::body || b.kind == Place::Kind::body;
   }
   if (a.kind == Place::Kind::edge && b.kind == Place::Kind::edge && a.index == b.index) return true;
@@ -158,8 +167,12 @@ bool share_a_point(const Place& a, const Place& b, int corners) {
   const Place& smaller = a.kind == Place::Kind::body ? b : a;
   const Place& larger = a.kind == Place::Kind::body ? a : b;
   if (smaller.kind == Place::Kind::body) return true;
-  if (includes_corner(larger, smaller.index, corners)) return true;
-  return smaller.kind == Place::Kind::edge && includes_corner(larger, (smaller.index + 1) % corners, corners);
+  // At the mouth of a crack on a corner the two edges have different nodes.
+  const auto shared = [&](int corner) {
+    const bool mouth = !body.cracks.empty() && body.cracks.front().at == 0.0 && body.cracks.front().edge == corner;
+    return !mouth && includes_corner(larger, corner, corners);
+  };
+  return shared(smaller.index) || (smaller.kind == Place::Kind::edge && shared((smaller.index + 1) % corners));
 }
 
 std::string where(const Source& source) {
@@ -170,8 +183,7 @@ std::string where(const Source& source) {
 void check_pair(Reading& reading, std::size_t first, std::size_t second) {
   const Support& a = reading.model.supports[first];
   const Support& b = reading.model.supports[second];
-  const auto corners = static_cast<int>(reading.body(a.on.body).outline.corners.size());
-  if (!share_a_point(a.on, b.on, corners)) return;
+  if (!share_a_point(a.on, b.on, reading.body(a.on.body))) return;
   for (std::size_t c = 0; c < 2; ++c) {
     if (!a.displacement[c] || !b.displacement[c]) continue;
     const bool differ =

@@ -53,11 +53,23 @@ void read_loads(Reading& reading, const Value& value);
 void read_contacts(Reading& reading, const Value& value);
 /// Without a section (nothing): one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
+void read_output(Reading& reading, const Value& value);
+
+/// What a contact carries: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
+void read_law(Reading& reading, const MapReader& map, Contact& contact);
 
 /// `shape` of a body; nothing when it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);
-/// `mesh` of an elastic body whose outline is known, or not (nullptr).
-std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline);
+/// The same outline run the other way round; every edge and corner keeps its names.
+void turn_round(Outline& outline);
+/// `mesh` of an elastic body whose outline is known, or not (nullptr); `crack`: its tip is the scaling centre.
+std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack);
+/// `cracks` of a body whose outline is known; nothing when they are broken.
+std::optional<std::vector<Crack>> read_cracks(Reading& reading, const Value& value, const Body& body);
+/// `sectors`: a material for each edge; nothing when it is broken.
+std::optional<std::vector<int>> read_sectors(Reading& reading, const Value& value, const Body& body);
+/// Index into Model::materials of the material that `value` names, -1 for a broken one; nothing when there is none.
+std::optional<int> read_material_name(Reading& reading, const Value& value);
 
 /// A place; nothing when it is broken or names a part of a broken body. `body` is its index as soon as that
 /// much is known.
@@ -74,6 +86,7 @@ void check_never_applied(Reading& reading);
 void check_bodies_held(Reading& reading);
 void check_something_loads(Reading& reading, const Value& root);
 void check_density(Reading& reading);
+void check_expansion(Reading& reading);
 
 /// What messages call an edge: the user's own name for it, or `edge_3`.
 const std::string& shown_name(const Edge& edge);

@@ -31,14 +31,6 @@ Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
   return {motion[0] - motion[2] * arm.y(), motion[1] + motion[2] * arm.x()};
 }
 
-Vector body_force_load(const Vector& weights, const Vec2& body_force, double thickness) {
-  if (body_force.isZero(0.0)) return {};
-  Vector load(2 * weights.size());
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
-    load.segment<2>(2 * i) = weights[i] * thickness * body_force;
-  return load;
-}
-
 FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element,
                                         const Vector& u) {
   FiniteElementState state;
@@ -84,12 +76,15 @@ std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const 
 }
 
 Probe::Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body)
-    : solution_(solution), body_(static_cast<std::size_t>(body)), u_(increment.displacements[body_]) {
+    : solution_(solution), body_(static_cast<std::size_t>(body)), u_(increment.displacements[body_]),
+      interior_(increment.interior[body_]) {
   const auto& super_element = solution.super_elements[body_];
   if (!super_element) return;
-  field_.emplace(super_element->solution, super_element->modes(), u_,
-                 body_force_load(element::body_load_weights(super_element->ring),
-                                 increment.body_forces[body_], super_element->thickness));
+  field_.emplace(super_element->solution, super_element->modes(), u_, interior_.loads);
+}
+
+void Probe::expect_many() {
+  if (field_ && !table_) table_.emplace(*field_, element::fastest_of(solution_.super_elements[body_]->modes()));
 }
 
 std::optional<element::PointValues> Probe::at(const Vec2& x) const {
@@ -103,9 +98,18 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   if (!field_) return in_finite_elements(x);
   const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
   const Vec2& centre = solution_.mesh.bodies[body_].super_elements.front().centre;
-  const auto point = element::locate(super_element.ring, x - centre);
-  if (!point) return std::nullopt;
-  return element::point_values(super_element.ring, field_->at(point->xi), super_element.D, point->element, point->eta);
+  const auto place = element::locate(super_element.ring, x - centre, super_element.domain.unbounded);
+  if (!place) return std::nullopt;
+  return at(x, *place);
+}
+
+element::PointValues Probe::at(const Vec2& x, const element::ScaledPoint& place) const {
+  ensure(field_.has_value(), "only super-elements have scaled boundary coordinates");
+  const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
+  const element::Vec3 free =
+      super_element.sectors.unit_strain_of(static_cast<std::size_t>(place.element)) * interior_.temperature.at(x);
+  return element::point_values(super_element.ring, table_ ? table_->at(place.xi) : field_->at(place.xi), super_element.sectors.D,
+                               place.element, place.eta, free);
 }
 
 std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {

@@ -7,6 +7,7 @@
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/plane_element8.hpp"
+#include "scabo/element/radial_table.hpp"
 
 namespace scabo::result {
 
@@ -16,9 +17,17 @@ class Probe {
  public:
   Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body);
 
+  Probe(const Probe&) = delete;
+  Probe& operator=(const Probe&) = delete;
+
+  /// Makes many points cheap: fields of super-elements are interpolated along xi, to rounding.
+  void expect_many();
+
   /// Nothing when the point lies outside the body. Between finite elements (super-elements: boundary
   /// elements) that of one of them is taken. A rigid body has displacement only.
   std::optional<element::PointValues> at(const Vec2& x) const;
+  /// The same where its place in the super-element is known already.
+  element::PointValues at(const Vec2& x, const element::ScaledPoint& place) const;
 
  private:
   std::optional<element::PointValues> in_finite_elements(const Vec2& x) const;
@@ -26,7 +35,9 @@ class Probe {
   const analysis::StaticSolution& solution_;
   std::size_t body_;
   const Vector& u_;
+  const element::InteriorLoads& interior_;
   std::optional<element::RadialField> field_;  // of a super-element
+  std::optional<element::RadialTable> table_;  // of field_
 };
 
 /// The same for a single point.
@@ -47,8 +58,5 @@ std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const 
 
 /// Displacement of a point of a rigid body, `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.
 Vec2 rigid_displacement(const Vector& motion, const Vec2& arm);
-
-/// F_b of element::RadialField for a uniform body force; empty where there is none.
-Vector body_force_load(const Vector& weights, const Vec2& body_force, double thickness);
 
 }  // namespace scabo::result

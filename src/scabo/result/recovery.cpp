@@ -13,38 +13,44 @@ namespace scabo::result {
 
 namespace {
 
-constexpr int ring_count = 10;
+constexpr int ring_count = 10, inner_rings = 6;
 
-double zz_of(const analysis::StaticSolution& solution, std::size_t body, const element::Vec3& stress) {
-  const model::Body& owner = solution.model.bodies[body];
-  return element::stress_zz(stress, solution.model.materials[static_cast<std::size_t>(owner.material)],
-                            solution.model.analysis.plane);
+double zz_of(const analysis::StaticSolution& solution, int material, const element::Vec3& stress,
+             double temperature) {
+  return element::stress_zz(stress, solution.model.materials[static_cast<std::size_t>(material)],
+                            solution.model.analysis.plane, temperature);
 }
 
 // Points and cells
 
+/// Position of a point of a ring.
+Vec2 on_ring(const mesh::BodyMesh& body, int node, double xi) {
+  const Vec2 &centre = body.super_elements.front().centre, &x = body.nodes[static_cast<std::size_t>(node)];
+  return xi == 1.0 ? x : Vec2(centre + xi * (x - centre));
+}
+
 /// Rings from the boundary inwards, then the centre: quadrilaterals between the rings, triangles at the
-/// centre.
-void add_super_element(Grid& grid, const mesh::BodyMesh& body, const std::vector<double>& levels,
-                       std::int32_t number) {
-  const mesh::SuperElement& super_element = body.super_elements.front();
+/// centre. Of an unbounded domain, rings from the boundary outwards.
+void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSampling& sampling, std::int32_t number) {
   const auto first = static_cast<std::int32_t>(grid.point_count());
-  const auto n = static_cast<std::int32_t>(body.nodes.size());
-  for (const double xi : levels)
-    for (const Vec2& node : body.nodes)
-      grid.add_point(xi == 1.0 ? node : Vec2(super_element.centre + xi * (node - super_element.centre)),
-                     number);
-  grid.add_point(super_element.centre, number);
-  const auto rings = static_cast<std::int32_t>(levels.size());
+  const auto n = static_cast<std::int32_t>(sampling.nodes.size());
+  for (const double xi : sampling.levels)
+    for (const int node : sampling.nodes) grid.add_point(on_ring(body, node, xi), number);
+  const bool unbounded = sampling.levels.back() > 1.0;
+  if (!unbounded)
+    for (int c = 0; c <= sampling.centre.back(); ++c) grid.add_point(body.super_elements.front().centre, number);
+  const auto rings = static_cast<std::int32_t>(sampling.levels.size());
   for (std::int32_t ring = 0; ring < rings; ++ring) {
     const std::int32_t outer = first + ring * n, inner = outer + n;
-    for (const mesh::LineElement& element : super_element.boundary)
-      for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i) {
-        const std::int32_t a = element.nodes[i], b = element.nodes[i + 1];
-        if (ring + 1 < rings)
+    for (std::size_t e = 0; e < sampling.points.size(); ++e)
+      for (std::size_t i = 0; i + 1 < sampling.points[e].size(); ++i) {
+        const std::int32_t a = sampling.points[e][i], b = sampling.points[e][i + 1];
+        if (ring + 1 < rings && unbounded)
+          grid.add_cell(CellType::quad, std::array{outer + a, inner + a, inner + b, outer + b}, number);
+        else if (ring + 1 < rings)
           grid.add_cell(CellType::quad, std::array{inner + a, outer + a, outer + b, inner + b}, number);
-        else
-          grid.add_cell(CellType::triangle, std::array{inner, outer + a, outer + b}, number);
+        else if (!unbounded)
+          grid.add_cell(CellType::triangle, std::array{inner + sampling.centre[e], outer + a, outer + b}, number);
       }
   }
 }
@@ -85,44 +91,63 @@ RigidBody add_rigid(Grid& grid, const model::Outline& outline, std::int32_t numb
 
 // Values
 
-/// Strains of every node of a ring: the mean of the boundary elements that meet at it.
-Eigen::Matrix3Xd ring_strains(const RingSampling& sampling, const element::RadialField::Values& values,
-                              Eigen::Index nodes) {
-  Eigen::Matrix3Xd strains = Eigen::Matrix3Xd::Zero(3, nodes);
+/// Stresses of every point of the ring at xi: the mean of the boundary elements that meet at it.
+Eigen::Matrix3Xd ring_stresses(const analysis::SolvedSuperElement& super_element, const RingSampling& sampling,
+                               const element::RadialField::Values& values, const mesh::BodyMesh& mesh, double xi,
+                               const element::LinearField& temperature) {
+  Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(sampling.nodes.size()));
   for (const RingSampling::Sample& sample : sampling.samples) {
-    element::Vec3 strain = element::Vec3::Zero();
-    for (std::size_t i = 0; i < sample.nodes.size(); ++i) {
-      const auto local = static_cast<Eigen::Index>(2 * i),
-                 global = static_cast<Eigen::Index>(2 * sample.nodes[i]);
+    const auto point = static_cast<std::size_t>(sample.point);
+    const std::vector<int>& nodes = super_element.ring.elements[sample.element].nodes;
+    element::Vec3 strain = -super_element.sectors.unit_strain_of(sample.element) *
+                           temperature.at(on_ring(mesh, sampling.nodes[point], xi));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto local = static_cast<Eigen::Index>(2 * i), global = static_cast<Eigen::Index>(2 * nodes[i]);
       strain.noalias() += sample.B1.middleCols<2>(local) * values.u_xi.segment<2>(global);
       strain.noalias() += sample.B2.middleCols<2>(local) * values.u_part.segment<2>(global);
     }
-    strains.col(sample.node) += sample.weight * strain;
+    stresses.col(sample.point) += sample.weight * (super_element.sectors.D.of(sample.element) * strain);
   }
-  return strains;
+  return stresses;
 }
 
 void recover_super_element(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
                            const analysis::IncrementResult& increment, std::size_t body,
                            const RingSampling& sampling) {
   const analysis::SolvedSuperElement& super_element = *solution.super_elements[body];
+  const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   const Vector& boundary = increment.displacements[body];
-  const auto n = static_cast<Eigen::Index>(super_element.ring.nodes.size());
-  const element::RadialField field(
-      super_element.solution, super_element.modes(), boundary,
-      body_force_load(sampling.body_load_weights, increment.body_forces[body], super_element.thickness));
+  const element::InteriorLoads& interior = increment.interior[body];
+  const element::RadialField field(super_element.solution, super_element.modes(), boundary, interior.loads);
+  const auto stresses_at = [&](double xi, const element::RadialField::Values& values) {
+    return ring_stresses(super_element, sampling, values, mesh, xi, interior.temperature);
+  };
   for (const double xi : sampling.levels) {
     const element::RadialField::Values values = field.at(xi);
     const Vector& u = xi == 1.0 ? boundary : values.u;
-    const Eigen::Matrix3Xd stresses = super_element.D * ring_strains(sampling, values, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const element::Vec3 stress = stresses.col(i);
-      fields.set(point++, u.segment<2>(2 * i), stress, zz_of(solution, body, stress));
+    const Eigen::Matrix3Xd stresses = stresses_at(xi, values);
+    for (std::size_t i = 0; i < sampling.nodes.size(); ++i) {
+      const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(i));
+      fields.set(point++, u.segment<2>(2 * sampling.nodes[i]), stress,
+                 zz_of(solution, super_element.sectors.material_of(sampling.sectors[i]), stress,
+                       interior.temperature.at(on_ring(mesh, sampling.nodes[i], xi))));
     }
   }
-  const element::RadialField::Values centre = field.at(0.0);
-  const element::Vec3 stress = super_element.D * ring_strains(sampling, centre, n).rowwise().mean();
-  fields.set(point, centre.u.head<2>(), stress, zz_of(solution, body, stress));
+  if (super_element.domain.unbounded) return;
+  const element::RadialField::Values values = field.at(0.0);
+  const Eigen::Matrix3Xd stresses = stresses_at(0.0, values);
+  for (int c = 0; c <= sampling.centre.back(); ++c) {  // the mean of the sectors of one material
+    element::Vec3 stress = element::Vec3::Zero();
+    int count = 0, material = 0;
+    for (std::size_t e = 0; e < sampling.points.size(); ++e) {
+      if (sampling.centre[e] != c) continue;
+      material = super_element.sectors.material_of(e);
+      for (const int i : sampling.points[e]) stress += stresses.col(i), ++count;
+    }
+    stress /= count;
+    fields.set(point++, values.u.head<2>(), stress,
+               zz_of(solution, material, stress, interior.temperature.at(mesh.super_elements.front().centre)));
+  }
 }
 
 void recover_finite_elements(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
@@ -146,7 +171,7 @@ void recover_finite_elements(Fields& fields, std::size_t point, const analysis::
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
     const auto i = static_cast<Eigen::Index>(node);
     const element::Vec3 stress = stresses.col(i) / elements_at[node];
-    fields.set(point++, u.segment<2>(2 * i), stress, zz_of(solution, body, stress));
+    fields.set(point++, u.segment<2>(2 * i), stress, zz_of(solution, solution.model.bodies[body].material, stress, 0.0));
   }
 }
 
@@ -170,28 +195,71 @@ std::vector<double> ring_levels(const element::Ring& ring) {
   std::vector<double> levels;
   double xi = 1.0, next = width;
   for (int i = 0; i < ring_count; ++i, xi -= next, next *= low) levels.push_back(xi);
+  // Stresses may grow without bound towards the centre of an open super-element: rings half as far away each.
+  if (ring.is_open())
+    for (int i = 0; i < inner_rings; ++i) levels.push_back(0.5 * levels.back());
   return levels;
 }
 
-RingSampling ring_sampling(const element::Ring& ring) {
+std::vector<double> outer_ring_levels() {
+  std::vector<double> levels{1.0};
+  constexpr int rings = 16;
+  for (int i = 1; i <= rings; ++i) levels.push_back(std::pow(farthest, static_cast<double>(i) / rings));
+  return levels;
+}
+
+namespace {
+
+/// Points of the elements of a ring: a node of its own for each material that meets there.
+void share_points(const element::Ring& ring, const element::Sectors& sectors, RingSampling& sampling) {
+  const std::size_t count = ring.elements.size();
+  std::vector<int> point_of(ring.nodes.size(), -1), material_at(ring.nodes.size(), -1);
+  for (std::size_t node = 0; node < ring.nodes.size(); ++node) sampling.nodes.push_back(static_cast<int>(node));
+  sampling.sectors.assign(ring.nodes.size(), 0);
+  for (std::size_t e = 0; e < count; ++e) {
+    const int material = sectors.material_of(e);
+    const bool goes_on = e > 0 && sectors.material_of(e - 1) == material;
+    sampling.centre.push_back(e == 0 ? 0 : sampling.centre.back() + (goes_on ? 0 : 1));
+    std::vector<int>& points = sampling.points.emplace_back();
+    for (const int node : ring.elements[e].nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      if (material_at[i] == -1) {
+        material_at[i] = material;
+        point_of[i] = node;
+        sampling.sectors[i] = e;
+      } else if (material_at[i] != material) {
+        point_of[i] = static_cast<int>(sampling.nodes.size());
+        sampling.nodes.push_back(node);
+        sampling.sectors.push_back(e);
+        material_at[i] = material;
+      }
+      points.push_back(point_of[i]);
+    }
+  }
+}
+
+}  // namespace
+
+RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded) {
   RingSampling sampling;
-  std::vector<int> elements_at(ring.nodes.size(), 0);
-  for (const mesh::LineElement& element : ring.elements)
-    for (const int node : element.nodes) ++elements_at[static_cast<std::size_t>(node)];
-  for (const mesh::LineElement& element : ring.elements) {
+  share_points(ring, sectors, sampling);
+  std::vector<int> elements_at(sampling.nodes.size(), 0);
+  for (const std::vector<int>& points : sampling.points)
+    for (const int point : points) ++elements_at[static_cast<std::size_t>(point)];
+  for (std::size_t e = 0; e < ring.elements.size(); ++e) {
+    const mesh::LineElement& element = ring.elements[e];
     const int order = static_cast<int>(element.nodes.size()) - 1;
     const element::LineBasis& basis = element::LineBasis::of_order(order);
-    const std::vector<double> points = mesh::lobatto_points(order);
+    const std::vector<double> lobatto = mesh::lobatto_points(order);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       element::StrainMatrices strain =
-          element::strain_matrices(ring, element, basis.values(points[i]), basis.derivatives(points[i]));
-      const int node = element.nodes[i];
-      sampling.samples.push_back({node, 1.0 / elements_at[static_cast<std::size_t>(node)], element.nodes,
+          element::strain_matrices(ring, element, basis.values(lobatto[i]), basis.derivatives(lobatto[i]));
+      const int point = sampling.points[e][i];
+      sampling.samples.push_back({point, 1.0 / elements_at[static_cast<std::size_t>(point)], e,
                                   std::move(strain.B1), std::move(strain.B2)});
     }
   }
-  sampling.levels = ring_levels(ring);
-  sampling.body_load_weights = element::body_load_weights(ring);
+  sampling.levels = unbounded ? outer_ring_levels() : ring_levels(ring);
   return sampling;
 }
 
@@ -213,8 +281,10 @@ Recovery::Recovery(const analysis::StaticSolution& solution) {
         if (solution.super_elements[other] == solution.super_elements[b])
           made = std::get<SuperElementBody>(bodies_[other]);
       if (!made.sampling)
-        made.sampling = std::make_shared<const RingSampling>(ring_sampling(solution.super_elements[b]->ring));
-      add_super_element(grid_, body, made.sampling->levels, number);
+        made.sampling = std::make_shared<const RingSampling>(
+            ring_sampling(solution.super_elements[b]->ring, solution.super_elements[b]->sectors,
+                          solution.super_elements[b]->domain.unbounded));
+      add_super_element(grid_, body, *made.sampling, number);
       bodies_.push_back(std::move(made));
     }
   }
@@ -224,8 +294,8 @@ Recovery::Recovery(const analysis::StaticSolution& solution) {
 Fields Recovery::fields(const analysis::StaticSolution& solution,
                         const analysis::IncrementResult& increment) const {
   ensure(increment.converged, "only converged increments have fields");
-  ensure(increment.displacements.size() == bodies_.size() && increment.body_forces.size() == bodies_.size(),
-         "an increment has displacements and body forces of every body");
+  ensure(increment.displacements.size() == bodies_.size() && increment.interior.size() == bodies_.size(),
+         "an increment has displacements and interior loads of every body");
   Fields fields(grid_.point_count());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const std::size_t point = grid_.first_point[b];

@@ -60,7 +60,16 @@ std::string report_header(const analysis::StaticSolution& solution) {
                       count(sizes.nodes, "node"), fmt::format("{} degrees of freedom", sizes.dofs));
   if (sizes.super_elements > 0) text += ", " + count(sizes.super_elements, "super-element");
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
-  return text + ", " + count(sizes.contact_pairs, "contact pair") + "\n\n";
+  return text + ", " + count(sizes.contact_pairs, "contact pair") + "\n\n" + report_passes(solution);
+}
+
+std::string report_passes(const analysis::StaticSolution& solution) {
+  if (solution.passes.empty()) return {};
+  std::vector<std::vector<std::string>> rows = {{"pass", "dofs", "estimated error", "raised", "divided"}};
+  for (const analysis::RefinementPass& pass : solution.passes)
+    rows.push_back({fmt::format("{}", rows.size()), fmt::format("{}", pass.dofs), fmt::format("{:.3g}", pass.error),
+                    fmt::format("{}", pass.raised), fmt::format("{}", pass.divided)});
+  return table(rows) + "\n";
 }
 
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment) {
@@ -75,7 +84,12 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
   text += count(increment.newton_iterations, "iteration");
   if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));
   text += fmt::format(", residual {:.2g}", increment.residual);
-  if (increment.converged) return text + fmt::format(", certificate {:.2g}\n", increment.certificate.worst());
+  if (increment.error) text += fmt::format(", estimated error {:.2g}", increment.error->relative);
+  if (increment.converged) {
+    text += fmt::format(", certificate {:.2g}", increment.certificate.worst());
+    if (increment.uniqueness) text += fmt::format(", unique: {}", increment.uniqueness->verdict);
+    return text + '\n';
+  }
   return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
 }
 
@@ -99,6 +113,34 @@ std::string report_reactions(const model::Model& model, const analysis::Incremen
     rows.push_back({model.supports[i].name, fmt::format("{:.6g}", increment.reactions[i].x()),
                     fmt::format("{:.6g}", increment.reactions[i].y())});
   return table(rows);
+}
+
+std::string report_cracks(const analysis::IncrementResult& increment) {
+  if (increment.cracks.empty()) return {};
+  const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string("-"); };
+  std::vector<std::vector<std::string>> rows = {{"crack", "kind", "K_I", "K_II", "T", "G", "J", "epsilon", "at length"}};
+  std::vector<std::vector<std::string>> corners = {{"corner", "K_tt", "K_rt", "at distance", "singular exponents"}};
+  for (const analysis::CrackResult& crack : increment.cracks) {
+    const element::StressIntensity& f = crack.factors;
+    if (f.kind == element::CornerKind::corner) {
+      std::string exponents;
+      for (const element::CornerTerm& term : f.terms) {
+        for (const auto& value : term.exponents)
+          exponents += (exponents.empty() ? "" : ", ") +
+                       (value.imag() == 0.0 ? fmt::format("{:.6g}", value.real()) : fmt::format("{:.6g}{:+.6g}i", value.real(), value.imag()));
+        if (term.defective) exponents += " (power-logarithmic)";
+      }
+      corners.push_back({crack.name, fmt::format("{:.6g}", f.K_I), fmt::format("{:.6g}", f.K_II),
+                         fmt::format("{:.6g}", f.reference_length), exponents.empty() ? "none" : exponents});
+      continue;
+    }
+    const bool interface = f.kind == element::CornerKind::interface_crack;
+    rows.push_back({crack.name, interface ? "interface" : "crack", fmt::format("{:.6g}", f.K_I), fmt::format("{:.6g}", f.K_II),
+                    interface ? number(f.T_left) + ", " + number(f.T_right) : number(f.T_left), number(f.G), number(f.J),
+                    interface ? fmt::format("{:.6g}", f.epsilon) : "-",
+                    interface ? fmt::format("{:.6g}", f.reference_length) : "-"});
+  }
+  return (rows.size() > 1 ? table(rows) : "") + (corners.size() > 1 ? table(corners) : "");
 }
 
 std::string report_warnings(const analysis::StaticSolution& solution) {
@@ -144,6 +186,7 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
     text += report_contacts(*last);
     if (!last->contacts.empty() && !last->reactions.empty()) text += '\n';
     text += report_reactions(solution.model, *last);
+    if (!last->cracks.empty()) text += '\n' + report_cracks(*last);
   }
   if (!solution.warnings.empty()) text += '\n' + report_warnings(solution);
   return text + '\n' + report_timing(timing);

@@ -14,6 +14,9 @@ std::string table(const std::vector<std::vector<std::string>>& rows);
 /// Version, title and sizes.
 std::string report_header(const analysis::StaticSolution& solution);
 
+/// Degrees of freedom and estimated error of every mesh that refinement came by; empty without refinement.
+std::string report_passes(const analysis::StaticSolution& solution);
+
 /// `step press, increment 2 of 10: tip = 0.2; 4 iterations, residual 3.1e-15, certificate 2.2e-14`, and why
 /// not where it did not converge. One line.
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment);
@@ -23,6 +26,9 @@ std::string report_contacts(const analysis::IncrementResult& increment);
 
 /// Force of every support on its body; empty where there is none.
 std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment);
+
+/// Table of stress intensity factors; empty without cracks.
+std::string report_cracks(const analysis::IncrementResult& increment);
 
 /// One line for each warning.
 std::string report_warnings(const analysis::StaticSolution& solution);

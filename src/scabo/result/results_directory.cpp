@@ -54,6 +54,8 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   if (name == "convergence.csv") return convergence_table_header;
   if (name == "convergence.svg" || name == "convergence.svg.part") return convergence_plot_mark;
   if (name == "log.txt") return "Scabo ";
+  for (const PointTable table : point_tables)
+    if (name == file_of(table)) return header_of(table);
   return std::nullopt;
 }
 
@@ -128,15 +130,24 @@ bool has_iterations(const analysis::StaticSolution& solution) {
 
 }  // namespace
 
+void prepare_directory(const fs::path& path) {
+  create(path);
+  remove_old_results(path);
+}
+
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model) : path_(std::move(path)) {
   const Stopwatch writing(write_seconds_);
   for (const model::Step& step : model.steps) increments_of_step_.push_back(step.increments);
-  create(path_);
-  remove_old_results(path_);
+  prepare_directory(path_);
   contact_table_.emplace(path_ / "contact.csv");
   contact_table_->append(contact_table_header);
   convergence_table_.emplace(path_ / "convergence.csv");
   convergence_table_->append(convergence_table_header);
+  for (const PointTable table : point_tables) {
+    if (!wanted(model.output, table)) continue;
+    point_files_.push_back({table, std::make_unique<GrowingFile>(path_ / file_of(table)), std::nullopt});
+    point_files_.back().file->append(header_of(table));
+  }
   collection_.emplace(path_ / "fields.pvd");
   log_.emplace(path_ / "log.txt");
   next_summary_ = Clock::now() + between_summaries;
@@ -157,6 +168,7 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution,
     write_file(path_ / file, vtu_content(recovery_->grid(), *fields));
     ++fields_written_;
     contact_table_->append(contact_table_rows(increment));
+    add_points(solution, increment);
     collection_->add(pseudo_time(increment), file);
   }
   const Stopwatch writing(write_seconds_);
@@ -176,11 +188,33 @@ std::filesystem::path ResultsDirectory::problem_file(const analysis::IncrementRe
   return folder / (name + ".hdf5");
 }
 
+void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
+                                  const analysis::IncrementResult& increment) {
+  if (point_files_.empty()) return;
+  mesh::OutputPoints points;
+  int increments = 0;
+  if (!point_files_.front().evaluation) {
+    points = mesh::output_points(solution.model);
+    for (const int of_step : increments_of_step_) increments += of_step;
+  }
+  for (PointFile& of : point_files_) {
+    if (!of.evaluation) {
+      auto& list = of.table == PointTable::points  ? points.points
+                   : of.table == PointTable::lines ? points.lines
+                                                   : points.grid;
+      of.evaluation.emplace(solution, std::move(list), increments);
+      warnings_.insert(warnings_.end(), of.evaluation->warnings().begin(), of.evaluation->warnings().end());
+    }
+    of.file->append(point_table_rows(of.table, *of.evaluation, solution, increment));
+  }
+}
+
 void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
   {
     const Stopwatch writing(write_seconds_);
     if (has_iterations(solution)) replace_file(path_ / "convergence.svg", convergence_plot(solution));
     begin_log(solution);
+    for (const std::string& warning : warnings_) log_->append("warning: " + warning + "\n");
     log_->append(report_end(solution, complete(solution.timing)));
   }
   // Not in `write`: a file cannot hold the time it took to write it.

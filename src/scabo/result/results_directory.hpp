@@ -1,24 +1,30 @@
 // The directory that a run leaves: summary.json, contact.csv, fields.pvd with one .vtu for each increment,
-// convergence.csv and .svg, log.txt, and where the model asks for it problems/ (docs/results.md). Increments are added as they finish, so that they can be read while the run goes
+// convergence.csv and .svg, log.txt, and where they are asked for points.csv, lines.csv, grid.csv and problems/
+// (docs/results.md). Increments are added as they finish, so that they can be read while the run goes
 // on, and after it was interrupted or killed.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/result/files.hpp"
+#include "scabo/result/point_tables.hpp"
 #include "scabo/result/recovery.hpp"
 #include "scabo/result/vtu.hpp"
 
 namespace scabo::result {
 
+/// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
+/// removed; one of another origin that stands where a result has to go is an error. Throws WriteError.
+void prepare_directory(const std::filesystem::path& path);
+
 class ResultsDirectory {
  public:
-  /// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
-  /// removed; one of another origin that stands where a result has to go is an error. Throws WriteError.
+  /// Prepares the directory. Throws WriteError.
   ResultsDirectory(std::filesystem::path path, const model::Model& model);
 
   const std::filesystem::path& path() const { return path_; }
@@ -35,6 +41,7 @@ class ResultsDirectory {
   /// attempt, problems/STEP_INCREMENT.attempt_1.hdf5 and so on for those before it. Creates the directory. Throws WriteError.
   std::filesystem::path problem_file(const analysis::IncrementResult& increment, std::size_t attempt) const;
 
+  const std::vector<std::string>& warnings() const { return warnings_; }  ///< about what was written
   double recover_seconds() const { return recover_seconds_; }  ///< for interior fields
   double write_seconds() const { return write_seconds_; }      ///< for files
 
@@ -53,7 +60,15 @@ class ResultsDirectory {
   bool log_begun_ = false;
   double recover_seconds_ = 0.0, write_seconds_ = 0.0;
   Clock::time_point next_summary_;
+  void add_points(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
   std::optional<GrowingFile> contact_table_, convergence_table_, log_;
+  struct PointFile {
+    PointTable table;
+    std::unique_ptr<GrowingFile> file;
+    std::optional<PointEvaluation> evaluation;
+  };
+  std::vector<PointFile> point_files_;
+  std::vector<std::string> warnings_;  // of the tables
   std::optional<FieldCollection> collection_;
   std::optional<Recovery> recovery_;
 };

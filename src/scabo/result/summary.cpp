@@ -22,7 +22,7 @@ Json value_or_null(const std::optional<Value>& value) {
 }
 
 Json json_of(const analysis::ContactResult& contact) {
-  return {{"normal_force", number_or_null(contact.normal_force)},
+  Json json = {{"normal_force", number_or_null(contact.normal_force)},
           {"tangential_force", number_or_null(contact.tangential_force)},
           {"open", contact.open},
           {"stick", contact.stick},
@@ -31,6 +31,16 @@ Json json_of(const analysis::ContactResult& contact) {
           {"max_pressure", number_or_null(contact.max_pressure)},
           {"first_pair_in_contact", value_or_null(contact.first_in_contact)},
           {"last_pair_in_contact", value_or_null(contact.last_in_contact)}};
+  if (contact.broken) json["broken"] = *contact.broken;
+  return json;
+}
+
+Json json_of(const analysis::UniquenessResult& uniqueness) {
+  return {{"unique", uniqueness.verdict},
+          {"others", uniqueness.others},
+          {"complete", uniqueness.complete},
+          {"bound", number_or_null(uniqueness.bound)},
+          {"index", uniqueness.index}};
 }
 
 Json json_of(const contact::Certificate& certificate) {
@@ -49,6 +59,58 @@ Json json_of(const analysis::Energy& energy) {
           {"friction", number_or_null(energy.friction)}};
 }
 
+Json json_of(const std::vector<std::complex<double>>& exponents) {
+  Json list = Json::array();
+  for (const std::complex<double>& value : exponents) list.push_back({number_or_null(value.real()), number_or_null(value.imag())});
+  return list;
+}
+
+Json number_or_null(const std::optional<double>& value) { return value ? number_or_null(*value) : Json(); }
+
+Json json_of(const element::CornerTerm& term) {
+  return {{"exponents", json_of(term.exponents)},
+          {"K_tt", number_or_null(term.factors[0])},
+          {"K_rt", number_or_null(term.factors[1])},
+          {"limit", term.limit ? Json{number_or_null((*term.limit)[0]), number_or_null((*term.limit)[1])} : Json()},
+          {"defective", term.defective}};
+}
+
+Json json_of(const element::StressIntensity& crack) {
+  Json json = {{"kind", name_of(crack.kind)}};
+  const bool corner = crack.kind == element::CornerKind::corner, interface = crack.kind == element::CornerKind::interface_crack;
+  json[corner ? "K_tt" : "K_I"] = number_or_null(crack.K_I);
+  json[corner ? "K_rt" : "K_II"] = number_or_null(crack.K_II);
+  if (interface) {
+    json["T_left"] = number_or_null(crack.T_left);
+    json["T_right"] = number_or_null(crack.T_right);
+  } else if (!corner) {
+    json["T"] = number_or_null(crack.T_left);
+  }
+  if (!corner) {
+    json["G"] = number_or_null(crack.G);
+    json["J"] = number_or_null(crack.J);
+  }
+  if (interface) json["epsilon"] = number_or_null(crack.epsilon);
+  if (interface || corner) json["reference_length"] = number_or_null(crack.reference_length);
+  json["exponents"] = json_of(crack.exponents);
+  if (!corner) return json;
+  json["ray"] = number_or_null(crack.ray);
+  json["terms"] = Json::array();
+  for (const element::CornerTerm& term : crack.terms) json["terms"].push_back(json_of(term));
+  return json;
+}
+
+Json json_of(const analysis::ErrorEstimate& error, const model::Model& model) {
+  Json json = {{"relative_energy_norm", number_or_null(error.relative)}, {"bodies", Json::object()}};
+  for (std::size_t b = 0; b < error.bodies.size(); ++b) {
+    const auto& body = error.bodies[b];
+    if (body)
+      json["bodies"][model.bodies[b].name] = {{"absolute", number_or_null(body->absolute)},
+                                              {"relative", number_or_null(body->relative)}};
+  }
+  return json;
+}
+
 /// An increment that did not converge has no contacts, reactions, certificate or energy: it is no result.
 Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
   Json json = {{"step", increment.step}, {"increment", increment.increment}};
@@ -59,16 +121,21 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   json["residual"] = number_or_null(increment.residual);
   json["contacts"] = Json::object();
   json["reactions"] = Json::object();
+  json["cracks"] = Json::object();
   json["certificate"] = nullptr;
   json["energy"] = nullptr;
+  json["error"] = nullptr;
   if (!increment.converged) return json;
   for (const analysis::ContactResult& contact : increment.contacts)
     json["contacts"][contact.name] = json_of(contact);
   for (std::size_t i = 0; i < increment.reactions.size(); ++i)
     json["reactions"][model.supports[i].name] = {number_or_null(increment.reactions[i].x()),
                                                  number_or_null(increment.reactions[i].y())};
+  for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
+  json["error"] = increment.error ? json_of(*increment.error, model) : Json();
+  if (increment.uniqueness) json["uniqueness"] = json_of(*increment.uniqueness);
   return json;
 }
 
@@ -97,6 +164,18 @@ std::string_view name_of(analysis::Outcome outcome) {
       return "interrupted";
   }
   throw BrokenInvariant("an outcome without a name");
+}
+
+std::string_view name_of(element::CornerKind kind) {
+  switch (kind) {
+    case element::CornerKind::crack:
+      return "crack";
+    case element::CornerKind::interface_crack:
+      return "interface_crack";
+    case element::CornerKind::corner:
+      return "corner";
+  }
+  throw BrokenInvariant("a corner without a name");
 }
 
 ModelSizes sizes_of(const analysis::StaticSolution& solution) {
@@ -141,6 +220,12 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
                    {"dofs", sizes.dofs},
                    {"super_elements", sizes.super_elements},
                    {"contact_pairs", sizes.contact_pairs}};
+  json["passes"] = Json::array();
+  for (const analysis::RefinementPass& pass : solution.passes)
+    json["passes"].push_back({{"dofs", pass.dofs},
+                              {"error", number_or_null(pass.error)},
+                              {"raised", pass.raised},
+                              {"divided", pass.divided}});
   json["increments"] = Json::array();
   for (const analysis::IncrementResult& increment : solution.increments)
     json["increments"].push_back(json_of(increment, solution.model));

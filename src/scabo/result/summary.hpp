@@ -28,5 +28,6 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
 
 /// `solved`, `not_converged` or `interrupted`.
 std::string_view name_of(analysis::Outcome outcome);
+std::string_view name_of(element::CornerKind kind);
 
 }  // namespace scabo::result

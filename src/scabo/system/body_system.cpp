@@ -122,6 +122,7 @@ class ElasticBody final : public BodySystem {
  private:
   /// K u, without the part that a translation of the whole body would add by rounding.
   Vector internal_forces(Vector u) const {
+    if (stiffness_.unbounded) return stiffness_.times(u);
     const Eigen::Index nodes = size() / 2;
     auto by_node = u.reshaped(2, nodes);
     const Vec2 mean = by_node.rowwise().mean();
@@ -131,6 +132,7 @@ class ElasticBody final : public BodySystem {
 
   void find_rigid_motions(const std::vector<Vec2>& nodes) {
     rigid_coordinates_ = free_motions(nodes, constraints_, reference_, lever_);
+    if (stiffness_.unbounded) rigid_coordinates_ = Matrix::Zero(3, 0);
     rigid_motions_.resize(size(), rigid_coordinates_.cols());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       rigid_motions_.middleRows<2>(static_cast<Eigen::Index>(2 * i)) =

@@ -23,6 +23,7 @@ namespace scabo::system {
 struct Stiffness {
   std::shared_ptr<const Matrix> dense;
   linalg::SparseMatrix sparse;
+  bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
 
   Eigen::Index size() const { return dense ? dense->rows() : sparse.rows(); }
   Vector times(const Vector& u) const;

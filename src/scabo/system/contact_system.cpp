@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scabo/system/contact_laws.hpp"
+
 namespace scabo::system {
 
 namespace {
@@ -109,11 +111,10 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   system.G = held.empty() ? std::move(G) : Matrix(G(moving_rows, Eigen::all));
   const auto N = static_cast<Eigen::Index>(system.pairs.size());
   system.gap.resize(N);
-  system.mu.resize(N);
+  system.laws = contact_laws(system.pairs, model, mesh);
   for (Eigen::Index i = 0; i < N; ++i) {
     const ContactSystem::Pair& at = system.pairs[static_cast<std::size_t>(i)];
-    system.mu[i] = model.contacts[static_cast<std::size_t>(at.contact)].friction;
-    system.gap[i] = mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].gap;
+    system.gap[i] = system.laws.of_pair[static_cast<std::size_t>(i)]->keeps_gap() ? 0.0 : mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].gap;
   }
   return system;
 }

@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "scabo/contact/problem.hpp"
+#include "scabo/contact/laws/evolution.hpp"
 #include "scabo/system/structure.hpp"
 
 namespace scabo::system {
@@ -19,8 +19,8 @@ struct ContactSystem {
   std::vector<Eigen::SparseMatrix<double>> motion;   // per body, 2N x size of u: B side positive, A side negative
   std::vector<Pair> held;                            // pairs whose supports fix the gap: they take no part
   std::vector<Eigen::SparseMatrix<double>> held_motion;  // per body, rows [n, t] as above
-  Vector gap;       // N, initial
-  Vector mu;        // N
+  Vector gap;       // N, initial; 0 where the pair is bonded as it is
+  contact::JointLaws laws;  // what each pair carries
   contact::Delassus W;  // 2N x 2N
   Matrix G;         // 2N x m
   std::vector<int> first_rigid;  // per body: its first column in G

@@ -22,18 +22,6 @@ bool same_history(const model::Model& model, int a, int b) {
   return true;
 }
 
-/// Points of a rigid body that a support holds.
-std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body) {
-  const auto index = static_cast<std::size_t>(place.index);
-  switch (place.kind) {
-    case model::Place::Kind::body: return {body.outline.centroid()};
-    case model::Place::Kind::edge: return {body.outline.edges[index].start, body.outline.edges[index].end};
-    case model::Place::Kind::corner: return {body.outline.corners[index].position};
-    case model::Place::Kind::near: return {place.near};
-  }
-  return {};
-}
-
 double half_size(const model::Outline& outline) {
   Vec2 low = outline.edges.front().start, high = low;
   for (const model::Edge& edge : outline.edges)
@@ -130,6 +118,19 @@ bool has_contact(const model::Model& model, const mesh::Mesh& mesh, int body) {
 
 }  // namespace
 
+std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body) {
+  const auto index = static_cast<std::size_t>(place.index);
+  switch (place.kind) {
+    case model::Place::Kind::body: return {body.outline.centroid()};
+    case model::Place::Kind::edge: return {body.outline.edges[index].start, body.outline.edges[index].end};
+    case model::Place::Kind::corner: return {body.outline.corners[index].position};
+    case model::Place::Kind::near: return {place.near};
+    case model::Place::Kind::face:
+    case model::Place::Kind::mouth: break;  // of elastic bodies
+  }
+  return {};
+}
+
 std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh) {
   ConstraintCollector collector(model, mesh);
   for (std::size_t s = 0; s < model.supports.size(); ++s) collector.add(static_cast<int>(s));
@@ -141,7 +142,7 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<Diagnostic> diagnostics;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (has_contact(model, mesh, static_cast<int>(b))) continue;
+    if (body.outside || has_contact(model, mesh, static_cast<int>(b))) continue;
     Vec2 reference;
     double lever = 0.0;
     Matrix free;
@@ -191,6 +192,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       continue;
     }
     Stiffness stiffness;
+    stiffness.unbounded = body.outside;
     if (super_elements[b]) {
       stiffness.dense = std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
     } else {
@@ -201,67 +203,6 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
   }
   return structure;
-}
-
-Vector body_load(const mesh::BodyMesh& mesh, const element::SuperElementSolution* super_element, double thickness,
-                 const Vec2& body_force) {
-  Vector f = Vector::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
-  if (super_element) {
-    const Vector weights = element::body_load_weights(element::ring_of(mesh.super_elements.front(), mesh.nodes));
-    for (Eigen::Index i = 0; i < weights.size(); ++i) f.segment<2>(2 * i) = weights[i] * thickness * body_force;
-    return element::equivalent_body_load(*super_element, f);
-  }
-  for (const mesh::PlaneElement8& element : mesh.elements) {
-    const auto areas = element::plane_element8_areas(corners_of(mesh, element));
-    for (std::size_t i = 0; i < 8; ++i) f.segment<2>(2 * element[i]) += areas[i] * thickness * body_force;
-  }
-  return f;
-}
-
-void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
-               const std::vector<const element::SuperElementSolution*>& super_elements) {
-  const double thickness = model.analysis.thickness;
-  for (const model::Load& load : model.loads) {
-    std::vector<Vector> forces(model.bodies.size());
-    std::vector<Vec2> body_forces(model.bodies.size(), Vec2::Zero());
-    if (const auto* gravity = std::get_if<model::Gravity>(&load.kind)) {
-      for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-        const model::Body& body = model.bodies[b];
-        if (body.rigid || (load.on && load.on->body != static_cast<int>(b))) continue;
-        body_forces[b] = model.materials[static_cast<std::size_t>(body.material)].density.value_or(0.0) * gravity->value;
-        forces[b] = body_load(mesh.bodies[b], super_elements[b], thickness, body_forces[b]);
-      }
-    } else {
-      const auto b = static_cast<std::size_t>(load.on->body);
-      const mesh::PlaceNodes place = mesh::nodes_of(*load.on, mesh);
-      const std::vector<Vec2>& nodes = mesh.bodies[b].nodes;
-      if (const auto* force = std::get_if<model::Force>(&load.kind)) {
-        if (model.bodies[b].rigid) {
-          const BodySystem& body = *structure.bodies[b];
-          forces[b] = Vector::Zero(3);
-          const std::vector<Vec2> points = rigid_points(*load.on, model.bodies[b]);
-          for (const Vec2& point : points)
-            forces[b] += rigid_point(point, body.reference(), body.lever()).transpose() * force->value /
-                         static_cast<double>(points.size());
-        } else if (!place.elements.empty()) {
-          const Vec2 traction = force->value / (length_of(place.elements, nodes) * thickness);
-          forces[b] = traction_forces(place.elements, nodes, thickness, [&](const Vec2&, const Vec2&) { return traction; });
-        } else {
-          forces[b] = Vector::Zero(static_cast<Eigen::Index>(2 * nodes.size()));
-          forces[b].segment<2>(2 * place.nodes.front()) = force->value;
-        }
-      } else if (const auto* traction = std::get_if<model::Traction>(&load.kind)) {
-        forces[b] = traction_forces(place.elements, nodes, thickness,
-                                    [&](const Vec2&, const Vec2&) { return traction->value; });
-      } else {
-        const double pressure = std::get<model::Pressure>(load.kind).value;
-        forces[b] = traction_forces(place.elements, nodes, thickness,
-                                    [&](const Vec2&, const Vec2& n) { return Vec2(-pressure * n); });
-      }
-    }
-    structure.loads.push_back(std::move(forces));
-    structure.body_forces.push_back(std::move(body_forces));
-  }
 }
 
 }  // namespace scabo::system

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "scabo/element/radial_load.hpp"
 #include "scabo/element/stiffness.hpp"
 #include "scabo/system/body_system.hpp"
 
@@ -13,8 +14,8 @@ struct Structure {
   std::vector<std::unique_ptr<BodySystem>> bodies;  ///< one for each body of the model
   /// [load][body]: generalised forces at factor 1; empty where the load does not act on the body.
   std::vector<std::vector<Vector>> loads;
-  /// [load][body]: body force at factor 1, force / length^3.
-  std::vector<std::vector<Vec2>> body_forces;
+  /// [load][body]: what acts inside the body, at factor 1.
+  std::vector<std::vector<element::InteriorLoads>> interior;
 };
 
 /// Constraints of every body, from the supports of the model. Throws InputError for supports that contradict each other.
@@ -30,13 +31,11 @@ linalg::SparseMatrix fem_stiffness(const mesh::BodyMesh& mesh, const element::Ma
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                          const std::vector<const element::SuperElementSolution*>& super_elements);
 
-/// Adds the loads to a structure.
+/// Adds the loads to a structure (apply_loads.cpp).
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
                const std::vector<const element::SuperElementSolution*>& super_elements);
 
-/// Area-weighted body load of one body, two per node: int N dV b for b in x and y is this times b.
-/// For a super-element this is equivalent in the semi-analytical sense (element/modal_solution.hpp, eq. 4).
-Vector body_load(const mesh::BodyMesh& mesh, const element::SuperElementSolution* super_element, double thickness,
-                 const Vec2& body_force);
+/// Points of a rigid body that a place means.
+std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body);
 
 }  // namespace scabo::system

@@ -37,7 +37,7 @@ void expect_agrees(const Matrix& S, double tolerance) {
   const Vector c = Vector::LinSpaced(n, -1.0, 2.0), w = Vector::LinSpaced(n, 1.0, -0.5);
   for (const Vector& load : {Vector(Vector::Zero(n)), w})
     for (double s : {0.0, -1e-3, -0.1, -0.7, -2.3, -6.9}) {
-      const Vector expected = oracle(schur.T(), c, load, s), psi = schur.propagate(c, load, s);
+      const Vector expected = oracle(schur.T(), c, load, s), psi = schur.propagate(c, {{2.0, -load}}, s);
       EXPECT_LT((psi - expected).norm(), tolerance * (c.norm() + load.norm())) << "s = " << s;
     }
 }
@@ -49,7 +49,7 @@ TEST(SchurExponential, DefectiveEigenvalue) {
   const SchurExponential schur(S);
   const double s = -1.5;
   const Vector psi =
-      schur.U() * schur.propagate(schur.U().transpose() * Vector(Eigen::Vector2d(0, 1)), Vector::Zero(2), s);
+      schur.U() * schur.propagate(schur.U().transpose() * Vector(Eigen::Vector2d(0, 1)), {}, s);
   EXPECT_NEAR(psi[0], std::exp(s) * s, 1e-14);
   EXPECT_NEAR(psi[1], std::exp(s), 1e-14);
 }
@@ -92,7 +92,7 @@ TEST(SchurExponential, RandomMatricesFarFromNormal) {
 TEST(SchurExponential, FastModesVanish) {
   const Vector exponents = (Vector(5) << 1.0, 2.0, 50.0, 1e3, 1e4).finished();
   const SchurExponential schur(Matrix(exponents.asDiagonal()));
-  const Vector c = Vector::Ones(5), psi = schur.propagate(c, Vector::Zero(5), -1.0);
+  const Vector c = Vector::Ones(5), psi = schur.propagate(c, {}, -1.0);
   double worst = 0.0;
   for (Eigen::Index i = 0; i < 5; ++i)  // the Schur form may have reordered them
     worst = std::max(worst, std::abs(psi[i] - std::exp(-schur.T()(i, i))));
@@ -105,11 +105,11 @@ TEST(SchurExponential, ResonanceWithTheBodyForce) {
   const SchurExponential schur(S);
   const Vector c = Vector::Constant(1, 0.3), w = Vector::Constant(1, 0.7);
   for (double s : {-0.01, -1.0, -5.0})
-    EXPECT_NEAR(schur.propagate(c, w, s)[0], std::exp(2 * s) * (0.3 - s * 0.7), 1e-14);
+    EXPECT_NEAR(schur.propagate(c, {{2.0, -w}}, s)[0], std::exp(2 * s) * (0.3 - s * 0.7), 1e-14);
 }
 
 TEST(SchurExponential, OfNothing) {
-  EXPECT_EQ(SchurExponential(Matrix(0, 0)).propagate(Vector(), Vector(), -1.0).size(), 0);
+  EXPECT_EQ(SchurExponential(Matrix(0, 0)).propagate(Vector(), {}, -1.0).size(), 0);
 }
 
 }  // namespace

@@ -69,7 +69,8 @@ TEST(Overrides, MistakesNameTheOverride) {
             "model.yaml: --set materials.stel.young: materials has no 'stel' (did you mean 'steel'?)");
   EXPECT_EQ(
       mistake("materials.steel.yuong", "1"),
-      "model.yaml: --set materials.steel.yuong: unknown key 'yuong' (there is: young, poisson, density)");
+      "model.yaml: --set materials.steel.yuong: unknown key 'yuong' (there is: young, poisson, density, orthotropic, anisotropic, "
+            "expansion)");
   EXPECT_EQ(mistake("supports.1.fix", "x"),
             "model.yaml: --set supports.1.fix: supports is a list: use a number from 0 to 0, not '1'");
   EXPECT_EQ(mistake("title.of.it", "x"),

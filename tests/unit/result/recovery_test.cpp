@@ -66,7 +66,7 @@ TEST(Recovery, BodyForceIsPartOfTheInterior) {
   auto solution = solution_of(model_of({elastic("a", pentagon(), 0.7, 2)}, model::Plane::stress, 0.0));
   auto increment = increment_of(
       solution, [&](const Vec2& x) { return Vec2(0.0, weight * x.y() * x.y() / (2.0 * young)); });
-  increment.body_forces[0] = {0.0, -weight};
+  increment.interior[0].loads = element::body_force_loads(solution.super_elements[0]->ring, {0.0}, {-weight}, 0.5);
   const Recovery recovery(solution);
   const Fields fields = recovery.fields(solution, increment);
   for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {

@@ -150,7 +150,7 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const FinishedRun run(path_);
   const Json summary = Json::parse(content_of(path_ / "summary.json"));
   EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "model",
-                                            "increments", "timing", "peak_memory_bytes"));
+                                            "passes", "increments", "timing", "peak_memory_bytes"));
   EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs"));
   EXPECT_THAT(keys_of(summary["timing"]),
               ElementsAre("read", "mesh", "super_elements", "assemble", "factorise", "condense", "newton",
@@ -158,7 +158,7 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const Json& increment = summary["increments"][0];
   EXPECT_THAT(keys_of(increment),
               ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "residual",
-                          "contacts", "reactions", "certificate", "energy"));
+                          "contacts", "reactions", "cracks", "certificate", "energy", "error"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
               ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap",
                           "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));

@@ -68,9 +68,9 @@ inline analysis::StaticSolution solution_of(model::Model model) {
     if (body.super_elements.empty()) continue;
     auto made = std::make_shared<analysis::SolvedSuperElement>();
     made->ring = element::ring_of(body.super_elements.front(), body.nodes);
-    made->D = element::elasticity_matrix(model.materials[0], model.analysis.plane);
+    made->sectors = element::sectors_of(model, model.bodies[b], body);
     made->thickness = model.analysis.thickness;
-    made->solution = element::solve_super_element(made->ring, made->D, made->thickness);
+    made->solution = element::solve_super_element(made->ring, made->sectors.D, made->thickness);
     solution.super_elements.back() = std::move(made);
   }
   solution.model = std::move(model);
@@ -91,7 +91,7 @@ inline analysis::IncrementResult increment_of(const analysis::StaticSolution& so
     for (std::size_t i = 0; i < nodes.size(); ++i)
       u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
     increment.displacements.push_back(solution.model.bodies[b].rigid ? Vector(rigid) : u);
-    increment.body_forces.push_back(Vec2::Zero());
+    increment.interior.emplace_back();
   }
   return increment;
 }

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Draws the pictures of this page from runs of Cook's membrane: the mesh and the stress that a tolerance leads to, stress along
+a section, and error against degrees of freedom beside equal elements."""
+import argparse
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import matplotlib.ticker
+import meshio
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+MODEL = HERE / "model.yaml"
+TOLERANCES = ["1e-1", "3e-2", "1e-2", "3e-3", "1e-3", "3e-4", "1e-4"]
+CORNERS = [[0, 0], [48, 44], [48, 60], [0, 44]]
+EDGES = ", ".join(f"{{from: {CORNERS[k]}, to: {CORNERS[(k + 1) % 4]}, name: side_{k + 1}}}" for k in range(4))
+EQUAL = {1: [16, 8, 4, 2, 1], 2: [16, 8, 4, 2, 1], 4: [32, 16, 8, 4, 2]}  # order: sizes
+BLUE, RED, GREY = "#2b5c8a", "#c1442e", "0.55"
+
+plt.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8.5,
+                     "axes.linewidth": 0.7, "figure.dpi": 130, "savefig.dpi": 130})
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scabo", default="scabo", help="the program (default: scabo on the PATH)")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=HERE / "figures", metavar="DIR",
+                        help="where the pictures go (default: %(default)s)")
+    parser.add_argument("--results", type=pathlib.Path, default=pathlib.Path("error_control.results"), metavar="DIR",
+                        help="where the results of the runs go (default: %(default)s)")
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+
+    refined = {}
+    for tolerance in TOLERANCES:
+        refined[tolerance] = run(options.scabo, options.results / f"tolerance_{tolerance}",
+                                 f"bodies.panel.mesh.tolerance={tolerance}")
+    equal = {order: [run(options.scabo, options.results / f"order_{order}_size_{size}",
+                         f"bodies.panel.mesh={{size: {size}, order: {order}}}", "output.error=true")
+                     for size in sizes] for order, sizes in EQUAL.items()}
+    with_edges = run(options.scabo, options.results / "edges", f"output.lines=[{EDGES}]")
+    for name, figure in {"stress": stress(with_edges), "section": section(refined["1e-3"]),
+                         "convergence": convergence(refined, equal)}.items():
+        path = options.output / f"{name}.png"
+        figure.savefig(path)
+        print(path)
+
+
+class Run:
+    def __init__(self, directory):
+        self.directory = directory
+        self.summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
+        self.increment = self.summary["increments"][-1]
+        self.dofs = self.summary["model"]["dofs"]
+        self.energy = self.increment["energy"]["elastic"]
+
+    def table(self, name):
+        with open(self.directory / f"{name}.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        return {key: np.array([float(row[key]) for row in rows]) for key in rows[0] if key not in ("name", "body")}
+
+
+def run(scabo, directory, *settings):
+    command = [str(scabo), "run", str(MODEL), "-o", str(directory), "--quiet"]
+    for setting in settings:
+        command += ["--set", setting]
+    try:
+        status = subprocess.run(command).returncode
+    except OSError as error:
+        sys.exit(f"cannot run {scabo}: {error.strerror} (name the program with --scabo)")
+    if status != 0:
+        sys.exit(f"scabo ended with exit status {status}: {' '.join(command)}")
+    return Run(directory)
+
+
+def boundary_nodes(run):
+    """Nodes of the super-element: the first points, up to the second ring of the output."""
+    mesh = meshio.read(sorted(run.directory.glob("fields_*.vtu"))[-1])
+    return mesh.points[: run.summary["model"]["nodes"], :2]
+
+
+def stress(run):
+    """Von Mises stress from grid.csv and, along the edges, lines.csv; and the boundary nodes that refinement left."""
+    tables = [run.table("grid"), run.table("lines")]
+    x, y, values = (np.concatenate([table[key] for table in tables]) for key in ("x", "y", "von_mises"))
+    figure, axis = plt.subplots(figsize=(6.2, 5.8), layout="constrained")
+    levels = np.linspace(0, 0.3, 16)
+    drawn = axis.tricontourf(x, y, values, levels=levels, cmap="YlOrRd", extend="max")
+    axis.plot(*np.array(CORNERS + CORNERS[:1]).T, color="black", linewidth=0.8)
+    nodes = boundary_nodes(run)
+    axis.plot(*nodes.T, ".", color=BLUE, markersize=4, clip_on=False)
+    axis.plot([0, 0], [-1, 45], color="black", linewidth=3)
+    axis.annotate("", (50.2, 60), (50.2, 44), arrowprops={"arrowstyle": "-|>", "color": "black"})
+    axis.set(xlim=(-2, 52.5), ylim=(-2, 62), aspect="equal", xlabel="x", ylabel="y")
+    for side in ("top", "right"):
+        axis.spines[side].set_visible(False)
+    figure.colorbar(drawn, ax=axis, label="Von Mises stress", orientation="horizontal", shrink=0.8, aspect=40)
+    return figure
+
+
+def section(run):
+    """Stress along the line from the bottom to the top at x = 24."""
+    line = run.table("lines")
+    figure, axis = plt.subplots(figsize=(6.2, 3.2))
+    figure.subplots_adjust(left=0.11, right=0.98, top=0.97, bottom=0.15)
+    for key, colour in (("stress_xx", RED), ("stress_yy", GREY), ("stress_xy", BLUE)):
+        axis.plot(line["y"], line[key], color=colour, label=key.replace("_", " "))
+    axis.axhline(0, color="black", linewidth=0.6)
+    axis.set(xlabel="y at x = 24", ylabel="stress", xlim=(22, 52))
+    axis.legend(frameon=False)
+    return figure
+
+
+def convergence(refined, equal):
+    """Estimated and true error against degrees of freedom. True: from the energy of the finest run, by 2 (U - U_h)."""
+    finest = refined[TOLERANCES[-1]]
+    exact = finest.energy / (1 - finest.increment["error"]["relative_energy_norm"] ** 2)
+    true = lambda run: np.sqrt(1 - run.energy / exact)
+    figure, axis = plt.subplots(figsize=(6.2, 4.2))
+    figure.subplots_adjust(left=0.11, right=0.98, top=0.97, bottom=0.12)
+    for (order, runs), marker in zip(equal.items(), "^sv"):
+        axis.loglog([r.dofs for r in runs], [true(r) for r in runs], marker + "-", color=GREY, markersize=4, linewidth=0.8,
+                    label=f"equal elements of order {order}, true")
+    runs = [refined[t] for t in TOLERANCES]
+    axis.loglog([r.dofs for r in runs], [r.increment["error"]["relative_energy_norm"] for r in runs], "o", color="white",
+                markeredgecolor=RED, markersize=6, label="to a tolerance, estimated")
+    axis.loglog([r.dofs for r in runs[:-1]], [true(r) for r in runs[:-1]], "o-", color=RED, markersize=3,
+                label="to a tolerance, true")
+    axis.set(xlabel="degrees of freedom", ylabel="relative error in the energy norm")
+    axis.set_xticks([30, 50, 100, 200, 500], labels=["30", "50", "100", "200", "500"])
+    axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+    axis.grid(which="major", color="0.9", linewidth=0.6)
+    axis.legend(frameon=False)
+    return figure
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,378 @@
+#include "scabo/analysis/adaptive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "scabo/analysis/refinement.hpp"
+#include "scabo/element/two_orders.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Of the largest force: a reaction below it is rounding.
+constexpr double some_reaction = 1e-6;
+
+using Frozen = std::vector<std::vector<bool>>;  // [body][boundary element]
+
+/// Loads inside a body are not among the forces on its boundary.
+bool loaded_inside(const IncrementResult& increment, std::size_t body) {
+  return !increment.interior[body].loads.empty();
+}
+
+const std::vector<mesh::LineElement>& boundary_of(const mesh::Mesh& mesh, std::size_t body) {
+  return mesh.bodies[body].super_elements.front().boundary;
+}
+
+bool is_point(const model::Place& place) {
+  return place.kind == model::Place::Kind::corner || place.kind == model::Place::Kind::near;
+}
+
+/// Largest reaction of every support over all increments, and the largest force at work.
+struct Reactions {
+  std::vector<double> largest;
+  double scale = 0.0;
+};
+Reactions reactions_of(const StaticSolution& solution) {
+  Reactions reactions;
+  reactions.largest.assign(solution.model.supports.size(), 0.0);
+  for (const IncrementResult& increment : solution.increments) {
+    for (std::size_t i = 0; i < increment.reactions.size(); ++i) {
+      reactions.largest[i] = std::max(reactions.largest[i], increment.reactions[i].norm());
+      reactions.scale = std::max(reactions.scale, increment.reactions[i].norm());
+    }
+    for (const ContactResult& contact : increment.contacts)
+      reactions.scale = std::max(reactions.scale, std::abs(contact.normal_force));
+  }
+  for (const model::Load& load : solution.model.loads)
+    if (const auto* force = std::get_if<model::Force>(&load.kind))
+      reactions.scale = std::max(reactions.scale, force->value.norm());
+  return reactions;
+}
+
+/// Elements beside point forces and the like (adaptive.hpp), and those that cannot change without parting pairs of nodes.
+Frozen frozen_elements(const StaticSolution& solution) {
+  const mesh::Mesh& mesh = solution.mesh;
+  Frozen frozen(mesh.bodies.size());
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+    if (solution.super_elements[b]) frozen[b].assign(boundary_of(mesh, b).size(), false);
+  const auto freeze = [&](const model::Place& place) {
+    const auto b = static_cast<std::size_t>(place.body);
+    if (frozen[b].empty()) return;
+    const std::vector<int> nodes = mesh::nodes_of(place, mesh).nodes;
+    for (std::size_t e = 0; e < frozen[b].size(); ++e)
+      for (const int node : boundary_of(mesh, b)[e].nodes)
+        if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) frozen[b][e] = true;
+  };
+  for (const model::Load& load : solution.model.loads)
+    if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) freeze(*load.on);
+  const Reactions reactions = reactions_of(solution);
+  for (std::size_t i = 0; i < solution.model.supports.size(); ++i) {
+    const model::Place& place = solution.model.supports[i].on;
+    if (place.kind == model::Place::Kind::near ||
+        (place.kind == model::Place::Kind::corner && reactions.largest[i] > some_reaction * reactions.scale))
+      freeze(place);
+  }
+  const mesh::PairedElements paired = mesh::paired_elements(solution.model, mesh);
+  const auto flag = [&](const mesh::EdgeElement& at) -> std::vector<bool>::reference {
+    const auto b = static_cast<std::size_t>(at.body);
+    return frozen[b][static_cast<std::size_t>(mesh::boundary_element(mesh.bodies[b], at.edge, at.element))];
+  };
+  for (const mesh::EdgeElement& at : paired.alone)
+    if (!frozen[static_cast<std::size_t>(at.body)].empty()) flag(at) = true;
+  for (const auto& [a, b] : paired.alike)
+    if (flag(a) || flag(b)) flag(a) = flag(b) = true;
+  return frozen;
+}
+
+/// Elements of refined bodies that end at the corner of a point force.
+std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, const mesh::Division& division) {
+  std::vector<mesh::EdgeElement> elements;
+  for (const model::Load& load : model.loads) {
+    if (!load.on || load.on->kind != model::Place::Kind::corner || !std::holds_alternative<model::Force>(load.kind)) continue;
+    const int b = load.on->body, corner = load.on->index;
+    if (!model.bodies[static_cast<std::size_t>(b)].mesh.tolerance) continue;
+    const mesh::BodyDivision& body = division[static_cast<std::size_t>(b)];
+    const int count = static_cast<int>(body.size()), before = (corner + count - 1) % count;
+    elements.push_back({b, corner, 0});
+    elements.push_back({b, before, static_cast<int>(body[static_cast<std::size_t>(before)].orders.size()) - 1});
+  }
+  return elements;
+}
+
+/// `near` places as the nodes they mean on this mesh, so that they mean the same point on the next.
+void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
+  const auto hold = [&](model::Place& place) {
+    if (place.kind != model::Place::Kind::near) return;
+    const std::vector<int> nodes = mesh::nodes_of(place, mesh).nodes;
+    if (!nodes.empty())
+      place.near = mesh.bodies[static_cast<std::size_t>(place.body)].nodes[static_cast<std::size_t>(nodes.front())];
+  };
+  for (model::Support& support : model.supports) hold(support.on);
+  for (model::Load& load : model.loads)
+    if (load.on) hold(*load.on);
+}
+
+Options quiet(const Options& options, const std::string& what) {
+  Options silent;
+  silent.threads = options.threads;
+  silent.stop = options.stop;
+  if (options.on_stage)
+    silent.on_stage = [&options, what](const std::string& stage) { options.on_stage(what + ": " + stage); };
+  return silent;
+}
+
+/// The analysis on the wider mesh; nothing, with the reason in `why`, where it has not the same increments.
+std::optional<StaticSolution> solve_wider(const StaticSolution& solution, const Options& options, const std::string& what,
+                                          std::string& why) {
+  try {
+    mesh::Mesh mesh = mesh::enriched(solution.model, solution.mesh, frozen_elements(solution));
+    StaticSolution wider = solve_on_mesh(solution.model, std::move(mesh), quiet(options, what));
+    if (wider.outcome == Outcome::solved) return wider;
+    why = wider.reason;
+  } catch (const InputError& error) {
+    why = error.diagnostics().empty() ? error.what() : error.diagnostics().front().message;
+  }
+  return std::nullopt;
+}
+
+void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
+  for (std::size_t i = 0; i < std::min(solution.increments.size(), wider.increments.size()); ++i)
+    if (solution.increments[i].converged && wider.increments[i].converged)
+      solution.increments[i].error = estimate(solution, solution.increments[i], wider, wider.increments[i]);
+}
+
+void warn_of_frozen(StaticSolution& solution) {
+  std::set<std::string> places;
+  const auto add = [&](const model::Place& place) {
+    if (solution.super_elements[static_cast<std::size_t>(place.body)]) places.insert(place.text);
+  };
+  for (const model::Load& load : solution.model.loads)
+    if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
+  for (const std::string& place : places)
+    solution.warnings.push_back(fmt::format("stress under the point force at {} is infinite: the estimated error takes the force "
+                                            "as spread over the elements beside it, which are not refined",
+                                            place));
+}
+
+/// Reports a solution that is complete already, as if its increments came one by one.
+void replay(StaticSolution& solution, const Options& options) {
+  if (options.on_mesh) options.on_mesh(solution);
+  std::vector<IncrementResult> increments = std::move(solution.increments);
+  solution.increments.clear();
+  for (IncrementResult& increment : increments) {
+    solution.increments.push_back(std::move(increment));
+    if (options.on_increment) options.on_increment(solution, solution.increments.back());
+  }
+}
+
+int largest_body(const mesh::Mesh& mesh) {
+  std::size_t nodes = 0;
+  for (const mesh::BodyMesh& body : mesh.bodies)
+    if (!body.super_elements.empty()) nodes = std::max(nodes, body.nodes.size());
+  return 2 * static_cast<int>(nodes);
+}
+
+/// What refinement goes by.
+struct Judgement {
+  double sum = 0.0;    ///< eq. (1) of the worst increment
+  double error = 0.0;  ///< largest relative error of the whole model
+  std::size_t worst = 0;
+};
+Judgement judge(const StaticSolution& solution) {
+  Judgement judgement;
+  for (std::size_t i = 0; i < solution.increments.size(); ++i) {
+    const auto& error = solution.increments[i].error;
+    if (!error) continue;
+    double sum = 0.0;
+    for (std::size_t b = 0; b < solution.model.bodies.size(); ++b)
+      if (const auto& tolerance = solution.model.bodies[b].mesh.tolerance; tolerance && error->bodies[b])
+        sum += std::pow(error->bodies[b]->relative / *tolerance, 2);
+    if (sum > judgement.sum) judgement.sum = sum, judgement.worst = i;
+    judgement.error = std::max(judgement.error, error->relative);
+  }
+  return judgement;
+}
+
+/// Parts of the sum that the elements hold in the worst increment.
+std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const StaticSolution& wider, std::size_t worst) {
+  std::vector<std::vector<double>> shares(solution.model.bodies.size());
+  for (std::size_t b = 0; b < shares.size(); ++b) {
+    const auto& tolerance = solution.model.bodies[b].mesh.tolerance;
+    if (!tolerance || !solution.super_elements[b]) continue;
+    for (const double error : element_errors(solution, solution.increments[worst], wider, wider.increments[worst], b))
+      shares[b].push_back(std::pow(error / *tolerance, 2));
+  }
+  return shares;
+}
+
+StaticSolution not_reached(StaticSolution solution, const std::string& why) {
+  if (solution.outcome != Outcome::solved) return solution;
+  solution.outcome = Outcome::not_converged;
+  solution.reason = fmt::format("mesh.tolerance was not reached: {}", why);
+  return solution;
+}
+
+}  // namespace
+
+bool wants_refinement(const model::Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const model::Body& body) { return body.mesh.tolerance.has_value(); });
+}
+
+void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
+  if (!wants_refinement(model)) return;
+  std::vector<Diagnostic> mistakes;
+  const auto refined = [&](const model::Place& place) {
+    return model.bodies[static_cast<std::size_t>(place.body)].mesh.tolerance.has_value();
+  };
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    const model::Contact& contact = model.contacts[static_cast<std::size_t>(interface.contact)];
+    const bool a = refined(contact.a), b = refined(contact.b);
+    const auto name = [&](const model::Place& place) { return model.bodies[static_cast<std::size_t>(place.body)].name; };
+    const auto elastic = [&](const model::Place& place) { return !model.bodies[static_cast<std::size_t>(place.body)].rigid; };
+    if (a != b && elastic(contact.a) && elastic(contact.b))
+      mistakes.push_back({contact.source,
+                          fmt::format("body '{}' is refined for its tolerance and body '{}' is not, so that their nodes would "
+                                      "no longer match: give both a mesh.tolerance, or neither",
+                                      name(a ? contact.a : contact.b), name(a ? contact.b : contact.a))});
+  }
+  for (const mesh::EdgeElement& at : mesh::paired_elements(model, mesh).alone) {
+    const model::Body& body = model.bodies[static_cast<std::size_t>(at.body)];
+    if (!body.mesh.tolerance || !mistakes.empty()) continue;
+    const std::string edge = body.name + "." + body.outline.edges[static_cast<std::size_t>(at.edge)].names.back();
+    mistakes.push_back({body.mesh.source,
+                        fmt::format("element {} of {} faces no element like it in its contact, so that the two sides cannot be "
+                                    "refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
+                                    "shorter edge fall on ends of elements of the longer one",
+                                    at.element + 1, edge)});
+  }
+  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+}
+
+ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
+                       const IncrementResult& wider_increment) {
+  ErrorEstimate error;
+  error.bodies.resize(solution.model.bodies.size());
+  std::vector<double> squared(error.bodies.size(), 0.0);
+  double energy = 0.0;
+  for (std::size_t b = 0; b < error.bodies.size(); ++b) {
+    if (!solution.super_elements[b]) continue;
+    const Matrix& K = wider.super_elements[b]->solution.K;
+    const Vector& U = wider_increment.displacements[b];
+    squared[b] = element::squared_difference({boundary_of(solution.mesh, b), solution.super_elements[b]->solution.K,
+                                              increment.displacements[b], boundary_of(wider.mesh, b), K, U,
+                                              !loaded_inside(increment, b)});
+    energy += U.dot(K * U);
+  }
+  // FE bodies have energy too, though no estimate.
+  energy = std::max(energy, 2.0 * wider_increment.energy.elastic);
+  const double norm = std::sqrt(energy);
+  const auto relative = [&](double square) { return norm > 0.0 ? std::sqrt(square) / norm : 0.0; };
+  error.relative = relative(std::accumulate(squared.begin(), squared.end(), 0.0));
+  for (std::size_t b = 0; b < error.bodies.size(); ++b)
+    if (solution.super_elements[b]) error.bodies[b] = BodyError{std::sqrt(squared[b]), relative(squared[b])};
+  return error;
+}
+
+std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
+                                   const IncrementResult& wider_increment, std::size_t body) {
+  const SolvedSuperElement &narrow = *solution.super_elements[body], &wide = *wider.super_elements[body];
+  std::vector<double> errors =
+      element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), increment.displacements[body]},
+                                  {wide.ring, wide.solution, wide.modes(), wider_increment.displacements[body]}, wide.sectors.D);
+  const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
+  for (double& error : errors) error = sum > 0.0 ? increment.error->bodies[body]->relative * std::sqrt(error / sum) : 0.0;
+  return errors;
+}
+
+StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options) {
+  hold_near_places(model, mesh);
+  StaticSolution solution = solve_on_mesh(std::move(model), std::move(mesh), quiet(options, "mesh"));
+  std::string why;
+  if (solution.outcome == Outcome::solved) {
+    if (const auto wider = solve_wider(solution, options, "error", why))
+      estimate_all(solution, *wider);
+    else
+      solution.warnings.push_back(fmt::format("no error was estimated: on the mesh of higher order, {}", why));
+    warn_of_frozen(solution);
+  }
+  replay(solution, options);
+  return solution;
+}
+
+StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits) {
+  Refinement refinement(model);
+  std::vector<RefinementPass> passes;
+  std::vector<double> sums;
+  std::optional<StaticSolution> last;
+  bool begun = false;
+  const auto end = [&](StaticSolution solution) {
+    solution.passes = passes;
+    if (solution.outcome != Outcome::interrupted) warn_of_frozen(solution);
+    replay(solution, options);
+    return solution;
+  };
+  while (true) {
+    const std::string name = fmt::format("pass {}", passes.size() + 1);
+    mesh::Mesh mesh;
+    try {
+      mesh = mesh::make_mesh(model, refinement.division());
+    } catch (const InputError& error) {
+      if (!last) throw;
+      return end(not_reached(std::move(*last), error.diagnostics().front().message));
+    }
+    if (passes.empty() && !begun) {
+      hold_near_places(model, mesh);
+      refinement.divide_at_corners(mesh, elements_at_forces(model, refinement.division()));
+      begun = true;
+      continue;
+    }
+    StaticSolution solution = solve_on_mesh(model, std::move(mesh), quiet(options, name));
+    if (solution.outcome != Outcome::solved) return end(std::move(solution));
+    std::string why;
+    const auto wider = solve_wider(solution, options, name + ", error", why);
+    if (!wider) {
+      if (options.stop && *options.stop) {
+        solution.outcome = Outcome::interrupted;
+        solution.reason = "interrupted: the results are those of a mesh whose error is not known";
+        return end(std::move(solution));
+      }
+      return end(not_reached(std::move(solution), "no error was estimated: on the mesh of higher order, " + why));
+    }
+    estimate_all(solution, *wider);
+    const Judgement judgement = judge(solution);
+    passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});
+    sums.push_back(judgement.sum);
+    if (judgement.sum <= 1.0) return end(std::move(solution));
+
+    const auto at = [&] { return fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error, passes.back().dofs); };
+    const auto back = static_cast<std::size_t>(limits.without_progress);
+    if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
+      return end(not_reached(std::move(solution), at() + ", and more of them do not help"));
+    if (static_cast<int>(passes.size()) == limits.passes)
+      return end(not_reached(std::move(solution), fmt::format("after {} passes {}", limits.passes, at())));
+    const RefinementPass refined = refinement.refine(solution.mesh, shares_of(solution, *wider, judgement.worst), frozen_elements(solution));
+    passes.back().raised = refined.raised;
+    passes.back().divided = refined.divided;
+    if (refined.raised + refined.divided == 0)
+      return end(not_reached(std::move(solution), at() + ", and no element can be refined further"));
+    const mesh::Division& division = refinement.division();
+    int nodes = 0;
+    for (const mesh::BodyDivision& body : division) {
+      int of_body = 0;
+      for (const mesh::EdgeDivision& edge : body)
+        for (const int order : edge.orders) of_body += order;
+      nodes = std::max(nodes, of_body);
+    }
+    if (2 * nodes > std::max(limits.dofs, largest_body(solution.mesh)))
+      return end(not_reached(std::move(solution), fmt::format("{}; a finer mesh would have {} in one body, more than {}", at(), 2 * nodes, limits.dofs)));
+    last = std::move(solution);
+  }
+}
+
+}  // namespace scabo::analysis

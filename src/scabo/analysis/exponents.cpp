@@ -1,0 +1,84 @@
+#include "scabo/analysis/exponents.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/analysis/super_elements.hpp"
+#include "scabo/linalg/dense.hpp"
+#include "scabo/linalg/ordered_schur.hpp"
+#include "scabo/mesh/mesh.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+constexpr double alike = 1e-6;  // defective exponents move apart by about the root of rounding
+
+/// Fewer modes than exponents among those of one cluster. Exponents of different symmetry blocks do not couple.
+bool is_defective(const element::SuperElementSolution& solution, std::complex<double> value) {
+  for (const element::Block& block : solution.blocks) {
+    const linalg::OrderedSchur schur(block.S, [&](std::complex<double> z) {
+      return std::abs(std::complex<double>(z.real(), std::abs(z.imag())) - value) <= 10.0 * alike ? 0 : 1;
+    });
+    if (linalg::is_defective(schur.group(0), 10.0 * alike)) return true;
+  }
+  return false;
+}
+
+void explain(Exponent& exponent, bool open, bool unbounded) {
+  const auto add = [&](const char* words) { exponent.meaning += (exponent.meaning.empty() ? "" : ", ") + std::string(words); };
+  if (exponent.value == 0.0) return add("translations");
+  if (unbounded) return;
+  if (std::abs(exponent.value - 1.0) <= alike) add(open ? (exponent.multiplicity > 1 ? "rotation, T-stress" : "rotation") : "rotation, constant strains");
+  if (exponent.singular) add("singular");
+  if (exponent.singular && exponent.value.imag() != 0.0) add("oscillating");
+  if (exponent.defective) add("defective: power-logarithmic");
+}
+
+BodyExponents of_super_element(const SolvedSuperElement& super_element) {
+  BodyExponents found;
+  const bool unbounded = super_element.domain.unbounded, open = super_element.ring.is_open();
+  found.kind = unbounded ? "outside" : open ? "open" : "closed";
+  found.dofs = static_cast<int>(super_element.solution.K.rows());
+  std::vector<std::complex<double>> values = super_element.modes().exponents;
+  const std::vector<int> cluster = linalg::clusters(values, alike);
+  for (int c = 0, found_in = 1; found_in > 0; ++c) {
+    std::complex<double> sum = 0.0;
+    int upper = 0;
+    found_in = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (cluster[i] != c) continue;
+      ++found_in;
+      if (values[i].imag() >= 0.0) sum += values[i], ++upper;
+    }
+    if (found_in == 0) break;
+    Exponent exponent;
+    exponent.value = sum / static_cast<double>(upper);
+    // Equal real ones may come out as a pair a root of rounding apart.
+    const bool pairs = exponent.value.imag() > alike;
+    if (!pairs) exponent.value = exponent.value.real();
+    exponent.multiplicity = pairs ? upper : found_in;
+    exponent.singular = !unbounded && exponent.value.real() > 0.0 && exponent.value.real() < 1.0 - 1e-4;
+    if (exponent.value != 0.0 && exponent.multiplicity > 1)
+      exponent.defective = is_defective(super_element.solution, exponent.value);
+    explain(exponent, open, unbounded);
+    found.exponents.push_back(std::move(exponent));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<BodyExponents> exponents_of(const model::Model& model) {
+  linalg::set_blas_threads(1);
+  const auto super_elements = solve_super_elements(model, mesh::make_mesh(model), 1);
+  std::vector<BodyExponents> all;
+  for (std::size_t b = 0; b < super_elements.size(); ++b)
+    if (super_elements[b]) {
+      all.push_back(of_super_element(*super_elements[b]));
+      all.back().body = static_cast<int>(b);
+    }
+  return all;
+}
+
+}  // namespace scabo::analysis

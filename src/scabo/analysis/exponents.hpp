@@ -1,0 +1,33 @@
+// The exponents of the super-elements of a model: u ~ xi^lambda, xi the distance from the scaling centre.
+//
+// Bounded: 0 for the two translations, 1 for the rotation and for linear displacements; below 1 stress is infinite at the
+// scaling centre (open super-elements: cracks, notches, corners). Unbounded: negative real parts, and 0.
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "scabo/model/model.hpp"
+
+namespace scabo::analysis {
+
+struct Exponent {
+  std::complex<double> value;  ///< imaginary part 0 or more: a pair is one entry
+  int multiplicity = 1;        ///< equal ones (to 1e-6); of a complex pair, of each
+  bool singular = false;       ///< 0 < real part < 1
+  bool defective = false;      ///< fewer modes than exponents: the field has a power of ln xi (power-logarithmic)
+  std::string meaning;         ///< `translations`, `rotation` ...; empty where there is nothing to say
+};
+
+struct BodyExponents {
+  int body = -1;     ///< index into Model::bodies
+  std::string kind;  ///< `closed`, `open` (with side faces) or `outside`
+  int dofs = 0;
+  std::vector<Exponent> exponents;  ///< ascending real part
+};
+
+/// Meshes the model and solves its super-elements. Bodies without one (rigid, finite elements) are left out.
+std::vector<BodyExponents> exponents_of(const model::Model& model);
+
+}  // namespace scabo::analysis

@@ -1,0 +1,175 @@
+#include "scabo/analysis/modal_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <numbers>
+
+#include "scabo/analysis/super_elements.hpp"
+#include "scabo/element/mass.hpp"
+#include "scabo/linalg/dense.hpp"
+#include "scabo/system/natural_modes.hpp"
+#include "scabo/system/structure.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+const model::Material& material_of(const model::Model& model, std::size_t body) {
+  return model.materials[static_cast<std::size_t>(model.bodies[body].material)];
+}
+
+/// Stiffness and mass of a body.
+struct BodyMatrices {
+  system::Stiffness K, M;
+};
+
+/// Super-elements that are alike share both.
+class Matrices {
+ public:
+  Matrices(const StaticSolution& structure, int threads) : structure_(structure), threads_(threads) {}
+
+  BodyMatrices of(std::size_t body) {
+    const model::Model& model = structure_.model;
+    const double thickness = model.analysis.thickness;
+    BodyMatrices matrices;
+    if (const auto& super_element = structure_.super_elements[body]) {
+      std::vector<double> density;  // super-elements that are alike have the same materials
+      for (const int material : super_element->sectors.materials)
+        density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
+      std::shared_ptr<const Matrix>& mass = masses_[super_element.get()];
+      if (!mass)
+        mass = std::make_shared<const Matrix>(element::mass_matrix(super_element->ring, super_element->solution,
+                                                                   super_element->modes(), density, thickness, threads_));
+      matrices.K.dense = std::shared_ptr<const Matrix>(super_element, &super_element->solution.K);
+      matrices.M.dense = mass;
+    } else {
+      const auto D = element::elasticity_matrix(material_of(model, body), model.analysis.plane);
+      matrices.K.sparse = system::fem_stiffness(structure_.mesh.bodies[body], D, thickness);
+      matrices.M.sparse = system::fem_mass(structure_.mesh.bodies[body], *material_of(model, body).density, thickness);
+    }
+    return matrices;
+  }
+
+ private:
+  const StaticSolution& structure_;
+  int threads_;
+  std::map<const SolvedSuperElement*, std::shared_ptr<const Matrix>> masses_;
+};
+
+/// M times a translation of the whole body.
+std::array<Vector, 2> mass_of_translations(const system::Stiffness& M) {
+  std::array<Vector, 2> products;
+  for (Eigen::Index component = 0; component < 2; ++component) {
+    Vector r = Vector::Zero(M.size());
+    for (Eigen::Index i = component; i < r.size(); i += 2) r[i] = 1.0;
+    products[static_cast<std::size_t>(component)] = M.times(r);
+  }
+  return products;
+}
+
+NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, std::size_t body,
+                          const std::array<Vector, 2>& mass_of_translation) {
+  NaturalMode mode;
+  mode.body = static_cast<int>(body);
+  mode.rigid = k < modes.rigid;
+  mode.frequency = std::sqrt(modes.eigenvalues[k]) / (2.0 * std::numbers::pi);
+  mode.residual = modes.residuals[k];
+  const Vector phi = modes.shapes.col(k);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const double participation = phi.dot(mass_of_translation[c]);
+    mode.effective_mass[static_cast<Eigen::Index>(c)] = participation * participation;  // phi' M phi = 1
+  }
+  Eigen::Index node = 0, component = 0;
+  const double largest = std::sqrt(phi.reshaped(2, phi.size() / 2).colwise().squaredNorm().maxCoeff(&node));
+  phi.segment<2>(2 * node).cwiseAbs().maxCoeff(&component);
+  const double scale = (phi[2 * node + component] < 0.0 ? -1.0 : 1.0) / largest;
+  mode.shape = scale * phi;
+  mode.modal_mass = scale * scale;
+  return mode;
+}
+
+}  // namespace
+
+ModalResult solve_modal(model::Model model, const Options& options) {
+  const auto stage = [&](const std::string& what) {
+    if (options.on_stage) options.on_stage(what);
+  };
+  linalg::set_blas_threads(options.threads);
+  ModalResult result;
+  StaticSolution& structure = result.structure;
+  structure.model = std::move(model);
+  structure.model.contacts.clear();
+  result.warnings = structure.model.warnings;
+  const int count = structure.model.analysis.modes;
+
+  stage("mesh");
+  std::vector<std::vector<system::Constraint>> constraints;
+  {
+    const Stopwatch stopwatch(result.timing.mesh);
+    structure.mesh = mesh::make_mesh(structure.model);
+    constraints = system::constraints_of(structure.model, structure.mesh);
+  }
+  stage("super-elements");
+  {
+    const Stopwatch stopwatch(result.timing.super_elements);
+    structure.super_elements = solve_super_elements(structure.model, structure.mesh, options.threads);
+  }
+  Matrices matrices(structure, options.threads);
+  std::vector<double> squares;
+  for (std::size_t b = 0; b < structure.model.bodies.size(); ++b) {
+    if (structure.model.bodies[b].rigid) continue;
+    BodyMatrices body;
+    stage(fmt::format("mass of body {}", structure.model.bodies[b].name));
+    {
+      const Stopwatch stopwatch(result.timing.mass);
+      body = matrices.of(b);
+    }
+    stage(fmt::format("modes of body {}", structure.model.bodies[b].name));
+    const Stopwatch stopwatch(result.timing.eigenvalues);
+    const auto translations = mass_of_translations(body.M);
+    for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
+    const system::NaturalModes modes =
+        system::natural_modes(body.K, body.M, structure.mesh.bodies[b].nodes, constraints[b], count);
+    for (Eigen::Index k = 0; k < modes.eigenvalues.size(); ++k)
+      result.modes.push_back(describe_mode(modes, k, b, translations));
+  }
+  std::stable_sort(result.modes.begin(), result.modes.end(),
+                   [](const NaturalMode& a, const NaturalMode& b) { return a.frequency < b.frequency; });
+  if (static_cast<int>(result.modes.size()) > count) result.modes.resize(static_cast<std::size_t>(count));
+  if (static_cast<int>(result.modes.size()) < count)
+    result.warnings.push_back(fmt::format("the model has {} modes only, not the {} asked for: use a smaller mesh size",
+                                          result.modes.size(), count));
+  for (const NaturalMode& mode : result.modes)
+    ensure(mode.residual < 1e-10, "a natural mode does not satisfy its equation");
+  return result;
+}
+
+IncrementResult state_of(const ModalResult& result, const NaturalMode& mode) {
+  const model::Model& model = result.structure.model;
+  IncrementResult state;
+  state.converged = true;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto size = model.bodies[b].rigid ? Eigen::Index{3}
+                                            : static_cast<Eigen::Index>(2 * result.structure.mesh.bodies[b].nodes.size());
+    state.displacements.push_back(static_cast<int>(b) == mode.body ? mode.shape : Vector(Vector::Zero(size)));
+    state.interior.emplace_back();
+  }
+  return state;
+}
+
+}  // namespace scabo::analysis

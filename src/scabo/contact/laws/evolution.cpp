@@ -1,0 +1,180 @@
+#include "scabo/contact/laws/evolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/base/error.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+/// Motions that need less force than this part of what the pair carries are rounding.
+constexpr double noticeable = 1e-9;
+
+struct Ends {
+  std::vector<PairEnd> of_pair;
+  Vector overload;  // N
+};
+
+Ends ends_of(const Problem& problem, const Solution& solution, const Vector& diagonal) {
+  const Eigen::Index N = problem.pairs(), d = problem.dimension;
+  Ends ends{std::vector<PairEnd>(static_cast<std::size_t>(N)), Vector::Zero(N)};
+  const double mean = N > 0 ? diagonal.mean() : 1.0;
+  const double largest = solution.p.size() > 0 ? solution.p.lpNorm<Eigen::Infinity>() : 0.0;
+  const auto force = [&](double motion, double W) { return motion / (W > 1e-14 * mean ? W : mean); };
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const ContactState state = solution.states[static_cast<std::size_t>(i)];
+    const double slip = solution.slip_increment.segment((d - 1) * i, d - 1).norm();
+    const double strength = problem.friction_bound(i, solution.p[d * i]) + problem.tension_of(i);
+    const double opening = force(std::max(solution.gap[i], 0.0), diagonal[d * i]);
+    const double sliding = force(slip, diagonal.segment(d * i + 1, d - 1).mean());
+    if (std::isinf(strength)) continue;
+    const double rounding = noticeable * std::max(strength, 1e-3 * largest);
+    PairEnd& end = ends.of_pair[static_cast<std::size_t>(i)];
+    end.opened = state == ContactState::open && opening > rounding;
+    end.slid = state == ContactState::slip && sliding > rounding;
+    // An open pair without tension still slides where it has cohesion.
+    if (state == ContactState::open && problem.cohesion_of(i) > 0.0 && sliding > rounding) end.slid = true;
+    end.slip = end.slid && state == ContactState::slip ? slip : 0.0;
+    ends.overload[i] =
+        ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
+  }
+  return ends;
+}
+
+/// The pairs most overloaded among those whose marks the solution changes take their new marks. Whether there
+/// was one.
+bool let_fall(const JointLaws& laws, const Ends& ends, History& trial) {
+  History next = trial;
+  double largest = -1.0;
+  const auto falls = [&](std::size_t i) {
+    return next[i].broken != trial[i].broken || next[i].slipped != trial[i].slipped;
+  };
+  for (std::size_t i = 0; i < trial.size(); ++i) {
+    next[i] = laws.of_pair[i]->after(trial[i], ends.of_pair[i]);
+    if (falls(i)) largest = std::max(largest, ends.overload[static_cast<Eigen::Index>(i)]);
+  }
+  if (largest < 0.0) return false;
+  for (std::size_t i = 0; i < trial.size(); ++i)
+    if (falls(i) && ends.overload[static_cast<Eigen::Index>(i)] >= (1.0 - 1e-6) * largest) {
+      trial[i].broken = next[i].broken;
+      trial[i].slipped = next[i].slipped;
+    }
+  return true;
+}
+
+/// Coefficients that follow the slip: Aitken's extrapolation of each pair's slip from three rounds.
+class Following {
+ public:
+  /// Slip of the next round from what this round gave for `used`; false when all are settled.
+  bool next(const JointLaws& laws, const History& from, const Ends& ends, double tolerance, History& trial) {
+    bool settled = true;
+    const bool extrapolate = ++round_ % 3 == 0;
+    before_.resize(trial.size(), 0.0);
+    for (std::size_t i = 0; i < trial.size(); ++i) {
+      PairHistory reached = trial[i];
+      reached.slip = from[i].slip + ends.of_pair[i].slip;
+      const double mu = laws.of_pair[i]->limits(trial[i]).mu,
+                   mu_reached = laws.of_pair[i]->limits(reached).mu;
+      settled = settled && std::abs(mu_reached - mu) <= tolerance * std::max(mu, mu_reached);
+      const double change = reached.slip - trial[i].slip,
+                   ratio = before_[i] != 0.0 ? change / before_[i] : 0.0;
+      before_[i] = change;
+      trial[i].slip = extrapolate && std::abs(ratio) < 0.95
+                          ? std::max(from[i].slip, trial[i].slip + change / (1.0 - ratio))
+                          : reached.slip;
+    }
+    return !settled;
+  }
+  void forget() {
+    round_ = 0;
+    before_.clear();
+  }
+
+ private:
+  int round_ = 0;
+  std::vector<double> before_;
+};
+
+bool remembers(const JointLaws& laws) {
+  return std::any_of(laws.of_pair.begin(), laws.of_pair.end(),
+                     [](const auto& law) { return law->remembers(); });
+}
+
+History after(const History& from, const History& trial, const Ends& ends) {
+  History history = trial;
+  for (std::size_t i = 0; i < trial.size(); ++i) history[i].slip = from[i].slip + ends.of_pair[i].slip;
+  return history;
+}
+
+}  // namespace
+
+void set_limits(const JointLaws& laws, const History& history, Problem& problem) {
+  const auto N = static_cast<Eigen::Index>(laws.of_pair.size());
+  problem.mu.resize(N);
+  problem.cohesion = problem.tension = Vector::Zero(N);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Limits limits = laws.of_pair[k]->limits(history[k]);
+    problem.mu[i] = limits.mu;
+    problem.cohesion[i] = limits.cohesion * laws.area[i];
+    problem.tension[i] = limits.tension * laws.area[i];
+  }
+  if (problem.cohesion.isZero(0.0)) problem.cohesion.resize(0);
+  if (problem.tension.isZero(0.0)) problem.tension.resize(0);
+}
+
+Evolution evolve(Problem problem, const JointLaws& laws, const History& from, const Start& start,
+                 const SolverOptions& options) {
+  ensure(laws.of_pair.size() == from.size(), "laws and histories of contact pairs differ in number");
+  constexpr int gradual = 200;  // rounds without anything that falls at once
+  const bool with_memory = remembers(laws);
+  const Vector diagonal = problem.W.diagonal();
+  Evolution result;
+  History trial = from;
+  Following following;
+  Start at = start;
+  Solution total;
+  const int most = 2 * static_cast<int>(from.size()) + gradual;
+  for (int quiet = 0; result.rounds < most && quiet < gradual;) {
+    set_limits(laws, trial, problem);
+    Solution solution = solve(problem, at, options);
+    ++result.rounds;
+    for (Iteration& iteration : solution.trace) {
+      iteration.iteration += total.iterations;
+      total.trace.push_back(std::move(iteration));
+    }
+    total.iterations = solution.iterations += total.iterations;
+    solution.trace.clear();
+    result.solution = std::move(solution);
+    const bool solved = result.solution.status == Status::solved;
+    const Ends ends = solved ? ends_of(problem, result.solution, diagonal) : Ends{};
+    const bool again = solved && with_memory && [&] {
+      if (let_fall(laws, ends, trial)) {
+        following.forget();
+        quiet = 0;
+        return true;
+      }
+      ++quiet;
+      return following.next(laws, from, ends, 0.1 * options.tolerance, trial);
+    }();
+    if (!again) {
+      result.history = solved ? after(from, trial, ends) : from;
+      result.problem = std::move(problem);
+      result.solution.trace = std::move(total.trace);
+      return result;
+    }
+    at = {result.solution.p, result.solution.a};
+  }
+  result.history = from;
+  result.problem = std::move(problem);
+  result.solution.trace = std::move(total.trace);
+  result.solution.status = Status::not_converged;
+  result.solution.reason = "the strengths of the joints did not settle within " +
+                           std::to_string(result.rounds) +
+                           " rounds; the increment may be too large, or failure runs away";
+  return result;
+}
+
+}  // namespace scabo::contact

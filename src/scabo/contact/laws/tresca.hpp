@@ -1,0 +1,19 @@
+// Tresca's law: the bound of the tangential force is prescribed and does not depend on pressure, |p_t| <= k
+// A, p_n >= 0. Slip does not use it up. It acts on an open pair as well (Tresca's bound knows no p_n): model
+// the parts of a joint that stay shut with it.
+#pragma once
+
+#include "scabo/contact/laws/law.hpp"
+
+namespace scabo::contact {
+
+class Tresca : public Law {
+ public:
+  explicit Tresca(double shear_strength) : k_(shear_strength) {}
+  Limits limits(const PairHistory&) const override { return {0.0, k_, 0.0}; }
+
+ private:
+  double k_;  // force / length^2, >= 0
+};
+
+}  // namespace scabo::contact

@@ -1,0 +1,61 @@
+// Loads inside a super-element: body forces, tractions on side faces, initial strains (temperature), as powers of xi.
+//
+//     q = E0 xi u,xi + E1' u - xi^j c,     xi q,xi = E1 xi u,xi + E2 u - xi^j g                              (1)
+//
+//     body force b xi^k                     j = k + 2,  g = int N' b |J| deta t                              (2)
+//     traction s xi^k on a side face        j = k + 1,  g = s l t at the face's node, l its length           (3)
+//     initial strain eps0 xi^k              j = k + 1,  c = int B1' D eps0 |J| deta t,                       (4)
+//                                                       g = int B2' D eps0 |J| deta t
+//
+// with t the thickness. Any power j > 0 will do, whole or not, an exponent of the super-element or not: see
+// equivalent_load() in modal_solution.hpp.
+#pragma once
+
+#include <vector>
+
+#include "scabo/element/coefficient_matrices.hpp"
+
+namespace scabo::element {
+
+struct RadialLoad {
+  double power = 0.0;  ///< j > 0
+  Vector g;            // n, force
+  Vector c;            // n, force; empty: 0
+};
+
+/// A quantity that is linear in x and y.
+struct LinearField {
+  double constant = 0.0, per_x = 0.0, per_y = 0.0;
+  double at(const Vec2& x) const { return constant + per_x * x.x() + per_y * x.y(); }
+  bool is_zero() const { return constant == 0.0 && per_x == 0.0 && per_y == 0.0; }
+};
+
+/// Body force, force / length^3, of (x, y) about the scaling centre, times `density`: one for all boundary elements or one
+/// for each.
+std::vector<RadialLoad> body_force_loads(const Ring& ring, const LinearField& b_x, const LinearField& b_y,
+                                         double thickness, const std::vector<double>& density = {1.0});
+
+/// A side face of an open super-element.
+enum class Face { first, last };
+
+/// Traction `value` xi^`power` (force / length^2, power > -1) on a side face.
+RadialLoad face_load(const Ring& ring, Face face, double power, const Vec2& value, double thickness);
+
+/// Outward unit normal of a side face.
+Vec2 face_normal(const Ring& ring, Face face);
+
+/// Change of temperature, of (x, y) about the scaling centre. `unit_strain`: free strain [xx, yy, xy] per unit of
+/// temperature, one for all boundary elements or one for each.
+std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, const std::vector<Vec3>& unit_strain,
+                                      const LinearField& temperature, double thickness);
+
+/// Everything that acts inside a body: what its nodal forces alone do not tell of its interior.
+struct InteriorLoads {
+  std::vector<RadialLoad> loads;  ///< of a super-element
+  LinearField temperature;        ///< change of temperature, of absolute (x, y)
+};
+
+/// The loads with equal powers put together; `factor` times each.
+void add_radial_loads(std::vector<RadialLoad>& to, const std::vector<RadialLoad>& loads, double factor);
+
+}  // namespace scabo::element

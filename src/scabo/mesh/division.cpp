@@ -1,0 +1,153 @@
+#include "scabo/mesh/division.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/lobatto.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+using Ends = std::pair<int, int>;
+
+Ends ends_of(const LineElement& element) { return {element.nodes.front(), element.nodes.back()}; }
+
+/// `nodes` of order p as those of order p + 1 on the same curve: the two ends, and the points between.
+std::vector<Vec2> inner_points(const std::vector<Vec2>& curve) {
+  const int order = static_cast<int>(curve.size()) - 1;
+  const Matrix shape = LobattoBasis(order).shape_at(lobatto_points(order + 1));
+  std::vector<Vec2> points;
+  for (Eigen::Index k = 1; k + 1 < shape.rows(); ++k) {
+    Vec2 x = Vec2::Zero();
+    for (std::size_t i = 0; i < curve.size(); ++i) x += shape(k, static_cast<Eigen::Index>(i)) * curve[i];
+    points.push_back(x);
+  }
+  return points;
+}
+
+BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
+  BodyMesh fine = mesh;
+  fine.nodes.clear();
+  std::map<int, int> number;  // new, of the nodes that elements share
+  std::map<Ends, LineElement> element_of;
+  const auto shared = [&](int node) {
+    const auto [found, is_new] = number.emplace(node, static_cast<int>(fine.nodes.size()));
+    if (is_new) fine.nodes.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+    return found->second;
+  };
+  std::vector<LineElement>& boundary = fine.super_elements.front().boundary;
+  for (std::size_t e = 0; e < boundary.size(); ++e) {
+    const LineElement old = boundary[e];
+    const bool stays = !frozen.empty() && frozen[e];
+    LineElement& element = boundary[e];
+    element.nodes = {shared(old.nodes.front())};
+    std::vector<Vec2> curve;
+    for (const int node : old.nodes) curve.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+    for (const Vec2& x : stays ? std::vector<Vec2>(curve.begin() + 1, curve.end() - 1) : inner_points(curve)) {
+      element.nodes.push_back(static_cast<int>(fine.nodes.size()));
+      fine.nodes.push_back(x);
+    }
+    element.nodes.push_back(shared(old.nodes.back()));
+    element_of[ends_of(old)] = element;
+  }
+  for (std::vector<LineElement>& edge : fine.edges)
+    for (LineElement& element : edge) {
+      Ends ends = ends_of(element);
+      const bool reversed = !element_of.contains(ends);
+      if (reversed) std::swap(ends.first, ends.second);
+      element = element_of.at(ends);
+      if (reversed) std::reverse(element.nodes.begin(), element.nodes.end());
+    }
+  for (int& corner : fine.corners)
+    if (corner >= 0) corner = number.at(corner);
+  return fine;
+}
+
+/// Pairs the elements of one contact.
+void pair_elements(const model::Contact& contact, const Interface& interface, const Mesh& mesh, PairedElements& paired) {
+  std::map<int, int> b_of, a_of;
+  for (const ContactPair& pair : interface.pairs) {
+    if (pair.node_a < 0 || pair.node_b < 0) return;  // one side is rigid and has no elements
+    b_of[pair.node_a] = pair.node_b;
+    a_of[pair.node_b] = pair.node_a;
+  }
+  const auto elements = [&](const model::Place& place) -> const std::vector<LineElement>& {
+    return mesh.bodies[static_cast<std::size_t>(place.body)].edges[static_cast<std::size_t>(place.index)];
+  };
+  std::map<Ends, int> of_b;
+  for (std::size_t k = 0; k < elements(contact.b).size(); ++k)
+    of_b[ends_of(elements(contact.b)[k])] = static_cast<int>(k);
+  std::vector<bool> met(elements(contact.b).size(), false);
+  // One node alone is the end of the overlap; its element lies beyond.
+  const auto lies_within = [](const LineElement& element, const std::map<int, int>& partners) {
+    return std::count_if(element.nodes.begin(), element.nodes.end(), [&](int node) { return partners.contains(node); }) > 1;
+  };
+  for (std::size_t k = 0; k < elements(contact.a).size(); ++k) {
+    const LineElement& element = elements(contact.a)[k];
+    const EdgeElement on_a{contact.a.body, contact.a.index, static_cast<int>(k)};
+    if (!lies_within(element, b_of)) continue;
+    const auto first = b_of.find(element.nodes.front()), last = b_of.find(element.nodes.back());
+    const auto other = first == b_of.end() || last == b_of.end() ? of_b.end() : of_b.find({last->second, first->second});
+    if (other == of_b.end() ||
+        elements(contact.b)[static_cast<std::size_t>(other->second)].nodes.size() != element.nodes.size()) {
+      paired.alone.push_back(on_a);
+      continue;
+    }
+    met[static_cast<std::size_t>(other->second)] = true;
+    paired.alike.push_back({on_a, {contact.b.body, contact.b.index, other->second}});
+  }
+  for (std::size_t k = 0; k < met.size(); ++k)
+    if (!met[k] && lies_within(elements(contact.b)[k], a_of))
+      paired.alone.push_back({contact.b.body, contact.b.index, static_cast<int>(k)});
+}
+
+}  // namespace
+
+Division uniform_division(const model::Model& model) {
+  Division division(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    if (!body.rigid && body.mesh.kind == model::MeshKind::superelement) division[b] = uniform_division(body);
+  }
+  return division;
+}
+
+Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std::vector<bool>>& frozen) {
+  Mesh fine;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    const bool divided = mesh.bodies[b].super_elements.size() == 1;
+    fine.bodies.push_back(divided ? enriched(mesh.bodies[b], frozen.empty() ? std::vector<bool>{} : frozen[b])
+                                  : mesh.bodies[b]);
+  }
+  std::vector<Diagnostic> mistakes;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    auto matched = match_interface(model, static_cast<int>(c), fine.bodies);
+    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched))
+      mistakes.push_back(*wrong);
+    else
+      fine.interfaces.push_back(std::get<Interface>(std::move(matched)));
+  }
+  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+  return fine;
+}
+
+PairedElements paired_elements(const model::Model& model, const Mesh& mesh) {
+  PairedElements paired;
+  for (const Interface& interface : mesh.interfaces)
+    pair_elements(model.contacts[static_cast<std::size_t>(interface.contact)], interface, mesh, paired);
+  return paired;
+}
+
+int boundary_element(const BodyMesh& mesh, int edge, int element) {
+  if (mesh.super_elements.empty()) return -1;
+  const Ends ends = ends_of(mesh.edges[static_cast<std::size_t>(edge)][static_cast<std::size_t>(element)]);
+  const std::vector<LineElement>& boundary = mesh.super_elements.front().boundary;
+  for (std::size_t e = 0; e < boundary.size(); ++e)
+    if (ends_of(boundary[e]) == ends || ends_of(boundary[e]) == Ends(ends.second, ends.first)) return static_cast<int>(e);
+  return -1;
+}
+
+}  // namespace scabo::mesh

@@ -1,0 +1,176 @@
+#include "scabo/mesh/output_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scabo/mesh/edge_geometry.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+/// Of a body's size.
+constexpr double on_outline = 1e-9;
+constexpr double most_points = 1e6;
+
+double distance_to(const model::Edge& edge, const Vec2& point) {
+  const double ends = std::min((point - edge.start).norm(), (point - edge.end).norm());
+  const std::optional<Foot> foot = foot_on(edge, point);
+  if (!foot) return edge.arc->radius;
+  return foot->t >= 0.0 && foot->t <= 1.0 ? std::min(ends, (point - foot->point).norm()) : ends;
+}
+
+double distance_to(const model::Outline& outline, const Vec2& point) {
+  double least = std::numeric_limits<double>::max();
+  for (const model::Edge& edge : outline.edges) least = std::min(least, distance_to(edge, point));
+  return least;
+}
+
+struct Box {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::max());
+  Vec2 high = -low;
+  void add(const Vec2& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); }
+};
+
+/// Arcs by points close enough for what the box is used for; their extremes exactly.
+void add(Box& box, const model::Outline& outline) {
+  for (const model::Edge& edge : outline.edges) {
+    box.add(edge.start);
+    if (!edge.arc) continue;
+    for (const Vec2& side : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
+      const Vec2 extreme = edge.arc->centre + edge.arc->radius * side;
+      const std::optional<Foot> foot = foot_on(edge, extreme);
+      if (foot && foot->t >= 0.0 && foot->t <= 1.0) box.add(extreme);
+    }
+  }
+}
+
+double size_of(const model::Outline& outline) {
+  Box box;
+  add(box, outline);
+  return (box.high - box.low).norm();
+}
+
+/// Whether a point of an outside body lies in the angle between its side faces; true where it has none.
+bool between_side_faces(const model::Body& body, const Vec2& point, double slack) {
+  const int corner = body.mesh.centre_corner;
+  if (corner < 0) return true;
+  const auto count = static_cast<int>(body.outline.edges.size());
+  const Vec2& centre = body.mesh.centre;
+  const Vec2 x = point - centre,  // the ring is run from the face that arrives at the corner to the one that leaves it
+      first = body.outline.edges[static_cast<std::size_t>((corner + count - 1) % count)].start - centre,
+      last = body.outline.edges[static_cast<std::size_t>(corner)].end - centre;
+  const auto turn_to = [&](const Vec2& to) {
+    const double turn = std::atan2(cross(first, to), first.dot(to));
+    return turn < 0.0 ? turn + 2.0 * std::numbers::pi : turn;
+  };
+  const auto on = [&](const Vec2& face) { return face.dot(x) >= 0.0 && std::abs(cross(face.normalized(), x)) <= slack; };
+  return on(first) || on(last) || turn_to(x) <= turn_to(last);
+}
+
+std::vector<int> bodies_at(const model::Model& model, const Vec2& point, int only) {
+  std::vector<int> bodies;
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
+    if ((only < 0 || b == only) && holds(model.bodies[static_cast<std::size_t>(b)], point)) bodies.push_back(b);
+  return bodies;
+}
+
+std::string text_of(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
+
+/// Why a point has no value.
+std::string lies_outside(const model::Model& model, const Vec2& point, int only) {
+  if (only >= 0) {
+    const model::Body& body = model.bodies[static_cast<std::size_t>(only)];
+    return fmt::format("{} lies outside body '{}', {:.3g} away from it: move it, or leave out 'body'", text_of(point),
+                       body.name, distance_to(body.outline, point));
+  }
+  const model::Body* nearest = nullptr;
+  double least = std::numeric_limits<double>::max();
+  for (const model::Body& body : model.bodies) {
+    const double distance = distance_to(body.outline, point);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = &body;
+  }
+  return fmt::format("{} lies outside every body; the nearest is '{}', {:.3g} away: move the point", text_of(point),
+                     nearest->name, least);
+}
+
+void add_line(const model::Model& model, const model::OutputLine& line, std::vector<OutputPoint>& points,
+              std::vector<Diagnostic>& mistakes) {
+  for (int k = 0; k < line.points; ++k) {
+    const double t = static_cast<double>(k) / (line.points - 1);
+    const Vec2 at = k + 1 == line.points ? line.to : Vec2(line.from + t * (line.to - line.from));
+    const std::vector<int> bodies = bodies_at(model, at, line.body);
+    if (bodies.empty()) {  // one message for a line
+      mistakes.push_back({line.source, fmt::format("point {} of '{}', {}", k + 1, line.name,
+                                                   lies_outside(model, at, line.body))});
+      return;
+    }
+    for (const int body : bodies) points.push_back({line.name, body, at, t * (line.to - line.from).norm()});
+  }
+}
+
+/// Coordinates of a grid along one axis.
+std::vector<double> coordinates(double low, double high, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(count == 1 ? low : std::lerp(low, high, i / (count - 1.0)));
+  return values;
+}
+
+void add_grid(const model::Model& model, const model::OutputGrid& grid, std::vector<OutputPoint>& points,
+              std::vector<Diagnostic>& mistakes) {
+  std::array<std::vector<double>, 2> axes;
+  if (grid.spacing) {
+    Box box;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (grid.body < 0 ? !model.bodies[b].rigid : static_cast<int>(b) == grid.body) add(box, model.bodies[b].outline);
+    std::array<double, 2> counts{};
+    for (const int k : {0, 1})
+      counts[static_cast<std::size_t>(k)] = std::floor((box.high[k] - box.low[k]) / *grid.spacing * (1.0 + 1e-12)) + 1.0;
+    if (!(counts[0] * counts[1] <= most_points)) {
+      mistakes.push_back({grid.source, fmt::format("a spacing of {:.6g} gives {:.3g} points, more than the {:.7g} allowed: "
+                                                   "use a larger one", *grid.spacing, counts[0] * counts[1], most_points)});
+      return;
+    }
+    for (const int k : {0, 1})
+      for (int i = 0; i < counts[static_cast<std::size_t>(k)]; ++i)
+        axes[static_cast<std::size_t>(k)].push_back(box.low[k] + i * *grid.spacing);
+  } else {
+    for (const int k : {0, 1})
+      axes[static_cast<std::size_t>(k)] = coordinates(grid.low[k], grid.high[k], grid.counts[static_cast<std::size_t>(k)]);
+  }
+  for (const double y : axes[1])
+    for (const double x : axes[0])
+      for (const int body : bodies_at(model, {x, y}, grid.body)) points.push_back({"grid", body, {x, y}, 0.0});
+  if (points.empty()) mistakes.push_back({grid.source, "no point of the grid lies in a body: give other coordinates"});
+}
+
+}  // namespace
+
+bool holds(const model::Body& body, const Vec2& point) {
+  const double slack = on_outline * size_of(body.outline);
+  if (distance_to(body.outline, point) <= slack) return true;
+  if (!body.outside) return encloses(body.outline, point);
+  return !encloses(body.outline, point) && between_side_faces(body, point, slack);
+}
+
+OutputPoints output_points(const model::Model& model) {
+  OutputPoints found;
+  std::vector<Diagnostic> mistakes;
+  for (const model::OutputPoint& point : model.output.points) {
+    const std::vector<int> bodies = bodies_at(model, point.at, point.body);
+    if (bodies.empty()) mistakes.push_back({point.source, lies_outside(model, point.at, point.body)});
+    for (const int body : bodies) found.points.push_back({point.name, body, point.at, 0.0});
+  }
+  for (const model::OutputLine& line : model.output.lines) add_line(model, line, found.lines, mistakes);
+  if (model.output.grid) add_grid(model, *model.output.grid, found.grid, mistakes);
+  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+  return found;
+}
+
+}  // namespace scabo::mesh

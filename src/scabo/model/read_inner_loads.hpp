@@ -1,0 +1,17 @@
+// Loads that act where nothing is divided. Each function reads one value and returns nothing when it is broken.
+#pragma once
+
+#include "scabo/model/reading.hpp"
+
+namespace scabo::model {
+
+/// `traction` or `pressure` on a side face: a constant, {powers: ...} or {points: ...} in xi.
+std::optional<FaceTraction> read_face_traction(Reading& reading, const Value& value, bool pressure);
+
+/// `[bx, by]` or {constant: [...], x: [...], y: [...]}.
+std::optional<BodyForce> read_body_force(Reading& reading, const Value& value);
+
+/// A number or {constant: ..., x: ..., y: ...}.
+std::optional<Temperature> read_temperature(Reading& reading, const Value& value);
+
+}  // namespace scabo::model

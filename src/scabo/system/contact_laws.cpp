@@ -1,0 +1,99 @@
+#include "scabo/system/contact_laws.hpp"
+
+#include "scabo/contact/laws/bonded.hpp"
+#include "scabo/contact/laws/cohesive.hpp"
+#include "scabo/contact/laws/coulomb.hpp"
+#include "scabo/contact/laws/frictionless.hpp"
+#include "scabo/contact/laws/slip_weakening.hpp"
+#include "scabo/contact/laws/tresca.hpp"
+#include "scabo/system/loads.hpp"
+
+namespace scabo::system {
+
+namespace {
+
+using LawPointer = std::shared_ptr<const contact::Law>;
+
+/// Linear between the points given, constant beyond them.
+double coefficient_at(const std::vector<model::FrictionPoint>& along, double s) {
+  std::size_t next = 0;
+  while (next < along.size() && along[next].position < s) ++next;
+  if (next == 0) return along.front().friction;
+  if (next == along.size()) return along.back().friction;
+  const model::FrictionPoint &from = along[next - 1], &to = along[next];
+  const double part = (s - from.position) / (to.position - from.position);
+  return from.friction + part * (to.friction - from.friction);
+}
+
+LawPointer friction_law(const model::Contact& contact, double s) {
+  if (contact.dynamic_friction)
+    return std::make_shared<contact::SlipWeakening>(contact.friction, *contact.dynamic_friction,
+                                                    contact.slip_distance);
+  const double mu =
+      contact.friction_along.empty() ? contact.friction : coefficient_at(contact.friction_along, s);
+  if (mu == 0.0) return std::make_shared<contact::Frictionless>();
+  return std::make_shared<contact::Coulomb>(mu);
+}
+
+LawPointer law_of(const model::Contact& contact, double s) {
+  if (contact.bond) return std::make_shared<contact::Bonded>();
+  if (contact.shear_strength) return std::make_shared<contact::Tresca>(*contact.shear_strength);
+  LawPointer friction = friction_law(contact, s);
+  if (contact.cohesion == 0.0 && contact.tension == 0.0) return friction;
+  return std::make_shared<contact::Cohesive>(std::move(friction), contact.cohesion, contact.tension);
+}
+
+/// int N_i ds of every node of the edge of a contact that its areas are taken from.
+Vector tributary_lengths(const model::Contact& contact, bool on_b, const mesh::Mesh& mesh) {
+  const model::Place& place = on_b ? contact.b : contact.a;
+  const auto mass = line_mass(mesh::nodes_of(place, mesh).elements,
+                              mesh.bodies[static_cast<std::size_t>(place.body)].nodes);
+  return mass * Vector::Ones(mass.cols());
+}
+
+}  // namespace
+
+std::vector<double> positions_along(const mesh::Interface& interface) {
+  std::vector<double> positions;
+  double length = 0.0;
+  for (std::size_t i = 0; i < interface.pairs.size(); ++i) {
+    if (i > 0) length += (interface.pairs[i].point_a - interface.pairs[i - 1].point_a).norm();
+    positions.push_back(length);
+  }
+  for (double& position : positions)
+    if (length > 0.0) position /= length;
+  return positions;
+}
+
+contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, const model::Model& model,
+                                const mesh::Mesh& mesh) {
+  contact::JointLaws laws;
+  laws.area = Vector::Ones(static_cast<Eigen::Index>(pairs.size()));
+  int contact_before = -1;
+  std::vector<double> positions;
+  Vector lengths;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const ContactSystem::Pair& at = pairs[k];
+    const model::Contact& contact = model.contacts[static_cast<std::size_t>(at.contact)];
+    const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(at.contact)];
+    const bool on_b = model.bodies[static_cast<std::size_t>(contact.a.body)].rigid;
+    if (at.contact != contact_before) {
+      contact_before = at.contact;
+      positions = positions_along(interface);
+      lengths = tributary_lengths(contact, on_b, mesh);
+    }
+    const auto index = static_cast<std::size_t>(at.index);
+    laws.of_pair.push_back(law_of(contact, positions[index]));
+    const mesh::ContactPair& pair = interface.pairs[index];
+    const double area = lengths[on_b ? pair.node_b : pair.node_a] * model.analysis.thickness;
+    laws.area[static_cast<Eigen::Index>(k)] = area;
+    if (area > 0.0 || (contact.cohesion == 0.0 && contact.tension == 0.0 && !contact.shear_strength))
+      continue;
+    throw InputError(model.file, {{contact.source,
+                                   "a node of this contact has no length of its own to carry strength: use "
+                                   "another order of mesh"}});
+  }
+  return laws;
+}
+
+}  // namespace scabo::system

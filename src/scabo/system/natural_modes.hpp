@@ -1,0 +1,37 @@
+// Natural modes of one body, K phi = omega^2 M phi on the degrees of freedom that supports leave free.
+//
+// Rigid motions N that supports leave are known exactly (body_system.hpp) and K N = 0, so they are taken out, not searched
+// for: the other modes are M-orthogonal to them. With Q = an orthonormal basis of what is orthogonal to M N (Householder),
+//
+//     Q'K Q y = omega^2 Q'M Q y,   phi = Q y         K dense: LAPACK, as M y = 1/omega^2 K y                  (1)
+//
+// and for sparse K, by Lanczos in the inner product of M on
+//
+//     P A P' M phi = 1/omega^2 phi,   P = 1 - N (N'M N)^-1 N'M                                                (2)
+//
+// A: displacement under forces in equilibrium, with as many degrees of freedom held as there are rigid motions. Both
+// look for the largest 1/omega^2, so the lowest frequencies are the most exact. Lanczos may miss one of two equal
+// frequencies: the number found is checked by Sylvester's law of inertia.
+#pragma once
+
+#include "scabo/system/body_system.hpp"
+
+namespace scabo::system {
+
+struct NaturalModes {
+  Vector eigenvalues;  // omega^2, ascending; 0 exactly for the rigid motions, which come first
+  Matrix shapes;       // size x count, phi'M phi = 1; 0 on supports
+  int rigid = 0;       // number of rigid motions among them
+  Vector residuals;    // |K phi - omega^2 M phi| / ((|K| + omega^2 |M|) |phi|), largest norms
+};
+
+/// The lowest `count` modes, fewer where there are not as many degrees of freedom. `M`: mass, stored as the stiffness is,
+/// positive definite. The rigid motions of a free body are both translations and the rotation about its centre of mass.
+/// Throws BrokenInvariant where modes were missed.
+NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::vector<Vec2>& nodes,
+                           const std::vector<Constraint>& constraints, int count);
+
+/// Mass of a body divided into 8-node elements.
+linalg::SparseMatrix fem_mass(const mesh::BodyMesh& mesh, double density, double thickness);
+
+}  // namespace scabo::system

@@ -1,0 +1,91 @@
+// From an open super-element to the summary and the log: names, keys, null where nothing is known.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scabo/analysis/cracks.hpp"
+#include "scabo/result/report.hpp"
+#include "scabo/result/summary.hpp"
+#include "theory/open_rings.hpp"
+
+namespace scabo::result {
+namespace {
+
+using namespace test;
+
+/// One body, `plate`, that is the ring given, moved by u.
+analysis::StaticSolution solution_of(const element::Ring& ring, const std::vector<element::Mat3>& laws, const Vector& u) {
+  analysis::StaticSolution solution;
+  model::Body body;
+  body.name = "plate";
+  solution.model.bodies.push_back(body);
+  auto made = std::make_shared<analysis::SolvedSuperElement>();
+  made->ring = ring;
+  made->sectors.D = element::Elasticity(laws);
+  made->solution = element::solve_super_element(ring, made->sectors.D, 1.0);
+  solution.super_elements.push_back(made);
+  analysis::IncrementResult increment;
+  increment.step = increment.increment = 1;
+  increment.converged = true;
+  increment.displacements = {u};
+  increment.interior.resize(1);
+  solution.increments.push_back(increment);
+  return solution;
+}
+
+nlohmann::json cracks_in_summary(const analysis::StaticSolution& solution) {
+  return nlohmann::json::parse(summary_content(solution, {}, false))["increments"][0]["cracks"];
+}
+
+TEST(CrackResults, OfACrackByItsName) {
+  const element::Ring ring = cracked_square(1, 8);
+  const Kolosov m(1.0, 0.3, model::Plane::stress);
+  auto solution = solution_of(ring, {elasticity(1.0, 0.3)}, around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
+  solution.model.bodies[0].cracks.push_back({"flaw", {0, 0}, {-1, 0}, {}});
+  solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
+  const nlohmann::json flaw = cracks_in_summary(solution)["plate.flaw"];
+  EXPECT_EQ(flaw["kind"], "crack");
+  EXPECT_NEAR(flaw["K_I"], 2.0, 1e-6);
+  EXPECT_NEAR(flaw["K_II"], -1.0, 1e-6);
+  EXPECT_NEAR(flaw["T"], 0.5, 1e-6);
+  EXPECT_NEAR(flaw["G"], 5.0, 1e-5);
+  EXPECT_NEAR(flaw["J"], 5.0, 1e-5);
+  EXPECT_FALSE(flaw.contains("epsilon"));
+  const std::string log = report_cracks(solution.increments[0]);
+  EXPECT_NE(log.find("plate.flaw"), std::string::npos) << log;
+  EXPECT_NE(log.find("K_II"), std::string::npos);
+
+  // A face pressed as far as the tip: J and T are not known, and say so.
+  element::add_radial_loads(solution.increments[0].interior[0].loads,
+                            {element::face_load(ring, element::Face::first, 0.0, {0, -1}, 1.0)}, 1.0);
+  solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
+  const nlohmann::json pressed = cracks_in_summary(solution)["plate.flaw"];
+  EXPECT_TRUE(pressed["J"].is_null());
+  EXPECT_TRUE(pressed["T"].is_null());
+  EXPECT_TRUE(pressed["G"].is_number());
+}
+
+TEST(CrackResults, OfAnInterfaceCrackAndACorner) {
+  const element::Ring crack = cracked_square(1, 6);
+  std::vector<element::Mat3> laws;
+  for (const double angle : middle_angles(crack)) laws.push_back(elasticity(angle < std::numbers::pi ? 1.0 : 5.0, 0.3));
+  auto solution = solution_of(crack, laws, around_tip(crack, [](double r, double t) { return Vec2(r * t, t); }));
+  solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
+  const nlohmann::json interface = cracks_in_summary(solution)["plate"];
+  EXPECT_EQ(interface["kind"], "interface_crack");
+  for (const char* key : {"K_I", "K_II", "T_left", "T_right", "G", "J", "epsilon", "reference_length"})
+    EXPECT_TRUE(interface[key].is_number()) << key;
+
+  const element::Ring notch = sector_ring(0.0, 1.5 * std::numbers::pi, {}, 0.8, 6);
+  solution = solution_of(notch, {elasticity(1.0, 0.3)}, at_nodes(notch.nodes, [](const Vec2& x) { return Vec2(x.y() * x.y(), x.x()); }));
+  solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
+  const nlohmann::json corner = cracks_in_summary(solution)["plate"];
+  EXPECT_EQ(corner["kind"], "corner");
+  EXPECT_EQ(corner["terms"].size(), 2u);
+  EXPECT_EQ(corner["exponents"].size(), 2u);
+  for (const char* key : {"K_tt", "K_rt", "ray", "reference_length"}) EXPECT_TRUE(corner[key].is_number()) << key;
+  EXPECT_NE(report_cracks(solution.increments[0]).find("0.544"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scabo::result

@@ -1,0 +1,134 @@
+// Modes of one body: sparse against dense, orthogonality, the completeness of effective masses.
+#include "scabo/system/natural_modes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <map>
+
+#include "scabo/element/mass.hpp"
+#include "scabo/linalg/symmetric_eigen.hpp"
+#include "scabo/system/structure.hpp"
+#include "theory/rings.hpp"
+
+namespace scabo::system {
+namespace {
+
+using namespace test;
+
+/// A grid of nx by ny 8-node elements of side 1.
+mesh::BodyMesh grid(int nx, int ny) {
+  mesh::BodyMesh mesh;
+  std::map<std::pair<int, int>, int> numbers;
+  const auto node = [&](int i, int j) {
+    const auto [at, added] = numbers.emplace(std::pair(i, j), static_cast<int>(mesh.nodes.size()));
+    if (added) mesh.nodes.emplace_back(0.5 * i, 0.5 * j);
+    return at->second;
+  };
+  for (int j = 0; j < 2 * ny; j += 2)
+    for (int i = 0; i < 2 * nx; i += 2)
+      mesh.elements.push_back({node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2), node(i + 1, j),
+                               node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)});
+  return mesh;
+}
+
+struct Pair {
+  Stiffness K, M;
+};
+
+Pair sparse(const mesh::BodyMesh& mesh) {
+  Pair pair;
+  pair.K.sparse = fem_stiffness(mesh, elasticity(1.0, 0.3), 1.0);
+  pair.M.sparse = fem_mass(mesh, 1.0, 1.0);
+  return pair;
+}
+
+Pair dense(const Pair& pair) {
+  Pair full;
+  full.K.dense = std::make_shared<const Matrix>(pair.K.sparse);
+  full.M.dense = std::make_shared<const Matrix>(pair.M.sparse);
+  return full;
+}
+
+std::vector<Constraint> held(const mesh::BodyMesh& mesh, bool both) {
+  std::vector<Constraint> constraints;
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+    if (mesh.nodes[i].x() == 0.0)
+      for (int component = 0; component < (both ? 2 : 1); ++component) {
+        constraints.emplace_back();
+        constraints.back().dof = 2 * static_cast<int>(i) + component;
+      }
+  return constraints;
+}
+
+// A free square has pairs of equal frequencies, which Lanczos might find once only.
+TEST(NaturalModes, LanczosFindsWhatTheDenseSolverFinds) {
+  const mesh::BodyMesh square = grid(8, 8), strip = grid(20, 4);
+  const std::vector<std::pair<const mesh::BodyMesh*, std::vector<Constraint>>> cases = {
+      {&square, {}}, {&square, held(square, false)}, {&square, held(square, true)}, {&strip, {}}, {&strip, held(strip, true)}};
+  for (const auto& [mesh, constraints] : cases) {
+    const Pair matrices = sparse(*mesh), full = dense(matrices);
+    const NaturalModes lanczos = natural_modes(matrices.K, matrices.M, mesh->nodes, constraints, 25);
+    const NaturalModes oracle = natural_modes(full.K, full.M, mesh->nodes, constraints, 25);
+    ASSERT_EQ(lanczos.eigenvalues.size(), 25);
+    EXPECT_EQ(lanczos.rigid, oracle.rigid);
+    for (Eigen::Index k = lanczos.rigid; k < 25; ++k)
+      EXPECT_NEAR(lanczos.eigenvalues[k] / oracle.eigenvalues[k], 1.0, 1e-10) << k;
+    for (const NaturalModes& modes : {lanczos, oracle}) {
+      const Matrix gram = modes.shapes.transpose() * (matrices.M.sparse * modes.shapes);
+      EXPECT_LT(largest(gram - Matrix::Identity(25, 25)), 1e-10);
+      EXPECT_LT(modes.residuals.maxCoeff(), 1e-12);  // to which Lanczos is asked to go
+    }
+  }
+}
+
+TEST(NaturalModes, RigidMotionsHaveNoStiffnessToRounding) {
+  const element::Ring ring = polygon_ring(rectangle(6, 1.5), {16, 4, 16, 4}, 2);
+  const auto solution = element::solve_super_element(ring, elasticity(1.0, 0.3), 1.0);
+  Pair pair;
+  pair.K.dense = std::make_shared<const Matrix>(solution.K);
+  pair.M.dense = std::make_shared<const Matrix>(
+      element::mass_matrix(ring, solution, element::modal_solution(solution), {1.0}, 1.0));
+  const NaturalModes modes = natural_modes(pair.K, pair.M, ring.nodes, {}, 6);
+  ASSERT_EQ(modes.rigid, 3);
+  // The entries of K are exact to 4e-15 (page 2); the first bending mode of a slender beam is much softer than they are.
+  const double rounding = 1e-14 * solution.K.cwiseAbs().rowwise().sum().maxCoeff();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Vector phi = modes.shapes.col(k);
+    EXPECT_LT(std::abs(phi.dot(solution.K * phi)), rounding * phi.squaredNorm()) << k;
+    EXPECT_LT(std::abs(phi.dot(solution.K * phi)), 1e-11 * modes.eigenvalues[3]) << k;
+  }
+}
+
+// All modes together carry the mass that moves: sum (phi'M r)^2 = (M r)_f' M_ff^-1 (M r)_f.
+TEST(NaturalModes, EffectiveMassesAddUp) {
+  const mesh::BodyMesh mesh = grid(3, 1);
+  const Pair matrices = sparse(mesh);
+  const auto constraints = held(mesh, true);
+  const auto size = static_cast<int>(2 * mesh.nodes.size());
+  const NaturalModes modes = natural_modes(matrices.K, matrices.M, mesh.nodes, constraints, size);
+  ASSERT_EQ(modes.eigenvalues.size(), size - static_cast<int>(constraints.size()));
+  const Matrix M(matrices.M.sparse);
+  std::vector<int> free;
+  for (int dof = 0; dof < size; ++dof)
+    if (mesh.nodes[static_cast<std::size_t>(dof / 2)].x() > 0.0) free.push_back(dof);
+  const Vector r = at_nodes(mesh.nodes, [](const Vec2&) { return Vec2(1, 0); });
+  const Vector Mr = Vector(M * r)(free);
+  const double all = Mr.dot(Matrix(M(free, free)).llt().solve(Mr));
+  EXPECT_NEAR((modes.shapes.transpose() * (M * r)).squaredNorm(), all, 1e-10 * all);
+  EXPECT_LT(all, 3.0);  // the mass; the supports carry the rest
+}
+
+TEST(NaturalModes, InertiaCountsEigenvalues) {
+  const mesh::BodyMesh mesh = grid(4, 4);
+  const Pair matrices = sparse(mesh), full = dense(matrices);
+  const NaturalModes modes = natural_modes(full.K, full.M, mesh.nodes, {}, 20);
+  for (int k : {3, 6, 12, 18}) {
+    const double shift = 0.5 * (modes.eigenvalues[k] + modes.eigenvalues[k + 1]);
+    if (modes.eigenvalues[k + 1] < 1.001 * modes.eigenvalues[k]) continue;
+    EXPECT_EQ(linalg::eigenvalues_below(matrices.K.sparse, matrices.M.sparse, shift), k + 1);
+  }
+}
+
+}  // namespace
+}  // namespace scabo::system

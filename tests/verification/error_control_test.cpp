@@ -1,0 +1,154 @@
+// Estimated errors and refinement to a tolerance, against energies that are known or converged.
+#include <cmath>
+#include <sstream>
+
+#include "run.hpp"
+#include "scabo/analysis/adaptive.hpp"
+
+namespace scabo::verification {
+namespace {
+
+/// Cook's membrane: a tapered panel, built in at the left, sheared by a total of 1 on the right; E = 1, nu = 1/3.
+const char* const cook = R"(
+scabo: 1
+analysis: {plane: stress}
+materials: {panel: {young: 1, poisson: 0.3333333333333333}}
+bodies:
+  panel:
+    material: panel
+    shape: {polygon: {vertices: [[0, 0], [48, 44], [48, 60], [0, 44]]}}
+    mesh: {size: 11, order: 2}
+supports: [{on: panel.edge_4, fix: [x, y]}]
+loads: {shear: {on: panel.edge_2, traction: [0, 0.0625]}}
+output: {error: true}
+)";
+
+std::string fmt_setting(const std::string& path, double value) {
+  std::ostringstream text;
+  text << path << '=' << value;
+  return text.str();
+}
+
+double elastic(const analysis::StaticSolution& solution) { return last(solution).energy.elastic; }
+
+/// Of a built-in body under one dead load: |u - u_h|^2 = 2 (U - U_h), over 2 U.
+double true_error(const analysis::StaticSolution& solution, double exact) {
+  return std::sqrt(std::max(0.0, 1.0 - elastic(solution) / exact));
+}
+
+double estimated(const analysis::StaticSolution& solution) { return last(solution).error->relative; }
+
+/// From this model to a tolerance of 1e-4 (12.0208030021, 458 degrees of freedom) and 2e-5 (12.0208030119, 590), with the rest of
+/// the estimated errors; good to 5e-8, or 6e-5 in the norm.
+constexpr double exact_energy_of_cook = 12.02080304;
+
+TEST(ErrorEstimate, IsBetweenHalfAndTwiceTheTrueErrorOfCooksMembrane) {
+  const double exact = exact_energy_of_cook;
+  // Half of the work of the load, 1 in total, on the mean deflection of the loaded edge: near that of its middle, 23.966.
+  EXPECT_NEAR(2 * exact, 23.966, 0.1);
+  for (const int order : {1, 2, 3, 4, 6})
+    for (const char* size : {"22", "11", "5.5"}) {
+      const auto solution = run(cook, {"bodies.panel.mesh.order=" + std::to_string(order), std::string("bodies.panel.mesh.size=") + size});
+      const double effectivity = estimated(solution) / true_error(solution, exact);
+        EXPECT_GT(effectivity, 0.5) << "order " << order << ", size " << size;
+      EXPECT_LT(effectivity, 2.0) << "order " << order << ", size " << size;
+    }
+}
+
+TEST(Refinement, MeetsTheToleranceOfCooksMembrane) {
+  const double exact = exact_energy_of_cook;
+  for (const double tolerance : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4}) {
+    const auto solution = run(cook, {fmt_setting("bodies.panel.mesh.tolerance", tolerance)});
+    EXPECT_LE(estimated(solution), tolerance);
+    EXPECT_LE(true_error(solution, exact), 2 * tolerance);
+  }
+}
+
+TEST(Refinement, TakesFewerDegreesOfFreedomThanEqualElements) {
+  const double exact = exact_energy_of_cook;
+  const auto refined = run(cook, {"bodies.panel.mesh.tolerance=1e-3"});
+  const auto equal = run(cook, {"bodies.panel.mesh.size=1"});
+  std::cout << "refined " << 2 * refined.mesh.nodes() << " dofs, true " << true_error(refined, exact) << "; equal quadratic "
+            << 2 * equal.mesh.nodes() << " dofs, true " << true_error(equal, exact) << "\n";
+  EXPECT_LT(2 * refined.mesh.nodes(), equal.mesh.nodes());
+  EXPECT_LT(true_error(refined, exact), true_error(equal, exact));
+}
+
+TEST(Refinement, SaysWhyAToleranceIsNotReachedAndKeepsTheLastMesh) {
+  const model::Model model = model::parse_model(cook, "test.yaml", {model::parse_override("bodies.panel.mesh.tolerance=1e-3")});
+  analysis::RefinementLimits limits;
+  limits.dofs = 150;
+  int reported = 0;
+  analysis::Options options;
+  options.on_increment = [&](const auto&, const auto& increment) { reported += increment.converged; };
+  const auto few = analysis::solve_refined(model, options, limits);
+  EXPECT_EQ(few.outcome, analysis::Outcome::not_converged);
+  EXPECT_NE(few.reason.find("mesh.tolerance was not reached: the estimated error is"), std::string::npos) << few.reason;
+  EXPECT_NE(few.reason.find("more than 150"), std::string::npos) << few.reason;
+  ASSERT_EQ(few.increments.size(), 1u);
+  EXPECT_TRUE(few.increments[0].converged);
+  EXPECT_EQ(reported, 1);
+  EXPECT_LE(2 * few.mesh.nodes(), 150);
+  limits = {};
+  limits.passes = 2;
+  EXPECT_NE(analysis::solve_refined(model, {}, limits).reason.find("after 2 passes the estimated error is"), std::string::npos);
+}
+
+const char* const beams = R"(
+scabo: 1
+materials: {concrete: {young: 10e9, poisson: 0.3}}
+bodies:
+  lower: &beam
+    material: concrete
+    shape: {rectangle: {corner: [0, 0], size: [6.0, 1.5]}}
+    mesh: {size: 0.75, order: 2}
+  upper: {<<: *beam, shape: {rectangle: {corner: [0, 1.5], size: [6.0, 1.5]}}}
+supports: [{on: lower.left, fix: [x, y]}, {on: upper.left, fix: [x, y]}]
+loads: {tip: {on: upper.top_right, force: [0, -100e3]}}
+contacts: {joint: {between: [lower.top, upper.bottom], friction: 0.2}}
+output: {error: true}
+)";
+
+TEST(ErrorEstimate, OfTwoBeamsInContactFallsWithTheSize) {
+  double before = 1.0;
+  for (const char* size : {"0.75", "0.375", "0.1875"}) {
+    const std::string value = size;
+    const auto solution = run(beams, {"bodies.lower.mesh.size=" + value, "bodies.upper.mesh.size=" + value});
+    const analysis::ErrorEstimate& error = *last(solution).error;
+    EXPECT_LT(error.relative, 0.9 * before);
+    EXPECT_NEAR(std::pow(error.relative, 2), std::pow(error.bodies[0]->relative, 2) + std::pow(error.bodies[1]->relative, 2),
+                1e-10);
+    before = error.relative;
+  }
+}
+
+TEST(Refinement, OfTwoBeamsKeepsTheirNodesMatching) {
+  double dofs = 0;
+  for (const double tolerance : {3e-2, 1e-2, 1e-3}) {
+    const auto solution = run(beams, {fmt_setting("bodies.lower.mesh.tolerance", tolerance),
+                                      fmt_setting("bodies.upper.mesh.tolerance", tolerance)});
+    const analysis::IncrementResult& increment = last(solution);
+    EXPECT_LE(increment.error->bodies[0]->relative, tolerance);
+    EXPECT_LE(increment.error->bodies[1]->relative, tolerance);
+    EXPECT_GE(solution.mesh.nodes(), dofs);
+    dofs = solution.mesh.nodes();
+    // Against equal elements, converged: forces are as good as the tolerance.
+    EXPECT_NEAR(increment.contacts[0].normal_force / 53669.4, 1.0, tolerance);
+    ASSERT_EQ(solution.warnings.size(), 1u);
+    EXPECT_NE(solution.warnings[0].find("upper.top_right is infinite"), std::string::npos) << solution.warnings[0];
+  }
+}
+
+TEST(Refinement, NamesAContactWhoseOtherBodyIsNotRefined) {
+  try {
+    run(beams, {"bodies.upper.mesh.tolerance=1e-2"});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.diagnostics().front().message.find("body 'upper' is refined for its tolerance and body 'lower' is not"),
+              std::string::npos)
+        << error.diagnostics().front().message;
+  }
+}
+
+}  // namespace
+}  // namespace scabo::verification

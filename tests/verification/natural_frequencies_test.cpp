@@ -1,0 +1,182 @@
+// Natural frequencies against a closed form and against converged finite elements.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/model/read_model.hpp"
+
+namespace scabo::verification {
+namespace {
+
+constexpr const char* free_square = R"(
+scabo: 1
+analysis: {type: modal, modes: 13}
+materials: {steel: {young: 210e9, poisson: 0.3, density: 7800}}
+bodies:
+  plate: {material: steel, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}, mesh: {size: 0.25}}
+)";
+constexpr const char* cantilever = R"(
+scabo: 1
+analysis: {type: modal}
+materials: {steel: {young: 210e9, poisson: 0.3, density: 7800}}
+bodies:
+  beam: {material: steel, shape: {rectangle: {corner: [0, 0], size: [5, 1]}}, mesh: {size: 0.25}}
+supports: [{on: beam.left, fix: [x, y]}]
+)";
+
+analysis::ModalResult run(const std::string& text, const std::vector<std::string>& settings = {}) {
+  std::vector<model::Override> overrides;
+  for (const std::string& setting : settings) overrides.push_back(model::parse_override(setting));
+  return analysis::solve_modal(model::parse_model(text, "test.yaml", overrides));
+}
+
+/// Frequencies of the modes that deform.
+std::vector<double> elastic(const analysis::ModalResult& result) {
+  std::vector<double> frequencies;
+  for (const analysis::NaturalMode& mode : result.modes)
+    if (!mode.rigid) frequencies.push_back(mode.frequency);
+  return frequencies;
+}
+
+/// Converged: 8-node elements of 1/16, 1/32 and 1/64, extrapolated (orders of convergence 4.0, at the built-in corners 1.4 to 2).
+const std::vector<double> square_converged = {2008.9149, 2139.6523, 2139.6523, 2275.4153, 2586.1454,
+                                              2988.5675, 3223.0587, 3223.0587, 3725.1275, 4301.2834};
+const std::vector<double> cantilever_converged = {32.5938,  176.074,  259.984,   420.504,   700.395,
+                                                  777.618, 998.457, 1286.038, 1297.690, 1580.877};
+
+/// Errors in per cent, rounded to a hundredth.
+std::vector<double> errors(const std::vector<double>& frequencies, const std::vector<double>& converged) {
+  std::vector<double> percent;
+  for (std::size_t i = 0; i < converged.size(); ++i)
+    percent.push_back(std::round(1e4 * (frequencies[i] / converged[i] - 1.0)) / 100.0);
+  return percent;
+}
+
+// Lame's mode of a free square of side a, u = sin(kx) cos(ky), v = -cos(kx) sin(ky), k = pi / a about its centre: no
+// dilatation, no traction on the sides, omega = sqrt(2) k sqrt(G / rho), in plane stress and plane strain.
+TEST(NaturalFrequencies, LamesModeOfAFreeSquareInFiniteElements) {
+  const double G = 210e9 / 2.6, exact = std::sqrt(G / 7800.0) / std::numbers::sqrt2;
+  for (const char* plane : {"stress", "strain"}) {
+    std::vector<double> error;
+    for (const char* size : {"0.125", "0.0625"}) {
+      double nearest = 0.0;
+      for (double f : elastic(run(free_square, {std::string("analysis.plane=") + plane,
+                                                std::string("bodies.plate.mesh={kind: fem, size: ") + size + "}"})))
+        if (std::abs(f - exact) < std::abs(nearest - exact)) nearest = f;
+      error.push_back(nearest / exact - 1.0);
+    }
+    EXPECT_GT(error[1], 0.0) << plane;
+    EXPECT_LT(error[1], 3e-6) << plane;
+    EXPECT_NEAR(std::log2(error[0] / error[1]), 4.0, 0.05) << plane;
+  }
+}
+
+TEST(NaturalFrequencies, FiniteElementsOfAnEighthAreConvergedToAQuarterOfAPerCent) {
+  const auto square = elastic(run(free_square, {"bodies.plate.mesh={kind: fem, size: 0.125}"}));
+  const auto beam = elastic(run(cantilever, {"bodies.beam.mesh={kind: fem, size: 0.125}"}));
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_NEAR(square[i] / square_converged[i], 1.0, 2e-3) << i;
+    EXPECT_NEAR(beam[i] / cantilever_converged[i], 1.0, 5e-4) << i;
+  }
+}
+
+// What one super-element is worth: the figures of docs/methods/16_mass.md. Its inside moves as in a static solution, so
+// they do not fall with smaller boundary elements.
+TEST(NaturalFrequencies, OfAFreeSquareThatIsOneSuperElement) {
+  EXPECT_EQ(errors(elastic(run(free_square)), square_converged),
+            (std::vector<double>{7.67, 6.72, 6.72, 7.41, 4.32, 9.98, 10.51, 10.51, 13.37, 15.34}));
+  EXPECT_EQ(errors(elastic(run(free_square, {"bodies.plate.mesh={size: 0.25, order: 8}"})), square_converged),
+            (std::vector<double>{7.62, 6.66, 6.66, 7.41, 4.29, 9.98, 10.35, 10.35, 12.85, 14.6}));
+}
+
+TEST(NaturalFrequencies, OfACantileverThatIsOneSuperElement) {
+  EXPECT_EQ(errors(elastic(run(cantilever)), cantilever_converged),
+            (std::vector<double>{0.05, 0.2, 0.86, 0.95, 2.56, 6.93, 5.0, 8.9, 15.23, 10.51}));
+  EXPECT_EQ(errors(elastic(run(cantilever, {"bodies.beam.mesh={size: 0.25, order: 8}"})), cantilever_converged),
+            (std::vector<double>{0.01, 0.16, 0.84, 0.9, 2.47, 6.92, 4.85, 8.65, 15.21, 10.16}));
+}
+
+// Rayleigh's principle: every displacement xi^S u(1) is one that the body can have.
+TEST(NaturalFrequencies, OfSuperElementsAreUpperBoundsThatFallAsTheBoundaryIsRefined) {
+  std::vector<double> before(10, 1e300);
+  for (const char* size : {"0.5", "0.25", "0.125"}) {
+    const auto frequencies = elastic(run(free_square, {std::string("bodies.plate.mesh.size=") + size}));
+    for (std::size_t i = 0; i < 10; ++i) EXPECT_GT(frequencies[i], square_converged[i]);
+    EXPECT_LT(frequencies[0], before[0]);
+    EXPECT_LT(frequencies[9], before[9]);
+    before = frequencies;
+  }
+}
+
+TEST(NaturalFrequencies, OfASlenderBeamTendToEulersBeam) {
+  const double beta = 1.875104068711961, L = 40.0, E = 210e9, rho = 7800.0;
+  const double euler = beta * beta / (2.0 * std::numbers::pi * L * L) * std::sqrt(E / (12.0 * rho));
+  const auto frequencies = elastic(run(cantilever, {"bodies.beam.shape.rectangle.size=[40, 1]", "bodies.beam.mesh.size=0.5"}));
+  EXPECT_NEAR(frequencies[0] / euler, 1.0, 1e-3);
+}
+
+TEST(NaturalFrequencies, ScaleWithTheSpeedOfSoundOverTheSize) {
+  const auto metres = elastic(run(free_square));
+  const auto millimetres =  // N, mm, tonne
+      elastic(run(free_square, {"materials.steel={young: 210e3, poisson: 0.3, density: 7.8e-9}", "bodies.plate.mesh.size=250",
+                                "bodies.plate.shape.rectangle.size=[1000, 1000]", "analysis.thickness=17"}));
+  ASSERT_EQ(metres.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(millimetres[i] / metres[i], 1.0, 1e-11);
+}
+
+TEST(NaturalFrequencies, AFreeBodyHasThreeRigidBodyModes) {
+  for (const char* mesh : {"{size: 0.25}", "{size: 0.5, order: 5}", "{kind: fem, size: 0.25}", "{kind: fem, size: 0.0625}"}) {
+    const auto result = run(free_square, {std::string("bodies.plate.mesh=") + mesh});
+    for (std::size_t k = 0; k < result.modes.size(); ++k) {
+      EXPECT_EQ(result.modes[k].rigid, k < 3) << mesh;
+      EXPECT_LT(result.modes[k].residual, 1e-13) << mesh;
+    }
+    EXPECT_EQ(result.modes[2].frequency, 0.0);
+    EXPECT_GT(result.modes[3].frequency, 2000.0);
+    EXPECT_NEAR(result.total_mass, 7800.0, 1e-9);
+    EXPECT_NEAR(result.modes[0].effective_mass.x(), 7800.0, 1e-8);
+    EXPECT_NEAR(result.modes[1].effective_mass.y(), 7800.0, 1e-8);
+    EXPECT_NEAR(result.modes[4].effective_mass.norm(), 0.0, 1e-8);
+  }
+}
+
+TEST(NaturalFrequencies, SupportsThatLetABodySlideLeaveOneRigidBodyMode) {
+  const auto result = run(free_square, {"supports=[{on: plate.bottom, fix: y}]"});
+  EXPECT_TRUE(result.modes[0].rigid);
+  EXPECT_FALSE(result.modes[1].rigid);
+  EXPECT_NEAR(result.modes[0].effective_mass.x(), 7800.0, 1e-8);
+}
+
+TEST(NaturalFrequencies, BodiesVibrateByThemselvesAndContactsAreSaidToBeLeftOut) {
+  const auto alone = run(cantilever, {"analysis.modes=5"});
+  const auto two = run(R"(
+scabo: 1
+analysis: {type: modal}
+materials: {steel: {young: 210e9, poisson: 0.3, density: 7800}}
+bodies:
+  beam: {material: steel, shape: {rectangle: {corner: [0, 0], size: [5, 1]}}, mesh: {size: 0.25}}
+  other: {material: steel, shape: {rectangle: {corner: [0, 1], size: [5, 1]}}, mesh: {size: 0.25}}
+supports: [{on: beam.left, fix: [x, y]}, {on: other.left, displacement: [0, 1e-3], name: settle}]
+loads: {tip: {on: other.top_right, force: [0, -1]}}
+contacts: {joint: {between: [beam.top, other.bottom]}}
+)");
+  ASSERT_EQ(two.modes.size(), 10u);
+  for (std::size_t k = 0; k < 10; ++k) {
+    EXPECT_DOUBLE_EQ(two.modes[k].frequency, alone.modes[k / 2].frequency);
+    EXPECT_EQ(two.modes[k].body, static_cast<int>(k % 2));
+  }
+  ASSERT_EQ(two.warnings.size(), 2u);
+  EXPECT_EQ(two.warnings[0], "a modal analysis leaves out the model's loads and contacts: every body vibrates by itself");
+  EXPECT_NE(two.warnings[1].find("'settle'"), std::string::npos);
+}
+
+TEST(NaturalFrequencies, MoreModesThanThereAreAreNotInvented) {
+  const auto result = run(free_square, {"analysis.modes=20", "bodies.plate.mesh={size: 1, order: 1}"});
+  EXPECT_EQ(result.modes.size(), 8u);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("8 modes only"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scabo::verification
