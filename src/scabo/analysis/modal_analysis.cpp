@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <numbers>
 
 #include "scabo/analysis/super_elements.hpp"
+#include "scabo/base/stopwatch.hpp"
 #include "scabo/element/mass.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/system/natural_modes.hpp"
@@ -16,18 +16,6 @@
 namespace scabo::analysis {
 
 namespace {
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 const model::Material& material_of(const model::Model& model, std::size_t body) {
   return model.materials[static_cast<std::size_t>(model.bodies[body].material)];

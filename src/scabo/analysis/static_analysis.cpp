@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "scabo/analysis/adaptive.hpp"
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
+#include "scabo/base/stopwatch.hpp"
 #include "scabo/contact/uniqueness.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/mesh/output_points.hpp"
@@ -16,25 +15,6 @@
 namespace scabo::analysis {
 
 namespace {
-
-/// Adds the time it lives to a figure.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-template <typename Function>
-auto timed(double& seconds, Function function) {
-  const Stopwatch stopwatch(seconds);
-  return function();
-}
 
 /// Where the last increment went.
 struct Reached {

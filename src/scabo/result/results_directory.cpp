@@ -8,6 +8,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "scabo/base/stopwatch.hpp"
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/convergence.hpp"
 #include "scabo/result/report.hpp"
@@ -21,21 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds between_summaries{2};
 constexpr const char* problems_name = "problems";
-
-/// Adds the time it lives to a figure.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// `fields_0001.vtu` and the like.
 bool is_fields_name(const std::string& name) {
