@@ -48,9 +48,9 @@ test-asan:
 	@ctest --preset asan --parallel $(JOBS)
 
 fuzz:
-	@cmake --preset fuzz
-	@cmake --build --preset fuzz --parallel $(JOBS)
-	@cmake/run_fuzzers.sh build-fuzz $(FUZZ_SECONDS)
+	@$(configure) asan
+	@cmake --build --preset asan --target fuzzers --parallel $(JOBS)
+	@cmake/run_fuzzers.sh build-asan $(FUZZ_SECONDS)
 
 bench:
 	@cmake/install_packages.sh build bench

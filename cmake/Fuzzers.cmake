@@ -1,6 +1,6 @@
 # scabo_fuzzer(NAME SOURCE LIBRARY...): the libFuzzer program fuzz_NAME, part of the target `fuzzers`.
 if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  message(FATAL_ERROR "The fuzzers need clang (libFuzzer): cmake --preset fuzz")
+  message(FATAL_ERROR "The fuzzers need clang (libFuzzer): cmake --preset asan")
 endif()
 add_custom_target(fuzzers)
 
