@@ -71,7 +71,8 @@ TEST(Refinement, MeetsTheToleranceOfCooksMembrane) {
 }
 
 // Lame: a circular hole of radius a in the infinite plane under the pressure p opens by p a (1 + nu) / E; the pressure does work on that.
-// Smooth: but for rounding only the order of the edges, and of the arcs they stand for, is in the error.
+// Smooth. Elements stand for the arcs, too, and that error, of first order in the energy, is not in the estimate: it has to stay below the
+// tolerance by itself.
 TEST(Refinement, MeetsTheToleranceOfATunnelUnderPressure) {
   const char* const tunnel = R"(
 scabo: 1
@@ -89,7 +90,7 @@ loads: {lower: {on: ground.edge_1, pressure: 1e-3}, upper: {on: ground.edge_2, p
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
     const auto solution = run(tunnel, {fmt_setting("bodies.ground.mesh.tolerance", tolerance)});
     EXPECT_LE(estimated(solution), tolerance);
-    EXPECT_LE(std::sqrt(std::abs(1.0 - elastic(solution) / exact)), tolerance) << tolerance;
+    EXPECT_NEAR(elastic(solution) / exact, 1.0, 0.3 * tolerance) << tolerance;
   }
 }
 

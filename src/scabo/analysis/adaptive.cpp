@@ -17,7 +17,7 @@ namespace {
 /// Part of the tolerance that the estimate, which falls short of the error, is to stay below; 0.77 is the least effectivity measured on
 /// meshes that refinement made.
 constexpr double aim = 0.7;
-/// Of the largest force: a reaction below it is rounding.
+/// Of the largest nodal force: a reaction below it is rounding.
 constexpr double some_reaction = 1e-6;
 
 using Frozen = std::vector<std::vector<bool>>;  // [body][boundary element]
@@ -35,7 +35,7 @@ bool is_point(const model::Place& place) {
   return place.kind == model::Place::Kind::corner || place.kind == model::Place::Kind::near;
 }
 
-/// Largest reaction of every support over all increments, and the largest force at work.
+/// Largest reaction of every support over all increments, and the largest force on a node.
 struct Reactions {
   std::vector<double> largest;
   double scale = 0.0;
@@ -48,12 +48,12 @@ Reactions reactions_of(const StaticSolution& solution) {
       reactions.largest[i] = std::max(reactions.largest[i], increment.reactions[i].norm());
       reactions.scale = std::max(reactions.scale, increment.reactions[i].norm());
     }
-    for (const ContactResult& contact : increment.contacts)
-      reactions.scale = std::max(reactions.scale, std::abs(contact.normal_force));
+    for (std::size_t b = 0; b < solution.super_elements.size(); ++b)
+      if (solution.super_elements[b]) {
+        const Vector forces = solution.super_elements[b]->solution.K * increment.displacements[b];
+        reactions.scale = std::max(reactions.scale, forces.lpNorm<Eigen::Infinity>());
+      }
   }
-  for (const model::Load& load : solution.model.loads)
-    if (const auto* force = std::get_if<model::Force>(&load.kind))
-      reactions.scale = std::max(reactions.scale, force->value.norm());
   return reactions;
 }
 
