@@ -152,10 +152,10 @@ INSTANTIATE_TEST_SUITE_P(Orders, SmoothSolution,
 
 // Orders 1 to 8 by the stress itself, in which nothing cancels. Pairs of meshes down to errors of 1e-10.
 TEST(StressOfASmoothSolution, ConvergesWithTheOrderOfItsEdges) {
-  const ExactField exact = exponential(1.0, 0.3, 2.0);
+  const ExactField exact = exponential(1.0, 0.3);
   const Mat3 D = elasticity(1.0, 0.3);
   for (const auto& [order, coarse, fine] :
-       {Row{1, 24, 48}, Row{2, 16, 32}, Row{3, 12, 24}, Row{4, 10, 20}, Row{5, 10, 20}, Row{6, 8, 16}, Row{7, 6, 12}, Row{8, 6, 12}}) {
+       {Row{1, 16, 32}, Row{2, 8, 16}, Row{3, 6, 12}, Row{4, 5, 10}, Row{5, 8, 16}, Row{6, 6, 12}, Row{7, 4, 8}, Row{8, 3, 6}}) {
     const auto error = [&](int n) {
       const Ring ring = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, n, order);
       const auto solution = solve_super_element(ring, D, 1.0);
