@@ -17,6 +17,7 @@ for fuzzer in "$build"/fuzz/fuzz_*; do
   if [ -d "$fuzz/corpus/$name" ]; then
     cp -r "$fuzz/corpus/$name/." "$scratch/$name/"
   fi
+  if [ "$name" = read_model ]; then cp "$fuzz"/../input/good/*.yaml "$scratch/$name/"; fi  # every key there is
   options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1
            -artifact_prefix="$build/found/$name-")
   if [ -f "$fuzz/$name.dict" ]; then options+=(-dict="$fuzz/$name.dict"); fi

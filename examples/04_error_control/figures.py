@@ -96,7 +96,7 @@ def stress(run):
     axis.plot(*np.array(CORNERS + CORNERS[:1]).T, color="black", linewidth=0.8)
     nodes = boundary_nodes(run)
     axis.plot(*nodes.T, ".", color=BLUE, markersize=4, clip_on=False)
-    axis.plot([0, 0], [-1, 45], color="black", linewidth=3)
+    axis.plot([-0.7, -0.7], [-1, 45], color="black", linewidth=3)  # the wall, beside the nodes on the edge
     axis.annotate("", (50.2, 60), (50.2, 44), arrowprops={"arrowstyle": "-|>", "color": "black"})
     axis.set(xlim=(-2, 52.5), ylim=(-2, 62), aspect="equal", xlabel="x", ylabel="y")
     for side in ("top", "right"):

@@ -1,5 +1,6 @@
 // Estimated errors and refinement to a tolerance, against energies that are known or converged.
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "run.hpp"
@@ -50,7 +51,7 @@ TEST(ErrorEstimate, IsBetweenHalfAndTwiceTheTrueErrorOfCooksMembrane) {
     for (const char* size : {"22", "11", "5.5"}) {
       const auto solution = run(cook, {"bodies.panel.mesh.order=" + std::to_string(order), std::string("bodies.panel.mesh.size=") + size});
       const double effectivity = estimated(solution) / true_error(solution, exact);
-        EXPECT_GT(effectivity, 0.5) << "order " << order << ", size " << size;
+      EXPECT_GT(effectivity, 0.5) << "order " << order << ", size " << size;
       EXPECT_LT(effectivity, 2.0) << "order " << order << ", size " << size;
     }
 }
@@ -60,7 +61,88 @@ TEST(Refinement, MeetsTheToleranceOfCooksMembrane) {
   for (const double tolerance : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4}) {
     const auto solution = run(cook, {fmt_setting("bodies.panel.mesh.tolerance", tolerance)});
     EXPECT_LE(estimated(solution), tolerance);
-    EXPECT_LE(true_error(solution, exact), 2 * tolerance);
+    EXPECT_LE(true_error(solution, exact), tolerance);
+    const double effectivity = estimated(solution) / true_error(solution, exact);
+    std::cout << "Cook, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, true " << true_error(solution, exact)
+              << ", effectivity " << effectivity << "\n";
+    EXPECT_GT(effectivity, 0.7);
+    EXPECT_LT(effectivity, 1.1);
+  }
+}
+
+// Lame: a circular hole of radius a in the infinite plane under the pressure p opens by p a (1 + nu) / E; the pressure does work on that.
+// Smooth. Elements stand for the arcs, too, and that error, of first order in the energy, is not in the estimate: it has to stay below the
+// tolerance by itself.
+TEST(Refinement, MeetsTheToleranceOfATunnelUnderPressure) {
+  const char* const tunnel = R"(
+scabo: 1
+analysis: {plane: strain}
+materials: {rock: {young: 2.0, poisson: 0.25}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {outline: [{arc: {from: [1, 0], to: [-1, 0], centre: [0, 0]}}, {arc: {to: [1, 0], centre: [0, 0]}}]}
+    mesh: {size: 2, order: 1}
+loads: {lower: {on: ground.edge_1, pressure: 1e-3}, upper: {on: ground.edge_2, pressure: 1e-3}}
+)";
+  const double exact = std::numbers::pi * 1e-6 * 1.25 / 2.0;
+  for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
+    const auto solution = run(tunnel, {fmt_setting("bodies.ground.mesh.tolerance", tolerance)});
+    EXPECT_LE(estimated(solution), tolerance);
+    EXPECT_NEAR(elastic(solution) / exact, 1.0, 0.3 * tolerance) << tolerance;
+  }
+}
+
+// Re-entrant corners of the ground around a square hole: exponent 0.544. Energy from this model to a tolerance of 5e-4 (1006 degrees of
+// freedom), with the rest of the estimated error: good to 1e-7, or 3e-4 in the norm.
+TEST(Refinement, MeetsTheToleranceOfASquareHole) {
+  const char* const hole = R"(
+scabo: 1
+analysis: {plane: strain}
+materials: {rock: {young: 1.0, poisson: 0.3}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}
+    mesh: {size: 1, order: 2}
+loads: {top: {on: ground.top, pressure: 1e-3}, bottom: {on: ground.bottom, pressure: 1e-3}}
+)";
+  const double exact = 3.76326754e-6;
+  for (const double tolerance : {1e-1, 1e-2, 3e-3}) {
+    const auto solution = run(hole, {fmt_setting("bodies.ground.mesh.tolerance", tolerance)});
+    std::cout << "square hole, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, estimated "
+              << estimated(solution) << ", true " << true_error(solution, exact) << "\n";
+    EXPECT_LE(true_error(solution, exact), tolerance);
+    EXPECT_GT(estimated(solution) / true_error(solution, exact), 0.5);
+  }
+}
+
+// The tip is the scaling centre: its singular stress is in the element already, and the boundary's field is smooth.
+TEST(Refinement, MeetsTheToleranceOfACrackedPlate) {
+  const char* const plate = R"(
+scabo: 1
+analysis: {plane: strain}
+materials: {steel: {young: 1.0, poisson: 0.3}}
+bodies:
+  plate:
+    material: steel
+    shape: {rectangle: {corner: [0, 0], size: [1, 2]}}
+    mesh: {size: 0.5, order: 2}
+    cracks: [{tip: [0.5, 1], mouth: [0, 1], name: flaw}]
+supports: [{on: plate.bottom_right, fix: [x, y]}, {on: plate.top_right, fix: x}]
+loads: {pull: {on: plate.top, traction: [0, 1e-3]}, hold: {on: plate.bottom, traction: [0, -1e-3]}}
+)";
+  const auto converged = run(plate, {"bodies.plate.mesh.order=12"});
+  const double exact = elastic(converged);
+  EXPECT_NEAR(last(converged).cracks[0].factors.K_I / (1e-3 * std::sqrt(0.5 * std::numbers::pi)), 2.82546, 3e-5);
+  for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
+    const auto solution = run(plate, {fmt_setting("bodies.plate.mesh.tolerance", tolerance)});
+    std::cout << "crack, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, estimated " << estimated(solution)
+              << ", true " << true_error(solution, exact) << "\n";
+    EXPECT_LE(true_error(solution, exact), tolerance);
+    EXPECT_GT(estimated(solution) / true_error(solution, exact), 0.7);
   }
 }
 

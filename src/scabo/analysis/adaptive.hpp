@@ -6,8 +6,9 @@
 //
 // Refinement. With tau_b the tolerance of body b and eta_b its relative error, meshes follow each other until
 //
-//     sum of (eta_b / tau_b)^2 <= 1     over the bodies with a tolerance, in every increment                 (1)
+//     sum of (eta_b / tau_b)^2 <= 0.7^2     over the bodies with a tolerance, in every increment             (1)
 //
+// (the estimate falls short of the error; where no mesh gets that far, 1 is good enough).
 // In each pass the elements that hold the largest part of that sum are changed: raised by one order where their error fell as it does
 // for smooth solutions, else divided, next to a corner of the outline in 0.15 : 0.85 with the small part at the corner, in the
 // middle otherwise (Melenk and Wohlmuth 2001: an element carries the error predicted for it). Elements that face each other in

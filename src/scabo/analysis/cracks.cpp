@@ -1,5 +1,12 @@
 #include "scabo/analysis/cracks.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
 namespace scabo::analysis {
 
 namespace {
@@ -11,15 +18,67 @@ std::string name_of(const model::Body& body) {
   return body.name + "." + (names.size() > 1 ? names[1] : names[0]);  // the user's name where there is one
 }
 
+/// Of an exponent: as close, a load is in resonance with it.
+constexpr double resonance = 1e-4;
+/// A crack's exponents are 1/2; computed ones that are farther off come from a boundary too coarse for them.
+constexpr double poor_exponent = 1e-3;
+
+/// Whether a load that acts has an exponent of a singular mode. The stress then grows like that of the mode times ln(xi): the factor of
+/// the mode has no limit.
+bool in_resonance(const element::StressIntensity& factors, const std::vector<element::RadialLoad>& loads) {
+  return std::any_of(loads.begin(), loads.end(), [&](const element::RadialLoad& load) {
+    return load.g.norm() + load.c.norm() > 0.0 &&
+           std::any_of(factors.exponents.begin(), factors.exponents.end(),
+                       [&](const std::complex<double>& exponent) { return std::abs(exponent - load.power) < resonance; });
+  });
+}
+
+void take_back(element::StressIntensity& factors) {
+  factors.K_I = factors.K_II = std::numeric_limits<double>::quiet_NaN();
+  factors.T_left.reset(), factors.T_right.reset(), factors.G.reset(), factors.J.reset();
+  for (element::CornerTerm& term : factors.terms) {
+    term.factors.setConstant(std::numeric_limits<double>::quiet_NaN());
+    term.limit.reset();
+  }
+}
+
+bool resolved(const element::StressIntensity& factors) {
+  if (factors.kind == element::CornerKind::corner) return true;  // no exponent to hold against it
+  return factors.exponents.size() == 2 &&
+         std::all_of(factors.exponents.begin(), factors.exponents.end(), [](const std::complex<double>& exponent) {
+           return std::abs(exponent.real() - 0.5) <= poor_exponent;
+         });
+}
+
 }  // namespace
+
+std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks) {
+  std::vector<std::string> warnings;
+  for (const CrackResult& crack : cracks) {
+    if (std::isnan(crack.factors.K_I))
+      warnings.push_back(fmt::format("the load on the faces of '{}' grows towards the tip just as the singular stress does, which "
+                                     "makes that grow like ln(r) times it: its stress intensity factors have no value",
+                                     crack.name));
+    if (resolved(crack.factors)) continue;
+    std::string list;
+    for (const std::complex<double>& exponent : crack.factors.exponents)
+      list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
+    warnings.push_back(fmt::format("the boundary of '{}' is too coarse for its singular stress: the exponents came out as {}, and are "
+                                   "0.5 twice; its stress intensity factors are wrong by as much: use a smaller mesh size, a higher "
+                                   "order, or a tip farther from the boundary",
+                                   crack.name, list));
+  }
+  return warnings;
+}
 
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment) {
   std::vector<CrackResult> results;
   for (std::size_t b = 0; b < solution.super_elements.size(); ++b) {
     const auto& super_element = solution.super_elements[b];
     if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
-    results.push_back({name_of(solution.model.bodies[b]),
-                       super_element->corner().of(increment.displacements[b], increment.interior[b].loads)});
+    const std::vector<element::RadialLoad>& loads = increment.interior[b].loads;
+    results.push_back({name_of(solution.model.bodies[b]), super_element->corner().of(increment.displacements[b], loads)});
+    if (in_resonance(results.back().factors, loads)) take_back(results.back().factors);
   }
   return results;
 }

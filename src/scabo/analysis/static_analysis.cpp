@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "scabo/analysis/adaptive.hpp"
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
@@ -96,6 +98,7 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
     add("reaches to infinity", relative);
+  for (const std::string& warning : crack_warnings(at.cracks)) add(warning, warning);
 }
 
 void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
@@ -113,7 +116,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       Reached reached = timed(solution.timing.newton, [&] {
         return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options);
       });
-      const bool there = reached.reason.empty();
+      bool there = reached.reason.empty();
       IncrementResult result;
       if (there)
         result = timed(solution.timing.recover, [&] {
@@ -122,6 +125,10 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
           described.cracks = crack_results(solution, described);
           return described;
         });
+      if (there && !std::isfinite(result.energy.elastic)) {
+        there = false;
+        reached.reason = "the elastic energy is beyond the range of numbers: check the units of stiffness, loads and temperature";
+      }
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
       result.increment = k;

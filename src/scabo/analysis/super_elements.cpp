@@ -1,7 +1,10 @@
 #include "scabo/analysis/super_elements.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "scabo/element/ill_posed.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::analysis {
@@ -23,16 +26,29 @@ bool alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
   return true;
 }
 
-/// Many are shared out among the threads; of few, the blocks of each.
-void solve_all(const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct, int threads) {
+/// What is wrong with a super-element, in the words of the model file.
+Diagnostic ill_posed(const model::Body& body, const element::IllPosed& error) {
+  return {body.source, fmt::format("{}; the constants of its material are too far apart for the digits there are (Poisson's ratio too "
+                                   "close to 1/2, or moduli that differ by a factor of 1e12 or more), or the scaling centre is too "
+                                   "close to the boundary",
+                                   error.what())};
+}
+
+/// Many are shared out among the threads; of few, the blocks of each. `bodies`: the first body of each.
+void solve_all(const model::Model& model, const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
+               const std::vector<std::size_t>& bodies, int threads) {
   const auto count = static_cast<int>(distinct.size());
   const bool many = count >= threads && threads > 1;
   const auto solve = [&](int i) {
     SolvedSuperElement& super_element = *distinct[static_cast<std::size_t>(i)];
     super_element.threads = threads;
-    super_element.solution = element::solve_super_element(super_element.ring, super_element.sectors.D,
-                                                          super_element.thickness, many ? 1 : threads,
-                                                          super_element.domain);
+    try {
+      super_element.solution = element::solve_super_element(super_element.ring, super_element.sectors.D,
+                                                            super_element.thickness, many ? 1 : threads,
+                                                            super_element.domain);
+    } catch (const element::IllPosed& error) {
+      throw InputError(model.file, {ill_posed(model.bodies[bodies[static_cast<std::size_t>(i)]], error)});
+    }
   };
   linalg::parallel_for(count, many ? threads : 1, solve);
 }
@@ -63,6 +79,7 @@ const element::CornerAnalysis& SolvedSuperElement::corner() const {
 std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(const model::Model& model,
                                                                             const mesh::Mesh& mesh, int threads) {
   std::vector<std::shared_ptr<SolvedSuperElement>> distinct;
+  std::vector<std::size_t> bodies;
   std::vector<std::shared_ptr<const SolvedSuperElement>> of_body(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (mesh.bodies[b].super_elements.empty()) continue;
@@ -73,9 +90,9 @@ std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(cons
     wanted->thickness = model.analysis.thickness;
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto& other) { return alike(*wanted, *other); });
     of_body[b] = same == distinct.end() ? wanted : *same;
-    if (same == distinct.end()) distinct.push_back(wanted);
+    if (same == distinct.end()) distinct.push_back(wanted), bodies.push_back(b);
   }
-  solve_all(distinct, threads);
+  solve_all(model, distinct, bodies, threads);
   return of_body;
 }
 

@@ -1,6 +1,7 @@
 #include "scabo/element/two_orders.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scabo/element/line_basis.hpp"
 
@@ -64,10 +65,13 @@ double squared_difference(const TwoOrders& two) {
 
 std::vector<double> sector_differences(const SuperElementField& narrower, const SuperElementField& wider, const Elasticity& D) {
   const RadialField u(narrower.solution, narrower.modal, narrower.u, {}), U(wider.solution, wider.modal, wider.u, {});
+  const bool unbounded = wider.solution.domain.unbounded;
   std::vector<double> energies(wider.ring.elements.size(), 0.0);
   for (const RadialPoint& radial : radial_points()) {
-    const RadialField::Values of_u = u.at(radial.xi);
-    RadialField::Values difference = U.at(radial.xi);
+    // Unbounded: xi = 1 / s, xi dxi = ds / s^3.
+    const double s = radial.xi, xi = unbounded ? 1.0 / s : s, measure = radial.weight * (unbounded ? 1.0 / (s * s * s) : s);
+    const RadialField::Values of_u = u.at(xi);
+    RadialField::Values difference = U.at(xi);
     const auto subtract = [&](Vector& from, const Vector& values) {
       from -= prolonged(narrower.ring.elements, values, wider.ring.elements, from.size());
     };
@@ -78,11 +82,11 @@ std::vector<double> sector_differences(const SuperElementField& narrower, const 
       const mesh::LineElement& element = wider.ring.elements[e];
       const GaussRule rule = gauss_rule(order_of(element) + 1);
       // |J| varies little beside the difference: that of the chord will do for shares.
-      const double area = cross(wider.ring.nodes[static_cast<std::size_t>(element.nodes.front())],
-                                wider.ring.nodes[static_cast<std::size_t>(element.nodes.back())]);
+      const double area = std::abs(cross(wider.ring.nodes[static_cast<std::size_t>(element.nodes.front())],
+                                         wider.ring.nodes[static_cast<std::size_t>(element.nodes.back())]));
       for (std::size_t q = 0; q < rule.points.size(); ++q) {
         const PointValues values = point_values(wider.ring, difference, D, static_cast<int>(e), rule.points[q]);
-        energies[e] += radial.weight * radial.xi * rule.weights[q] * area * values.stress.dot(values.strain);
+        energies[e] += measure * rule.weights[q] * area * values.stress.dot(values.strain);
       }
     }
   }

@@ -13,7 +13,7 @@
 // sqrt(1 - r^2), r the ratio of the errors of p + 1 and p.
 //
 // Where the error is: the field U(xi) - P u(xi) has an energy in the sector that every boundary element spans, the integral over
-// xi by quadrature with points that crowd towards xi = 1, where short elements have their say. On a built-in edge the boundary itself
+// xi (1 / xi in an unbounded domain) by quadrature with points that crowd towards xi = 1, where short elements have their say. On a built-in edge the boundary itself
 // knows nothing of the error behind it.
 #pragma once
 

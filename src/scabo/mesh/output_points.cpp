@@ -72,6 +72,18 @@ bool between_side_faces(const model::Body& body, const Vec2& point, double slack
   return on(first) || on(last) || turn_to(x) <= turn_to(last);
 }
 
+/// Whether a point lies on the way from the scaling centre on a corner of an outside body to its hole's boundary: on the outline, but in
+/// the hole.
+bool before_side_faces(const model::Body& body, const Vec2& point, double slack) {
+  const int corner = body.mesh.centre_corner;
+  if (!body.outside || corner < 0) return false;
+  const auto count = static_cast<int>(body.outline.edges.size());
+  const model::Edge &arriving = body.outline.edges[static_cast<std::size_t>((corner + count - 1) % count)],
+                    &leaving = body.outline.edges[static_cast<std::size_t>(corner)];
+  return (distance_to(arriving, point) <= slack && (point - arriving.start).norm() > slack) ||
+         (distance_to(leaving, point) <= slack && (point - leaving.end).norm() > slack);
+}
+
 std::vector<int> bodies_at(const model::Model& model, const Vec2& point, int only) {
   std::vector<int> bodies;
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
@@ -154,6 +166,7 @@ void add_grid(const model::Model& model, const model::OutputGrid& grid, std::vec
 
 bool holds(const model::Body& body, const Vec2& point) {
   const double slack = on_outline * size_of(body.outline);
+  if (before_side_faces(body, point, slack)) return false;
   if (distance_to(body.outline, point) <= slack) return true;
   if (!body.outside) return encloses(body.outline, point);
   return !encloses(body.outline, point) && between_side_faces(body, point, slack);

@@ -99,7 +99,7 @@ std::variant<double, std::string> parse_number(std::string_view text) {
   if (code == std::errc::result_out_of_range) {
     // from_chars does not say which end of the range was left.
     const auto exponent = lower(digits).find("e-");
-    if (exponent != std::string::npos) return fmt::format("'{}' is smaller than 1e-100: write 0", shown);
+    if (exponent != std::string::npos) return fmt::format("'{}' is smaller than 1e-100: no quantity but 0 is", shown);
     return fmt::format("'{}' is larger than 1e100: no quantity is", shown);
   }
   if (code != std::errc() || end != digits.data() + digits.size()) {
@@ -107,7 +107,7 @@ std::variant<double, std::string> parse_number(std::string_view text) {
   }
   if (std::abs(value) > 1e100) return fmt::format("'{}' is larger than 1e100: no quantity is", shown);
   if (value != 0.0 && std::abs(value) < 1e-100)
-    return fmt::format("'{}' is smaller than 1e-100: write 0", shown);
+    return fmt::format("'{}' is smaller than 1e-100: no quantity but 0 is", shown);
   return value == 0.0 ? 0.0 : value;  // no -0
 }
 

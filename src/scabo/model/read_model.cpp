@@ -125,12 +125,14 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
   std::vector<std::string> parts;
-  for (const char* section : {"loads", "contacts", "steps", "solver"}) {
+  for (const char* section : {"loads", "contacts", "steps", "solver", "output"}) {
     const MapEntry* entry = root.node->find(section);
     if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
   }
   if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.rigid; }))
     parts.emplace_back("rigid bodies");
+  if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.mesh.tolerance.has_value(); }))
+    parts.emplace_back("tolerances of the mesh");
   if (!parts.empty()) {
     std::string list = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i) {

@@ -72,6 +72,10 @@ bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
     reading.report.error(at, "has no extent: all its points are the same");
     return false;
   }
+  if (size < 1e-30 || size > 1e30) {
+    reading.report.error(at, fmt::format("is {:.2g} across, which no unit of length leads to: sizes from 1e-30 to 1e30 are known", size));
+    return false;
+  }
   if (farthest > 1e10 * size) {
     reading.report.error(at, fmt::format("lies {:.1e} times its own size away from the origin, so that its "
                                          "digits are lost: move the origin closer",

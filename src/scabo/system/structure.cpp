@@ -6,6 +6,7 @@
 
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/element/plane_element8.hpp"
+#include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::system {
@@ -200,7 +201,12 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                                                 model.analysis.plane);
       stiffness.sparse = fem_stiffness(mesh.bodies[b], D, model.analysis.thickness);
     }
-    structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
+    try {
+      structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
+    } catch (const linalg::NotPositiveDefinite&) {
+      throw InputError(model.file, {{body.source, "its stiffness matrix is not positive definite to working precision: the constants of "
+                                                  "its materials are too far apart (by a factor of 1e12 or so), or its elements are"}});
+    }
   }
   return structure;
 }

@@ -1,6 +1,8 @@
 // From an open super-element to the summary and the log: names, keys, null where nothing is known.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "scabo/analysis/cracks.hpp"
@@ -63,6 +65,42 @@ TEST(CrackResults, OfACrackByItsName) {
   EXPECT_TRUE(pressed["J"].is_null());
   EXPECT_TRUE(pressed["T"].is_null());
   EXPECT_TRUE(pressed["G"].is_number());
+}
+
+// xi^-1/2 on a face grows like the singular stress, which then grows like ln(r) times that.
+TEST(CrackResults, HaveNoFactorsWhereALoadIsInResonance) {
+  const element::Ring ring = cracked_square(1, 8);
+  const Kolosov m(1.0, 0.3, model::Plane::stress);
+  auto solution = solution_of(ring, {elasticity(1.0, 0.3)}, around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
+  const auto loaded = [&](double power) {
+    solution.increments[0].interior[0].loads.clear();
+    element::add_radial_loads(solution.increments[0].interior[0].loads,
+                              {element::face_load(ring, element::Face::first, power, {0, -1}, 1.0)}, 1.0);
+    return solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
+  };
+  const auto resonant = loaded(-0.5);
+  EXPECT_TRUE(std::isnan(resonant[0].factors.K_I));
+  EXPECT_FALSE(resonant[0].factors.G);
+  EXPECT_TRUE(cracks_in_summary(solution)["plate"]["K_I"].is_null());
+  ASSERT_EQ(analysis::crack_warnings(resonant).size(), 1u);
+  EXPECT_NE(analysis::crack_warnings(resonant)[0].find("have no value"), std::string::npos);
+  for (const double power : {-0.9, -0.4, 0.0, 0.5}) {
+    const auto found = loaded(power);
+    EXPECT_TRUE(std::isfinite(found[0].factors.K_I)) << power;
+    EXPECT_TRUE(analysis::crack_warnings(found).empty()) << power;
+  }
+}
+
+TEST(CrackResults, SayWhereTheBoundaryIsTooCoarseForThem) {
+  for (const auto& [order, coarse] : {std::pair{1, true}, {8, false}}) {
+    const element::Ring ring = cracked_square(1, order);
+    auto solution = solution_of(ring, {elasticity(1.0, 0.3)}, at_nodes(ring.nodes, [](const Vec2& x) { return x; }));
+    const auto warnings = analysis::crack_warnings(analysis::crack_results(solution, solution.increments[0]));
+    ASSERT_EQ(warnings.size(), coarse ? 1u : 0u);
+    if (coarse) {
+      EXPECT_NE(warnings[0].find("too coarse for its singular stress"), std::string::npos) << warnings[0];
+    }
+  }
 }
 
 TEST(CrackResults, OfAnInterfaceCrackAndACorner) {
