@@ -31,13 +31,16 @@ bool solves(const Problem& problem, const Vector& p, const Vector& a, const Solv
   return p.allFinite() && certify(problem, p, a, scales_of(problem, p, options)).worst() <= options.tolerance;
 }
 
-bool same(const Vector& p, const Vector& other) {
-  return largest_of(p - other) <= 1e-6 * std::max({largest_of(p), largest_of(other), 1e-300});
+/// Forces that differ but move nothing (of a pair that a support holds along the joint) are no other solution.
+bool same(const Problem& problem, const Vector& p, const Vector& other) {
+  const double mean = problem.W.diagonal().mean(), force = std::max({largest_of(p), largest_of(other), 1e-300});
+  const Vector difference = p - other;
+  return largest_of(difference) <= 1e-6 * force || largest_of(problem.W * difference) <= 1e-6 * mean * force;
 }
 
-void add_if_new(std::vector<Vector>& solutions, const Vector& p) {
+void add_if_new(const Problem& problem, std::vector<Vector>& solutions, const Vector& p) {
   for (const Vector& known : solutions)
-    if (same(known, p)) return;
+    if (same(problem, known, p)) return;
   solutions.push_back(p);
 }
 
@@ -177,7 +180,8 @@ int index_of(const Problem& problem, const Vector& p, const Vector& a) {
     if (const double size = H.row(row).norm(); size > 0.0) H.row(row) /= size;
   const Eigen::PartialPivLU<Matrix> lu(H);
   if (!(lu.rcond() > 1e-13)) return 0;
-  double sign = lu.permutationP().determinant();
+  // The rows of equilibrium make [W G; G' 0] of it, whose determinant has the sign of (-1)^m where W is positive definite.
+  double sign = lu.permutationP().determinant() * (problem.G.cols() % 2 == 0 ? 1.0 : -1.0);
   for (Eigen::Index k = 0; k < n; ++k) sign *= lu.matrixLU()(k, k) < 0.0 ? -1.0 : 1.0;
   return sign > 0.0 ? 1 : -1;
 }
@@ -194,7 +198,7 @@ std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double 
     bool determined = true;
     const auto p = forces_with(problem, states, determined);
     if (!determined) return std::nullopt;
-    if (p && solves(problem, *p, Vector(), options)) add_if_new(solutions, *p);
+    if (p && solves(problem, *p, Vector(), options)) add_if_new(problem, solutions, *p);
   }
   return solutions;
 }
@@ -212,11 +216,11 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
   }
   std::vector<Vector> found{solution.p};
   if (const auto all = all_solutions(problem, options.tolerance)) {
-    for (const Vector& p : *all) add_if_new(found, p);
+    for (const Vector& p : *all) add_if_new(problem, found, p);
     report.complete = true;
   } else {
     for (const Vector& p : other_starts(problem, solution, options))
-      if (const auto other = newton_from(problem, p, solution.a, options)) add_if_new(found, *other);
+      if (const auto other = newton_from(problem, p, solution.a, options)) add_if_new(problem, found, *other);
   }
   report.others.assign(found.begin() + 1, found.end());
   if (!report.others.empty())

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scabo/base/error.hpp"
+#include "scabo/contact/rigid_motions.hpp"
 
 namespace scabo::contact {
 
@@ -175,6 +176,12 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
                            std::to_string(result.rounds) +
                            " rounds; the increment may be too large, or failure runs away";
   return result;
+}
+
+std::optional<Vector> mechanism_once_broken(Problem problem, const JointLaws& laws, History history) {
+  for (PairHistory& pair : history) pair.broken = true;
+  set_limits(laws, history, problem);
+  return find_mechanism(problem);
 }
 
 }  // namespace scabo::contact
