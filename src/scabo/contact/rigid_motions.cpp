@@ -43,7 +43,8 @@ Matrix rays_of(const Problem& problem) {
         const double angle = 2.0 * std::numbers::pi * k / sides, reach = problem.mu[i] / std::cos(std::numbers::pi / sides);
         ray += reach * (std::cos(angle) * problem.G.row(3 * i + 1) + std::sin(angle) * problem.G.row(3 * i + 2)).transpose();
       }
-      rays.col(count * i + k) = ray;
+      const double length = ray.norm();  // any multiple of a ray will do
+      rays.col(count * i + k) = length > 0.0 ? Vector(ray / length) : ray;
     }
   return rays;
 }

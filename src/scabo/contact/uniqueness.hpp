@@ -47,9 +47,9 @@ double uniqueness_bound(const Problem& problem);
 
 /// All solutions of a plane problem of few pairs without rigid motions, by trying every combination of
 /// states; nothing where there are too many pairs, cohesion or tension, or states that leave the forces
-/// undetermined.
+/// undetermined. `force_scale` as in SolverOptions.
 constexpr int most_enumerated = 5;
-std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double tolerance);
+std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double tolerance, double force_scale = 0.0);
 
 /// Why a problem that did not converge has no solution, where that can be shown; empty otherwise.
 std::string why_no_solution(const Problem& problem, const SolverOptions& options);

@@ -233,6 +233,20 @@ TEST(ManyPairs, ForcesThatMoveNothingAreNoSecondSolution) {
   EXPECT_TRUE(report.others.empty());
 }
 
+// A pair that lets go: the motion left is rounding of the one before, and no solutions are made of it.
+TEST(FewPairs, RoundingIsNoSecondSolution) {
+  std::mt19937 random(13);
+  for (int trial = 0; trial < 50; ++trial) {
+    Problem problem = test::held_problem(random, 3, 0.0);
+    problem.mu = Vector::Constant(3, 0.1);
+    for (Eigen::Index i = 0; i < 6; ++i) problem.q[i] = 1e-17 * test::uniform(random, -1, 1);
+    const Start before{Vector::Constant(6, 1.0), Vector()};
+    const Solution solution = solve(problem, before);
+    if (solution.status != Status::solved) continue;
+    EXPECT_TRUE(examine_uniqueness(problem, before, solution, {}).others.empty()) << trial;
+  }
+}
+
 TEST(ManyPairs, SecondSolutionIsFoundFromOtherStarts) {
   // Eight independent copies of the pair with three solutions: too many to enumerate.
   const Problem one = one_pair(1.5, Eigen::Vector2d(0.1, 1.0));
