@@ -66,6 +66,13 @@ TEST(CohesiveBlock, HangsByItsTensileStrength) {
   EXPECT_NE(falls.reason.find("mechanism"), std::string::npos) << falls.reason;
 }
 
+// Numbers far above the loads prove no mechanism where there is none.
+TEST(CohesiveBlock, IsHeldByHugeStrengthsAndFriction) {
+  for (const char* law : {"friction: 1e3, cohesion: 1e99, tension: 1e99", "friction: 1e6, cohesion: 1e6, tension: 1e6",
+                          "cohesion: 1e13, tension: 1e12", "friction: 1e6, cohesion: 1e99, tension: 1e99"})
+    expect_held(sheared_block(-2e4, 1e4, law));
+}
+
 TEST(TrescaBlock, SlidesAtItsShearStrengthWhateverThePressure) {
   for (double p : {1e4, 1e6}) {
     expect_held(sheared_block(p, 5e4 * just_below, "shear_strength: 5e4"));
