@@ -27,12 +27,12 @@ std::string bodies_table(const model::Model& model, const mesh::Mesh& mesh) {
 }
 
 std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
-  std::vector<std::vector<std::string>> rows = {{"contact", "between", "friction", "pairs"}};
+  std::vector<std::vector<std::string>> rows = {{"contact", "between", "law", "pairs"}};
   const std::vector<int> pairs = moving_pairs(model, mesh);
   for (size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const model::Contact& contact = model.contacts[mesh.interfaces[i].contact];
     rows.push_back({contact.name, contact.a.text + ", " + contact.b.text,
-                    fmt::format("{:g}", contact.friction), fmt::format("{}", pairs[i])});
+                    result::describe_law(contact), fmt::format("{}", pairs[i])});
   }
   return result::table(rows);
 }

@@ -24,7 +24,8 @@ namespace {
 constexpr const char* exit_statuses = R"(Exit status:
   0    solved and certified
   1    the command line, the model file or a file it names is wrong
-  2    the solve did not converge; the results of the converged increments are kept
+  2    the solve did not converge, or the loads are more than supports and contact can hold (status `mechanism`);
+       the results of the converged increments are kept
   3    anything else: results cannot be written, not enough memory, a bug
   130  interrupted by Ctrl-C after an increment (143: by SIGTERM); the finished increments are kept)";
 

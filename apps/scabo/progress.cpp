@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds shortest_between_lines{50};
 std::string outcome_of(const analysis::IncrementResult& result) {
   std::string text = count(result.newton_iterations, "iteration");
   if (result.halvings > 0) text += fmt::format(", halved {}", count(result.halvings, "time"));
-  if (!result.converged) return text + ", not converged";
+  if (!result.converged) return text + (result.reason.starts_with("mechanism") ? ", not held" : ", not converged");
   if (result.contacts.empty()) return text;
   int open = 0, stick = 0, slip = 0;
   for (const analysis::ContactResult& contact : result.contacts) {

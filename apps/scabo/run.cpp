@@ -85,6 +85,7 @@ ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {
       return ExitStatus::solved;
     case analysis::Outcome::interrupted:
     case analysis::Outcome::not_converged:
+    case analysis::Outcome::mechanism:
       break;
   }
   // A signal also ends the halving of an increment; what stopped the run is the signal all the same.
@@ -98,7 +99,9 @@ void print_reason(const analysis::StaticSolution& solution, ExitStatus status) {
   const std::string kept =
       finished == 0 ? "no increment was finished" : count(finished, "finished increment") + " kept";
   print_error(status == ExitStatus::not_converged
-                  ? fmt::format("did not converge: {} ({})", solution.reason, kept)
+                  ? fmt::format("{}: {} ({})",
+                                solution.outcome == analysis::Outcome::mechanism ? "not held" : "did not converge",
+                                solution.reason, kept)
                   : fmt::format("interrupted; {}", kept));
 }
 

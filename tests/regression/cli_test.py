@@ -198,10 +198,12 @@ steps:
         (self.directory / "model.yaml").write_text(self.MODEL)
         run = scabo("run", "model.yaml", cwd=self.directory)
         self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
-        self.assertRegex(run.stderr, r"scabo: did not converge: step lift, increment 2: .*block.*"
+        self.assertRegex(run.stderr, r"scabo: not held: step lift, increment 2: .*block.*"
                                      r" \(3 finished increments kept\)\n")
         results = self.directory / "model.results"
         self.assertIn("model.results", run.stdout)
+        self.assertEqual(summary_of(results)["status"], "mechanism")
+        self.assertIn("NOT HELD: mechanism: body 'block': translation along (0, 1)", (results / "log.txt").read_text())
         increments = summary_of(results)["increments"]
         self.assertEqual([increment["converged"] for increment in increments], [True, True, True, False])
         self.assertEqual(sorted({(int(row["step"]), int(row["increment"])) for row in rows_of(results)}),

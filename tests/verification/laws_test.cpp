@@ -42,7 +42,7 @@ void expect_held(const std::string& model) {
 
 void expect_mechanism(const std::string& model, const std::string& motion) {
   const auto solution = run(model);
-  EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
+  EXPECT_EQ(solution.outcome, analysis::Outcome::mechanism);
   EXPECT_NE(solution.reason.find("mechanism: body 'block': " + motion), std::string::npos) << solution.reason;
 }
 
@@ -62,8 +62,15 @@ TEST(CohesiveBlock, HangsByItsTensileStrength) {
   const std::string law = "friction: 0.4, cohesion: 1e6, tension: 2e4";
   expect_held(sheared_block(-2e4 * just_below, 0.0, law));
   const auto falls = run(sheared_block(-2e4 * just_above, 0.0, law));
-  EXPECT_EQ(falls.outcome, analysis::Outcome::not_converged);
+  EXPECT_EQ(falls.outcome, analysis::Outcome::mechanism);
   EXPECT_NE(falls.reason.find("mechanism"), std::string::npos) << falls.reason;
+}
+
+// Numbers far above the loads prove no mechanism where there is none.
+TEST(CohesiveBlock, IsHeldByHugeStrengthsAndFriction) {
+  for (const char* law : {"friction: 1e3, cohesion: 1e99, tension: 1e99", "friction: 1e6, cohesion: 1e6, tension: 1e6",
+                          "cohesion: 1e13, tension: 1e12", "friction: 1e6, cohesion: 1e99, tension: 1e99"})
+    expect_held(sheared_block(-2e4, 1e4, law));
 }
 
 TEST(TrescaBlock, SlidesAtItsShearStrengthWhateverThePressure) {

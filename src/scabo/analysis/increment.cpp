@@ -69,10 +69,11 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
   }
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
     const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)], &after = to.history[static_cast<std::size_t>(i)];
-    // Where the strength fell at once, the slip took place under what was left of it.
+    // Where the strength fell at once, the slip took place under what was left of it; friction never gives energy back.
     const bool fell = before.broken != after.broken || before.slipped != after.slipped;
-    const double p_t = fell ? to.p[2 * i + 1] : 0.5 * (from.p[2 * i + 1] + to.p[2 * i + 1]);
-    energy.friction -= p_t * (to.slip[i] - from.slip[i]);
+    const double slip = to.slip[i] - from.slip[i], at_end = -to.p[2 * i + 1] * slip;
+    const double mean = 0.5 * (at_end - from.p[2 * i + 1] * slip);
+    energy.friction += fell || mean < 0.0 ? std::max(at_end, 0.0) : mean;
   }
   return energy;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scabo/analysis/adaptive.hpp"
@@ -10,6 +11,7 @@
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/uniqueness.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/mesh/output_points.hpp"
@@ -26,10 +28,18 @@ struct Reached {
   double residual = 0.0;
   Matrix undetermined;
   std::optional<UniquenessResult> uniqueness;
+  bool mechanism = false;
   std::string reason;  ///< empty: there
   std::vector<AttemptResult> attempts;
   std::vector<DiscreteProblem> problems;  ///< of the attempts, where they are asked for
 };
+
+/// Whether the model has joints whose strength is lost when they fail.
+bool breaks(const Prepared& prepared) {
+  const auto& contacts = prepared.model.contacts;
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const model::Contact& contact) { return contact.cohesion > 0.0; });
+}
 
 /// From `from` to `target`, halving the way where an attempt is not accepted; every part starts from the last accepted
 /// state.
@@ -57,6 +67,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
     if (mechanism || reached.halvings == prepared.model.solver.halvings || (options.stop && *options.stop)) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
+      reached.mechanism = mechanism;
       if (mechanism)
         reached.reason = fmt::format("mechanism: {}; {}", describe_motions(prepared, tried.solution.motion),
                                      tried.solution.reason);
@@ -67,6 +78,16 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
         reached.reason = fmt::format("contact did not converge after {} halvings: {}", reached.halvings,
                                      tried.solution.reason);
       if (tried.solution.status == contact::Status::not_converged) {
+        if (const auto motion = breaks(prepared) ? contact::mechanism_once_broken(tried.problem, prepared.contact.laws,
+                                                                                  reached.state.history)
+                                                 : std::nullopt) {
+          reached.mechanism = true;
+          reached.reason =
+              fmt::format("mechanism: {}; no forces were found with what is left of the joints' strengths, not even after {} "
+                          "halvings, and nothing holds this motion without them",
+                          describe_motions(prepared, *motion), reached.halvings);
+          return reached;
+        }
         contact::SolverOptions solver;
         solver.tolerance = prepared.model.solver.tolerance;
         solver.force_scale = tried.force_scale;
@@ -94,6 +115,16 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
     add(motion, fmt::format("neither supports, friction nor load fix {}; the smallest such motion was taken: add a support if "
                             "the position matters",
                             motion));
+  }
+  if (reached.uniqueness && reached.uniqueness->others > 0)
+    add("solutions as well", fmt::format("there are other solutions as well ({} found); the one nearest to the increment before "
+                                      "was taken: see uniqueness in summary.json",
+                                      reached.uniqueness->others));
+  for (std::size_t c = 0; c < at.contacts.size(); ++c) {
+    if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
+    const std::string open = fmt::format("open pairs of contact '{}'", at.contacts[c].name);
+    if (at.contacts[c].open > 0)
+      add(open, open + " carry shear: a prescribed shear strength does not ask for pressure");
   }
   if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
@@ -144,7 +175,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       solution.increments.push_back(std::move(result));
       if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
       if (!there) {
-        solution.outcome = Outcome::not_converged;
+        solution.outcome = reached.mechanism ? Outcome::mechanism : Outcome::not_converged;
         solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);
         if (options.on_increment) options.on_increment(solution, solution.increments.back());
         return;

@@ -149,7 +149,9 @@ struct RefinementPass {
   int raised = 0, divided = 0;  ///< elements changed after it
 };
 
-enum class Outcome { solved, not_converged, interrupted };
+/// mechanism: the loads of an increment are more than supports, contact and friction can carry, which is proven and no
+/// failure of the solver.
+enum class Outcome { solved, not_converged, mechanism, interrupted };
 
 struct StaticSolution {
   model::Model model;

@@ -1,6 +1,7 @@
 #include "scabo/contact/rigid_motions.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -109,10 +110,32 @@ std::optional<Vector> mechanism_against_strengths(const Problem& problem, const 
   return std::nullopt;
 }
 
+/// The same problem with coefficients and strengths no larger than loads usually ask for; what balances there balances with more,
+/// and numbers far above the loads leave nothing of them but rounding.
+Problem moderate(Problem problem) {
+  const double force = problem.f.norm();
+  problem.mu = problem.mu.cwiseMin(10.0);
+  for (Vector* strengths : {&problem.cohesion, &problem.tension})
+    for (double& strength : *strengths)
+      if (!std::isinf(strength)) strength = std::min(strength, force);
+  return problem;
+}
+
+std::optional<Vector> mechanism_of(const Problem& problem);
+
 }  // namespace
 
 std::optional<Vector> find_mechanism(const Problem& problem) {
   if (problem.G.cols() == 0 || problem.f.isZero(0.0)) return std::nullopt;
+  const Problem less = moderate(problem);
+  const bool same = less.mu == problem.mu && less.cohesion == problem.cohesion && less.tension == problem.tension;
+  if (!same && !mechanism_of(less)) return std::nullopt;
+  return mechanism_of(problem);
+}
+
+namespace {
+
+std::optional<Vector> mechanism_of(const Problem& problem) {
   const Matrix rays = rays_of(problem);
   if (problem.cohesion.size() > 0 || problem.tension.size() > 0) return mechanism_against_strengths(problem, rays);
   const Vector strengths = linalg::nonnegative_least_squares(rays, -problem.f);
@@ -120,6 +143,8 @@ std::optional<Vector> find_mechanism(const Problem& problem) {
   if (unbalanced.norm() <= 1e-9 * problem.f.norm()) return std::nullopt;
   return slide_of(problem, unbalanced.normalized());
 }
+
+}  // namespace
 
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states) {
   const Eigen::Index m = problem.G.cols();

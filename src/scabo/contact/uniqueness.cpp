@@ -31,13 +31,17 @@ bool solves(const Problem& problem, const Vector& p, const Vector& a, const Solv
   return p.allFinite() && certify(problem, p, a, scales_of(problem, p, options)).worst() <= options.tolerance;
 }
 
-bool same(const Vector& p, const Vector& other) {
-  return largest_of(p - other) <= 1e-6 * std::max({largest_of(p), largest_of(other), 1e-300});
+/// Forces that differ but move nothing (of a pair that a support holds along the joint) are no other solution, and what rounding
+/// leaves of the forces at work (`scale`) is none at all.
+bool same(const Problem& problem, const Vector& p, const Vector& other, double scale) {
+  const double mean = problem.W.diagonal().mean(), force = std::max({largest_of(p), largest_of(other), 1e-5 * scale});
+  const Vector difference = p - other;
+  return largest_of(difference) <= 1e-6 * force || largest_of(problem.W * difference) <= 1e-6 * mean * force;
 }
 
-void add_if_new(std::vector<Vector>& solutions, const Vector& p) {
+void add_if_new(const Problem& problem, std::vector<Vector>& solutions, const Vector& p, double scale) {
   for (const Vector& known : solutions)
-    if (same(known, p)) return;
+    if (same(problem, known, p, scale)) return;
   solutions.push_back(p);
 }
 
@@ -177,15 +181,18 @@ int index_of(const Problem& problem, const Vector& p, const Vector& a) {
     if (const double size = H.row(row).norm(); size > 0.0) H.row(row) /= size;
   const Eigen::PartialPivLU<Matrix> lu(H);
   if (!(lu.rcond() > 1e-13)) return 0;
-  double sign = lu.permutationP().determinant();
+  // The rows of equilibrium make [W G; G' 0] of it, whose determinant has the sign of (-1)^m where W is positive definite.
+  double sign = lu.permutationP().determinant() * (problem.G.cols() % 2 == 0 ? 1.0 : -1.0);
   for (Eigen::Index k = 0; k < n; ++k) sign *= lu.matrixLU()(k, k) < 0.0 ? -1.0 : 1.0;
   return sign > 0.0 ? 1 : -1;
 }
 
-std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double tolerance) {
+std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double tolerance, double force_scale) {
   if (!may_enumerate(problem)) return std::nullopt;
   SolverOptions options;
   options.tolerance = tolerance;
+  options.force_scale = force_scale;
+  const double scale = scales_of(problem, Vector(), options).force;
   std::vector<Vector> solutions;
   std::vector<Trial> states(static_cast<std::size_t>(problem.pairs()));
   for (int combination = 0; combination < 1 << (2 * problem.pairs()); ++combination) {
@@ -194,14 +201,17 @@ std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double 
     bool determined = true;
     const auto p = forces_with(problem, states, determined);
     if (!determined) return std::nullopt;
-    if (p && solves(problem, *p, Vector(), options)) add_if_new(solutions, *p);
+    if (p && solves(problem, *p, Vector(), options)) add_if_new(problem, solutions, *p, scale);
   }
   return solutions;
 }
 
 UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, const Solution& solution,
-                                    const SolverOptions& options) {
+                                    const SolverOptions& given) {
   UniquenessReport report;
+  SolverOptions options = given;  // forces of the history are at work as well
+  options.force_scale = std::max(given.force_scale, largest_of(start.p));
+  const double scale = scales_of(problem, solution.p, options).force;
   if (solution.status != Status::solved) return report;
   report.bound = uniqueness_bound(problem);
   report.index = index_of(problem, solution.p, solution.a);
@@ -211,12 +221,12 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
     return report;
   }
   std::vector<Vector> found{solution.p};
-  if (const auto all = all_solutions(problem, options.tolerance)) {
-    for (const Vector& p : *all) add_if_new(found, p);
+  if (const auto all = all_solutions(problem, options.tolerance, options.force_scale)) {
+    for (const Vector& p : *all) add_if_new(problem, found, p, scale);
     report.complete = true;
   } else {
     for (const Vector& p : other_starts(problem, solution, options))
-      if (const auto other = newton_from(problem, p, solution.a, options)) add_if_new(found, *other);
+      if (const auto other = newton_from(problem, p, solution.a, options)) add_if_new(problem, found, *other, scale);
   }
   report.others.assign(found.begin() + 1, found.end());
   if (!report.others.empty())

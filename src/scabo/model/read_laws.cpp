@@ -11,6 +11,17 @@ namespace {
 constexpr const char* friction_example =
     "0.3, {static: 0.5, dynamic: 0.3, slip_distance: 1e-4} or {along: [[0, 0.3], [1, 0.5]]}";
 
+/// A coefficient from 0 to 1e6: beyond, forces that balance drown in rounding.
+double read_coefficient(Report& report, const Value& value) {
+  const double friction = read_not_negative(report, value).value_or(0.0);
+  constexpr double most = 1e6;
+  if (friction <= most) return friction;
+  report.error(value, fmt::format("a coefficient of friction is at most 1e6, not {}: where nothing is to slip that is as good, "
+                                  "and 'bond: true' ties both sides",
+                                  number_text(friction)));
+  return 0.0;
+}
+
 /// `[[s, mu], ...]`, s from 0 to 1, ascending.
 void read_along(Report& report, const Value& value, Contact& contact) {
   const auto items = read_list(report, value, "[[0, 0.3], [1, 0.5]]");
@@ -20,7 +31,9 @@ void read_along(Report& report, const Value& value, Contact& contact) {
   for (const Value& item : *items) {
     const auto point = read_vector(report, item);
     if (!point) continue;
-    if (point->x() < 0.0 || point->x() > 1.0)
+    if (point->y() > 1e6)
+      report.error(item, fmt::format("a coefficient of friction is at most 1e6, not {}", number_text(point->y())));
+    else if (point->x() < 0.0 || point->x() > 1.0)
       report.error(
           item, fmt::format("a position along the contact is from 0 to 1, not {}", number_text(point->x())));
     else if (point->y() < 0.0)
@@ -37,8 +50,8 @@ void read_static_and_dynamic(Report& report, const MapReader& map, Contact& cont
   const std::size_t before = report.count();
   const auto most = map.need("static");
   const auto least = map.need("dynamic");
-  if (most) contact.friction = read_not_negative(report, *most).value_or(0.0);
-  const double dynamic = least ? read_not_negative(report, *least).value_or(0.0) : 0.0;
+  if (most) contact.friction = read_coefficient(report, *most);
+  const double dynamic = least ? read_coefficient(report, *least) : 0.0;
   contact.dynamic_friction = dynamic;
   if (report.count() == before && dynamic > contact.friction)
     report.error(*least, fmt::format("must not be above the static coefficient {}, not {}",
@@ -49,7 +62,7 @@ void read_static_and_dynamic(Report& report, const MapReader& map, Contact& cont
 
 void read_friction(Report& report, const Value& value, Contact& contact) {
   if (value.node->kind != Node::Kind::map) {
-    contact.friction = read_not_negative(report, value).value_or(0.0);
+    contact.friction = read_coefficient(report, value);
     return;
   }
   const MapReader map(report, value, {"static", "dynamic", "slip_distance", "along"}, friction_example);

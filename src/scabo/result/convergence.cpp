@@ -21,7 +21,7 @@ using Text = std::back_insert_iterator<fmt::memory_buffer>;
 
 constexpr double width = 820.0, height = 500.0;                           // of the picture, pixels
 constexpr double left = 84.0, right = 620.0, top = 56.0, bottom = 440.0;  // of the frame
-constexpr std::size_t most_curves = 60, most_names = 16;
+constexpr std::size_t most_curves = 60, most_names = 16, most_named = 19;  // drawn; names wanted, names at most
 constexpr double least_residual = 1e-17;  // what is drawn for zero
 constexpr const char* red = "#d62728";
 
@@ -116,17 +116,24 @@ class Axes {
 
 void draw_curve(Text to, const Axes& axes, const ConvergenceCurve& curve, const std::string& stroke,
                 bool name_stages) {
-  fmt::format_to(to,
-                 "<g stroke=\"{0}\" fill=\"{0}\"><title>{1}</title><polyline class=\"curve\"{2} points=\"",
-                 stroke, escaped(curve.name), curve.converged ? "" : " stroke-dasharray=\"5 3\"");
-  for (const contact::Iteration& at : curve.iterations)
+  const bool crowded = curve.iterations.size() > 40;
+  fmt::format_to(to, "<g stroke=\"{0}\" fill=\"{0}\"{1}><title>{2}</title>", stroke,
+                 crowded && !name_stages ? " opacity=\"0.45\"" : "", escaped(curve.name));
+  // A line for every start: where a joint breaks or another stage begins, the iteration does not advance.
+  const std::string begin = fmt::format("<polyline class=\"curve\"{} points=\"",
+                                        curve.converged ? "" : " stroke-dasharray=\"5 3\"");
+  for (std::size_t k = 0; k < curve.iterations.size(); ++k) {
+    const contact::Iteration& at = curve.iterations[k];
+    if (k == 0 || at.iteration <= curve.iterations[k - 1].iteration)
+      fmt::format_to(to, "{}{}", k == 0 ? "" : "\"/>", begin);
     fmt::format_to(to, "{:.1f},{:.1f} ", axes.x(at.iteration), axes.y(at.residual));
-  fmt::format_to(to, "\"/>");
+  }
+  if (!curve.iterations.empty()) fmt::format_to(to, "\"/>");
   const std::string* stage = nullptr;
   for (const contact::Iteration& at : curve.iterations) {
     const double x = axes.x(at.iteration), y = axes.y(at.residual);
     if (curve.iterations.size() <= 200)
-      fmt::format_to(to, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\"/>", x, y);
+      fmt::format_to(to, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, crowded ? "1.6" : "2.6");
     if (name_stages && (!stage || *stage != at.stage))
       fmt::format_to(to, "<text class=\"stage\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 6, y - 7,
                      escaped(at.stage));
@@ -148,10 +155,21 @@ void draw_legend(Text to, const std::vector<const ConvergenceCurve*>& curves,
                    escaped(name.substr(0, 60)));
     y += 19;
   };
-  // Names of all, or of the first and the last and some between.
+  // Names of all, or of the first and the last and some between; of those that did not converge as many as there is room for.
   const std::size_t every = (curves.size() + most_names - 1) / most_names;
-  for (std::size_t k = 0; k < curves.size(); ++k)
-    if (k % every == 0 || k + 1 == curves.size() || !curves[k]->converged) entry(colours[k], curves[k]->name);
+  std::size_t unnamed = 0, room = most_named;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const bool last = k + 1 == curves.size();
+    if (k % every != 0 && !last && curves[k]->converged) continue;
+    if (room > 1 || (last && room > 0)) {
+      entry(colours[k], curves[k]->name);
+      --room;
+    } else {
+      ++unnamed;
+    }
+  }
+  if (unnamed > 0) fmt::format_to(to, "<text class=\"note\" x=\"{:.1f}\" y=\"{:.1f}\">{} more without name</text>\n", x,
+                                  y + 4, unnamed), y += 19;
   if (left_out > 0)
     fmt::format_to(to, "<text class=\"note\" x=\"{:.1f}\" y=\"{:.1f}\">{} more are not drawn</text>\n", x,
                    y + 4, left_out);

@@ -60,7 +60,10 @@ std::string report_header(const analysis::StaticSolution& solution) {
                       count(sizes.nodes, "node"), fmt::format("{} degrees of freedom", sizes.dofs));
   if (sizes.super_elements > 0) text += ", " + count(sizes.super_elements, "super-element");
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
-  return text + ", " + count(sizes.contact_pairs, "contact pair") + "\n\n" + report_passes(solution);
+  text += ", " + count(sizes.contact_pairs, "contact pair") + '\n';
+  for (const model::Contact& contact : model.contacts)
+    text += fmt::format("contact {}: {} on {}; {}\n", contact.name, contact.b.text, contact.a.text, describe_law(contact));
+  return text + '\n' + report_passes(solution);
 }
 
 std::string report_passes(const analysis::StaticSolution& solution) {
@@ -87,22 +90,54 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
   if (increment.error) text += fmt::format(", estimated error {:.2g}", increment.error->relative);
   if (increment.converged) {
     text += fmt::format(", certificate {:.2g}", increment.certificate.worst());
-    if (increment.uniqueness) text += fmt::format(", unique: {}", increment.uniqueness->verdict);
+    if (increment.uniqueness) {
+      text += fmt::format(", unique: {}", increment.uniqueness->verdict);
+      if (increment.uniqueness->others > 0)
+        text += fmt::format(" ({}{})", count(increment.uniqueness->others, "other"),
+                            increment.uniqueness->complete ? ", no more" : "");
+    }
     return text + '\n';
   }
-  return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
+  const bool mechanism = increment.reason.starts_with("mechanism");
+  return text + fmt::format("; {}: {}\n", mechanism ? "NOT HELD" : "NOT CONVERGED", increment.reason);
+}
+
+std::string describe_law(const model::Contact& contact) {
+  if (contact.bond) return "bonded";
+  if (contact.shear_strength) return fmt::format("shear strength {:g}", *contact.shear_strength);
+  std::string text = fmt::format("friction {:g}", contact.friction);
+  if (!contact.friction_along.empty()) {
+    const auto [least, most] =
+        std::minmax_element(contact.friction_along.begin(), contact.friction_along.end(),
+                            [](const auto& a, const auto& b) { return a.friction < b.friction; });
+    text = fmt::format("friction {:g} to {:g} along", least->friction, most->friction);
+  } else if (contact.dynamic_friction) {
+    text += contact.slip_distance > 0.0
+                ? fmt::format(", {:g} after {:g} of slip", *contact.dynamic_friction, contact.slip_distance)
+                : fmt::format(", {:g} once it slips", *contact.dynamic_friction);
+  } else if (contact.friction == 0.0) {
+    text = "frictionless";
+  }
+  if (contact.cohesion > 0.0) text += fmt::format(", cohesion {:g}", contact.cohesion);
+  if (contact.tension > 0.0) text += fmt::format(", tension {:g}", contact.tension);
+  return contact.cohesion > 0.0 ? text + " until failure" : text;
 }
 
 std::string report_contacts(const analysis::IncrementResult& increment) {
   if (increment.contacts.empty()) return {};
+  const bool breaks = std::any_of(increment.contacts.begin(), increment.contacts.end(),
+                                  [](const auto& contact) { return contact.broken.has_value(); });
   std::vector<std::vector<std::string>> rows = {{"contact", "normal force", "tangential force", "open",
                                                  "stick", "slip", "in contact", "max pressure", "max gap"}};
-  for (const analysis::ContactResult& contact : increment.contacts)
+  if (breaks) rows.front().emplace_back("broken");
+  for (const analysis::ContactResult& contact : increment.contacts) {
     rows.push_back({contact.name, fmt::format("{:.6g}", contact.normal_force),
                     fmt::format("{:.6g}", contact.tangential_force), fmt::format("{}", contact.open),
                     fmt::format("{}", contact.stick), fmt::format("{}", contact.slip),
                     pairs_in_contact(contact), fmt::format("{:.4g}", contact.max_pressure),
                     fmt::format("{:.4g}", contact.max_gap)});
+    if (breaks) rows.back().push_back(contact.broken ? fmt::format("{}", *contact.broken) : "-");
+  }
   return table(rows);
 }
 
@@ -176,6 +211,9 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
       break;
     case analysis::Outcome::not_converged:
       text += fmt::format("Did not converge: {}\n", solution.reason);
+      break;
+    case analysis::Outcome::mechanism:
+      text += fmt::format("Not held: {}\n", solution.reason);
       break;
     case analysis::Outcome::interrupted:
       text += fmt::format("Interrupted: {}\n", solution.reason);

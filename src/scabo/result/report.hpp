@@ -11,7 +11,7 @@ namespace scabo::result {
 /// Columns filled to a common width: the first flush left, the others flush right.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
-/// Version, title and sizes.
+/// Version, title, sizes and the law of every contact.
 std::string report_header(const analysis::StaticSolution& solution);
 
 /// Degrees of freedom and estimated error of every mesh that refinement came by; empty without refinement.
@@ -20,6 +20,9 @@ std::string report_passes(const analysis::StaticSolution& solution);
 /// `step press, increment 2 of 10: tip = 0.2; 4 iterations, residual 3.1e-15, certificate 2.2e-14`, and why
 /// not where it did not converge. One line.
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment);
+
+/// What a contact carries, as in `friction 0.5, cohesion 3e+05 until failure`.
+std::string describe_law(const model::Contact& contact);
 
 /// Totals of every contact; empty where there is none.
 std::string report_contacts(const analysis::IncrementResult& increment);

@@ -160,6 +160,8 @@ std::string_view name_of(analysis::Outcome outcome) {
       return "solved";
     case analysis::Outcome::not_converged:
       return "not_converged";
+    case analysis::Outcome::mechanism:
+      return "mechanism";
     case analysis::Outcome::interrupted:
       return "interrupted";
   }

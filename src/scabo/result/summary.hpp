@@ -26,7 +26,7 @@ std::optional<long long> peak_memory();
 std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing,
                             bool running);
 
-/// `solved`, `not_converged` or `interrupted`.
+/// `solved`, `not_converged`, `mechanism` or `interrupted`.
 std::string_view name_of(analysis::Outcome outcome);
 std::string_view name_of(element::CornerKind kind);
 

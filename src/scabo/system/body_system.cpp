@@ -28,7 +28,9 @@ std::string describe_motion(const Eigen::Vector3d& motion, const Vec2& reference
     return fmt::format("translation along ({:.4g}, {:.4g})", along.x(), along.y());
   }
   // The point that stays: shift + rotation x arm = 0.
-  const Vec2 pole = reference + Vec2(-shift.y(), shift.x()) / rotation;
+  Vec2 pole = reference + Vec2(-shift.y(), shift.x()) / rotation;
+  for (Eigen::Index i = 0; i < 2; ++i)
+    if (std::abs(pole[i]) < 1e-9 * lever) pole[i] = 0.0;
   return fmt::format("rotation about ({:.4g}, {:.4g})", pole.x(), pole.y());
 }
 

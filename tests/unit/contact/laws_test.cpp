@@ -122,6 +122,40 @@ TEST(CohesiveJoint, APairThatAFailureRelievesStaysWhole) {
   EXPECT_NEAR(evolution.solution.p[2], 0.2, 1e-12);
 }
 
+// Strengths that nothing reaches, however large: the joint is as if bonded, to rounding.
+TEST(CohesiveJoint, HugeStrengthsDoNotDrownTheForces) {
+  const double w = 0.01;
+  for (double strength : {1e6, 1e12, 1e30, 1e99}) {
+    const Evolution pulled = one(cohesive(0.3, strength, strength), pair_on_springs(w, 0.2, 0.5));
+    ASSERT_EQ(pulled.solution.status, Status::solved) << strength << ": " << pulled.solution.reason;
+    EXPECT_NEAR(pulled.solution.p[0], -20.0, 1e-9);
+    EXPECT_NEAR(pulled.solution.p[1], -50.0, 1e-9);
+    EXPECT_FALSE(pulled.history[0].broken);
+    // Beside a cohesion that nothing reaches the tensile strength fails where it should.
+    for (double factor : {1.0 - 1e-6, 1.0 + 1e-6}) {
+      const Evolution torn = one(cohesive(0.3, strength, 20.0), pair_on_springs(w, 0.2 * factor, 0.0));
+      ASSERT_EQ(torn.solution.status, Status::solved) << strength << ": " << torn.solution.reason;
+      EXPECT_EQ(torn.history[0].broken, factor > 1.0) << strength;
+    }
+  }
+}
+
+// A strength is cut for the solve only as long as nothing comes near: here forces are 1e6 times what the start tells.
+TEST(CohesiveJoint, AStrengthThatIsReachedIsNotCut) {
+  Problem problem;
+  Matrix W(4, 4);  // the mean of the diagonal hides a pair 1e8 times as stiff
+  W << 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1e-8, 0, 0, 0, 0, 1e-8;
+  problem.W = W;
+  problem.q = (Vector(4) << 0.0, 0.0, 1.0, 0.0).finished();
+  problem.G.resize(4, 0);
+  for (double factor : {1.0 - 1e-6, 1.0 + 1e-6}) {
+    const Evolution evolution = evolve(problem, all(cohesive(0.0, 1e12, 1e8 * factor), 2), History(2), {}, {});
+    ASSERT_EQ(evolution.solution.status, Status::solved) << evolution.solution.reason;
+    EXPECT_EQ(evolution.history[1].broken, factor < 1.0);
+    if (factor > 1.0) EXPECT_NEAR(evolution.solution.p[2], -1e8, 1e-1);
+  }
+}
+
 /// A block of weight W_b on an incline, on `pairs` pairs: moves along [t, n] only (pressed evenly).
 Problem block_on_incline(int pairs, double weight, double angle) {
   Problem problem;

@@ -195,6 +195,58 @@ TEST(FewPairs, IndicesOfAllSolutionsSumToOne) {
   EXPECT_GT(several, 0);
 }
 
+// Rigid motions that contact alone holds change nothing of the index: +1 without friction, however many there are.
+TEST(FewPairs, IndexOfABodyThatOnlyContactHolds) {
+  std::mt19937 random(12);
+  for (int m : {1, 2, 3}) {
+    int counted = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+      Problem problem = test::held_problem(random, 6, 0.2);
+      problem.G = Matrix::Random(12, m);
+      problem.f = -problem.G.transpose() * (Vector(12) << 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0).finished();
+      for (double mu : {0.0, 0.01}) {
+        problem.mu.setConstant(mu);
+        const Solution solution = solve(problem);
+        if (solution.status != Status::solved) continue;
+        const int index = index_of(problem, solution.p, solution.a);
+        EXPECT_GE(index, 0) << m << " motions, mu " << mu;
+        counted += index;
+      }
+    }
+    EXPECT_GT(counted, 20) << m;
+  }
+}
+
+// A pair that a support holds along the joint carries any force within the cone there, which moves nothing: no second solution.
+TEST(ManyPairs, ForcesThatMoveNothingAreNoSecondSolution) {
+  const int N = 7;
+  Matrix W = 0.01 * Matrix::Identity(2 * N, 2 * N);
+  W.row(2 * N - 1).setZero();
+  Problem problem;
+  problem.W = W;
+  problem.q = Vector::Constant(2 * N, -1.0);
+  problem.q[2 * N - 1] = 0.0;
+  problem.mu = Vector::Constant(N, 0.3);
+  problem.G.resize(2 * N, 0);
+  const UniquenessReport report = examined(problem);
+  EXPECT_EQ(report.unique, Uniqueness::not_decided);
+  EXPECT_TRUE(report.others.empty());
+}
+
+// A pair that lets go: the motion left is rounding of the one before, and no solutions are made of it.
+TEST(FewPairs, RoundingIsNoSecondSolution) {
+  std::mt19937 random(13);
+  for (int trial = 0; trial < 50; ++trial) {
+    Problem problem = test::held_problem(random, 3, 0.0);
+    problem.mu = Vector::Constant(3, 0.1);
+    for (Eigen::Index i = 0; i < 6; ++i) problem.q[i] = 1e-17 * test::uniform(random, -1, 1);
+    const Start before{Vector::Constant(6, 1.0), Vector()};
+    const Solution solution = solve(problem, before);
+    if (solution.status != Status::solved) continue;
+    EXPECT_TRUE(examine_uniqueness(problem, before, solution, {}).others.empty()) << trial;
+  }
+}
+
 TEST(ManyPairs, SecondSolutionIsFoundFromOtherStarts) {
   // Eight independent copies of the pair with three solutions: too many to enumerate.
   const Problem one = one_pair(1.5, Eigen::Vector2d(0.1, 1.0));

@@ -67,6 +67,24 @@ TEST(ConvergencePlot, ThousandsOfIncrementsStaySmall) {
   EXPECT_THAT(plot, HasSubstr("more are not drawn"));
 }
 
+// A joint that breaks is solved again within the increment: another line, not one that leaps back up.
+TEST(ConvergencePlot, EveryStartHasALineOfItsOwn) {
+  auto iterations = falling(3);
+  for (contact::Iteration at : falling(2)) at.iteration += 3, iterations.push_back(at);
+  const std::string plot = convergence_plot({{"press 1", iterations, true}}, "", 1e-10);
+  EXPECT_EQ(number_of(plot, "<polyline"), 2u);
+  EXPECT_EQ(number_of(plot, "<circle"), 7u);
+}
+
+TEST(ConvergencePlot, NamesOfManyFailedAttemptsStayInThePicture) {
+  std::vector<ConvergenceCurve> curves;
+  for (int k = 0; k < 50; ++k) curves.push_back({"press 1, attempt " + std::to_string(k), falling(3), false});
+  const std::string plot = convergence_plot(curves, "", 1e-10);
+  EXPECT_LE(number_of(plot, ">press 1, attempt") - 50u, 19u);  // 50 are tool tips
+  EXPECT_THAT(plot, HasSubstr("31 more without name"));
+  EXPECT_THAT(plot, HasSubstr(">press 1, attempt 49</text>"));
+}
+
 TEST(ConvergenceTable, OneLineForEachIterationOfEachAttempt) {
   analysis::IncrementResult increment;
   increment.step = 2;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scabo/base/error.hpp"
+#include "scabo/contact/rigid_motions.hpp"
 
 namespace scabo::contact {
 
@@ -30,7 +32,8 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
     const double opening = force(std::max(solution.gap[i], 0.0), diagonal[d * i]);
     const double sliding = force(slip, diagonal.segment(d * i + 1, d - 1).mean());
     if (std::isinf(strength)) continue;
-    const double rounding = noticeable * std::max(strength, 1e-3 * largest);
+    const double rounding =
+        noticeable * (largest > 0.0 ? std::clamp(strength, 1e-3 * largest, largest) : strength);
     PairEnd& end = ends.of_pair[static_cast<std::size_t>(i)];
     end.opened = state == ContactState::open && opening > rounding;
     end.slid = state == ContactState::slip && sliding > rounding;
@@ -97,6 +100,37 @@ class Following {
   std::vector<double> before_;
 };
 
+/// The force that motions and loads of the problem stand for.
+double reference_force(const Problem& problem, const Vector& diagonal, const Start& start, const SolverOptions& options) {
+  const auto largest = [](const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; };
+  const double mean = diagonal.size() > 0 ? diagonal.mean() : 0.0;
+  return std::max({options.force_scale, largest(problem.f), largest(start.p), mean > 0.0 ? largest(problem.q) / mean : 0.0});
+}
+
+/// Solves with strengths cut to a multiple of the forces at work, which they would drown in rounding (p_n + c_t), and again with a
+/// larger multiple where a pair comes near what was cut: as long as none does, nothing depends on it. `problem` keeps the strengths
+/// of the last solve.
+Solution solve_within(Problem& problem, const Start& start, const SolverOptions& options, double force) {
+  const Vector cohesion = problem.cohesion, tension = problem.tension;
+  const Eigen::Index d = problem.dimension;
+  for (double most = 1e2 * force;; most *= 1e4) {
+    bool cut = false;
+    for (const auto& [whole, used] : {std::pair(&cohesion, &problem.cohesion), std::pair(&tension, &problem.tension)})
+      for (Eigen::Index i = 0; i < whole->size(); ++i) {
+        const bool here = most > 0.0 && (*whole)[i] > most && !std::isinf((*whole)[i]);
+        (*used)[i] = here ? most : (*whole)[i];
+        cut = cut || here;
+      }
+    Solution solution = solve(problem, start, options);
+    bool near = solution.status != Status::solved;
+    for (Eigen::Index i = 0; i < problem.pairs() && !near; ++i)
+      near = (problem.cohesion_of(i) == most && solution.p.segment(d * i + 1, d - 1).norm() > 0.1 * most) ||
+             (problem.tension_of(i) == most && -solution.p[d * i] > 0.1 * most);
+    const bool hopeless = solution.status != Status::solved && most > 1e5 * force;
+    if (!cut || !near || hopeless) return solution;
+  }
+}
+
 bool remembers(const JointLaws& laws) {
   return std::any_of(laws.of_pair.begin(), laws.of_pair.end(),
                      [](const auto& law) { return law->remembers(); });
@@ -139,7 +173,7 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   const int most = 2 * static_cast<int>(from.size()) + gradual;
   for (int quiet = 0; result.rounds < most && quiet < gradual;) {
     set_limits(laws, trial, problem);
-    Solution solution = solve(problem, at, options);
+    Solution solution = solve_within(problem, at, options, reference_force(problem, diagonal, at, options));
     ++result.rounds;
     for (Iteration& iteration : solution.trace) {
       iteration.iteration += total.iterations;
@@ -175,6 +209,12 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
                            std::to_string(result.rounds) +
                            " rounds; the increment may be too large, or failure runs away";
   return result;
+}
+
+std::optional<Vector> mechanism_once_broken(Problem problem, const JointLaws& laws, History history) {
+  for (PairHistory& pair : history) pair.broken = true;
+  set_limits(laws, history, problem);
+  return find_mechanism(problem);
 }
 
 }  // namespace scabo::contact
