@@ -155,24 +155,32 @@ void add_half(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K
       }
 }
 
-/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it: 5e-10 of K where
-/// lengths differ by 1e6, 1e-15 where they are alike. K t = 0 of the translations, perpendicular to r, stays. What left more
-/// than that lost digits on the way, and is told.
+/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it,
+///
+///     K <- (1 - w r') K (1 - r w'),  w = D r / (r'D r),  D = diag K,  t'D r = 0 for the translations t            (7)
+///
+/// so that every row is changed by what its own size allows (with D = 1 a soft sector took over what stiff ones had left: 1e-8 of
+/// its stiffness where moduli differ by 1e6) and K t = 0 stays. What left too much lost digits on the way, and is told.
 Matrix without_rotation(const Matrix& K, const Ring& ring) {
-  Vec2 mean = Vec2::Zero();
-  for (const Vec2& x : ring.nodes) mean += x / static_cast<double>(ring.nodes.size());
+  const Vector D = K.diagonal();
+  Vec2 centre = Vec2::Zero(), weight = Vec2::Zero();
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
+    const Vec2 d = D.segment<2>(static_cast<Eigen::Index>(2 * i));
+    weight += d;
+    centre += Vec2(d.y() * ring.nodes[i].x(), d.x() * ring.nodes[i].y());
+  }
+  centre = Vec2(centre.x() / weight.y(), centre.y() / weight.x());
   Vector r(K.rows());
   for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
-    const Vec2 arm = ring.nodes[i] - mean;
+    const Vec2 arm = ring.nodes[i] - centre;
     r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-arm.y(), arm.x());
   }
-  r.normalize();
-  const Vector force = K * r;
-  if (!(force.norm() <= 1e-8 * K.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
-  const Vector half = force - 0.5 * r.dot(force) * r;
+  const Vector force = K * r, w = D.cwiseProduct(r) / D.cwiseProduct(r).dot(r);
+  if (!(force.norm() <= 1e-8 * K.norm() * r.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
+  const Vector half = force - 0.5 * r.dot(force) * w;
   Matrix freed = K;
-  freed.noalias() -= r * half.transpose();
-  freed.noalias() -= half * r.transpose();
+  freed.noalias() -= w * half.transpose();
+  freed.noalias() -= half * w.transpose();
   return symmetrised(freed);
 }
 
