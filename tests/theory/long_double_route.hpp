@@ -118,9 +118,10 @@ inline Dense stiffness(const Coefficients& of) {
     R(i, i % 2) = 1;
     if (i / 2 != node / 2) I.push_back(i);
   }
-  const Dense E0R = E0 * R, E1R = E1 * R, M = R.transpose() * E0R, inverse = M.inverse(), G = inverse * E0R.transpose(),
-              H = inverse * E1R.transpose();
-  const Dense e0 = Dense(E0 - E0R * G)(I, I), e1 = Dense(E1 - E1R * G)(I, I), e2 = Dense(E2 - H.transpose() * M * H)(I, I);
+  const Dense E0R = E0 * R, E1R = E1 * R, M = R.transpose() * E0R;
+  const Eigen::LLT<Dense> root(M);
+  const Dense G = root.matrixL().solve(Dense(E0R.transpose())), H = root.matrixL().solve(Dense(E1R.transpose()));
+  const Dense e0 = Dense(E0 - G.transpose() * G)(I, I), e1 = Dense(E1 - H.transpose() * G)(I, I), e2 = Dense(E2 - H.transpose() * H)(I, I);
   Real h = 2;
   for (Eigen::Index i = 0; i < m; ++i) h = std::max(h, e2(i, i) / e0(i, i));
   const Real g = std::sqrt(std::sqrt(h)), even = g / 2, other = 1 / (2 * g);
