@@ -100,7 +100,8 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
   Matrix L = E0;
   if (!linalg::cholesky_in_place(L)) throw IllPosed("E0 is not positive definite");
   RiccatiResidual residual = riccati_residual(L, E1, E2, result.K);
-  constexpr double enough = 1e-13, too_much = 1e-9;
+  const double enough = std::max(1e-13, 1e-15 * static_cast<double>(E0.rows()));  // what rounding leaves
+  constexpr double too_much = 1e-9;
   constexpr int most = 3;
   while (residual.size > enough && result.corrections < most) {
     const Matrix corrected = result.K + newton_step(residual, E0.diagonal().cwiseSqrt());

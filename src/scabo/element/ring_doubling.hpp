@@ -38,7 +38,7 @@ struct RingStiffness {
 };
 
 /// Throws IllPosed when E0 or a ring is not positive definite (to working precision), the doubling does not end, or the Riccati
-/// residual stays above 1e-9. Above 1e-13 K is corrected first (riccati.hpp), three times at most.
+/// residual stays above 1e-9. Above 1e-13 (or n 1e-15) K is corrected first (riccati.hpp), three times at most.
 RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, Side side = Side::inside);
 
 }  // namespace scabo::element

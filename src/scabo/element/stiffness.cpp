@@ -126,20 +126,36 @@ Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, dou
   return symmetrised(f);
 }
 
+/// K of a bounded block must be positive definite but for the rigid motions r in it: K + sum of D r (D r)' / r'D r, D = diag K, is
+/// (its Cholesky factor exists). Where stiff sectors hang together by soft ones only, rounding can make it indefinite.
+void check_definite(const Block& block, const Matrix& K, const Matrix& motions) {
+  const Vector D = K.diagonal();
+  const Matrix r = block.T.transpose() * motions;
+  Matrix shifted = K;
+  for (Eigen::Index m = 0; m < r.cols(); ++m) {
+    const Vector w = D.cwiseProduct(r.col(m));
+    const double size = w.dot(r.col(m));
+    if (size > 0.0) shifted.noalias() += w * (w / size).transpose();
+  }
+  if (!linalg::cholesky_in_place(shifted))
+    throw IllPosed("its stiffness is not positive definite: digits were lost, sectors of very different stiffness");
+}
+
 /// Solves one block; sets its stiffness `K` in the coordinates of the block.
-Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& translations,
-                  const Domain& domain, Matrix& K, int& doublings) {
+Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& motions,
+                  const Domain& domain, Matrix& K, RingStiffness& ring) {
   Block block;
   block.T = std::move(T);
   const Eigen::SparseMatrix<double> transposed = block.T.transpose();
   block.E0 = symmetrised(in_block(transposed, matrices.E0));
-  find_translations(translations, block);
+  find_translations(motions.leftCols(2), block);
   const Deflated d = deflate(block, in_block(transposed, matrices.E1), symmetrised(in_block(transposed, matrices.E2)));
-  RingStiffness ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
-  doublings = ring.doublings;
+  ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
   block.S = std::move(ring.S);
   block.A = -(Matrix(d.G(Eigen::all, block.I)) * block.S + Matrix(d.H(Eigen::all, block.I)));
   K = domain.unbounded ? unbounded_stiffness(block, d, ring.K, domain.far) : with_translations(block, ring.K);
+  ring.K.resize(0, 0);  // large ones: no copy of what is no longer needed
+  if (!domain.unbounded) check_definite(block, K, motions);
   return block;
 }
 
@@ -189,22 +205,27 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
                                          const Domain& domain) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, thickness);
   const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
-  Matrix translations = Matrix::Zero(n, 2);
-  for (Eigen::Index i = 0; i < n; ++i) translations(i, i % 2) = 1.0;
+  Matrix motions = Matrix::Zero(n, 3);  // two translations, the rotation
+  for (Eigen::Index i = 0; i < n; ++i) motions(i, i % 2) = 1.0;
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i)
+    motions.block<2, 1>(static_cast<Eigen::Index>(2 * i), 2) = Vec2(-ring.nodes[i].y(), ring.nodes[i].x());
 
   std::vector<Eigen::SparseMatrix<double>> bases = symmetry_blocks(ring, D);
   SuperElementSolution solution;
   solution.domain = domain;
   solution.blocks.resize(bases.size());
   std::vector<Matrix> stiffness(bases.size());
-  std::vector<int> doublings(bases.size(), 0);
+  std::vector<RingStiffness> rings(bases.size());
   const auto solve = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, translations, domain, stiffness[i],
-                                     doublings[i]);
+    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, motions, domain, stiffness[i], rings[i]);
   };
   linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
-  for (const int count : doublings) solution.doublings = std::max(solution.doublings, count);
+  for (const RingStiffness& of_block : rings) {
+    solution.doublings = std::max(solution.doublings, of_block.doublings);
+    solution.corrections = std::max(solution.corrections, of_block.corrections);
+    solution.residual = std::max(solution.residual, of_block.residual);
+  }
   if (bases.size() == 1) {  // T = 1
     solution.K = std::move(stiffness.front());
   } else {
