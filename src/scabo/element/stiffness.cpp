@@ -138,7 +138,7 @@ void check_definite(const Block& block, const Matrix& K, const Matrix& motions) 
     if (size > 0.0) shifted.noalias() += w * (w / size).transpose();
   }
   if (!linalg::cholesky_in_place(shifted))
-    throw IllPosed("its stiffness is not positive definite: digits were lost, sectors of very different stiffness");
+    throw IllPosed("its stiffness is not positive definite: digits were lost");
 }
 
 /// Solves one block; sets its stiffness `K` in the coordinates of the block.
