@@ -5,6 +5,7 @@
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
 #   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
+#   make bench-elements  super-elements against the eigenvector route, one thread
 #   make packages    everything that apt can bring
 #   make install     to PREFIX (/usr/local)
 #   make clean       removes build/ and build-*/
@@ -18,7 +19,7 @@ FUZZ_SECONDS ?= 60
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build test test-release test-asan fuzz bench bench-contact packages install clean
+.PHONY: help demo build test test-release test-asan fuzz bench bench-contact bench-elements packages install clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -61,6 +62,12 @@ bench-contact:
 	@cmake/install_packages.sh build bench
 	@$(MAKE) --no-print-directory build
 	@/usr/bin/python3 benchmarks/contact/run.py $(PROBLEMS) --scabo build/bin/scabo --output build/bench-contact
+
+bench-elements:
+	@cmake/install_packages.sh build bench
+	@$(configure) release -DSCABO_BENCHMARKS=ON
+	@cmake --build --preset release --target super_elements --parallel $(JOBS)
+	@OPENBLAS_NUM_THREADS=1 build/bin/super_elements
 
 packages:
 	@cmake/install_packages.sh build test bench

@@ -1,10 +1,13 @@
 #include "scabo/element/ring_doubling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "scabo/element/ill_posed.hpp"
+#include "scabo/element/riccati.hpp"
 #include "scabo/linalg/dense.hpp"
 
 namespace scabo::element {
@@ -61,11 +64,8 @@ double largest_exponent(const Matrix& E0, const Matrix& E2) {
   return std::sqrt(largest);
 }
 
-}  // namespace
-
-RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, Side side) {
-  if (E0.rows() == 0) return {E0, 0};
-  if (side == Side::outside) return ring_doubling(E0, -E1, E2);  // s -> -s exchanges 1 and 2
+/// K22 of rings doubled until it has arrived.
+RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
   const double h = largest_exponent(E0, E2), w = std::sqrt(0.5 * std::sqrt(h) * (1.0 + h)), spread = std::sqrt(w * w - h);
   RingMatrices ring = first_ring(E0, E1, E2, w + spread);
   Joiner joiner;
@@ -78,10 +78,45 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
     if (!done) joiner.join(ring, ring, last);
     if (last) {
       ring.K22.triangularView<Eigen::StrictlyUpper>() = ring.K22.transpose();
-      return {std::move(ring.K22), doublings + (done ? 0 : 1)};
+      RingStiffness result;
+      result.K = std::move(ring.K22);
+      result.doublings = doublings + (done ? 0 : 1);
+      return result;
     }
   }
   throw IllPosed("ring doubling did not end: an exponent is 0");
+}
+
+}  // namespace
+
+RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, Side side) {
+  if (E0.rows() == 0) return {E0, E0, 0, 0, 0.0};
+  if (side == Side::outside) {  // s -> -s exchanges 1 and 2
+    RingStiffness outside = ring_doubling(E0, -E1, E2);
+    outside.S = -outside.S;
+    return outside;
+  }
+  RingStiffness result = doubled(E0, E1, E2);
+  Matrix L = E0;
+  if (!linalg::cholesky_in_place(L)) throw IllPosed("E0 is not positive definite");
+  RiccatiResidual residual = riccati_residual(L, E1, E2, result.K);
+  const double enough = std::max(1e-13, 1e-15 * static_cast<double>(E0.rows()));  // what rounding leaves
+  constexpr double too_much = 1e-9;
+  constexpr int most = 3;
+  while (residual.size > enough && result.corrections < most) {
+    const Matrix corrected = result.K + newton_step(residual, E0.diagonal().cwiseSqrt());
+    RiccatiResidual next = riccati_residual(L, E1, E2, corrected);
+    if (!(next.size < residual.size)) break;
+    result.K = corrected;
+    ++result.corrections;
+    const bool slow = next.size > 0.1 * residual.size;  // rounding is all that is left
+    residual = std::move(next);
+    if (slow) break;
+  }
+  if (!(residual.size <= too_much)) throw IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual.size));
+  result.residual = residual.size;
+  result.S = std::move(residual.S);
+  return result;
 }
 
 }  // namespace scabo::element

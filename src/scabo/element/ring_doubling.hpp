@@ -31,10 +31,14 @@ enum class Side { inside, outside };
 
 struct RingStiffness {
   Matrix K;  // n x n, symmetric; q = K u inside, q = -K u outside
+  Matrix S;  // n x n: xi u,xi = S u
   int doublings = 0;
+  int corrections = 0;    ///< steps of Newton's method (riccati.hpp) that were needed and helped
+  double residual = 0.0;  ///< of the Riccati equation, RiccatiResidual::size
 };
 
-/// Throws IllPosed when E0 or a ring is not positive definite (to working precision) or the doubling does not end.
+/// Throws IllPosed when E0 or a ring is not positive definite (to working precision), the doubling does not end, or the Riccati
+/// residual stays above 1e-9. Above 1e-13 (or n 1e-15) K is corrected first (riccati.hpp), three times at most.
 RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, Side side = Side::inside);
 
 }  // namespace scabo::element

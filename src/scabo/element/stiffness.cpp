@@ -41,16 +41,20 @@ struct Deflated {
   Matrix G, H, M_inverse;  // m x n_k, m x n_k, m x m
 };
 
+/// By the Cholesky factor of M: with its inverse, E0R M^-1 R'E0 loses twice the digits of its condition, and M is nearly
+/// singular where one incompressible sector outweighs the others (3e-7 of K for nu = 0.49997, 1e-10 this way).
 Deflated deflate(const Block& block, const Matrix& E1, const Matrix& E2) {
   const Matrix E0R = block.E0 * block.R, E1R = E1 * block.R;
-  const Matrix M = symmetrised(block.R.transpose() * E0R);
+  const Eigen::LLT<Matrix> M(symmetrised(block.R.transpose() * E0R));
+  if (M.info() != Eigen::Success) throw IllPosed("E0 is not positive definite");
+  const Matrix Y = M.matrixL().solve(E0R.transpose()), W = M.matrixL().solve(E1R.transpose());
   Deflated d;
-  d.M_inverse = M.inverse();
-  d.G = d.M_inverse * E0R.transpose();
-  d.H = d.M_inverse * E1R.transpose();
-  d.E0 = symmetrised(block.E0 - E0R * d.G)(block.I, block.I);
-  d.E1 = (E1 - E1R * d.G)(block.I, block.I);
-  d.E2 = symmetrised(E2 - d.H.transpose() * M * d.H)(block.I, block.I);
+  d.M_inverse = M.solve(Matrix::Identity(E0R.cols(), E0R.cols()));
+  d.G = M.matrixU().solve(Y);
+  d.H = M.matrixU().solve(W);
+  d.E0 = symmetrised(block.E0 - Y.transpose() * Y)(block.I, block.I);
+  d.E1 = (E1 - W.transpose() * Y)(block.I, block.I);
+  d.E2 = symmetrised(E2 - W.transpose() * W)(block.I, block.I);
   return d;
 }
 
@@ -122,25 +126,36 @@ Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, dou
   return symmetrised(f);
 }
 
+/// K of a bounded block must be positive definite but for the rigid motions r in it: K + sum of D r (D r)' / r'D r, D = diag K, is
+/// (its Cholesky factor exists). Where stiff sectors hang together by soft ones only, rounding can make it indefinite.
+void check_definite(const Block& block, const Matrix& K, const Matrix& motions) {
+  const Vector D = K.diagonal();
+  const Matrix r = block.T.transpose() * motions;
+  Matrix shifted = K;
+  for (Eigen::Index m = 0; m < r.cols(); ++m) {
+    const Vector w = D.cwiseProduct(r.col(m));
+    const double size = w.dot(r.col(m));
+    if (size > 0.0) shifted.noalias() += w * (w / size).transpose();
+  }
+  if (!linalg::cholesky_in_place(shifted))
+    throw IllPosed("its stiffness is not positive definite: digits were lost");
+}
+
 /// Solves one block; sets its stiffness `K` in the coordinates of the block.
-Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& translations,
-                  const Domain& domain, Matrix& K, int& doublings) {
+Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& motions,
+                  const Domain& domain, Matrix& K, RingStiffness& ring) {
   Block block;
   block.T = std::move(T);
   const Eigen::SparseMatrix<double> transposed = block.T.transpose();
   block.E0 = symmetrised(in_block(transposed, matrices.E0));
-  find_translations(translations, block);
+  find_translations(motions.leftCols(2), block);
   const Deflated d = deflate(block, in_block(transposed, matrices.E1), symmetrised(in_block(transposed, matrices.E2)));
-  const RingStiffness ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
-  doublings = ring.doublings;
-
-  Matrix L = d.E0;
-  if (!linalg::cholesky_in_place(L)) throw IllPosed("E0 is not positive definite");
-  block.S = (domain.unbounded ? Matrix(-ring.K) : ring.K) - d.E1.transpose();
-  linalg::solve_lower_in_place(L, block.S);
-  linalg::solve_lower_in_place(L, block.S, true);
+  ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
+  block.S = std::move(ring.S);
   block.A = -(Matrix(d.G(Eigen::all, block.I)) * block.S + Matrix(d.H(Eigen::all, block.I)));
   K = domain.unbounded ? unbounded_stiffness(block, d, ring.K, domain.far) : with_translations(block, ring.K);
+  ring.K.resize(0, 0);  // large ones: no copy of what is no longer needed
+  if (!domain.unbounded) check_definite(block, K, motions);
   return block;
 }
 
@@ -155,24 +170,32 @@ void add_half(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K
       }
 }
 
-/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it: 5e-10 of K where
-/// lengths differ by 1e6, 1e-15 where they are alike. K t = 0 of the translations, perpendicular to r, stays. What left more
-/// than that lost digits on the way, and is told.
+/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it,
+///
+///     K <- (1 - w r') K (1 - r w'),  w = D r / (r'D r),  D = diag K,  t'D r = 0 for the translations t            (7)
+///
+/// so that every row is changed by what its own size allows (with D = 1 a soft sector took over what stiff ones had left: 1e-8 of
+/// its stiffness where moduli differ by 1e6) and K t = 0 stays. What left too much lost digits on the way, and is told.
 Matrix without_rotation(const Matrix& K, const Ring& ring) {
-  Vec2 mean = Vec2::Zero();
-  for (const Vec2& x : ring.nodes) mean += x / static_cast<double>(ring.nodes.size());
+  const Vector D = K.diagonal();
+  Vec2 centre = Vec2::Zero(), weight = Vec2::Zero();
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
+    const Vec2 d = D.segment<2>(static_cast<Eigen::Index>(2 * i));
+    weight += d;
+    centre += Vec2(d.y() * ring.nodes[i].x(), d.x() * ring.nodes[i].y());
+  }
+  centre = Vec2(centre.x() / weight.y(), centre.y() / weight.x());
   Vector r(K.rows());
   for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
-    const Vec2 arm = ring.nodes[i] - mean;
+    const Vec2 arm = ring.nodes[i] - centre;
     r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-arm.y(), arm.x());
   }
-  r.normalize();
-  const Vector force = K * r;
-  if (!(force.norm() <= 1e-8 * K.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
-  const Vector half = force - 0.5 * r.dot(force) * r;
+  const Vector force = K * r, w = D.cwiseProduct(r) / D.cwiseProduct(r).dot(r);
+  if (!(force.norm() <= 1e-8 * K.norm() * r.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
+  const Vector half = force - 0.5 * r.dot(force) * w;
   Matrix freed = K;
-  freed.noalias() -= r * half.transpose();
-  freed.noalias() -= half * r.transpose();
+  freed.noalias() -= w * half.transpose();
+  freed.noalias() -= half * w.transpose();
   return symmetrised(freed);
 }
 
@@ -182,22 +205,27 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
                                          const Domain& domain) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, thickness);
   const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
-  Matrix translations = Matrix::Zero(n, 2);
-  for (Eigen::Index i = 0; i < n; ++i) translations(i, i % 2) = 1.0;
+  Matrix motions = Matrix::Zero(n, 3);  // two translations, the rotation
+  for (Eigen::Index i = 0; i < n; ++i) motions(i, i % 2) = 1.0;
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i)
+    motions.block<2, 1>(static_cast<Eigen::Index>(2 * i), 2) = Vec2(-ring.nodes[i].y(), ring.nodes[i].x());
 
   std::vector<Eigen::SparseMatrix<double>> bases = symmetry_blocks(ring, D);
   SuperElementSolution solution;
   solution.domain = domain;
   solution.blocks.resize(bases.size());
   std::vector<Matrix> stiffness(bases.size());
-  std::vector<int> doublings(bases.size(), 0);
+  std::vector<RingStiffness> rings(bases.size());
   const auto solve = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, translations, domain, stiffness[i],
-                                     doublings[i]);
+    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, motions, domain, stiffness[i], rings[i]);
   };
   linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
-  for (const int count : doublings) solution.doublings = std::max(solution.doublings, count);
+  for (const RingStiffness& of_block : rings) {
+    solution.doublings = std::max(solution.doublings, of_block.doublings);
+    solution.corrections = std::max(solution.corrections, of_block.corrections);
+    solution.residual = std::max(solution.residual, of_block.residual);
+  }
   if (bases.size() == 1) {  // T = 1
     solution.K = std::move(stiffness.front());
   } else {

@@ -53,11 +53,13 @@ struct SuperElementSolution {
   std::vector<Block> blocks;
   Domain domain;
   int doublings = 0;          ///< largest number over the blocks
+  int corrections = 0;        ///< steps of Newton's method (riccati.hpp), largest number over the blocks
+  double residual = 0.0;      ///< of the Riccati equation, RiccatiResidual::size, largest over the blocks
 };
 
 /// Solves the super-element. Throws IllPosed where the centre does not see the boundary, an elasticity is not positive definite,
-/// or, to working precision, a ring is not. Symmetry blocks are shared out among
-/// `threads` threads.
+/// or so many digits were lost that, to working precision, a ring is not, the Riccati residual stays above 1e-9, K resists rotation
+/// or is not positive definite but for rigid motions. Symmetry blocks are shared out among `threads` threads.
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1,
                                          const Domain& domain = {});
 
