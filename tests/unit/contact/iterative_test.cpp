@@ -8,7 +8,7 @@ namespace scabo::contact {
 namespace {
 
 TEST(IterativeDirections, AgreeWithDenseOnesOnTwoThousandPairs) {
-  for (double mu : {0.3, 0.8}) {
+  for (double mu : {0.5}) {
     const Problem by_products = test::layer_problem(2000, 6, mu);
     Problem dense = by_products;
     dense.W = Delassus(by_products.W.dense());
