@@ -133,7 +133,7 @@ void BDifferentiableEquations::hold(double weight, Vector centre) {
 }
 
 void BDifferentiableEquations::evaluate(const Vector& p, const Vector& a, Residual& at) const {
-  at.motion = problem_.W * p;
+  problem_.W.apply(p, at.motion);
   at.motion += problem_.q;
   if (a.size() > 0) at.motion.noalias() += problem_.G * a;
   if (weight_ > 0.0) at.motion.array() += weight_ * (p - centre_).array() / r_.array();
@@ -144,7 +144,11 @@ void BDifferentiableEquations::evaluate_at_motion(const Vector& p, Residual& at)
   const Eigen::Index N = problem_.pairs(), d = problem_.dimension;
   at.H.resize(d * N + problem_.G.cols());
   at.branches.resize(static_cast<std::size_t>(N));
-  if (at.H.size() > d * N) at.H.tail(problem_.G.cols()) = problem_.G.transpose() * p + problem_.f;
+  if (at.H.size() > d * N) {
+    auto balance = at.H.tail(problem_.G.cols());
+    balance = problem_.f;
+    balance.noalias() += problem_.G.transpose() * p;
+  }
   double largest = largest_q_;
   for (Eigen::Index k = 0; k < d * N; ++k) largest = std::max({largest, std::abs(p[k]), std::abs(r_[k] * at.motion[k])});
   const double smallest = rounding * largest;
@@ -165,12 +169,16 @@ Residual BDifferentiableEquations::residual(const Vector& p, const Vector& a) co
 }
 
 Vector BDifferentiableEquations::motion_along(const Vector& d) const {
+  Vector change;
+  motion_along(d, change);
+  return change;
+}
+
+void BDifferentiableEquations::motion_along(const Vector& d, Vector& change) const {
   const Eigen::Index size = problem_.q.size();
-  const Vector dp = d.head(size);
-  Vector motion = problem_.W * dp;
-  if (d.size() > size) motion.noalias() += problem_.G * d.tail(d.size() - size);
-  if (weight_ > 0.0) motion.array() += weight_ * dp.array() / r_.array();
-  return motion;
+  problem_.W.apply(d.head(size), change);
+  if (d.size() > size) change.noalias() += problem_.G * d.tail(d.size() - size);
+  if (weight_ > 0.0) change.array() += weight_ * d.head(size).array() / r_.array();
 }
 
 Vector BDifferentiableEquations::derivative(const Residual& at, const Vector& direction) const {
@@ -193,7 +201,8 @@ Vector BDifferentiableEquations::derivative(const Residual& at, const Vector& di
 int BDifferentiableEquations::follow(Residual& at, const Vector& direction) const {
   const Eigen::Index N = problem_.pairs(), d = problem_.dimension;
   if (std::none_of(at.branches.begin(), at.branches.end(), [](const Branch& branch) { return branch.tied(); })) return 0;
-  const Vector du = motion_along(direction);
+  motion_along(direction, at.along);
+  const Vector& du = at.along;
   int changed = 0;
   for (Eigen::Index i = 0; i < N; ++i) {
     Branch& branch = at.branches[static_cast<std::size_t>(i)];

@@ -50,6 +50,7 @@ struct Branch {
 /// H and all that goes with it at one point; memory is kept from point to point.
 struct Residual {
   Vector motion;  // dN, u
+  Vector along;   // dN, room for the change of u along a direction
   Vector H;       // dN + m: [H2, H3] of every pair, HR
   std::vector<Branch> branches;  // N
   double merit() const { return 0.5 * H.squaredNorm(); }
@@ -75,6 +76,7 @@ class BDifferentiableEquations {
 
   /// Change of the motions along d = [dp; da]: W dp + G da + (w / r) dp.
   Vector motion_along(const Vector& d) const;
+  void motion_along(const Vector& d, Vector& change) const;
 
   /// H'(z; d), exact on ties too: nothing of the branches followed there enters.
   Vector derivative(const Residual& at, const Vector& d) const;

@@ -92,18 +92,27 @@ Matrix Delassus::times(const Matrix& p) const {
 }
 
 Vector Delassus::times(const Vector& p) const {
+  Vector result;
+  apply(p, result);
+  return result;
+}
+
+void Delassus::apply(const Eigen::Ref<const Vector>& p, Vector& result) const {
   ensure(p.size() == size(), "the Delassus operator and the forces differ in size");
-  if (!data_) return p;
+  result.resize(p.size());
+  if (!data_) return;
   switch (data_->kind) {
     case Data::Kind::dense:
-      return data_->dense * p;
+      result.noalias() = data_->dense * p;
+      return;
     case Data::Kind::sparse:
-      return data_->sparse * p;
+      result.noalias() = data_->sparse * p;
+      return;
     case Data::Kind::condensed:
       break;
   }
   const Vector forces = data_->sparse * p;
-  return data_->factor * (data_->sparse.transpose() * data_->K->solve(forces));
+  result = data_->factor * (data_->sparse.transpose() * data_->K->solve(forces));
 }
 
 Matrix Delassus::diagonal_blocks(int d) const {

@@ -33,6 +33,8 @@ class Delassus {
 
   Vector times(const Vector& p) const;                // dN
   Matrix times(const Matrix& p) const;                // dN x k
+  /// result = W p; without memory of its own where W is dense or sparse and `result` has its size.
+  void apply(const Eigen::Ref<const Vector>& p, Vector& result) const;
   friend Vector operator*(const Delassus& W, const Vector& p) { return W.times(p); }
   /// d x dN: the block of pair i on itself in columns d i .. d i + d - 1. Of a condensed operator they cost dN solves and
   /// are kept; above 4000 rows they are estimated by probing with 64 d vectors of random signs, good to a few percent: they

@@ -38,6 +38,7 @@ class Ladder {
   NewtonEnd without_history(const Vector& p, const Vector& a);
   NewtonEnd climb_rank_deficient(const Vector& p);
   NewtonEnd swept(const Vector& p, int sweeps, double regularisation);
+  NewtonEnd enough(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);
   NewtonEnd vanishing_proximal(Vector p);
   NewtonEnd growing_friction(const Vector& p, const Vector& a);

@@ -18,6 +18,7 @@ class Newton {
     end_.p = p_;
     end_.a = a_;
     end_.residual = HUGE_VAL;  // stays where H is not finite: never converged
+    end_.trace.reserve(static_cast<std::size_t>(options_.iterations) + 1);
     equations_.evaluate(p_, a_, at_);
     const double first = at_.largest();
     while (true) {
@@ -77,11 +78,11 @@ class Newton {
     constexpr double sufficient = 1e-4;
     constexpr int halvings = 12;
     const double merit = at_.merit();
-    const Vector& change = change_ = equations_.motion_along(d_);
+    equations_.motion_along(d_, change_);
     double step = 1.0;
     for (int k = 0; k <= halvings; ++k, step *= 0.5) {
       trial_p_ = p_ + step * d_.head(p_.size());
-      trial_.motion = at_.motion + step * change;
+      trial_.motion = at_.motion + step * change_;
       equations_.evaluate_at_motion(trial_p_, trial_);
       if (trial_.merit() > (1.0 - 2.0 * sufficient * step) * merit) continue;  // theta'(z; d) = -2 theta
       take(step);

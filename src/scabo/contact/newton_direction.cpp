@@ -76,6 +76,7 @@ void NewtonDirection::lay_out(const Residual& at) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   const Vector& r = equations_.r();
   unknowns_.clear();
+  unknowns_.reserve(static_cast<std::size_t>(d * N));
   first_of_pair_.resize(static_cast<std::size_t>(N + 1));
   known_.setZero(d * N);
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -131,8 +132,9 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
   const Eigen::Index m = problem.G.cols(), forces = known_.size();
   regularisation += equations_.proximal_weight();
-  moved_ = problem.W * known_;
-  right_.resize(size + m);
+  problem.W.apply(known_, moved_);
+  right_.resize(forces + m);  // the leading size + m count: one size, so that memory is taken once
+
   gather(moved_, right_);
   for (Eigen::Index j = 0; j < size; ++j) {
     const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
@@ -140,7 +142,11 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
     for (Eigen::Index k = 0; k < problem.dimension; ++k) H += unknown.row[k] * at.H[problem.dimension * unknown.pair + k];
     right_[j] = -H - unknown.scale * right_[j];
   }
-  if (m > 0) right_.tail(m) = -at.H.tail(m) - problem.G.transpose() * known_;
+  if (m > 0) {
+    auto balance = right_.segment(size, m);
+    balance = -at.H.tail(m);
+    balance.noalias() -= problem.G.transpose() * known_;
+  }
 
   bool solved = false;
   if (problem.W.is_sparse() && m == 0 && size >= least_sparse)
@@ -153,7 +159,7 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   d.resize(forces + m);
   expand(y_, known_);
   d.head(forces) = known_;
-  d.tail(m) = y_.tail(m);
+  d.tail(m) = y_.segment(size, m);
   return d.allFinite();
 }
 
@@ -163,7 +169,8 @@ bool NewtonDirection::solve_dense(double regularisation) {
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
   Matrix& A = work_->A;
-  if (A.rows() < n) A.resize(n, n), work_->factor.resize(n, n);
+  if (A.rows() < W.rows() + m) A.resize(W.rows() + m, W.rows() + m), work_->factor.resize(A.rows(), A.rows());
+  y_.resize(right_.size());
   for (Eigen::Index j = 0; j < size; ++j) {
     const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
     work_->column.setZero(W.rows());
@@ -187,31 +194,32 @@ bool NewtonDirection::solve_dense(double regularisation) {
     }
   }
   if (m > 0) A.block(size, size, m, m).setZero();
-  if (n == 0) {
-    y_.resize(0);
-    return true;
-  }
+  if (n == 0) return true;
+  const auto right = right_.head(n);
+  auto y = y_.head(n);
+  work_->residual.resize(right_.size());
+  auto residual = work_->residual.head(n);
   const auto matrix = A.topLeftCorner(n, n);
   work_->factor.topLeftCorner(n, n) = matrix;
-  const double scale = 1e-9 * (right_.lpNorm<Eigen::Infinity>() + 1e-30 * matrix.cwiseAbs().maxCoeff());
+  const double scale = 1e-9 * (right.lpNorm<Eigen::Infinity>() + 1e-30 * matrix.cwiseAbs().maxCoeff());
   if (work_->solver.factorise(work_->factor, n) && work_->solver.reciprocal_condition() > 1e-13) {
-    y_ = right_;
+    y = right;
     work_->solver.solve_in_place(y_);
-    work_->residual = right_;
-    work_->residual.noalias() -= matrix * y_;
+    residual = right;
+    residual.noalias() -= matrix * y;
     work_->solver.solve_in_place(work_->residual);
-    y_ += work_->residual;  // one step of refinement: the certificate is judged at 1e-10
-    work_->residual = right_;
-    work_->residual.noalias() -= matrix * y_;
-    if (y_.allFinite() && work_->residual.lpNorm<Eigen::Infinity>() <= scale) return true;
+    y += residual;  // one step of refinement: the certificate is judged at 1e-10
+    residual = right;
+    residual.noalias() -= matrix * y;
+    if (y.allFinite() && residual.lpNorm<Eigen::Infinity>() <= scale) return true;
   }
   if (n > 400) return false;
   // Singular: the shortest solution, if there is one.
   Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
   shortest.setThreshold(1e-11);
   shortest.compute(matrix);
-  y_ = shortest.solve(right_);
-  return y_.allFinite() && (matrix * y_ - right_).lpNorm<Eigen::Infinity>() <= scale;
+  y = shortest.solve(right);
+  return y.allFinite() && (matrix * y - right).lpNorm<Eigen::Infinity>() <= scale;
 }
 
 bool NewtonDirection::solve_sparse(double regularisation) {
@@ -254,12 +262,13 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   A.finalize();
   work.sparse_solver.compute(A);
   if (work.sparse_solver.info() != Eigen::Success) return false;
-  y_ = work.sparse_solver.solve(right_);
-  work.residual = right_ - A * y_;
+  const auto right = right_.head(size);
+  y_ = work.sparse_solver.solve(right);
+  work.residual = right - A * y_;
   y_ += work.sparse_solver.solve(work.residual);
-  work.residual = right_ - A * y_;
+  work.residual = right - A * y_;
   return y_.allFinite() &&
-         work.residual.lpNorm<Eigen::Infinity>() <= 1e-8 * (right_.lpNorm<Eigen::Infinity>() + 1e-300);
+         work.residual.lpNorm<Eigen::Infinity>() <= 1e-8 * (right.lpNorm<Eigen::Infinity>() + 1e-300);
 }
 
 void NewtonDirection::apply(const Vector& y, double regularisation, Vector& result) {
@@ -304,8 +313,9 @@ bool NewtonDirection::solve_iteratively(double regularisation) {
     }
   };
   const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
-  y_.setZero(right_.size());
-  return gmres(multiply, precondition, right_, y_, {1e-11, 80, 400}) <= 1e-8;
+  const Vector right = right_.head(static_cast<Eigen::Index>(unknowns_.size()));
+  y_.setZero(right.size());
+  return gmres(multiply, precondition, right, y_, {1e-11, 80, 400}) <= 1e-8;
 }
 
 }  // namespace scabo::contact

@@ -41,12 +41,22 @@ std::vector<ContactState> states_of(const Problem& problem, const Vector& p, con
   return states;
 }
 
+/// What the judge compares with the tolerance. The natural map knows forces and motions of pairs only.
+double judged_figure(const Solution& solution, Judge judge) {
+  return judge == Judge::certificate
+             ? solution.certificate.worst()
+             : std::max(solution.natural_map_residual, solution.certificate.rigid_balance);
+}
+
 std::string reason_of(const Solution& solution, const SolverOptions& options, bool singular) {
-  const double reached =
-      options.judge == Judge::natural_map ? solution.natural_map_residual : solution.certificate.worst();
+  const double reached = judged_figure(solution, options.judge);
+  const bool unbalanced = reached > solution.natural_map_residual;
   char text[160];
   std::snprintf(text, sizeof text, "; the best point of %d iterations leaves a %s of %.2g", solution.iterations,
-                options.judge == Judge::natural_map ? "natural-map residual" : "certificate", reached);
+                options.judge == Judge::certificate ? "certificate"
+                : unbalanced                        ? "balance of the rigid motions"
+                                                    : "natural-map residual",
+                reached);
   return (singular ? "contact forces could not balance the loads on any branch tried"
                    : "the Newton iterations stalled from every start tried") +
          std::string(text);
@@ -86,7 +96,9 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
   if (by_map)
     content = [&, real = Vector()](const Vector& p, const Vector& motion) mutable {
       real = motion / stiffness;
-      return natural_map_residual_at(problem, p, real) <= 0.9 * options.tolerance;
+      if (natural_map_residual_at(problem, p, real) > 0.9 * options.tolerance) return false;
+      return m == 0 || largest_of(problem.f + problem.G.transpose() * p) <=
+                           0.9 * options.tolerance * std::max(reference, largest_of(p));
     };
   Ladder ladder(scaled_problem.problem, options, small, std::move(content));
   NewtonEnd end;
@@ -117,7 +129,7 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
   }
   solution.states = states_of(problem, solution.p, motion, scales);
   if (solution.status == Status::mechanism) return solution;
-  const double figure = by_map ? solution.natural_map_residual : solution.certificate.worst();
+  const double figure = judged_figure(solution, options.judge);
   if (figure <= options.tolerance) {
     solution.status = Status::solved;
     solution.undetermined = undetermined_motions(problem, solution.states);

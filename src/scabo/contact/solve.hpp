@@ -11,7 +11,8 @@
 namespace scabo::contact {
 
 /// What "solved" means. certificate: every figure of the certificate is within the tolerance (increments of elastic bodies).
-/// natural_map: natural_map_residual is (problems of others; W may be rank deficient, so sweeps come first).
+/// natural_map: natural_map_residual is (problems of others; W may be rank deficient, so sweeps come first), and so is
+/// certificate.rigid_balance, which the natural map does not know.
 enum class Judge { certificate, natural_map };
 
 struct SolverOptions {

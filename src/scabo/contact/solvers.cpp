@@ -220,7 +220,7 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
   // has to be small too.
   const double judged = options.judge == Judge::certificate
                             ? std::max(solution.certificate.worst(), solution.residual)
-                            : solution.natural_map_residual;
+                            : std::max(solution.natural_map_residual, solution.certificate.rigid_balance);
   if (judged <= options.tolerance) {
     solution.status = Status::solved;
     solution.undetermined = undetermined_motions(problem, solution.states);

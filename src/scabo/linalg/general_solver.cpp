@@ -10,7 +10,7 @@ bool GeneralSolver::factorise(Matrix& A, Eigen::Index n) {
   factor_ = &A;
   n_ = n;
   norm_ = n > 0 ? A.topLeftCorner(n, n).cwiseAbs().colwise().sum().maxCoeff() : 0.0;
-  if (static_cast<Eigen::Index>(pivots_.size()) < n) pivots_.resize(static_cast<std::size_t>(n));
+  if (static_cast<Eigen::Index>(pivots_.size()) < n) pivots_.resize(static_cast<std::size_t>(A.cols()));
   if (n == 0) return true;
   return LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, static_cast<int>(n), static_cast<int>(n), A.data(),
                              static_cast<int>(A.outerStride()), pivots_.data()) == 0;
@@ -19,8 +19,8 @@ bool GeneralSolver::factorise(Matrix& A, Eigen::Index n) {
 double GeneralSolver::reciprocal_condition() const {
   if (n_ == 0) return 1.0;
   if (static_cast<Eigen::Index>(work_.size()) < 4 * n_) {
-    work_.resize(static_cast<std::size_t>(4 * n_));
-    whole_work_.resize(static_cast<std::size_t>(n_));
+    work_.resize(static_cast<std::size_t>(4 * factor_->cols()));
+    whole_work_.resize(static_cast<std::size_t>(factor_->cols()));
   }
   double reciprocal = 0.0;
   LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', static_cast<int>(n_), factor_->data(),

@@ -105,5 +105,26 @@ TEST(MustNever, CallSolvedWhatIsNot) {
   }
 }
 
+// 9. The natural map knows pairs only: at rest without force it is zero, whatever presses on the body.
+TEST(MustNever, CallSolvedWhatLeavesABodyOutOfBalance) {
+  for (int d : {2, 3}) {
+    Problem problem;
+    problem.dimension = d;
+    problem.W = Matrix(Matrix::Identity(d, d));
+    problem.q = Vector::Zero(d);
+    problem.mu = Vector::Constant(1, 0.3);
+    problem.G = Matrix::Zero(d, 1);
+    problem.G(0, 0) = 1.0;
+    problem.f = Vector::Constant(1, -2.0);
+    SolverOptions options;
+    options.judge = Judge::natural_map;
+    ASSERT_EQ(natural_map_residual(problem, Vector::Zero(d), Vector::Zero(1)), 0.0);
+    const Solution solution = solve(problem, {}, options);
+    ASSERT_EQ(solution.status, Status::solved) << solution.reason;
+    EXPECT_NEAR(solution.p[0], 2.0, 1e-9);
+    EXPECT_LE(solution.certificate.rigid_balance, options.tolerance);
+  }
+}
+
 }  // namespace
 }  // namespace scabo::contact
