@@ -54,7 +54,7 @@ TEST(LeaningStrut, StaysOnTheBranchOfItsHistoryAndIsToldToHaveOthers) {
 
 TEST(LeaningStrut, WithLittleFrictionItLetsGo) {
   const auto solution = run(strut(0.1, pressed_first), {"solver.uniqueness=true"});
-  EXPECT_EQ(last(solution).contacts.front().normal_force, 0.0);
+  EXPECT_NEAR(last(solution).contacts.front().normal_force, 0.0, 1e-9);  // N; jammed: 1e5
   for (const analysis::IncrementResult& increment : solution.increments)
     EXPECT_NE(increment.uniqueness->verdict, "several found") << increment.increment;
   for (const std::string& warning : solution.warnings) EXPECT_EQ(warning.find("other solutions"), std::string::npos) << warning;
