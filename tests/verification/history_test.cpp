@@ -63,5 +63,25 @@ TEST(History, TouchingAtZeroForce) {
   EXPECT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
 }
 
+// Supports lift a block off the floor, which takes no force at all, and set it down again until it is pressed.
+TEST(History, SupportsThatMoveABodyWithoutStress) {
+  const auto solution = run(R"(
+scabo: 1
+materials: {m: {young: 1e9, poisson: 0.2}}
+bodies:
+  block: {material: m, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.25}}
+  floor: {rigid: true, shape: {rectangle: {corner: [-2, -1], size: [5, 1]}}}
+supports:
+  - {on: floor, fix: [x, y]}
+  - {on: block.top, displacement: [1e-3, 1e-3], name: up}
+contacts:
+  joint: {between: [floor.top, block.bottom], friction: 0}
+steps: [{name: lift, increments: 2, loads: {up: 1}}, {name: lower, increments: 4, loads: {up: -1}}]
+)");
+  ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+  for (std::size_t k : {0u, 1u, 2u}) EXPECT_EQ(solution.increments[k].contacts.front().open, 17);
+  EXPECT_GT(solution.increments[5].contacts.front().normal_force, 1e6);
+}
+
 }  // namespace
 }  // namespace scabo::verification

@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <cmath>
+#include <limits>
 
 #include "scabo/analysis/branch.hpp"
 #include "scabo/system/loads.hpp"
@@ -95,6 +96,17 @@ double largest_force(const State& state) {
     for (const Vector& of_body : *forces)
       if (of_body.size() > 0) largest = std::max(largest, of_body.lpNorm<Eigen::Infinity>());
   return largest;
+}
+
+/// What forces of a state are judged against: the largest at work so far. Without any load, and where nothing but the rounding of
+/// K u is at work (supports that move a body without stress), the forces by which K would resist displacements as large.
+double scale_of(const Prepared& prepared, const State& state, double largest_at_work) {
+  if (prepared.force_scale > 0.0) return largest_at_work;
+  double resistance = 0.0;
+  for (std::size_t b = 0; b < state.u.size(); ++b)
+    resistance = std::max(resistance, prepared.structure.bodies[b]->stiff_force(state.u[b]));
+  constexpr double rounding = 1e3 * std::numeric_limits<double>::epsilon();
+  return largest_at_work <= rounding * resistance ? resistance : largest_at_work;
 }
 
 /// Completes the certificate with what only the whole structure can tell: equilibrium of every node and of every body.
@@ -315,7 +327,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
   to.largest_force = std::max(from.largest_force, largest_force(to));
-  certify_structure(prepared, to, std::max(options.force_scale, to.largest_force), result.certificate);
+  certify_structure(prepared, to, scale_of(prepared, to, std::max(options.force_scale, to.largest_force)), result.certificate);
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;

@@ -11,6 +11,11 @@ namespace scabo::system {
 
 Vector Stiffness::times(const Vector& u) const { return dense ? Vector(*dense * u) : Vector(sparse * u); }
 
+double Stiffness::largest_diagonal() const {
+  if (size() == 0) return 0.0;
+  return dense ? dense->diagonal().maxCoeff() : Vector(sparse.diagonal()).maxCoeff();
+}
+
 Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever) {
   const Vec2 arm = (x - reference) / lever;
   Eigen::Matrix<double, 2, 3> map;
@@ -120,6 +125,7 @@ class ElasticBody final : public BodySystem {
   }
 
   double elastic_energy(const Vector& u) const override { return 0.5 * u.dot(internal_forces(u)); }
+  double stiff_force(const Vector& u) const override { return stiffness_.largest_diagonal() * u.lpNorm<Eigen::Infinity>(); }
 
  private:
   /// K u, without the part that a translation of the whole body would add by rounding.
@@ -216,6 +222,7 @@ class RigidBody final : public BodySystem {
   }
 
   double elastic_energy(const Vector&) const override { return 0.0; }
+  double stiff_force(const Vector&) const override { return 0.0; }
 
   /// Largest amount by which the constraints contradict each other at factor 1, and the constraint.
   std::pair<double, std::size_t> contradiction() const {

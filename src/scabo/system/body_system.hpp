@@ -27,6 +27,7 @@ struct Stiffness {
 
   Eigen::Index size() const { return dense ? dense->rows() : sparse.rows(); }
   Vector times(const Vector& u) const;
+  double largest_diagonal() const;
 };
 
 /// A linear combination of degrees of freedom held at a value by a support.
@@ -59,6 +60,8 @@ class BodySystem {
   virtual double imbalance(const Vector& u, const Vector& f) const = 0;
   /// 1/2 u'K u.
   virtual double elastic_energy(const Vector& u) const = 0;
+  /// Force by which K would answer if one component of u were alone: max_i K_ii max_i |u_i|; 0 of a rigid body.
+  virtual double stiff_force(const Vector& u) const = 0;
 
   const std::vector<Constraint>& constraints() const { return constraints_; }
 
