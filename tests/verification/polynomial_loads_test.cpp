@@ -125,12 +125,13 @@ supports:
                                     cracked ? fmt::format("cracks: [{{tip: {}, mouth: {}, name: flaw}}]", vector(tip), vector(mouth)) : "",
                                     supports, vector(b0), vector(bx), vector(by), T0, Tx, Ty);
     if (!cracked) return model;
-    const Vec2 along = (tip - mouth).normalized(), left_normal(along.y(), -along.x());  // outward from the part left of the crack
-    for (const auto& [side, sign] : {std::pair{"left", 1.0}, {"right", -1.0}}) {
+    const Vec2 along = (tip - mouth).normalized();
+    for (const std::string side : {"left", "right"}) {
+      // Outward from the part left of the crack; from the other the opposite.
+      const Vec2 n = side == "left" ? Vec2(along.y(), -along.x()) : Vec2(-along.y(), along.x());
       // A quadratic in xi through three points.
       const auto t = [&](double xi) {
         const Vec3 s = stress(tip + xi * (mouth - tip));
-        const Vec2 n = sign * left_normal;
         return Vec2(s[0] * n.x() + s[2] * n.y(), s[2] * n.x() + s[1] * n.y());
       };
       const Vec2 c0 = t(0), c2 = 2 * (t(1) + t(0) - 2 * t(0.5)), c1 = t(1) - c0 - c2;

@@ -77,7 +77,8 @@ std::ostream& operator<<(std::ostream& out, const Row& row) { return out << "ord
 class TimoshenkoCantilever : public testing::TestWithParam<Row> {};
 
 TEST_P(TimoshenkoCantilever, ConvergesWithTheOrderOfItsEdges) {
-  const auto [order, coarse, fine] = GetParam();
+  const Row row = GetParam();
+  const int order = row.order, coarse = row.coarse, fine = row.fine;
   const ExactField exact = timoshenko();
   const Mat3 D = elasticity(3e7, 0.3);
   const auto error = [&](int n) {  // in the energy norm, relative
@@ -131,7 +132,8 @@ ExactField exponential(double young, double poisson, double waves = 1.0) {
 class SmoothSolution : public testing::TestWithParam<Row> {};
 
 TEST_P(SmoothSolution, ConvergesWithTheOrderOfItsEdges) {
-  const auto [order, coarse, fine] = GetParam();
+  const Row row = GetParam();
+  const int order = row.order, coarse = row.coarse, fine = row.fine;
   const ExactField exact = exponential(1.0, 0.3);
   const auto error = [&](int n) {
     const Ring ring = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, n, order);
@@ -154,8 +156,9 @@ INSTANTIATE_TEST_SUITE_P(Orders, SmoothSolution,
 TEST(StressOfASmoothSolution, ConvergesWithTheOrderOfItsEdges) {
   const ExactField exact = exponential(1.0, 0.3);
   const Mat3 D = elasticity(1.0, 0.3);
-  for (const auto& [order, coarse, fine] :
+  for (const Row& row :
        {Row{1, 16, 32}, Row{2, 8, 16}, Row{3, 6, 12}, Row{4, 5, 10}, Row{5, 8, 16}, Row{6, 6, 12}, Row{7, 4, 8}, Row{8, 3, 6}}) {
+    const int order = row.order, coarse = row.coarse, fine = row.fine;
     const auto error = [&](int n) {
       const Ring ring = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, n, order);
       const auto solution = solve_super_element(ring, D, 1.0);
