@@ -47,11 +47,13 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
 std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& mesh) {
   std::vector<Diagnostic> mistakes;
   const auto look = [&](const model::Place& place, const Source& source) {
-    const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
-    if (place.kind != model::Place::Kind::near || body.cracks.empty() || mesh.bodies[static_cast<std::size_t>(place.body)].nodes.empty())
-      return;
+    if (place.kind != model::Place::Kind::near) return;
+    const auto b = static_cast<std::size_t>(place.body);
+    const model::Body& body = model.bodies[b];
+    const std::vector<Vec2>& nodes = mesh.bodies[b].nodes;
+    if (body.cracks.empty() || nodes.empty()) return;
     const int node = nodes_of(place, mesh).nodes.front();
-    if (node != 0 && node + 1 != static_cast<int>(mesh.bodies[static_cast<std::size_t>(place.body)].nodes.size())) return;
+    if (node != 0 && node + 1 != static_cast<int>(nodes.size())) return;
     mistakes.push_back({source, fmt::format("the nearest node is the mouth of crack '{1}', where there are two: write {0}.{1}.mouth_left "
                                             "or {0}.{1}.mouth_right",
                                             body.name, body.cracks.front().name)});
