@@ -27,10 +27,24 @@ namespace {
 constexpr Eigen::Index most_direct = 2500;  // unknowns of a dense factorisation
 constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
 
+/// Components that no contact force and no rigid motion moves (a support holds the pair along the joint): rows and columns of W
+/// and rows of G that are zero. Empty where there are none.
+std::vector<bool> immovable_components(const Problem& problem) {
+  std::vector<bool> immovable;
+  if (!problem.W.is_dense()) return immovable;
+  const Matrix& W = problem.W.dense();
+  for (Eigen::Index k = 0; k < W.rows(); ++k) {
+    if (W(k, k) != 0.0 || !W.col(k).isZero(0.0) || !W.row(k).isZero(0.0) || !problem.G.row(k).isZero(0.0)) continue;
+    immovable.resize(static_cast<std::size_t>(W.rows()), false);
+    immovable[static_cast<std::size_t>(k)] = true;
+  }
+  return immovable;
+}
+
 }  // namespace
 
 NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
-    : equations_(equations), work_(std::make_unique<Workspace>()) {}
+    : equations_(equations), work_(std::make_unique<Workspace>()), immovable_(immovable_components(equations.problem())) {}
 NewtonDirection::~NewtonDirection() = default;
 
 bool NewtonDirection::find(Residual& at, double regularisation, Vector& d) {
@@ -79,6 +93,11 @@ void NewtonDirection::lay_out(const Residual& at) {
   unknowns_.reserve(static_cast<std::size_t>(d * N));
   first_of_pair_.resize(static_cast<std::size_t>(N + 1));
   known_.setZero(d * N);
+  const double rounding = immovable_.empty() ? 0.0 : 1e-14 * at.largest();
+  // Where nothing moves, the row reads 0 = -H: met, any dp does, and the shortest is 0.
+  const auto met = [&](Eigen::Index k) {
+    return !immovable_.empty() && immovable_[static_cast<std::size_t>(k)] && std::abs(at.H[k]) <= rounding;
+  };
   for (Eigen::Index i = 0; i < N; ++i) {
     first_of_pair_[static_cast<std::size_t>(i)] = static_cast<int>(unknowns_.size());
     const Branch& branch = at.branches[static_cast<std::size_t>(i)];
@@ -87,13 +106,13 @@ void NewtonDirection::lay_out(const Residual& at) {
     Eigen::Vector3d normal(1.0, 0.0, 0.0);
     if (slips) normal.tail<2>() = branch.slope * branch.along;
     if (branch.contact) {
-      unknowns_.push_back({pair, Eigen::Vector3d::UnitX(), normal, r[d * i], 0.0});
+      if (!(met(d * i) && normal.tail<2>().isZero(0.0))) unknowns_.push_back({pair, Eigen::Vector3d::UnitX(), normal, r[d * i], 0.0});
     } else {
       for (Eigen::Index k = 0; k < d; ++k) known_[d * i + k] = -at.H[d * i] * normal[k];
     }
     if (branch.tangent == Branch::Tangent::stick) {
       for (Eigen::Index k = 1; k < d; ++k)
-        unknowns_.push_back({pair, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Unit(k), r[d * i + k], 0.0});
+        if (!met(d * i + k)) unknowns_.push_back({pair, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Unit(k), r[d * i + k], 0.0});
       continue;
     }
     const bool across = slips && d == 3 && branch.lambda > 1e-14;

@@ -55,6 +55,7 @@ class NewtonDirection {
   Vector known_, moved_, right_, y_;
   struct Workspace;
   std::unique_ptr<Workspace> work_;
+  std::vector<bool> immovable_;  // dN, or empty
 };
 
 }  // namespace scabo::contact
