@@ -224,5 +224,25 @@ TEST(Solve, NeverCertifiesWhatIsNotANumber) {
   EXPECT_GT(certify(problem, Vector::Constant(2, nan), Vector(), {}).worst(), 1.0);
 }
 
+// A pair that a support holds along the joint: its row and column of W are zero, and no force along the joint is needed.
+TEST(Solve, APairHeldAlongTheJointTakesNoFrictionAndNoExtraIterations) {
+  std::mt19937 random(5);
+  for (int k = 0; k < 20; ++k) {
+    Problem held = held_problem(random, 12, 0.0);
+    Matrix W = held.W.dense();
+    W.row(7).setZero();
+    W.col(7).setZero();
+    held.W = W;
+    held.q[7] = 0.0;
+    Problem slippery = held;  // the same with nothing to carry there
+    slippery.mu[3] = 0.0;
+    const Solution solution = solve(held), without = solve(slippery);
+    ASSERT_EQ(solution.status, Status::solved) << "problem " << k << ": " << solution.reason;
+    EXPECT_LT((solution.p - without.p).norm(), 1e-9 * without.p.norm()) << "problem " << k;
+    EXPECT_LE(std::abs(solution.p[7]), 1e-12 * without.p.norm()) << "problem " << k;
+    EXPECT_EQ(solution.iterations, without.iterations) << "problem " << k;
+  }
+}
+
 }  // namespace
 }  // namespace scabo::contact
