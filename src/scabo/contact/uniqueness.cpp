@@ -209,10 +209,10 @@ std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double 
 UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, const Solution& solution,
                                     const SolverOptions& given) {
   UniquenessReport report;
+  if (solution.status != Status::solved) return report;
   SolverOptions options = given;  // forces of the history are at work as well
   options.force_scale = std::max(given.force_scale, largest_of(start.p));
   const double scale = scales_of(problem, solution.p, options).force;
-  if (solution.status != Status::solved) return report;
   report.bound = uniqueness_bound(problem);
   report.index = index_of(problem, solution.p, solution.a);
   if (report.bound < 1.0) {
@@ -231,7 +231,7 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
   report.others.assign(found.begin() + 1, found.end());
   if (!report.others.empty())
     report.unique = Uniqueness::several;
-  else if (report.complete && uniqueness_bound(problem) < HUGE_VAL)
+  else if (report.complete && report.bound < HUGE_VAL)
     report.unique = Uniqueness::proven;
   if (start.p.size() != solution.p.size()) return report;
   double least = (1.0 - 1e-9) * (solution.p - start.p).norm();
@@ -244,7 +244,7 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
 }
 
 std::string why_no_solution(const Problem& problem, const SolverOptions& options) {
-  if (const auto all = all_solutions(problem, options.tolerance); all && all->empty())
+  if (const auto all = all_solutions(problem, options.tolerance, options.force_scale); all && all->empty())
     return "no combination of open, sticking and slipping pairs meets all conditions: the problem has no "
            "solution";
   constexpr int most_pivoted = 100;

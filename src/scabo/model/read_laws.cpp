@@ -11,11 +11,11 @@ namespace {
 constexpr const char* friction_example =
     "0.3, {static: 0.5, dynamic: 0.3, slip_distance: 1e-4} or {along: [[0, 0.3], [1, 0.5]]}";
 
-/// A coefficient from 0 to 1e6: beyond, forces that balance drown in rounding.
+constexpr double largest_coefficient = 1e6;  // beyond, forces that balance drown in rounding
+
 double read_coefficient(Report& report, const Value& value) {
   const double friction = read_not_negative(report, value).value_or(0.0);
-  constexpr double most = 1e6;
-  if (friction <= most) return friction;
+  if (friction <= largest_coefficient) return friction;
   report.error(value, fmt::format("a coefficient of friction is at most 1e6, not {}: where nothing is to slip that is as good, "
                                   "and 'bond: true' ties both sides",
                                   number_text(friction)));
@@ -31,7 +31,7 @@ void read_along(Report& report, const Value& value, Contact& contact) {
   for (const Value& item : *items) {
     const auto point = read_vector(report, item);
     if (!point) continue;
-    if (point->y() > 1e6)
+    if (point->y() > largest_coefficient)
       report.error(item, fmt::format("a coefficient of friction is at most 1e6, not {}", number_text(point->y())));
     else if (point->x() < 0.0 || point->x() > 1.0)
       report.error(
