@@ -90,7 +90,7 @@ RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
 }  // namespace
 
 RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, Side side) {
-  if (E0.rows() == 0) return {E0, E0, 0, 0, 0.0};
+  if (E0.rows() == 0) return {E0, E0, 0, 0.0};
   if (side == Side::outside) {  // s -> -s exchanges 1 and 2
     RingStiffness outside = ring_doubling(E0, -E1, E2);
     outside.S = -outside.S;
@@ -103,12 +103,11 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
   const double enough = std::max(1e-13, 1e-15 * static_cast<double>(E0.rows()));  // what rounding leaves
   constexpr double too_much = 1e-9;
   constexpr int most = 3;
-  while (residual.size > enough && result.corrections < most) {
+  for (int corrections = 0; residual.size > enough && corrections < most; ++corrections) {
     const Matrix corrected = result.K + newton_step(residual, E0.diagonal().cwiseSqrt());
     RiccatiResidual next = riccati_residual(L, E1, E2, corrected);
     if (!(next.size < residual.size)) break;
     result.K = corrected;
-    ++result.corrections;
     const bool slow = next.size > 0.1 * residual.size;  // rounding is all that is left
     residual = std::move(next);
     if (slow) break;

@@ -33,7 +33,6 @@ struct RingStiffness {
   Matrix K;  // n x n, symmetric; q = K u inside, q = -K u outside
   Matrix S;  // n x n: xi u,xi = S u
   int doublings = 0;
-  int corrections = 0;    ///< steps of Newton's method (riccati.hpp) that were needed and helped
   double residual = 0.0;  ///< of the Riccati equation, RiccatiResidual::size
 };
 

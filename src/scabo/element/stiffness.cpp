@@ -223,7 +223,6 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
   for (const RingStiffness& of_block : rings) {
     solution.doublings = std::max(solution.doublings, of_block.doublings);
-    solution.corrections = std::max(solution.corrections, of_block.corrections);
     solution.residual = std::max(solution.residual, of_block.residual);
   }
   if (bases.size() == 1) {  // T = 1

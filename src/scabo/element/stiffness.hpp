@@ -53,7 +53,6 @@ struct SuperElementSolution {
   std::vector<Block> blocks;
   Domain domain;
   int doublings = 0;          ///< largest number over the blocks
-  int corrections = 0;        ///< steps of Newton's method (riccati.hpp), largest number over the blocks
   double residual = 0.0;      ///< of the Riccati equation, RiccatiResidual::size, largest over the blocks
 };
 
