@@ -21,6 +21,7 @@
 #include "scabo/element/batch.hpp"
 #include "scabo/element/batch_kernel.hpp"
 #include "scabo/element/interior_field.hpp"
+#include "scabo/linalg/cholesky_factor.hpp"
 #include "scabo/linalg/dense.hpp"
 #include <theory/rings.hpp>
 
@@ -38,10 +39,12 @@ Matrix eigenvector_route(const Ring& ring, const Mat3& D) {
   const Eigen::Index n = matrices.E0.rows();
   const double unit = D.cwiseAbs().maxCoeff();
   const Matrix E0 = matrices.E0 / unit, E1 = matrices.E1 / unit, E2 = matrices.E2 / unit;
-  Matrix L = E0, inverse = Matrix::Identity(n, n);
-  ensure(linalg::cholesky_in_place(L), "E0");
-  linalg::solve_lower_in_place(L, inverse);
-  linalg::solve_lower_in_place(L, inverse, true);
+  linalg::CholeskyFactor L;
+  L.A = E0;
+  ensure(L.factorise(), "E0");
+  Matrix inverse = Matrix::Identity(n, n);
+  L.divide(inverse);
+  L.divide(inverse, true);
   Matrix Z(2 * n, 2 * n);
   const Matrix E1_inverse = linalg::multiply(E1, inverse);
   Z << -E1_inverse.transpose(), inverse, E2 - linalg::multiply(E1_inverse, E1.transpose()), E1_inverse;
@@ -71,10 +74,13 @@ Matrix eigenvector_route(const Ring& ring, const Mat3& D) {
 
 double riccati_residual(const Ring& ring, const Mat3& D, const Matrix& K) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, 1.0);
-  Matrix L = matrices.E0, X = K - Matrix(matrices.E1.transpose());
-  ensure(linalg::cholesky_in_place(L), "E0");
-  linalg::solve_lower_in_place(L, X);
-  return (linalg::multiply_transposed(X, X) - Matrix(matrices.E2)).norm() / matrices.E2.norm();
+  linalg::CholeskyFactor L;
+  L.A = matrices.E0;
+  ensure(L.factorise(), "E0");
+  Matrix X = K - Matrix(matrices.E1), P = matrices.E2;
+  L.divide(X);
+  linalg::subtract_square(X, P);
+  return Matrix(P.selfadjointView<Eigen::Lower>()).norm() / matrices.E2.norm();
 }
 
 /// Processor time of this thread, which does all the work: other programs on the machine do not count.

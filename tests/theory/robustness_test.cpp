@@ -43,8 +43,9 @@ double relative(const Vector& force, const Vector& size) {
 /// The Riccati residual of K, divided by what changing every entry of K and of the coefficient matrices in its last digit makes of it:
 /// P changes by S'(dK - dE1') + (dK - dE1) S - S'dE0 S - dE2, |dK| = eps |K| and so on.
 double residual_in_roundings(const CoefficientMatrices& matrices, const Matrix& K) {
-  Matrix L = matrices.E0;
-  if (!linalg::cholesky_in_place(L)) return std::numeric_limits<double>::infinity();
+  linalg::CholeskyFactor L;
+  L.A = matrices.E0;
+  if (!L.factorise()) return std::numeric_limits<double>::infinity();
   const RiccatiResidual residual = riccati_residual(L, matrices.E1, matrices.E2, K);
   const Matrix half = linalg::multiply_transposed(residual.S.cwiseAbs(), K.cwiseAbs() + Matrix(matrices.E1.cwiseAbs().transpose()));
   const Matrix size = residual.S.cwiseAbs(), middle = linalg::multiply_transposed(size, linalg::multiply(Matrix(matrices.E0.cwiseAbs()), size));

@@ -74,10 +74,10 @@ Matrix rigid_motions(const Ring& ring) {
 
 /// (K - E1) E0^-1 (K - E1') = E2, from K = E0 S + E1' and the scaled boundary equation.
 double riccati_residual(const CoefficientMatrices& matrices, const Matrix& K) {
-  Matrix L = matrices.E0, X = K - Matrix(matrices.E1.transpose());
-  EXPECT_TRUE(linalg::cholesky_in_place(L));
-  linalg::solve_lower_in_place(L, X);
-  return (linalg::multiply_transposed(X, X) - Matrix(matrices.E2)).norm() / matrices.E2.norm();
+  const Eigen::LLT<Matrix> E0((Matrix(matrices.E0)));
+  EXPECT_EQ(E0.info(), Eigen::Success);
+  const Matrix X = E0.matrixL().solve(K - Matrix(matrices.E1.transpose()));
+  return (X.transpose() * X - Matrix(matrices.E2)).norm() / matrices.E2.norm();
 }
 
 /// K is positive semi-definite with exactly the three rigid motions at zero: K + |K| Q Q' - delta has a
@@ -86,7 +86,7 @@ bool only_rigid_motions_are_free(const Matrix& K, const Matrix& Q) {
   const double size = largest(K);
   Matrix held = K + size * Q * Q.transpose();
   held.diagonal().array() -= 1e-9 * size;
-  return linalg::cholesky_in_place(held);
+  return Eigen::LLT<Matrix>(held).info() == Eigen::Success;
 }
 
 StiffnessErrors errors_of(const Ring& ring, const Mat3& D) {

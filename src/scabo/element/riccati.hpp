@@ -18,16 +18,18 @@
 #pragma once
 
 #include "scabo/base/types.hpp"
+#include "scabo/linalg/cholesky_factor.hpp"
 
 namespace scabo::element {
 
 struct RiccatiResidual {
-  Matrix P, S;         // n x n
+  Matrix P;            // n x n: -P(K), the lower triangle
+  Matrix S;            // n x n
   double size = 0.0;   ///< largest |P_ij| / sqrt(E2_ii E2_jj)
 };
 
-/// L: Cholesky factor of E0, below its diagonal.
-RiccatiResidual riccati_residual(const Matrix& L, const Matrix& E1, const Matrix& E2, const Matrix& K);
+/// L: Cholesky factor of E0.
+RiccatiResidual riccati_residual(const linalg::CholeskyFactor& L, const Matrix& E1, const Matrix& E2, const Matrix& K);
 
 /// dK of eq. (2), symmetric; `scale`: n positive numbers of the size of sqrt(E0_ii), which unknowns are measured with.
 Matrix newton_step(const RiccatiResidual& residual, const Vector& scale);

@@ -7,7 +7,7 @@
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
 #include "scabo/element/ring_doubling.hpp"
-#include "scabo/linalg/dense.hpp"
+#include "scabo/linalg/cholesky_factor.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {
@@ -131,13 +131,14 @@ Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, dou
 void check_definite(const Block& block, const Matrix& K, const Matrix& motions) {
   const Vector D = K.diagonal();
   const Matrix r = block.T.transpose() * motions;
-  Matrix shifted = K;
+  linalg::CholeskyFactor factor;
+  Matrix& shifted = factor.A = K;
   for (Eigen::Index m = 0; m < r.cols(); ++m) {
     const Vector w = D.cwiseProduct(r.col(m));
     const double size = w.dot(r.col(m));
     if (size > 0.0) shifted.noalias() += w * (w / size).transpose();
   }
-  if (!linalg::cholesky_in_place(shifted))
+  if (!factor.factorise())
     throw IllPosed("its stiffness is not positive definite: digits were lost");
 }
 

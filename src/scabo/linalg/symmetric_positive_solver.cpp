@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "scabo/base/error.hpp"
-#include "scabo/linalg/dense.hpp"
+#include "scabo/linalg/cholesky_factor.hpp"
 
 namespace scabo::linalg {
 
@@ -82,7 +82,7 @@ class SparseCholesky {
 
 struct SymmetricPositiveSolver::Factor {
   int n = 0;
-  Matrix L;                                // dense: lower triangle
+  CholeskyFactor L;                        // dense
   std::unique_ptr<SparseCholesky> sparse;  // otherwise
 };
 
@@ -93,8 +93,8 @@ SymmetricPositiveSolver::~SymmetricPositiveSolver() = default;
 
 SymmetricPositiveSolver::SymmetricPositiveSolver(Matrix A) : SymmetricPositiveSolver() {
   factor_->n = static_cast<int>(A.rows());
-  factor_->L = std::move(A);
-  if (!cholesky_in_place(factor_->L)) throw NotPositiveDefinite();
+  factor_->L.A = std::move(A);
+  if (!factor_->L.factorise()) throw NotPositiveDefinite();
 }
 
 SymmetricPositiveSolver::SymmetricPositiveSolver(const SparseMatrix& A) : SymmetricPositiveSolver() {
@@ -111,20 +111,21 @@ SymmetricPositiveSolver::SymmetricPositiveSolver(const SparseMatrix& A) : Symmet
 Matrix SymmetricPositiveSolver::solve(const Matrix& B) const {
   ensure(B.rows() == factor_->n, "SymmetricPositiveSolver::solve: sizes differ");
   if (factor_->sparse) return factor_->sparse->solve(B);
-  Matrix X = B;
-  solve_lower_in_place(factor_->L, X);
-  solve_lower_in_place(factor_->L, X, true);
-  return X;
+  Matrix X = B.transpose();
+  factor_->L.divide(X);
+  factor_->L.divide(X, true);
+  return X.transpose();
 }
 
 Matrix SymmetricPositiveSolver::inverse_block(const std::vector<int>& indices) const {
   const int m = static_cast<int>(indices.size());
   Matrix block = Matrix::Zero(m, m);
   if (!factor_->sparse) {
-    Matrix E = Matrix::Zero(factor_->n, m);
-    for (int j = 0; j < m; ++j) E(indices[static_cast<std::size_t>(j)], j) = 1.0;
-    solve_lower_in_place(factor_->L, E);
-    add_gram(block, E, 1.0, 0.0);
+    Matrix E = Matrix::Zero(m, factor_->n);
+    for (int j = 0; j < m; ++j) E(j, indices[static_cast<std::size_t>(j)]) = 1.0;
+    factor_->L.divide(E);
+    subtract_square(E, block);
+    block = -Matrix(block.selfadjointView<Eigen::Lower>());
     return block;
   }
   constexpr int at_a_time = 64;  // dense right-hand sides: bounded memory
