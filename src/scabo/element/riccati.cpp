@@ -3,24 +3,34 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "scabo/linalg/dense.hpp"
 
 namespace scabo::element {
 
-RiccatiResidual riccati_residual(const linalg::CholeskyFactor& L, const Matrix& E1, const Matrix& E2, const Matrix& K) {
-  Matrix X = K - E1;
-  L.divide(X);
-  RiccatiResidual residual{E2, Matrix(), 0.0};  // P = X X' - E2, X = (K - E1) L^-T, the other sign first
-  linalg::subtract_square(X, residual.P);
-  L.divide(X, true);
-  residual.S = X.transpose();
+RiccatiResidual judged(Matrix P, Matrix S, const Matrix& E2) {
+  RiccatiResidual residual{std::move(P), std::move(S), 0.0};
   const Vector scale = E2.diagonal().cwiseSqrt().cwiseInverse();
-  for (Eigen::Index j = 0; j < K.cols(); ++j) {
-    const double size = scale[j] * residual.P.col(j).tail(K.rows() - j).cwiseProduct(scale.tail(K.rows() - j)).cwiseAbs().maxCoeff();
-    if (!(size <= residual.size)) residual.size = size;  // what is not a number is the largest
+  const Eigen::Index n = E2.rows();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto column = residual.P.col(j).tail(n - j);
+    residual.size = std::max(residual.size, scale[j] * column.cwiseProduct(scale.tail(n - j)).cwiseAbs().maxCoeff());
+    if (!column.allFinite()) {  // a maximum forgets what is not a number
+      residual.size = std::numeric_limits<double>::infinity();
+      break;
+    }
   }
   return residual;
+}
+
+RiccatiResidual riccati_residual(const linalg::CholeskyFactor& L, const Matrix& E1, const Matrix& E2, const Matrix& K) {
+  Matrix X = K - E1, P = E2;
+  L.divide(X);
+  linalg::subtract_square(X, P);  // -P = E2 - X X', X = (K - E1) L^-T
+  L.divide(X, true);
+  return judged(std::move(P), X.transpose(), E2);
 }
 
 Matrix newton_step(const RiccatiResidual& residual, const Vector& scale) {

@@ -28,6 +28,9 @@ struct RiccatiResidual {
   double size = 0.0;   ///< largest |P_ij| / sqrt(E2_ii E2_jj)
 };
 
+/// With the size that belongs to them.
+RiccatiResidual judged(Matrix P, Matrix S, const Matrix& E2);
+
 /// L: Cholesky factor of E0.
 RiccatiResidual riccati_residual(const linalg::CholeskyFactor& L, const Matrix& E1, const Matrix& E2, const Matrix& K);
 

@@ -1,7 +1,5 @@
 #include "scabo/element/ring_doubling.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -142,7 +140,6 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
   if (!L.factorise()) throw IllPosed("E0 is not positive definite");
   RiccatiResidual residual = riccati_residual(L, E1, E2, result.K);
   const double enough = std::max(1e-13, 1e-15 * static_cast<double>(E0.rows()));  // what rounding leaves
-  constexpr double too_much = 1e-9;
   constexpr int most = 3;
   for (int corrections = 0; residual.size > enough && corrections < most; ++corrections) {
     const Matrix corrected = result.K + newton_step(residual, E0.diagonal().cwiseSqrt());
@@ -153,7 +150,6 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
     residual = std::move(next);
     if (slow) break;
   }
-  if (!(residual.size <= too_much)) throw IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual.size));
   result.residual = residual.size;
   result.S = std::move(residual.S);
   return result;

@@ -36,8 +36,8 @@ struct RingStiffness {
   double residual = 0.0;  ///< of the Riccati equation, RiccatiResidual::size
 };
 
-/// Throws IllPosed when E0 or a ring is not positive definite (to working precision), the doubling does not end, or the Riccati
-/// residual stays above 1e-9. Above 1e-13 (or n 1e-15) K is corrected first (riccati.hpp), three times at most.
+/// Throws IllPosed when E0 or a ring is not positive definite (to working precision), or the doubling does not end. Where the Riccati
+/// residual is above 1e-13 (or n 1e-15) K is corrected (riccati.hpp), three times at most; what is left of it is the caller's to judge.
 RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, Side side = Side::inside);
 
 }  // namespace scabo::element

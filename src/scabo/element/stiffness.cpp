@@ -1,9 +1,13 @@
 #include "scabo/element/stiffness.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
 #include "scabo/element/ring_doubling.hpp"
@@ -128,7 +132,7 @@ Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, dou
 
 /// K of a bounded block must be positive definite but for the rigid motions r in it: K + sum of D r (D r)' / r'D r, D = diag K, is
 /// (its Cholesky factor exists). Where stiff sectors hang together by soft ones only, rounding can make it indefinite.
-void check_definite(const Block& block, const Matrix& K, const Matrix& motions) {
+bool is_definite(const Block& block, const Matrix& K, const Matrix& motions) {
   const Vector D = K.diagonal();
   const Matrix r = block.T.transpose() * motions;
   linalg::CholeskyFactor factor;
@@ -138,37 +142,56 @@ void check_definite(const Block& block, const Matrix& K, const Matrix& motions) 
     const double size = w.dot(r.col(m));
     if (size > 0.0) shifted.noalias() += w * (w / size).transpose();
   }
-  if (!factor.factorise())
-    throw IllPosed("its stiffness is not positive definite: digits were lost");
+  return factor.factorise();
+}
+
+constexpr double too_much = 1e-9;  // of a Riccati residual
+
+IllPosed digits_lost(double residual) {
+  return IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual));
+}
+
+/// What ring doubling made of a bounded block, with its last digits where they are needed; sets K.
+void finish_bounded(Block& block, const Matrix& E1, const Matrix& E2, const Matrix& motions, bool contrast, Matrix& K,
+                    RingStiffness& ring) {
+  const auto finished = [&] {
+    K = with_translations(block, ring.K);
+    return ring.residual <= too_much && is_definite(block, K, motions);
+  };
+  if (!contrast && finished()) return;
+  correct_last_digits({block.E0, E1, E2, block.R, block.I}, ring);
+  if (finished()) return;
+  if (!(ring.residual <= too_much)) throw digits_lost(ring.residual);
+  throw IllPosed("its stiffness is not positive definite: digits were lost");
 }
 
 /// Solves one block; sets its stiffness `K` in the coordinates of the block.
 Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& motions,
-                  const Domain& domain, Matrix& K, RingStiffness& ring) {
+                  const Domain& domain, bool contrast, Matrix& K, RingStiffness& ring) {
   Block block;
   block.T = std::move(T);
   const Eigen::SparseMatrix<double> transposed = block.T.transpose();
   block.E0 = symmetrised(in_block(transposed, matrices.E0));
   find_translations(motions.leftCols(2), block);
-  const Deflated d = deflate(block, in_block(transposed, matrices.E1), symmetrised(in_block(transposed, matrices.E2)));
+  const Matrix E1 = in_block(transposed, matrices.E1), E2 = symmetrised(in_block(transposed, matrices.E2));
+  const Deflated d = deflate(block, E1, E2);
   ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
+  if (domain.unbounded && !(ring.residual <= too_much)) throw digits_lost(ring.residual);
+  if (!domain.unbounded) finish_bounded(block, E1, E2, motions, contrast, K, ring);
   block.S = std::move(ring.S);
   block.A = -(Matrix(d.G(Eigen::all, block.I)) * block.S + Matrix(d.H(Eigen::all, block.I)));
-  K = domain.unbounded ? unbounded_stiffness(block, d, ring.K, domain.far) : with_translations(block, ring.K);
+  if (domain.unbounded) K = unbounded_stiffness(block, d, ring.K, domain.far);
   ring.K.resize(0, 0);  // large ones: no copy of what is no longer needed
-  if (!domain.unbounded) check_definite(block, K, motions);
   return block;
 }
 
-/// Adds a part of T K_k T' to K that gives the whole when its transpose is added.
-void add_half(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K) {
-  using Entries = Eigen::SparseMatrix<double>::InnerIterator;
-  for (Eigen::Index b = 0; b < K_k.cols(); ++b)
-    for (Entries right(T, b); right; ++right)
-      for (Eigen::Index a = b; a < K_k.rows(); ++a) {
-        const double value = (a == b ? 0.5 : 1.0) * K_k(a, b) * right.value();
-        for (Entries left(T, a); left; ++left) K(left.row(), right.row()) += left.value() * value;
-      }
+/// K <- K + T K_k T', the lower triangle.
+void add_block(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K) {
+  const Matrix columns = T * K_k;
+  const Eigen::SparseMatrix<double> transposed = T.transpose();
+  for (Eigen::Index j = 0; j < K.cols(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(transposed, j); entry; ++entry)
+      K.col(j).tail(K.rows() - j) += entry.value() * columns.col(entry.row()).tail(K.rows() - j);
 }
 
 /// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it,
@@ -176,8 +199,9 @@ void add_half(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K
 ///     K <- (1 - w r') K (1 - r w'),  w = D r / (r'D r),  D = diag K,  t'D r = 0 for the translations t            (7)
 ///
 /// so that every row is changed by what its own size allows (with D = 1 a soft sector took over what stiff ones had left: 1e-8 of
-/// its stiffness where moduli differ by 1e6) and K t = 0 stays. What left too much lost digits on the way, and is told.
-Matrix without_rotation(const Matrix& K, const Ring& ring) {
+/// its stiffness where moduli differ by 1e6) and K t = 0 stays. What left too much lost digits on the way, and is told. The lower
+/// triangle of K is read and written.
+void take_rotation_out(const Ring& ring, Matrix& K) {
   const Vector D = K.diagonal();
   Vec2 centre = Vec2::Zero(), weight = Vec2::Zero();
   for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
@@ -191,13 +215,22 @@ Matrix without_rotation(const Matrix& K, const Ring& ring) {
     const Vec2 arm = ring.nodes[i] - centre;
     r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-arm.y(), arm.x());
   }
-  const Vector force = K * r, w = D.cwiseProduct(r) / D.cwiseProduct(r).dot(r);
-  if (!(force.norm() <= 1e-8 * K.norm() * r.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
+  const auto lower = K.selfadjointView<Eigen::Lower>();
+  const Vector force = lower * r, w = D.cwiseProduct(r) / D.cwiseProduct(r).dot(r);
+  if (!(force.norm() <= 1e-8 * D.norm() * r.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
   const Vector half = force - 0.5 * r.dot(force) * w;
-  Matrix freed = K;
-  freed.noalias() -= w * half.transpose();
-  freed.noalias() -= half * w.transpose();
-  return symmetrised(freed);
+  K.selfadjointView<Eigen::Lower>().rankUpdate(w, half, -1.0);
+}
+
+/// How many times as stiff the stiffest sector is as the softest.
+double contrast_of(const Elasticity& D) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (std::size_t e = 0; e < D.size(); ++e) {
+    const double size = D.of(e).trace();
+    least = std::min(least, size);
+    most = std::max(most, size);
+  }
+  return most / least;
 }
 
 }  // namespace
@@ -216,10 +249,11 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   solution.domain = domain;
   solution.blocks.resize(bases.size());
   std::vector<Matrix> stiffness(bases.size());
+  const bool contrast = contrast_of(D) > 1e3;
   std::vector<RingStiffness> rings(bases.size());
   const auto solve = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, motions, domain, stiffness[i], rings[i]);
+    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, motions, domain, contrast, stiffness[i], rings[i]);
   };
   linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
   for (const RingStiffness& of_block : rings) {
@@ -230,10 +264,10 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
     solution.K = std::move(stiffness.front());
   } else {
     solution.K = Matrix::Zero(n, n);
-    for (std::size_t i = 0; i < bases.size(); ++i) add_half(solution.blocks[i].T, stiffness[i], solution.K);
-    solution.K = solution.K + Matrix(solution.K.transpose());
+    for (std::size_t i = 0; i < bases.size(); ++i) add_block(solution.blocks[i].T, stiffness[i], solution.K);
   }
-  if (!domain.unbounded) solution.K = without_rotation(solution.K, ring);  // what is unbounded resists rotation
+  if (!domain.unbounded) take_rotation_out(ring, solution.K);  // what is unbounded resists rotation
+  solution.K.triangularView<Eigen::StrictlyUpper>() = solution.K.transpose();
   return solution;
 }
 

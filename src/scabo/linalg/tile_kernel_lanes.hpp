@@ -32,15 +32,16 @@ struct Factor {
   long row, column;  ///< from one k, one c to the next
 };
 
-/// acc(r, c) <- C(r, c) - sum over k < depth of A(r, k) B(k, c); R vectors of W rows.
+/// acc(r, c) <- C(r, c) - sum over k < depth of A(r, k) B(k, c); R vectors of W rows. The sum first: where it is small, as in the last
+/// steps of ring doubling, so is its rounding.
 template <int W, int R, int C>
-inline void subtract(const double* A, long a_stride, Factor B, int depth, const double* out, long out_stride,
+inline void subtract(const double* A, long a_stride, Factor B, int depth, const double* from, long from_stride,
                      typename Vector<W>::type (&acc)[R][C]) {
   using V = typename Vector<W>::type;
 #pragma GCC unroll 8
   for (int r = 0; r < R; ++r)
 #pragma GCC unroll 8
-    for (int c = 0; c < C; ++c) acc[r][c] = *reinterpret_cast<const V*>(out + c * out_stride + r * W);
+    for (int c = 0; c < C; ++c) acc[r][c] = V{};
   for (int k = 0; k < depth; ++k, A += a_stride, B.at += B.row) {
     V left[R];
 #pragma GCC unroll 8
@@ -49,9 +50,13 @@ inline void subtract(const double* A, long a_stride, Factor B, int depth, const 
     for (int c = 0; c < C; ++c) {
       const double right = B.at[c * B.column];
 #pragma GCC unroll 8
-      for (int r = 0; r < R; ++r) acc[r][c] -= left[r] * right;
+      for (int r = 0; r < R; ++r) acc[r][c] += left[r] * right;
     }
   }
+#pragma GCC unroll 8
+  for (int r = 0; r < R; ++r)
+#pragma GCC unroll 8
+    for (int c = 0; c < C; ++c) acc[r][c] = *reinterpret_cast<const V*>(from + c * from_stride + r * W) - acc[r][c];
 }
 
 template <int W, int R, int C>
