@@ -129,8 +129,12 @@ TEST_P(Batch, SolvesWhatDoesNotFitAlone) {
   for (int i = 0; i < 9; ++i) items.push_back(random_item(random, 5, 1));
   items.push_back(random_item(random, 33, 1));  // 66 degrees of freedom
   items.push_back(random_item(random, 12, 4));
+  items.push_back(random_item(random, 5, 1));  // one sector far softer than the others
+  std::vector<Mat3> D(5, elasticity(1.0, 0.3));
+  D[2] *= 1e-5;
+  items.back().D = D;
   const BatchSolution solution = solve_batch(items, options());
-  EXPECT_EQ(solution.alone, 2);
+  EXPECT_EQ(solution.alone, 3);
   error_of(items, solution);
   BatchOptions strict = options();  // rounding is too much: all are solved alone
   strict.largest_residual = 0.0;

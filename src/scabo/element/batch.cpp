@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "scabo/element/batch_kernel.hpp"
+#include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/line_basis.hpp"
 #include "scabo/element/stiffness.hpp"
 #include "scabo/linalg/parallel.hpp"
@@ -52,7 +53,7 @@ bool fits(const BatchItem& item) {
   const auto in_range = [&](const mesh::LineElement& element) {
     return element.nodes.size() >= 2 && std::all_of(element.nodes.begin(), element.nodes.end(), [&](int node) { return node >= 0 && node < nodes; });
   };
-  return nodes >= fewest_nodes && nodes <= most_nodes && item.D.fits(item.ring) &&
+  return nodes >= fewest_nodes && nodes <= most_nodes && item.D.fits(item.ring) && !(item.D.contrast() > great_contrast) &&
          std::all_of(item.ring.elements.begin(), item.ring.elements.end(), in_range);
 }
 

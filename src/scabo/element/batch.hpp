@@ -5,9 +5,10 @@
 // (batch_kernel.hpp); the method is that of stiffness.hpp, without symmetry blocks. Super-elements of equal shape (the
 // same boundary elements over the same node numbers) go together, in any order of input.
 //
-// What does not fit is solved one at a time by solve_super_element: more than 64 or fewer than 6 degrees of freedom, and any lane
-// whose stiffness does not leave the rotation free of force to `largest_residual`. That residual sees every step:
-// a ring that is not positive definite, doubling that has not ended, lost digits.
+// What does not fit is solved one at a time by solve_super_element: more than 64 or fewer than 6 degrees of freedom, sectors whose
+// stiffness differs more than a thousandfold (exact_riccati.hpp), and any lane whose stiffness does not leave the rotation free of
+// force to `largest_residual`. That residual sees every step: a ring that is not positive definite, doubling that has not ended, lost
+// digits.
 #pragma once
 
 #include <span>

@@ -28,6 +28,11 @@ BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element,
   return point;
 }
 
+double Elasticity::contrast() const {
+  const auto [softest, stiffest] = std::minmax_element(D_.begin(), D_.end(), [](const Mat3& a, const Mat3& b) { return a.trace() < b.trace(); });
+  return D_.empty() ? 1.0 : stiffest->trace() / softest->trace();
+}
+
 Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes) {
   Ring ring{nodes, super_element.boundary};
   for (Vec2& node : ring.nodes) node -= super_element.centre;

@@ -39,6 +39,8 @@ class Elasticity {
   const Mat3& of(std::size_t element) const { return D_.size() == 1 ? D_.front() : D_[element]; }
   std::size_t size() const { return D_.size(); }
   bool fits(const Ring& ring) const { return D_.size() == 1 || D_.size() == ring.elements.size(); }
+  /// How many times as stiff (trace of D) the stiffest sector is as the softest.
+  double contrast() const;
   bool operator==(const Elasticity&) const = default;
 
  private:

@@ -12,6 +12,9 @@
 
 namespace scabo::element {
 
+/// Elasticity::contrast() above which the digits are worth their price.
+inline constexpr double great_contrast = 1e3;
+
 /// E0, E1, E2, n x n, of a bounded domain, and its translations R (n x m) that are taken out of the rows J: I are those left.
 struct WithTranslations {
   const Matrix &E0, &E1, &E2, &R;

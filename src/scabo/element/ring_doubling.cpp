@@ -110,10 +110,10 @@ RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
   joiner.start(E0, E1, E2, w - spread, w + spread, ring);
   constexpr int most = 60;
   for (int doublings = 0; doublings < most; ++doublings) {
-    // What a step takes from K22 is about the square of the coupling, what the step after it takes the fourth power.
+    // What a step takes from K22 is about the square of the coupling, what the step after it takes some 1e4 times the fourth power.
     const double coupled = coupling(ring);
-    if (coupled < 5e-5) {
-      const bool arrived = coupled < 3e-9;
+    if (coupled < 1e-5) {
+      const bool arrived = coupled < 1e-9;
       RingStiffness result;
       result.K = arrived ? Matrix(ring.bottomRightCorner(E0.rows(), E0.rows())) : joiner.outer_of_doubled(ring);
       result.K.triangularView<Eigen::StrictlyUpper>() = result.K.transpose();

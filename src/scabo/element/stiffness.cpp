@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/ill_posed.hpp"
@@ -222,17 +221,6 @@ void take_rotation_out(const Ring& ring, Matrix& K) {
   K.selfadjointView<Eigen::Lower>().rankUpdate(w, half, -1.0);
 }
 
-/// How many times as stiff the stiffest sector is as the softest.
-double contrast_of(const Elasticity& D) {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (std::size_t e = 0; e < D.size(); ++e) {
-    const double size = D.of(e).trace();
-    least = std::min(least, size);
-    most = std::max(most, size);
-  }
-  return most / least;
-}
-
 }  // namespace
 
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads,
@@ -249,7 +237,7 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   solution.domain = domain;
   solution.blocks.resize(bases.size());
   std::vector<Matrix> stiffness(bases.size());
-  const bool contrast = contrast_of(D) > 1e3;
+  const bool contrast = D.contrast() > great_contrast;
   std::vector<RingStiffness> rings(bases.size());
   const auto solve = [&](int k) {
     const auto i = static_cast<std::size_t>(k);

@@ -1,7 +1,7 @@
 // Products and triangular solves of matrices of up to a few hundred rows, in tiles that stay in the vector registers.
 //
 // BLAS packs its operands first and solves triangles slowly: at 40 rows it reaches a quarter of the speed of these, at 160 half
-// (docs/methods/04). The same source (tile_kernel_lanes.hpp) is compiled once for each instruction set; which ones this
+// (docs/methods/02). The same source (tile_kernel_lanes.hpp) is compiled once for each instruction set; which ones this
 // processor has is asked when the program runs. Matrices are column-major, a stride is from column to column.
 #pragma once
 
