@@ -57,9 +57,10 @@ contact::Solution sharpened(const contact::SavedProblem& saved, contact::Method 
     options.tolerance = std::max(1e-14, 1e-2 * options.tolerance);
     contact::Solution next = contact::solve_with(method, saved.problem, {best.p, best.a}, options);
     if (!(next.natural_map_residual < best.natural_map_residual)) break;
-    for (contact::Iteration& iteration : next.trace) iteration.iteration += best.iterations;
+    for (contact::Iteration& iteration : next.trace) iteration.iteration += best.iterations + best.coarse_iterations;
     next.trace.insert(next.trace.begin(), best.trace.begin(), best.trace.end());
     next.iterations += best.iterations;
+    next.coarse_iterations += best.coarse_iterations;
     best = std::move(next);
   }
   return best;

@@ -100,8 +100,9 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
   const char* outcome = judged.status == contact::Status::solved      ? "Solved"
                         : judged.status == contact::Status::mechanism ? "Mechanism"
                                                                       : "Not converged";
-  text += fmt::format("\n\n{} by {}: {}, {:.3g} s\n\n", outcome, judged.solver,
-                      count(solution.iterations, "iteration"), judged.seconds);
+  text += fmt::format("\n\n{} by {}: {}{}, {:.3g} s\n\n", outcome, judged.solver, count(solution.iterations, "iteration"),
+                      solution.coarse_iterations > 0 ? fmt::format(" and {} on fewer pairs", solution.coarse_iterations) : "",
+                      judged.seconds);
 
   std::vector<std::vector<std::string>> rows = {
       {"certificate", fmt::format("tolerance {:.0e}", judged.tolerance), ""}};
@@ -122,6 +123,7 @@ std::string report_json(const std::string& file, const contact::SavedProblem& sa
   Json json = {{"status", name_of(judged.status)},
                {"natural_map_residual", number_or_null(solution.natural_map_residual)},
                {"iterations", solution.iterations},
+               {"coarse_iterations", solution.coarse_iterations},
                {"seconds", judged.seconds},
                {"solver", judged.solver},
                {"r", list(solution.p)},
