@@ -38,6 +38,7 @@ struct ContactOptions {
   double tolerance = 1e-10;                 ///< of natural-map residual and certificate, > 0
   int iterations = 0;                       ///< of one attempt, > 0; 0: the solver's own
   bool json = false;
+  bool uniqueness = false;                  ///< looks for other solutions
   bool write_trace = false;
   std::string trace;                        ///< empty: `file.trace.csv`
   std::string save;                         ///< where problem and solution go; empty: nowhere

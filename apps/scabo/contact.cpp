@@ -57,9 +57,11 @@ contact::Solution sharpened(const contact::SavedProblem& saved, contact::Method 
     options.tolerance = std::max(1e-14, 1e-2 * options.tolerance);
     contact::Solution next = contact::solve_with(method, saved.problem, {best.p, best.a}, options);
     if (!(next.natural_map_residual < best.natural_map_residual)) break;
-    for (contact::Iteration& iteration : next.trace) iteration.iteration += best.iterations;
+    for (contact::Iteration& iteration : next.trace)
+      iteration.iteration += best.iterations + best.coarse_iterations;
     next.trace.insert(next.trace.begin(), best.trace.begin(), best.trace.end());
     next.iterations += best.iterations;
+    next.coarse_iterations += best.coarse_iterations;
     best = std::move(next);
   }
   return best;
@@ -95,6 +97,16 @@ Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) 
     judged.reason = fmt::format("the natural-map residual, {:.2g}, is above the tolerance {:.2g}",
                                 solution.natural_map_residual, options.tolerance);
   return judged;
+}
+
+/// Of what was judged solved.
+contact::UniquenessReport uniqueness_of(const contact::SavedProblem& saved, const Judged& judged) {
+  contact::SolverOptions solver;
+  solver.tolerance = judged.tolerance;
+  solver.force_scale = saved.force_scale;
+  contact::Solution solution = judged.solution;
+  solution.status = contact::Status::solved;
+  return contact::examine_uniqueness(saved.problem, saved.start, solution, solver);
 }
 
 /// Throws InputError where `file` is there and does not begin as `mark`: it is not ours to replace.
@@ -164,7 +176,9 @@ ExitStatus solve_contact(const ContactOptions& options) {
   refuse_to_overwrite(options.save);
   const contact::SavedProblem saved = contact::read_problem_file(options.file);
   const TraceFiles trace = options.write_trace ? trace_files(options) : TraceFiles();
-  const Judged judged = judge(saved, options);
+  Judged judged = judge(saved, options);
+  if (options.uniqueness && judged.status == contact::Status::solved)
+    judged.uniqueness = uniqueness_of(saved, judged);
   if (options.write_trace) write_trace(trace, saved, options, judged);
   if (!options.save.empty()) save(options.save, saved, judged);
   print_output(options.json ? report_json(options.file, saved, judged)

@@ -85,6 +85,29 @@ std::string forces_table(const contact::SavedProblem& saved, const contact::Solu
   return result::table(rows);
 }
 
+/// `Unique: several found (2 others, no more), bound 3.2, index 1`
+std::string uniqueness_line(const contact::UniquenessReport& report) {
+  std::string text = fmt::format("Unique: {}", contact::name_of(report.unique));
+  if (!report.others.empty())
+    text += fmt::format(" ({}{})", count(static_cast<int>(report.others.size()), "other"),
+                        report.complete ? ", no more" : "");
+  text +=
+      std::isfinite(report.bound) ? fmt::format(", bound {:.3g}", report.bound) : ", bound does not apply";
+  if (report.index != 0) text += fmt::format(", index {}", report.index);
+  return text + "\n\n";
+}
+
+Json json_of(const contact::UniquenessReport& report) {
+  Json json = {{"unique", contact::name_of(report.unique)},
+               {"others", report.others.size()},
+               {"complete", report.complete},
+               {"bound", number_or_null(report.bound)},
+               {"index", report.index},
+               {"r", Json::array()}};
+  for (const Vector& p : report.others) json["r"].push_back(list(p));
+  return json;
+}
+
 }  // namespace
 
 std::string report_table(const std::string& file, const contact::SavedProblem& saved, const Judged& judged) {
@@ -100,9 +123,12 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
   const char* outcome = judged.status == contact::Status::solved      ? "Solved"
                         : judged.status == contact::Status::mechanism ? "Mechanism"
                                                                       : "Not converged";
-  text += fmt::format("\n\n{} by {}: {}, {:.3g} s\n\n", outcome, judged.solver,
-                      count(solution.iterations, "iteration"), judged.seconds);
+  text += fmt::format(
+      "\n\n{} by {}: {}{}, {:.3g} s\n\n", outcome, judged.solver, count(solution.iterations, "iteration"),
+      solution.coarse_iterations > 0 ? fmt::format(" and {} on fewer pairs", solution.coarse_iterations) : "",
+      judged.seconds);
 
+  if (judged.uniqueness) text += uniqueness_line(*judged.uniqueness);
   std::vector<std::vector<std::string>> rows = {
       {"certificate", fmt::format("tolerance {:.0e}", judged.tolerance), ""}};
   for (const auto& [name, value] : figures(solution.certificate))
@@ -122,6 +148,7 @@ std::string report_json(const std::string& file, const contact::SavedProblem& sa
   Json json = {{"status", name_of(judged.status)},
                {"natural_map_residual", number_or_null(solution.natural_map_residual)},
                {"iterations", solution.iterations},
+               {"coarse_iterations", solution.coarse_iterations},
                {"seconds", judged.seconds},
                {"solver", judged.solver},
                {"r", list(solution.p)},
@@ -138,6 +165,7 @@ std::string report_json(const std::string& file, const contact::SavedProblem& sa
   json["certificate"] = Json::object();
   for (const auto& [name, value] : figures(solution.certificate))
     json["certificate"][name] = number_or_null(value);
+  if (judged.uniqueness) json["uniqueness"] = json_of(*judged.uniqueness);
   json["tolerance"] = judged.tolerance;
   json["rounding"] = number_or_null(judged.rounding);
   json["reason"] = judged.reason;

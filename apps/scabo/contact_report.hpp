@@ -2,10 +2,12 @@
 // iterations.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "scabo/contact/saved_problem.hpp"
+#include "scabo/contact/uniqueness.hpp"
 
 namespace scabo::app {
 
@@ -26,6 +28,7 @@ struct Judged {
   double tolerance = 1e-10;
   double rounding = 0.0;  ///< 16 eps |r| / |q|
   double seconds = 0.0;
+  std::optional<contact::UniquenessReport> uniqueness;  ///< where asked for and solved
 };
 
 std::string report_table(const std::string& file, const contact::SavedProblem& saved, const Judged& judged);

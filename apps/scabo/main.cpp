@@ -116,6 +116,8 @@ class CommandLine {
         ->option_text("N")
         ->check(CLI::Range(1, 100'000'000));
     contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
+    contact_->add_flag("--uniqueness", contact_options_.uniqueness,
+                       "Looks for other solutions, and says whether there are any");
     trace_ = contact_->add_option("--trace", contact_options_.trace,
                                   "Writes every iteration as CSV, and a plot of them (.svg) beside it; without a name to "
                                   "FILE.trace.csv")

@@ -18,6 +18,7 @@ constexpr std::chrono::milliseconds shortest_between_lines{50};
 /// `4 iterations, 27 open, 0 stick, 5 slip`
 std::string outcome_of(const analysis::IncrementResult& result) {
   std::string text = count(result.newton_iterations, "iteration");
+  if (result.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", result.coarse_iterations);
   if (result.halvings > 0) text += fmt::format(", halved {}", count(result.halvings, "time"));
   if (!result.converged) return text + (result.reason.starts_with("mechanism") ? ", not held" : ", not converged");
   if (result.contacts.empty()) return text;

@@ -23,7 +23,7 @@ class CommandLine(support.InTemporaryDirectory):
 
     def test_help(self):
         for command, words in {"": ("run", "check", "contact", "schema", "Exit status"),
-                               "contact": ("FILE", "--solver", "b_differentiable", "--tolerance", "--json", "--trace", "Example"),
+                               "contact": ("FILE", "--solver", "b_differentiable", "--tolerance", "--json", "--uniqueness", "--trace", "Example"),
                                "run": ("MODEL", "--output", "--set", "--threads", "--quiet", "Example"),
                                "check": ("MODEL", "--set", "Example"),
                                "schema": ("Example",)}.items():

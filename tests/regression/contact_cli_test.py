@@ -15,7 +15,7 @@ from problem_files import csc, csr, natural_map_residual, random_problem, triple
 from support import BEAM, rows_of, scabo, summary_of
 
 SOLVED, WRONG_INPUT, NOT_CONVERGED, FAILURE = 0, 1, 2, 3
-KEYS = {"status": str, "natural_map_residual": float, "iterations": int, "seconds": float, "solver": str, "r": list}
+KEYS = {"status": str, "natural_map_residual": float, "iterations": int, "coarse_iterations": int, "seconds": float, "solver": str, "r": list}
 
 
 class Contact(support.InTemporaryDirectory):
@@ -171,6 +171,41 @@ class Manners(Contact):
         self.assertGreater(solution["natural_map_residual"], 1e-10)
         self.assertIn("did not converge: ", run.stderr)
         self.assertIn(solution["reason"], run.stderr)
+
+    def test_one_pair_has_three_solutions_above_the_ratio_of_its_stiffnesses(self):
+        # K = W^-1: a pair that sticks slides on its own when mu > K_tt / |K_tn| = 1 (docs/methods/21_uniqueness.md).
+        K, q = np.array([[2.0, -1.0], [-1.0, 1.0]]), np.array([0.1, 1.0])
+        W = np.linalg.inv(K)
+        file = self.write(W, q, [1.5])
+        solution = self.solve(file, "--uniqueness")
+        uniqueness = solution["uniqueness"]
+        self.assertEqual((uniqueness["unique"], uniqueness["others"], uniqueness["complete"]), ("several found", 2, True))
+        self.assertGreaterEqual(uniqueness["bound"], 1.0)
+        all_of_them = sorted([solution["r"]] + uniqueness["r"])
+        np.testing.assert_allclose(all_of_them, [[0.0, 0.0], [0.2, -0.3], [0.8, -0.9]], atol=1e-10)
+        indices = {(0.0, 0.0): 1, (0.2, -0.3): -1, (0.8, -0.9): 1}  # their sum is 1
+        self.assertEqual(uniqueness["index"], indices[tuple(np.abs(np.round(solution["r"], 6)) * [1, -1] + 0.0)])
+        self.assertNotIn("uniqueness", self.solve(file))
+        table = scabo("contact", file, "--uniqueness").stdout
+        self.assertRegex(table, r"Unique: several found \(2 others, no more\), bound [\d.]+, index -?1\n")
+
+    def test_uniqueness_is_proven_with_little_friction_in_the_plane_and_in_space(self):
+        for dimension in (2, 3):
+            W, q, mu = random_problem(8, dimension, seed=3, mu=0.01)
+            uniqueness = self.solve(self.write(W, q, mu), "--uniqueness")["uniqueness"]
+            self.assertEqual((uniqueness["unique"], uniqueness["others"], uniqueness["r"]), ("proven", 0, []))
+            self.assertLess(uniqueness["bound"], 1.0)
+
+    def test_uniqueness_is_not_decided_where_bodies_are_held_by_contact_alone(self):
+        V = np.array([[1.0, 1], [0, 0], [1, -1], [0, 0]])
+        solution = self.solve(self.write(np.eye(4), np.zeros(4), [0, 0], V=V, s=[-3.0, 0.0]), "--uniqueness")
+        self.assertEqual((solution["uniqueness"]["unique"], solution["uniqueness"]["bound"]), ("not decided", None))
+
+    def test_uniqueness_of_what_is_not_solved_is_not_examined(self):
+        V = np.array([[1.0, 0], [0, 1]])
+        solution = self.solve(self.write(np.eye(2), np.zeros(2), [0.3], V=V, s=[0.0, 1.0]), "--uniqueness",
+                              status=NOT_CONVERGED)
+        self.assertNotIn("uniqueness", solution)
 
     def test_unknown_solver(self):
         run = scabo("contact", "no_such.hdf5", "--solver", "gaus_seidel")

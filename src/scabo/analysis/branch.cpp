@@ -18,6 +18,7 @@ std::optional<UniquenessResult> follow_history(const contact::Problem& problem,
     contact::Evolution other = contact::evolve(problem, laws, history, nearer, options);
     if (other.solution.status == contact::Status::solved) {
       other.solution.iterations += evolution.solution.iterations;
+      other.solution.coarse_iterations += evolution.solution.coarse_iterations;
       evolution = std::move(other);
       report = contact::examine_uniqueness(evolution.problem, start, evolution.solution, options);
     }

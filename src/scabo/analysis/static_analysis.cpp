@@ -24,7 +24,7 @@ namespace {
 struct Reached {
   State state;
   contact::Certificate certificate;
-  int iterations = 0, halvings = 0;
+  int iterations = 0, coarse_iterations = 0, halvings = 0;
   double residual = 0.0;
   Matrix undetermined;
   std::optional<UniquenessResult> uniqueness;
@@ -52,6 +52,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
     const double next = std::min(1.0, done + part);
     Attempt tried = attempt(prepared, reached.state, between(start, target, next));
     reached.iterations += tried.solution.iterations;
+    reached.coarse_iterations += tried.solution.coarse_iterations;
     reached.attempts.push_back({tried.solution.trace, tried.accepted});
     if (options.on_problems && tried.problem.pairs() > 0) reached.problems.push_back(discrete_problem(prepared, tried));
     if (tried.accepted) {
@@ -165,6 +166,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       result.increment = k;
       result.converged = there;
       result.newton_iterations = reached.iterations;
+      result.coarse_iterations = reached.coarse_iterations;
       result.halvings = reached.halvings;
       result.residual = reached.residual;
       result.certificate = reached.certificate;

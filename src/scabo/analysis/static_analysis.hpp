@@ -92,6 +92,7 @@ struct IncrementResult {
   std::map<std::string, double> factors;  ///< of loads and of supports with prescribed displacements
   bool converged = false;
   int newton_iterations = 0;
+  int coarse_iterations = 0; ///< of problems of fewer pairs that made the start (contact/cold_start.hpp); not counted above
   int halvings = 0;          ///< how often the increment was halved
   double residual = 0.0;
   std::vector<ContactResult> contacts;

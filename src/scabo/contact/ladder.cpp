@@ -3,8 +3,10 @@
 #include <cmath>
 #include <optional>
 
+#include "scabo/contact/cold_start.hpp"
 #include "scabo/contact/gauss_seidel.hpp"
 #include "scabo/contact/lemke.hpp"
+#include "scabo/contact/rigid_motions.hpp"
 
 namespace scabo::contact {
 
@@ -14,16 +16,6 @@ NewtonEnd nothing() {
   NewtonEnd end;
   end.residual = HUGE_VAL;
   return end;
-}
-
-/// Rigid motions eliminated by a proximal term: G'p + f = c (a - a_0), so that a = a_0 + (G'p + f) / c.
-Problem held_at(const Problem& problem, const Vector& a_0, double c) {
-  Problem held = problem;
-  held.W = Matrix(problem.W.dense() + problem.G * problem.G.transpose() / c);
-  held.q.noalias() += problem.G * (a_0 + problem.f / c);
-  held.G.resize(problem.q.size(), 0);
-  held.f.resize(0);
-  return held;
 }
 
 }  // namespace
@@ -50,7 +42,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   if (&problem == &problem_) options.content = content_;
   NewtonEnd end = newton(equations, p, a, options);
   for (Iteration& iteration : end.trace) {
-    iteration.iteration += iterations_;
+    iteration.iteration += iterations_ + coarse_iterations_;
     trace_.push_back(std::move(iteration));
   }
   iterations_ += end.iterations;
@@ -82,16 +74,23 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a) {
   return best;
 }
 
-/// At zero force every pair lies on the tip of its cone, which says nothing of stick and slip. A few sweeps cost less than one
-/// factorisation and say more: on the block of Raous, 32 to 256 pairs, mu = 0.3, 1 and 3, 30 sweeps with bodies held as
-/// stiffly as a pair took Newton's iterations from 94 in all to 60 (the best of 48 settings tried on these problems: docs/methods/12).
 NewtonEnd Ladder::without_history(const Vector& p, const Vector& a) {
-  constexpr int sweeps = 30;
-  if (problem_.G.cols() == 0) return newton_alone(gauss_seidel(problem_, p, sweeps), a, {"newton"});
-  const double soft = 0.7;
-  const Vector p_swept = gauss_seidel(held_at(problem_, a, soft), p, sweeps);
-  NewtonEnd end = newton_alone(p_swept, a + (problem_.G.transpose() * p_swept + problem_.f) / soft, {"newton"});
-  return end.converged ? end : newton_alone(p, a, {"newton from zero"});
+  const bool nested = options_.judge == Judge::certificate && may_nest(problem_);
+  if (nested) {
+    const NewtonEnd end = after_start(nested_start(problem_, a), "newton");
+    if (end.converged) return end;
+  }
+  NewtonEnd end = after_start(swept_start(problem_, a), nested ? "newton after sweeps" : "newton");
+  return end.converged || problem_.G.cols() == 0 ? end : newton_alone(p, a, {"newton from zero"});
+}
+
+NewtonEnd Ladder::after_start(ColdStart start, const std::string& stage) {
+  for (Iteration& iteration : start.trace) {
+    iteration.iteration += iterations_ + coarse_iterations_;
+    trace_.push_back(std::move(iteration));
+  }
+  coarse_iterations_ += start.coarse_iterations;
+  return newton_alone(start.p, start.a, {stage});
 }
 
 // Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps and
@@ -145,7 +144,7 @@ NewtonEnd Ladder::enough(Vector p, int sweeps) {
   end.p = std::move(p);
   end.converged = true;
   end.residual = at.largest();
-  trace_.push_back({iterations_, end.residual, at.merit(), 1.0, 0, std::to_string(sweeps) + " sweeps"});
+  trace_.push_back({iterations_ + coarse_iterations_, end.residual, at.merit(), 1.0, 0, std::to_string(sweeps) + " sweeps"});
   return end;
 }
 
@@ -185,7 +184,7 @@ NewtonEnd Ladder::vanishing_proximal(Vector p) {
     options.stage = "newton, forces held softly";
     NewtonEnd inner = newton(equations, p, Vector(), options);
     for (Iteration& iteration : inner.trace) {
-      iteration.iteration += iterations_;
+      iteration.iteration += iterations_ + coarse_iterations_;
       trace_.push_back(std::move(iteration));
     }
     iterations_ += inner.iterations;

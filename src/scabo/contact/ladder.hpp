@@ -1,6 +1,7 @@
 // The attempts of solve() in order: starts for Newton, each followed by Newton on the problem itself.
 #pragma once
 
+#include "scabo/contact/cold_start.hpp"
 #include "scabo/contact/newton.hpp"
 #include "scabo/contact/solve.hpp"
 
@@ -23,6 +24,8 @@ class Ladder {
   NewtonEnd climb(const Vector& p, const Vector& a);
 
   int iterations() const { return iterations_; }
+  /// Of problems of fewer pairs (contact/cold_start.hpp); not among iterations().
+  int coarse_iterations() const { return coarse_iterations_; }
   std::vector<Iteration> take_trace() { return std::move(trace_); }
 
  private:
@@ -36,6 +39,7 @@ class Ladder {
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
   NewtonEnd climb_elastic(const Vector& p, const Vector& a);
   NewtonEnd without_history(const Vector& p, const Vector& a);
+  NewtonEnd after_start(ColdStart start, const std::string& stage);
   NewtonEnd climb_rank_deficient(const Vector& p);
   NewtonEnd swept(const Vector& p, int sweeps, double regularisation);
   NewtonEnd enough(Vector p, int sweeps);
@@ -51,7 +55,7 @@ class Ladder {
   const SolverOptions& options_;
   double small_;
   std::function<bool(const Vector&, const Vector&)> content_;
-  int iterations_ = 0;
+  int iterations_ = 0, coarse_iterations_ = 0;
   std::vector<Iteration> trace_;
 };
 

@@ -166,4 +166,13 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
   return svd.matrixV().rightCols(m - rank);
 }
 
+Problem held_at(const Problem& problem, const Vector& a_0, double c) {
+  Problem held = problem;
+  held.W = Matrix(problem.W.dense() + problem.G * problem.G.transpose() / c);
+  held.q.noalias() += problem.G * (a_0 + problem.f / c);
+  held.G.resize(problem.q.size(), 0);
+  held.f.resize(0);
+  return held;
+}
+
 }  // namespace scabo::contact

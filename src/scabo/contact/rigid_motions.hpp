@@ -17,4 +17,7 @@ std::optional<Vector> find_mechanism(const Problem& problem);
 /// position along these is not.
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
 
+/// Rigid motions eliminated by a proximal term: G'p + f = c (a - a_0), so that a = a_0 + (G'p + f) / c. W is formed; m = 0.
+Problem held_at(const Problem& problem, const Vector& a_0, double c);
+
 }  // namespace scabo::contact

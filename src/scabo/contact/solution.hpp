@@ -12,7 +12,7 @@ enum class Status { solved, not_converged, mechanism };
 
 /// One iteration as it is written to a trace.
 struct Iteration {
-  int iteration = 0;         ///< counted over all stages
+  int iteration = 0;         ///< counted over all stages, those of problems of fewer pairs included
   double residual = 0.0;     ///< what the stage drives to zero, relative
   double merit = 0.0;        ///< its merit function; 0 where there is none
   double step_length = 0.0;  ///< of the line search; 1 where there is none
@@ -28,6 +28,7 @@ struct Solution {
   Vector slip_increment;             // (d - 1) N
   std::vector<ContactState> states;  // N
   int iterations = 0;                ///< Newton iterations, all attempts together
+  int coarse_iterations = 0;         ///< of problems of fewer pairs that made the start; not counted above
   double residual = 0.0;             ///< |H| / force scale
   Certificate certificate;
   double natural_map_residual = 0.0; ///< contact/certificate.hpp

@@ -108,6 +108,7 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
     solution.a = end.a.size() == m ? Vector(end.a / stiffness) : Vector(a_start / stiffness);
   }
   solution.iterations = ladder.iterations();
+  solution.coarse_iterations = ladder.coarse_iterations();
   solution.trace = ladder.take_trace();
 
   Vector motion = problem.q + problem.W * solution.p;

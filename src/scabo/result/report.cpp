@@ -85,6 +85,7 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
   else
     text.back() = ';', text += ' ';
   text += count(increment.newton_iterations, "iteration");
+  if (increment.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", increment.coarse_iterations);
   if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));
   text += fmt::format(", residual {:.2g}", increment.residual);
   if (increment.error) text += fmt::format(", estimated error {:.2g}", increment.error->relative);

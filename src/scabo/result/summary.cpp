@@ -118,6 +118,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   for (const auto& [name, factor] : increment.factors) json["factors"][name] = number_or_null(factor);
   json["converged"] = increment.converged;
   json["newton_iterations"] = increment.newton_iterations;
+  json["coarse_iterations"] = increment.coarse_iterations;
   json["residual"] = number_or_null(increment.residual);
   json["contacts"] = Json::object();
   json["reactions"] = Json::object();

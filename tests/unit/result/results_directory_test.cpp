@@ -157,7 +157,7 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
                           "recover", "write", "total"));
   const Json& increment = summary["increments"][0];
   EXPECT_THAT(keys_of(increment),
-              ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "residual",
+              ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "coarse_iterations", "residual",
                           "contacts", "reactions", "cracks", "certificate", "energy", "error"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
               ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap",

@@ -176,10 +176,11 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
     Solution solution = solve_within(problem, at, options, reference_force(problem, diagonal, at, options));
     ++result.rounds;
     for (Iteration& iteration : solution.trace) {
-      iteration.iteration += total.iterations;
+      iteration.iteration += total.iterations + total.coarse_iterations;
       total.trace.push_back(std::move(iteration));
     }
     total.iterations = solution.iterations += total.iterations;
+    total.coarse_iterations = solution.coarse_iterations += total.coarse_iterations;
     solution.trace.clear();
     result.solution = std::move(solution);
     const bool solved = result.solution.status == Status::solved;

@@ -1,0 +1,37 @@
+// Starts for Newton where there is no history.
+//
+// At zero force every pair lies on the tip of its cone, which says nothing of stick and slip. Sweeps of Gauss-Seidel cost
+// less than one factorisation and say more; but what happens at one end of a joint takes many of them to be felt at the other.
+// Problems of many pairs therefore start from one of half as many (contact/coarse_problem.hpp), and so on down: nested iteration.
+//
+//     start(N):  N < 48:  30 sweeps from zero
+//                else     p_c, a from start(N / 2), then by Newton on the problem of N / 2 groups until |H| <= 0.05 |p_c| of
+//                         the start (largest components), at most 3 iterations;  p = P p_c;  3 sweeps
+//
+// Where pairs are not coupled, 30 sweeps from zero take the place of the coarse problem. Bodies that contact alone holds are
+// held during sweeps by 0.7 of the mean stiffness of a pair, around the a at hand. Nothing here need converge: Newton on the
+// problem itself has the last word. Figures: docs/methods/12_contact_solver.md.
+#pragma once
+
+#include <vector>
+
+#include "scabo/contact/solution.hpp"
+
+namespace scabo::contact {
+
+struct ColdStart {
+  Vector p, a;
+  int coarse_iterations = 0;     ///< of Newton on the problems of fewer pairs
+  std::vector<Iteration> trace;  ///< these iterations, numbered from 0, the problem of fewest pairs first
+};
+
+/// 30 sweeps from zero. W scaled so that its diagonal is 1 in the mean, as in contact/ladder.hpp; so below.
+ColdStart swept_start(const Problem& problem, const Vector& a);
+
+/// By problems of fewer pairs, where may_nest().
+ColdStart nested_start(const Problem& problem, const Vector& a);
+
+/// Plane problems with dense W and pairs enough for it to pay.
+bool may_nest(const Problem& problem);
+
+}  // namespace scabo::contact
