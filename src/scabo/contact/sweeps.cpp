@@ -15,12 +15,12 @@ using Index = Eigen::Index;
 
 /// A pair's own problem, prepared once. In the plane the second tangent does not exist.
 struct Pair {
-  double W[9];              ///< its block, by columns
-  double inverse, mu;       ///< 1 / W_nn; 0 where no force moves it
-  double nt[2], tn[2];      ///< W_nt, W_tn / W_nn
-  double A[2][2];           ///< W_tt - W_tn W_nt / W_nn
-  double determinant;       ///< of A; 0: singular
-  double s;                 ///< in space, of the sweep before; 0: none
+  double W[9];          ///< its block, by columns
+  double inverse, mu;   ///< 1 / W_nn; 0 where no force moves it
+  double nt[2], tn[2];  ///< W_nt, W_tn / W_nn
+  double A[2][2];       ///< W_tt - W_tn W_nt / W_nn
+  double determinant;   ///< of A; 0: singular
+  double s;             ///< in space, of the sweep before; 0: none
 };
 
 template <int d>
@@ -171,7 +171,8 @@ class Extrapolation {
     return sum;
   }
 
-  /// Cholesky of the Gram matrix; its diagonal is raised by 1e-10 of itself, for changes that are all but the same.
+  /// Cholesky of the Gram matrix; its diagonal is raised by 1e-10 of itself, for changes that are all but the
+  /// same.
   [[gnu::hot]] bool least_squares(double* x) const {
     double L[depth][depth];
     for (int i = 0; i < count_; ++i)
@@ -291,12 +292,14 @@ class Sweeps {
       if (d == 2)
         for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1];
       else
-        for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1] + W_s[k] * change[d - 1];
+        for (Index k = 0; k < size; ++k)
+          motion[k] += W_n[k] * change[0] + W_t[k] * change[1] + W_s[k] * change[d - 1];
       return;
     }
     for (int k = 0; k < d; ++k)
       if (const double step = change[k]; step != 0.0)
-        for (int t = columns_[first + k]; t < columns_[first + k + 1]; ++t) motion[rows_[t]] += values_[t] * step;
+        for (int t = columns_[first + k]; t < columns_[first + k + 1]; ++t)
+          motion[rows_[t]] += values_[t] * step;
   }
 
   [[gnu::hot]] void start() {
@@ -336,7 +339,8 @@ class Sweeps {
       double trial[2] = {p[1] - r_t * u[1], d == 3 ? p[d - 1] - r_t * u[d - 1] : 0.0};
       const double size = std::sqrt(trial[0] * trial[0] + trial[1] * trial[1]);
       const double lambda = size > bound ? bound / size : 1.0;
-      largest = std::max({largest, std::abs(std::min(pair.inverse * u[0], p[0])), std::abs(p[1] - lambda * trial[0]),
+      largest = std::max({largest, std::abs(std::min(pair.inverse * u[0], p[0])),
+                          std::abs(p[1] - lambda * trial[0]),
                           d == 3 ? std::abs(p[d - 1] - lambda * trial[1]) : 0.0});
     }
     return largest;

@@ -1,4 +1,5 @@
-// Accelerated sweeps: the pair's own problem against the slow bracketing of gauss_seidel.hpp, and when sweeps alone suffice.
+// Accelerated sweeps: the pair's own problem against the slow bracketing of gauss_seidel.hpp, and when sweeps
+// alone suffice.
 #include "scabo/contact/sweeps.hpp"
 
 #include <gtest/gtest.h>
@@ -63,21 +64,26 @@ TEST(AcceleratedSweeps, OnePairIsSolvedExactlyByTheFirst) {
   int open = 0, stick = 0, slip = 0;
   for (int k = 0; k < 3000; ++k) {
     const int d = 2 + k % 2;
-    const double mu = std::array{0.0, 0.1, 0.3, 0.6}[static_cast<std::size_t>(k) / 2 % 4], unit = std::pow(10.0, k % 13 - 6);
+    const double mu = std::array{0.0, 0.1, 0.3, 0.6}[static_cast<std::size_t>(k) / 2 % 4],
+                 unit = std::pow(10.0, k % 13 - 6);
     const Matrix W = unit * random_operator(random, d, d + 1);
     const Vector q = random_vector(random, d) / unit;
     const Problem problem = coulomb(d, W, q, mu);
     const SweepsEnd end = accelerated_sweeps(problem, Vector::Zero(d), 1e-10);
     const Vector oracle = local_force(W, q, mu);
     const double size = std::max(oracle.norm(), end.p.norm());
-    if (size == 0.0) ++open;
-    else ++(end.p.tail(d - 1).norm() < (1.0 - 1e-9) * mu * end.p[0] ? stick : slip);
+    if (size == 0.0)
+      ++open;
+    else
+      ++(end.p.tail(d - 1).norm() < (1.0 - 1e-9) * mu * end.p[0] ? stick : slip);
     const Vector u = q + W * end.p;
     // The law itself, free of units.
     EXPECT_GE(u[0], -1e-12 * q.norm()) << k;
     EXPECT_LE(std::abs(u[0] * end.p[0]), 1e-12 * q.norm() * size) << k;
     EXPECT_LE(end.p.tail(d - 1).norm(), mu * end.p[0] * (1.0 + 1e-11)) << k;
-    EXPECT_LE(u.tail(d - 1).norm() * mu * end.p[0] + u.tail(d - 1).dot(end.p.tail(d - 1)), 1e-11 * q.norm() * size) << k;
+    EXPECT_LE(u.tail(d - 1).norm() * mu * end.p[0] + u.tail(d - 1).dot(end.p.tail(d - 1)),
+              1e-11 * q.norm() * size)
+        << k;
     // Where the pair has one solution only, it is the oracle's.
     if (mu <= 0.1 && W(0, 0) > 0.3 * W.trace()) EXPECT_LE((end.p - oracle).norm(), 1e-9 * size) << k;
   }
@@ -88,8 +94,8 @@ TEST(AcceleratedSweeps, OnePairIsSolvedExactlyByTheFirst) {
 
 TEST(AcceleratedSweeps, PairsThatNothingMovesAndPairsWithoutTangentialMotion) {
   Matrix W = Matrix::Zero(9, 9);
-  W(3, 3) = 2.0;                                  // moves along its normal only
-  W.block(6, 6, 3, 3) = Matrix::Ones(3, 3);       // rank 1
+  W(3, 3) = 2.0;                             // moves along its normal only
+  W.block(6, 6, 3, 3) = Matrix::Ones(3, 3);  // rank 1
   Vector q(9);
   q << 1.0, 0.5, 0.0, -1.0, 0.3, 0.1, -1.0, 0.2, 0.1;
   const SweepsEnd end = accelerated_sweeps(coulomb(3, W, q, 0.4), Vector::Zero(9), 1e-10);
@@ -106,7 +112,8 @@ TEST(AcceleratedSweeps, NeedFewerThanPlainOnes) {
     Vector p = Vector::Zero(d * 30);
     plain.start(p);
     int sweeps = 0;
-    while (sweeps < 5000 && natural_map_residual_at(problem, p, plain.motion()) > 1e-9) plain.sweep(p), ++sweeps;
+    while (sweeps < 5000 && natural_map_residual_at(problem, p, plain.motion()) > 1e-9)
+      plain.sweep(p), ++sweeps;
     const SweepsEnd end = accelerated_sweeps(problem, Vector::Zero(d * 30), 1e-9);
     EXPECT_TRUE(end.content);
     EXPECT_LE(natural_map_residual(problem, end.p, Vector(0)), 1e-9);
@@ -118,7 +125,8 @@ TEST(AcceleratedSweeps, SparseAndDenseAreTheSame) {
   const Problem dense = chain(3, 12, 0.5, 0.3);
   Problem sparse = dense;
   sparse.W = Delassus(Eigen::SparseMatrix<double>(dense.W.dense().sparseView()));
-  const SweepsEnd first = accelerated_sweeps(dense, Vector::Zero(36), 1e-11), second = accelerated_sweeps(sparse, Vector::Zero(36), 1e-11);
+  const SweepsEnd first = accelerated_sweeps(dense, Vector::Zero(36), 1e-11),
+                  second = accelerated_sweeps(sparse, Vector::Zero(36), 1e-11);
   EXPECT_EQ(first.sweeps, second.sweeps);
   EXPECT_LE((first.p - second.p).norm(), 1e-9 * first.p.norm());
   EXPECT_LE((first.motion - (dense.q + dense.W * first.p)).norm(), 1e-13 * dense.q.norm());
