@@ -42,7 +42,10 @@ double squared_map_of_cone(const Parts& u, const Parts& p, double mu) {
 }  // namespace
 
 Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales) {
-  const Vector motion = motion_of(problem, p, a);
+  return certify_at(problem, p, motion_of(problem, p, a), scales);
+}
+
+[[gnu::hot]] Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion, const Scales& scales) {
   Certificate certificate;
   if (!motion.allFinite() || !p.allFinite()) {  // comparisons with nan would all look right
     certificate.penetration = HUGE_VAL;
@@ -76,12 +79,12 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
     }
     raise(certificate.slip_direction, (bound - friction) * ds / work);
   }
-  if (a.size() > 0)
+  if (problem.G.cols() > 0)
     certificate.rigid_balance = (problem.G.transpose() * p + problem.f).lpNorm<Eigen::Infinity>() / scales.force;
   return certificate;
 }
 
-double natural_map_residual_at(const Problem& problem, const Vector& p, const Vector& motion) {
+[[gnu::hot]] double natural_map_residual_at(const Problem& problem, const Vector& p, const Vector& motion) {
   if (!motion.allFinite() || !p.allFinite()) return HUGE_VAL;
   double sum = 0.0;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {

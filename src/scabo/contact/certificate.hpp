@@ -31,6 +31,8 @@ struct Scales {
 
 /// The part of the certificate that the discrete problem knows, for forces `p` (dN) and rigid motions `a` (m).
 Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales);
+/// The same where the motions u are known.
+Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion, const Scales& scales);
 
 /// The residual by which FCLIB judges: | p - P_K(p - (u + mu |u_t| n)) | / |q|, with P_K the projection on Coulomb's cone,
 /// motions u and forces p as they are, units and all (absolute where q = 0). For a pair with cohesion or tension, whose set of

@@ -20,9 +20,13 @@ NewtonEnd nothing() {
 
 }  // namespace
 
-Scaled scaled(const Problem& problem) {
+[[gnu::hot]] double stiffness_of(const Problem& problem) {
   const double mean = problem.W.size() > 0 ? problem.W.diagonal().mean() : 0.0;
-  Scaled result{problem, mean > 0.0 ? 1.0 / mean : 1.0};
+  return mean > 0.0 ? 1.0 / mean : 1.0;
+}
+
+Scaled scaled(const Problem& problem) {
+  Scaled result{problem, stiffness_of(problem)};
   result.problem.W = problem.W.scaled(result.stiffness);
   result.problem.q *= result.stiffness;
   return result;

@@ -13,6 +13,8 @@ struct Scaled {
   double stiffness = 1.0;  ///< force / length
 };
 Scaled scaled(const Problem& problem);
+/// The one of scaled(): 1 / mean W_ii.
+double stiffness_of(const Problem& problem);
 
 class Ladder {
  public:

@@ -8,14 +8,15 @@
 #include "scabo/base/error.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/sweeps.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
-double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
+[[gnu::hot]] double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
-void check_sizes(const Problem& problem) {
+[[gnu::hot]] void check_sizes(const Problem& problem) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   ensure(d == 2 || d == 3, "a contact problem has two or three dimensions");
   ensure(problem.W.size() == d * N && problem.q.size() == d * N, "W, q and mu of a contact problem differ in size");
@@ -26,9 +27,10 @@ void check_sizes(const Problem& problem) {
          "cohesion and tension of a contact problem have one entry for each pair");
 }
 
-std::vector<ContactState> states_of(const Problem& problem, const Vector& p, const Vector& motion,
+[[gnu::hot]] std::vector<ContactState> states_of(const Problem& problem, const Vector& p, const Vector& motion,
                                     const Scales& scales) {
   std::vector<ContactState> states;
+  states.reserve(static_cast<std::size_t>(problem.pairs()));
   const Eigen::Index d = problem.dimension;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const double p_n = p[d * i], bound = problem.friction_bound(i, p_n), tension = problem.tension_of(i);
@@ -42,7 +44,7 @@ std::vector<ContactState> states_of(const Problem& problem, const Vector& p, con
 }
 
 /// What the judge compares with the tolerance. The natural map knows forces and motions of pairs only.
-double judged_figure(const Solution& solution, Judge judge) {
+[[gnu::hot]] double judged_figure(const Solution& solution, Judge judge) {
   return judge == Judge::certificate
              ? solution.certificate.worst()
              : std::max(solution.natural_map_residual, solution.certificate.rigid_balance);
@@ -62,13 +64,60 @@ std::string reason_of(const Solution& solution, const SolverOptions& options, bo
          std::string(text);
 }
 
-}  // namespace
+/// By what forces are judged: those applied, before or now; else those that would undo the motions q.
+[[gnu::hot]] double reference_force(const Problem& problem, const Vector& p_start, const SolverOptions& options,
+                                    double q_force) {
+  // What rounding left of forces that are gone is no force to measure by.
+  const double largest_start = largest_of(p_start), from_history = largest_start > 1e-10 * q_force ? largest_start : 0.0;
+  const double applied = std::max({options.force_scale, largest_of(problem.f), from_history});
+  return applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
+}
 
-Solution solve(const Problem& problem, const Start& start, const SolverOptions& options) {
-  check_sizes(problem);
-  const Eigen::Index N = problem.pairs(), m = problem.G.cols(), d = problem.dimension;
+/// Certificate, gaps, slips and states of the forces found, and whether they are a solution.
+[[gnu::hot]] void complete(Solution& solution, const Problem& problem, const Vector& motion, double reference,
+                           double stiffness, const SolverOptions& options, bool singular) {
+  const Eigen::Index N = problem.pairs(), d = problem.dimension;
+  const double largest = std::max(reference, largest_of(solution.p));
+  const Scales scales{largest, largest / stiffness};
+  for (Iteration& iteration : solution.trace) {
+    iteration.residual /= largest;
+    iteration.merit /= largest * largest;
+  }
+  solution.residual /= largest;
+  solution.certificate = certify_at(problem, solution.p, motion, scales);
+  solution.natural_map_residual = natural_map_residual_at(problem, solution.p, motion);
+  solution.gap.resize(N);
+  solution.slip_increment.resize((d - 1) * N);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    solution.gap[i] = motion[d * i];
+    for (Eigen::Index k = 1; k < d; ++k) solution.slip_increment[(d - 1) * i + k - 1] = motion[d * i + k];
+  }
+  solution.states = states_of(problem, solution.p, motion, scales);
+  if (solution.status == Status::mechanism) return;
+  if (judged_figure(solution, options.judge) <= options.tolerance) {
+    solution.status = Status::solved;
+    if (problem.G.cols() > 0) solution.undetermined = undetermined_motions(problem, solution.states);
+  } else {
+    solution.reason = reason_of(solution, options, singular);
+  }
+}
+
+/// What sweeps alone solve, in the problem's own units.
+[[gnu::hot]] Solution swept_solution(const Problem& problem, const Vector& p_start, SweepsEnd end,
+                                     const SolverOptions& options) {
   Solution solution;
-  const Vector p_start = start.p.size() == d * N ? start.p : Vector::Zero(d * N);
+  solution.p = std::move(end.p);
+  solution.residual = end.residual;
+  solution.trace.push_back({0, end.residual, 0.5 * end.residual * end.residual, 1.0, 0, std::to_string(end.sweeps) + " sweeps"});
+  const double stiffness = stiffness_of(problem);
+  complete(solution, problem, end.motion, reference_force(problem, p_start, options, stiffness * largest_of(problem.q)),
+           stiffness, options, false);
+  return solution;
+}
+
+Solution climbed_solution(const Problem& problem, const Vector& p_start, const Start& start, const SolverOptions& options) {
+  const Eigen::Index m = problem.G.cols(), d = problem.dimension, N = problem.pairs();
+  Solution solution;
   const Scaled scaled_problem = scaled(problem);
   const double stiffness = scaled_problem.stiffness;
   const Vector a_start = start.a.size() == m ? Vector(stiffness * start.a) : Vector(Vector::Zero(m));
@@ -82,10 +131,7 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
   }
 
   const double q_force = largest_of(scaled_problem.problem.q);
-  // What rounding left of forces that are gone is no force to measure by.
-  const double from_history = largest_of(p_start) > 1e-10 * q_force ? largest_of(p_start) : 0.0;
-  const double applied = std::max({options.force_scale, largest_of(problem.f), from_history});
-  const double reference = applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
+  const double reference = reference_force(problem, p_start, options, q_force);
 
   // Well below the tolerance, but not below the rounding of the gaps themselves (a body that hovers far away).
   const double epsilon = std::numeric_limits<double>::epsilon();
@@ -113,31 +159,22 @@ Solution solve(const Problem& problem, const Start& start, const SolverOptions& 
 
   Vector motion = problem.q + problem.W * solution.p;
   if (m > 0) motion += problem.G * solution.a;
-  const double largest = std::max(reference, largest_of(solution.p));
-  const Scales scales{largest, largest / stiffness};
-  for (Iteration& iteration : solution.trace) {
-    iteration.residual /= largest;
-    iteration.merit /= largest * largest;
-  }
-  solution.residual = end.residual / largest;
-  solution.certificate = certify(problem, solution.p, solution.a, scales);
-  solution.natural_map_residual = natural_map_residual_at(problem, solution.p, motion);
-  solution.gap.resize(N);
-  solution.slip_increment.resize((d - 1) * N);
-  for (Eigen::Index i = 0; i < N; ++i) {
-    solution.gap[i] = motion[d * i];
-    solution.slip_increment.segment((d - 1) * i, d - 1) = motion.segment(d * i + 1, d - 1);
-  }
-  solution.states = states_of(problem, solution.p, motion, scales);
-  if (solution.status == Status::mechanism) return solution;
-  const double figure = judged_figure(solution, options.judge);
-  if (figure <= options.tolerance) {
-    solution.status = Status::solved;
-    solution.undetermined = undetermined_motions(problem, solution.states);
-  } else {
-    solution.reason = reason_of(solution, options, end.singular);
-  }
+  solution.residual = end.residual;
+  complete(solution, problem, motion, reference, stiffness, options, end.singular);
   return solution;
+}
+
+}  // namespace
+
+[[gnu::hot]] Solution solve(const Problem& problem, const Start& start, const SolverOptions& options) {
+  check_sizes(problem);
+  Vector p_start = start.p;
+  if (p_start.size() != problem.q.size()) p_start.setZero(problem.q.size());
+  if (options.judge == Judge::natural_map && may_accelerate(problem)) {
+    SweepsEnd end = accelerated_sweeps(problem, p_start, 0.9 * options.tolerance);
+    if (end.content) return swept_solution(problem, p_start, std::move(end), options);
+  }
+  return climbed_solution(problem, p_start, start, options);
 }
 
 }  // namespace scabo::contact
