@@ -130,13 +130,18 @@ void draw_curve(Text to, const Axes& axes, const ConvergenceCurve& curve, const 
   }
   if (!curve.iterations.empty()) fmt::format_to(to, "\"/>");
   const std::string* stage = nullptr;
+  std::vector<std::pair<double, double>> names;  // where they are
   for (const contact::Iteration& at : curve.iterations) {
     const double x = axes.x(at.iteration), y = axes.y(at.residual);
     if (curve.iterations.size() <= 200)
       fmt::format_to(to, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, crowded ? "1.6" : "2.6");
-    if (name_stages && (!stage || *stage != at.stage))
-      fmt::format_to(to, "<text class=\"stage\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 6, y - 7,
-                     escaped(at.stage));
+    if (name_stages && (!stage || *stage != at.stage)) {
+      double name_y = y - 7;
+      const auto covers = [&](const auto& other) { return std::abs(x - other.first) < 150.0 && std::abs(name_y - other.second) < 12.9; };
+      while (names.size() < 50 && std::any_of(names.begin(), names.end(), covers)) name_y -= 13.0;
+      names.emplace_back(x, name_y);
+      fmt::format_to(to, "<text class=\"stage\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 6, name_y, escaped(at.stage));
+    }
     stage = &at.stage;
   }
   fmt::format_to(to, "</g>\n");

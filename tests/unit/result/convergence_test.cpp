@@ -46,6 +46,19 @@ TEST(ConvergencePlot, StagesOfASingleCurveAreNamed) {
   EXPECT_THAT(plot, HasSubstr("stroke-dasharray=\"5 3\""));
 }
 
+/// Stages that begin at the same point, as problems of fewer pairs do: one name above the other.
+TEST(ConvergencePlot, NamesOfStagesDoNotCoverEachOther) {
+  std::vector<contact::Iteration> iterations = {{0, 1e-2, 0.0, 0.0, 0, "first"}, {0, 1.1e-2, 0.0, 0.0, 0, "second"}, {0, 0.9e-2, 0.0, 0.0, 0, "third"}};
+  const std::string plot = convergence_plot({{"", iterations, true}}, "", 1e-10);
+  std::vector<double> heights;
+  for (const char* name : {">first<", ">second<", ">third<"}) {
+    const std::size_t end = plot.find(name), begin = plot.rfind(" y=\"", end) + 4;
+    ASSERT_NE(end, std::string::npos);
+    for (double before : heights) EXPECT_GE(std::abs(before - std::stod(plot.substr(begin))), 11.0) << name;
+    heights.push_back(std::stod(plot.substr(begin)));
+  }
+}
+
 TEST(ConvergencePlot, OddNumbersStayInsideTheFrame) {
   std::vector<contact::Iteration> odd;
   const double infinity = std::numeric_limits<double>::infinity();
