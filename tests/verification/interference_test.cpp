@@ -5,7 +5,7 @@
 namespace scabo::verification {
 namespace {
 
-const char* const blocks = R"(
+const char* const pressed_blocks = R"(
 scabo: 1
 materials: {stiff: {young: 30e9, poisson: 0.2}, soft: {young: 10e9, poisson: 0.3}}
 bodies:
@@ -28,8 +28,8 @@ std::string with(std::string text, const std::string& support, const std::string
 }
 
 TEST(Interference, AsANegativeGapOrAsAPrescribedDisplacement) {
-  const auto by_gap = run(with(blocks, "{on: upper.top, fix: [y]}", "-1e-4"));
-  const auto by_displacement = run(with(blocks, "{on: upper.top, displacement: [null, -1e-4]}", "0"));
+  const auto by_gap = run(with(pressed_blocks, "{on: upper.top, fix: [y]}", "-1e-4"));
+  const auto by_displacement = run(with(pressed_blocks, "{on: upper.top, displacement: [null, -1e-4]}", "0"));
   const auto &one = last(by_gap).contacts.front(), &other = last(by_displacement).contacts.front();
   ASSERT_GT(one.normal_force, 1e5);
   ASSERT_EQ(one.pairs.size(), other.pairs.size());

@@ -11,7 +11,7 @@ namespace scabo::analysis {
 
 namespace {
 
-bool alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
+bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
   if (a.thickness != b.thickness || a.domain != b.domain || a.sectors.materials != b.sectors.materials ||
       a.sectors.D != b.sectors.D || a.ring.nodes.size() != b.ring.nodes.size() ||
       a.ring.elements.size() != b.ring.elements.size())
@@ -88,7 +88,7 @@ std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(cons
     wanted->sectors = element::sectors_of(model, model.bodies[b], mesh.bodies[b]);
     wanted->domain = domain_of(model.bodies[b], wanted->ring);
     wanted->thickness = model.analysis.thickness;
-    const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto& other) { return alike(*wanted, *other); });
+    const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto& other) { return are_alike(*wanted, *other); });
     of_body[b] = same == distinct.end() ? wanted : *same;
     if (same == distinct.end()) distinct.push_back(wanted), bodies.push_back(b);
   }

@@ -25,6 +25,7 @@ struct Ring {
   std::vector<Vec2> nodes;                  ///< relative to the scaling centre, counter-clockwise
   std::vector<mesh::LineElement> elements;  ///< each begins where the one before ends
   bool is_open() const { return elements.front().nodes.front() != elements.back().nodes.back(); }
+  const Vec2& node(int i) const { return nodes[static_cast<std::size_t>(i)]; }
   int first_node() const { return elements.front().nodes.front(); }
   int last_node() const { return elements.back().nodes.back(); }
 };

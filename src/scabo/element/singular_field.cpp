@@ -52,13 +52,11 @@ Ring single(const Ring& ring, std::size_t element) { return {ring.nodes, {ring.e
 
 double angle_between(const Vec2& from, const Vec2& to) { return std::atan2(cross(from, to), from.dot(to)); }
 
-const Vec2& node(const Ring& ring, int i) { return ring.nodes[static_cast<std::size_t>(i)]; }
-
 /// Angles of the ends of the elements from the first face: 0, ..., opening angle.
 std::vector<double> end_angles(const Ring& ring) {
   std::vector<double> angles = {0.0};
   for (const mesh::LineElement& element : ring.elements)
-    angles.push_back(angles.back() + angle_between(node(ring, element.nodes.front()), node(ring, element.nodes.back())));
+    angles.push_back(angles.back() + angle_between(ring.node(element.nodes.front()), ring.node(element.nodes.back())));
   return angles;
 }
 
@@ -144,7 +142,7 @@ SingularModes singular_modes(const SuperElementSolution& solution, const Singula
 }
 
 bool is_crack(const Ring& ring) {
-  const Vec2 &first = node(ring, ring.first_node()), &last = node(ring, ring.last_node());
+  const Vec2 &first = ring.node(ring.first_node()), &last = ring.node(ring.last_node());
   return ring.is_open() && (first - last).norm() <= 1e-12 * first.norm();
 }
 
@@ -162,7 +160,7 @@ RayTraction ray_traction(const Corner& corner, const ModeGroup& group, double an
   if (at_end && last && !first) at_end = false;
   if (!at_end && first && !last) at_end = true;
 
-  const Vec2& face = node(ring, ring.first_node());
+  const Vec2& face = ring.node(ring.first_node());
   const double zero = std::atan2(face.y(), face.x());
   const Mat3& law = corner.D.of(element);
   const double unit = law.trace() / 3.0;
@@ -170,7 +168,7 @@ RayTraction ray_traction(const Corner& corner, const ModeGroup& group, double an
   const double start = at_end ? ends[element + 1] : ends[element];
   const Matrix w = carried(law / unit, state_at_node(corner, group, element, at_end, unit), group.T, zero + start, zero + angle);
   RayTraction ray;
-  ray.r0 = node(ring, at_end ? nodes.back() : nodes.front()).norm();
+  ray.r0 = ring.node(at_end ? nodes.back() : nodes.front()).norm();
   const Matrix flux = unit * (w.bottomRows(2) * group.T) / ray.r0;  // traction at r0, along x and y
   const Vec2 along(std::cos(zero + angle), std::sin(zero + angle)), across(-along.y(), along.x());
   ray.F.resize(2, group.size());

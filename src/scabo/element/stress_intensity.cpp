@@ -16,15 +16,13 @@ namespace {
 using std::numbers::pi;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-const Vec2& node(const Ring& ring, int i) { return ring.nodes[static_cast<std::size_t>(i)]; }
-
 /// Angles from the first face at which the material changes.
 std::vector<double> interfaces(const Corner& corner) {
   std::vector<double> angles;
   double angle = 0.0;
   for (std::size_t e = 0; e + 1 < corner.ring.elements.size(); ++e) {
     const auto& nodes = corner.ring.elements[e].nodes;
-    const Vec2 &from = node(corner.ring, nodes.front()), &to = node(corner.ring, nodes.back());
+    const Vec2 &from = corner.ring.node(nodes.front()), &to = corner.ring.node(nodes.back());
     angle += std::atan2(cross(from, to), from.dot(to));
     if ((corner.D.of(e) - corner.D.of(e + 1)).norm() > 1e-12 * corner.D.of(e).norm()) angles.push_back(angle);
   }
@@ -39,7 +37,7 @@ CornerKind kind_of(const Corner& corner, const std::vector<double>& interfaces) 
 
 /// Distance of the boundary along a ray.
 double boundary_distance(const Ring& ring, double angle) {
-  const Vec2& face = node(ring, ring.first_node());
+  const Vec2& face = ring.node(ring.first_node());
   const double absolute = std::atan2(face.y(), face.x()) + angle;
   const Vec2 along(std::cos(absolute), std::sin(absolute));
   // The first and the last ray of a crack are one: from a point well inside.
@@ -75,7 +73,7 @@ CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& di
       Vec2 x_eta = Vec2::Zero();
       Eigen::Matrix<double, 3, Eigen::Dynamic> dB2(3, m);  // at constant |J|
       for (Eigen::Index i = 0; i < N.size(); ++i) {
-        x_eta += N_eta[i] * node(ring, element.nodes[static_cast<std::size_t>(i)]);
+        x_eta += N_eta[i] * ring.node(element.nodes[static_cast<std::size_t>(i)]);
         dB2.middleCols<2>(2 * i) = N_eta[i] / strain.J * b2;
       }
       const double dJ = cross(-direction, x_eta), weight = basis.rule().weights[q];
@@ -106,7 +104,7 @@ CornerAnalysis::CornerAnalysis(const Ring& ring, const Elasticity& D, const Supe
   const Corner corner{ring_, D_};
   const std::vector<double> changes = interfaces(corner);
   kind_ = kind_of(corner, changes);
-  mouth_ = node(ring_, ring_.first_node()).norm();
+  mouth_ = ring_.node(ring_.first_node()).norm();
   if (kind_ != CornerKind::corner) {
     ray_ = pi;
     length_ = reference_length.value_or(mouth_);
@@ -121,7 +119,7 @@ CornerAnalysis::CornerAnalysis(const Ring& ring, const Elasticity& D, const Supe
 
 void CornerAnalysis::prepare_crack() {
   const Corner corner{ring_, D_};
-  const Vec2 x1 = -node(ring_, ring_.first_node()) / mouth_;
+  const Vec2 x1 = -ring_.node(ring_.first_node()) / mouth_;
   frame_ << x1.x(), x1.y(), -x1.y(), x1.x();
   const double angle = std::atan2(x1.y(), x1.x());
   const Mat3 right = rotated_elasticity(corner.D.of(0), angle),

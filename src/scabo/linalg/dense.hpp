@@ -23,4 +23,7 @@ struct RealSchur {
 };
 RealSchur real_schur(Matrix A);
 
+/// Rows i and i + 1 of a quasi-triangular T are one block.
+inline bool pair_begins(const Matrix& T, Eigen::Index i) { return i + 1 < T.rows() && T(i + 1, i) != 0.0; }
+
 }  // namespace scabo::linalg

@@ -14,8 +14,6 @@ namespace scabo::linalg {
 
 namespace {
 
-bool pair_begins(const Matrix& T, Eigen::Index i) { return i + 1 < T.rows() && T(i + 1, i) != 0.0; }
-
 std::vector<std::complex<double>> eigenvalues_of(const Matrix& T) {
   std::vector<std::complex<double>> values;
   for (Eigen::Index i = 0; i < T.rows(); ++i) {

@@ -40,8 +40,6 @@ const std::array<Contour, 2>& contours() {
   return all;
 }
 
-bool pair_begins(const Matrix& T, Eigen::Index i) { return i + 1 < T.rows() && T(i + 1, i) != 0.0; }
-
 /// 1 / z, without the checks for overflow of the language's own division, which cost more than the solve.
 std::complex<double> inverse(std::complex<double> z) {
   const double square = z.real() * z.real() + z.imag() * z.imag();

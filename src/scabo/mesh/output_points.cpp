@@ -91,13 +91,13 @@ std::vector<int> bodies_at(const model::Model& model, const Vec2& point, int onl
   return bodies;
 }
 
-std::string text_of(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
+std::string coordinates_of(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
 
 /// Why a point has no value.
 std::string lies_outside(const model::Model& model, const Vec2& point, int only) {
   if (only >= 0) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(only)];
-    return fmt::format("{} lies outside body '{}', {:.3g} away from it: move it, or leave out 'body'", text_of(point),
+    return fmt::format("{} lies outside body '{}', {:.3g} away from it: move it, or leave out 'body'", coordinates_of(point),
                        body.name, distance_to(body.outline, point));
   }
   const model::Body* nearest = nullptr;
@@ -108,7 +108,7 @@ std::string lies_outside(const model::Model& model, const Vec2& point, int only)
     least = distance;
     nearest = &body;
   }
-  return fmt::format("{} lies outside every body; the nearest is '{}', {:.3g} away: move the point", text_of(point),
+  return fmt::format("{} lies outside every body; the nearest is '{}', {:.3g} away: move the point", coordinates_of(point),
                      nearest->name, least);
 }
 

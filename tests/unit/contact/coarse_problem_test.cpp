@@ -34,7 +34,7 @@ Problem joint(std::mt19937& random, int pairs, double friction) {
   return problem;
 }
 
-Vector random_vector(std::mt19937& random, Eigen::Index size) {
+Vector random_forces(std::mt19937& random, Eigen::Index size) {
   return Vector::NullaryExpr(size, [&] { return uniform(random, -1.0, 1.0); });
 }
 
@@ -46,7 +46,7 @@ TEST(CoarseProblem, FlexibilityIsThatOfTheProlongedForces) {
   EXPECT_LT((W - W.transpose()).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix>(W).eigenvalues().minCoeff(), 0.0);
   for (int k = 0; k < 10; ++k) {
-    const Vector p = random_vector(random, W.rows()), fine = coarse.prolong(p);
+    const Vector p = random_forces(random, W.rows()), fine = coarse.prolong(p);
     EXPECT_NEAR(p.dot(W * p), fine.dot(problem.W * fine), 1e-12);
     EXPECT_NEAR(p.dot(coarse.problem.q), fine.dot(problem.q), 1e-12);
   }
@@ -56,7 +56,7 @@ TEST(CoarseProblem, ProlongedForcesKeepTheirSumAndTheBalanceOfRigidMotions) {
   std::mt19937 random(2);
   const Problem problem = floating_problem(random, 31, 1.0);
   const CoarseProblem coarse = coarse_problem(problem);
-  const Vector p = random_vector(random, coarse.problem.q.size()), fine = coarse.prolong(p);
+  const Vector p = random_forces(random, coarse.problem.q.size()), fine = coarse.prolong(p);
   EXPECT_LT((coarse.problem.G.transpose() * p - problem.G.transpose() * fine).norm(), 1e-13);
   EXPECT_EQ(coarse.problem.f, problem.f);
   for (int k : {0, 1}) {
@@ -70,9 +70,9 @@ TEST(CoarseProblem, ProlongedForcesKeepTheirSumAndTheBalanceOfRigidMotions) {
 TEST(CoarseProblem, ForcesWithinTheLawsOfTheGroupsAreWithinThoseOfThePairs) {
   std::mt19937 random(3);
   Problem problem = joint(random, 41, 0.0);
-  problem.mu = random_vector(random, 41).cwiseAbs();
-  problem.cohesion = random_vector(random, 41).cwiseAbs();
-  problem.tension = random_vector(random, 41).cwiseAbs();
+  problem.mu = random_forces(random, 41).cwiseAbs();
+  problem.cohesion = random_forces(random, 41).cwiseAbs();
+  problem.tension = random_forces(random, 41).cwiseAbs();
   const CoarseProblem coarse = coarse_problem(problem);
   for (int k = 0; k < 100; ++k) {
     Vector p(coarse.problem.q.size());  // on the boundary, or on the tip
@@ -198,7 +198,7 @@ TEST(ColdStart, RandomProblemsOfManyPairsAreCertified) {
       problem.tension = Vector::Constant(pairs, uniform(random, 0.0, 0.2));
       if (k % 2 == 0) problem.tension.segment(10, 5).setConstant(HUGE_VAL);
     } else if (k % 3 == 2) {
-      problem.mu += 0.3 * random_vector(random, pairs).cwiseAbs();
+      problem.mu += 0.3 * random_forces(random, pairs).cwiseAbs();
       Matrix W = problem.W.dense();
       W.row(1).setZero(), W.col(1).setZero();  // a support holds the first pair along the joint
       problem.W = W;

@@ -18,7 +18,7 @@ namespace {
 
 using Random = std::mt19937;
 
-Vector random_vector(Random& random, Eigen::Index size) {
+Vector random_motion(Random& random, Eigen::Index size) {
   std::normal_distribution<double> normal;
   return Vector::NullaryExpr(size, [&] { return normal(random); });
 }
@@ -37,7 +37,7 @@ Problem coulomb(int d, Matrix W, Vector q, double mu) {
 /// Positive definite, normal and tangents coupled; `rank` below its size: singular.
 Matrix random_operator(Random& random, Eigen::Index size, Eigen::Index rank) {
   Matrix B(size, rank);
-  for (Eigen::Index k = 0; k < rank; ++k) B.col(k) = random_vector(random, size);
+  for (Eigen::Index k = 0; k < rank; ++k) B.col(k) = random_motion(random, size);
   return B * B.transpose();
 }
 
@@ -67,7 +67,7 @@ TEST(AcceleratedSweeps, OnePairIsSolvedExactlyByTheFirst) {
     const double mu = std::array{0.0, 0.1, 0.3, 0.6}[static_cast<std::size_t>(k) / 2 % 4],
                  unit = std::pow(10.0, k % 13 - 6);
     const Matrix W = unit * random_operator(random, d, d + 1);
-    const Vector q = random_vector(random, d) / unit;
+    const Vector q = random_motion(random, d) / unit;
     const Problem problem = coulomb(d, W, q, mu);
     const SweepsEnd end = accelerated_sweeps(problem, Vector::Zero(d), 1e-10);
     const Vector oracle = local_force(W, q, mu);

@@ -20,7 +20,7 @@ using test::Similarity;
 using test::swapped;
 using testing::HasSubstr;
 
-Interface match(const model::Model& model) { return make_mesh(model).interfaces.at(0); }
+Interface match_rigid(const model::Model& model) { return make_mesh(model).interfaces.at(0); }
 
 /// A rigid punch of width 1 over the middle of a block of width 4.
 model::Model punch(double gap = 0.0) {
@@ -38,7 +38,7 @@ model::Model cylinder(double radius, double gap) {
 }
 
 TEST(RigidInterface, PairsOnlyNodesUnderAFlatPunch) {
-  const Interface joint = match(punch(0.1));
+  const Interface joint = match_rigid(punch(0.1));
   ASSERT_EQ(joint.pairs.size(), 9u);  // -0.5 ... 0.5, ends included
   for (std::size_t k = 0; k < joint.pairs.size(); ++k) {
     const ContactPair& pair = joint.pairs[k];
@@ -54,15 +54,15 @@ TEST(RigidInterface, PairsOnlyNodesUnderAFlatPunch) {
 TEST(RigidInterface, KeepsOnlyWholeElementsForThePressure) {
   model::Model model = punch();
   model.bodies[1].outline = rectangle({-0.4, 0}, {0.8, 1});
-  const Interface joint = match(model);
+  const Interface joint = match_rigid(model);
   EXPECT_EQ(joint.pairs.size(), 7u);  // -0.375 ... 0.375
 }
 
 TEST(RigidInterface, SwapsToTheOppositeNormal) {
   for (const model::Model& model : {punch(0.1), punch(-0.1), cylinder(3, 0.2), cylinder(3, -0.2),
                                     Similarity{37 * pi / 180, 1000.0, {5, 6}}(cylinder(3, 0.2))}) {
-    const Interface a = match(model);
-    const Interface b = match(swapped(model));
+    const Interface a = match_rigid(model);
+    const Interface b = match_rigid(swapped(model));
     ASSERT_EQ(a.pairs.size(), b.pairs.size());
     for (std::size_t k = 0; k < a.pairs.size(); ++k) {
       EXPECT_EQ(a.pairs[k].node_a, b.pairs[k].node_b);
@@ -78,7 +78,7 @@ TEST(RigidInterface, MeasuresTheGapToACylinderRadially) {
   for (const double gap : {0.3, 0.0, -0.1}) {
     const double radius = 5.0;
     const Vec2 centre(0, radius + gap);
-    const Interface joint = match(cylinder(radius, gap));
+    const Interface joint = match_rigid(cylinder(radius, gap));
     ASSERT_EQ(joint.pairs.size(), 33u);
     for (const ContactPair& pair : joint.pairs) {
       EXPECT_NEAR(pair.gap, (pair.point_a - centre).norm() - radius, 2e-14);
@@ -93,10 +93,10 @@ TEST(RigidInterface, MeasuresTheGapToACylinderRadially) {
 TEST(RigidInterface, IsTheSameTurnedAndInOtherUnits) {
   for (const model::Model& model :
        {punch(0.0), punch(0.1), punch(-0.1), cylinder(5, 0.0), cylinder(1, -0.1)}) {
-    const Interface a = match(model);
+    const Interface a = match_rigid(model);
     for (const double scale : {1e-6, 1.0, 1e3}) {
       const Similarity turn{37 * pi / 180, scale, scale * Vec2(100, -20)};
-      const Interface b = match(turn(model));
+      const Interface b = match_rigid(turn(model));
       ASSERT_EQ(a.pairs.size(), b.pairs.size());
       for (std::size_t k = 0; k < a.pairs.size(); ++k) {
         EXPECT_EQ(a.pairs[k].node_a, b.pairs[k].node_a);
@@ -115,7 +115,7 @@ TEST(RigidInterface, TakesAHalfDiscOnAFloor) {
       "rim");
   model::Model lifted = model;
   lifted.bodies[1].mesh.centre = {0, 3};
-  const Interface joint = match(lifted);
+  const Interface joint = match_rigid(lifted);
   EXPECT_GT(joint.pairs.size(), 140u);
   for (const ContactPair& pair : joint.pairs) {
     EXPECT_EQ(pair.node_a, -1);
@@ -129,7 +129,7 @@ TEST(RigidInterface, PairsTheLowerPartOfAWholeCircleInOneRun) {
       pair_of(rigid("floor", rectangle({-10, -1}, {20, 1})), "top",
               elastic("disc", test::outline({arc("rim", {0, 5}, 5, -1.7, 2 * pi)}), 0.2), "rim");
   model.bodies[1].mesh.centre = {0, 5};
-  const Interface joint = match(model);
+  const Interface joint = match_rigid(model);
   for (std::size_t k = 1; k < joint.pairs.size(); ++k) {
     EXPECT_LT(joint.pairs[k - 1].point_b.x(), joint.pairs[k].point_b.x());
   }
@@ -152,7 +152,7 @@ TEST(RigidInterface, HoldsInAConcaveRigidSeat) {
       "rim");
   model::Model lowered = model;
   lowered.bodies[1].mesh.centre = {0, 0.6};
-  const Interface joint = match(lowered);
+  const Interface joint = match_rigid(lowered);
   EXPECT_GT(joint.pairs.size(), 30u);
   for (const ContactPair& pair : joint.pairs) {
     EXPECT_NEAR(pair.gap, 0.05, 1e-14);
@@ -163,9 +163,9 @@ TEST(RigidInterface, HoldsInAConcaveRigidSeat) {
 TEST(RigidInterface, CountsNodesWithinRoundingOfTheEndAsOnTheEdge) {
   model::Model model = punch();
   model.bodies[1].outline = rectangle({-0.5 + 1e-10, 0}, {1 - 2e-10, 1});
-  EXPECT_EQ(match(model).pairs.size(), 9u);
+  EXPECT_EQ(match_rigid(model).pairs.size(), 9u);
   model.bodies[1].outline = rectangle({-0.5 + 1e-7, 0}, {1 - 2e-7, 1});
-  EXPECT_EQ(match(model).pairs.size(), 7u);
+  EXPECT_EQ(match_rigid(model).pairs.size(), 7u);
 }
 
 TEST(RigidInterfaceMistake, NothingAboveOrBelow) {

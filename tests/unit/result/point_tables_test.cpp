@@ -16,7 +16,7 @@ namespace {
 using namespace scabo::test;
 using testing::HasSubstr;
 
-const Mat2 gradient = (Mat2() << 1.1e-3, -0.4e-3, 0.7e-3, -0.9e-3).finished();
+const Mat2 table_gradient = (Mat2() << 1.1e-3, -0.4e-3, 0.7e-3, -0.9e-3).finished();
 
 std::vector<std::map<std::string, std::string>> read(const std::string& header, const std::string& rows) {
   const auto cells = [](const std::string& line) {
@@ -53,18 +53,18 @@ TEST(PointTables, OfALinearFieldAreExactAndEveryBodyHasItsRow) {
   model.output.points = {{"inside", {0.3, 0.4}, -1, {}}, {"joint", {1.1, 1.0}, -1, {}}, {"only", {1.1, 1.0}, 1, {}},
                          {"edge", {2.0, 0.25}, -1, {}}, {"floor", {-0.5, -0.5}, -1, {}}};
   const auto solution = solution_of(model);
-  const auto increment = increment_of(solution, linear_field(gradient), {0.1, 0.2, 0.0});
+  const auto increment = increment_of(solution, linear_field(table_gradient), {0.1, 0.2, 0.0});
   for (const int increments : {1, 100}) {  // directly and condensed
     const PointEvaluation evaluation(solution, mesh::output_points(model).points, increments);
     const auto rows = read(std::string(header_of(PointTable::points)),
                            point_table_rows(PointTable::points, evaluation, solution, increment));
     ASSERT_EQ(rows.size(), 6u);
     const std::vector<std::string> bodies = {"lower", "lower", "upper", "upper", "lower", "floor"};
-    const UniformStress expected = stress_of(gradient, model::Plane::strain);
+    const UniformStress expected = stress_of(table_gradient, model::Plane::strain);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       EXPECT_EQ(rows[i].at("body"), bodies[i]);
       if (i == 5) continue;
-      const Vec2 u = linear_field(gradient)({std::stod(rows[i].at("x")), std::stod(rows[i].at("y"))});
+      const Vec2 u = linear_field(table_gradient)({std::stod(rows[i].at("x")), std::stod(rows[i].at("y"))});
       EXPECT_NEAR(std::stod(rows[i].at("ux")), u.x(), 1e-13);
       EXPECT_NEAR(std::stod(rows[i].at("uy")), u.y(), 1e-13);
       const double scale = expected.in_plane.norm();
@@ -90,7 +90,7 @@ TEST(PointTables, LinesRunFromEndToEndAndTheGridKeepsWhatLiesInside) {
   EXPECT_NEAR(points.lines[4].distance, std::sqrt(2.0), 1e-15);
   EXPECT_EQ(points.grid.size(), 15u);  // 5 + 4 + 3 + 2 + 1
   const auto solution = solution_of(model);
-  const auto increment = increment_of(solution, linear_field(gradient));
+  const auto increment = increment_of(solution, linear_field(table_gradient));
   const PointEvaluation evaluation(solution, points.lines, 1);
   const auto rows = read(std::string(header_of(PointTable::lines)),
                          point_table_rows(PointTable::lines, evaluation, solution, increment));
@@ -104,13 +104,13 @@ TEST(PointTables, HoldPointsOnAnArcThatItsElementsDoNotReach) {
   const Vec2 on_arc(5 + std::cos(0.2), std::sin(0.2));
   model.output.points = {{"rim", on_arc, -1, {}}};
   const auto solution = solution_of(model);
-  const auto increment = increment_of(solution, linear_field(gradient));
+  const auto increment = increment_of(solution, linear_field(table_gradient));
   EXPECT_FALSE(Probe(solution, increment, 0).at(on_arc));
   for (const int increments : {1, 100}) {
     const PointEvaluation evaluation(solution, mesh::output_points(model).points, increments);
     const PointResult result = evaluation.at(solution, increment).front();
-    EXPECT_LT((result.values.displacement - linear_field(gradient)(on_arc)).norm(), 1e-6);
-    EXPECT_LT((result.values.stress - stress_of(gradient, model::Plane::stress).in_plane).norm(), 1e-3 * young * 1e-3);
+    EXPECT_LT((result.values.displacement - linear_field(table_gradient)(on_arc)).norm(), 1e-6);
+    EXPECT_LT((result.values.stress - stress_of(table_gradient, model::Plane::stress).in_plane).norm(), 1e-3 * young * 1e-3);
   }
 }
 
@@ -139,7 +139,7 @@ TEST(PointTables, ATipWhereStressIsInfiniteHasNone) {
   cracked->sectors = solution.super_elements[0]->sectors;
   cracked->solution = element::solve_super_element(cracked->ring, cracked->sectors.D, 1.0);
   solution.super_elements[0] = cracked;
-  auto increment = increment_of(solution, linear_field(gradient));
+  auto increment = increment_of(solution, linear_field(table_gradient));
   Vector& u = increment.displacements[0];
   u.conservativeResize(u.size() + 2);
   u.tail<2>() = Vec2(1e-3, 2e-3);

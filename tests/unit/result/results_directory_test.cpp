@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-const Mat2 gradient = (Mat2() << 1e-4, 0.0, 0.0, -2e-4).finished();
+const Mat2 small_gradient = (Mat2() << 1e-4, 0.0, 0.0, -2e-4).finished();
 
 analysis::ContactResult contact_result() {
   analysis::ContactResult contact;
@@ -62,7 +62,7 @@ analysis::StaticSolution two_bodies() {
 }
 
 analysis::IncrementResult increment_number(const analysis::StaticSolution& solution, int number) {
-  auto increment = increment_of(solution, linear_field(gradient));
+  auto increment = increment_of(solution, linear_field(small_gradient));
   increment.increment = number;
   increment.factors = {{"tip", 0.25 * number}};
   increment.newton_iterations = 3;

@@ -27,7 +27,7 @@ Local root(const Local& w) {
   return z;
 }
 
-struct Equations {
+struct SmoothedEquations {
   Vector F;     // dN + m
   Matrix A, B;  // d x dN: dF = A du + B dp of each pair
   double merit() const { return 0.5 * F.squaredNorm(); }
@@ -37,17 +37,17 @@ class Smoothed {
  public:
   Smoothed(const Problem& problem, double eps) : problem_(problem), r_(pair_stiffness(problem)), eps_(eps) {}
 
-  Equations at(const Vector& p, const Vector& a) const {
+  SmoothedEquations at(const Vector& p, const Vector& a) const {
     const Eigen::Index d = problem_.dimension, N = problem_.pairs();
     const Vector motion = motion_of(problem_, p, a);
-    Equations result{Vector(d * N + a.size()), Matrix::Zero(d, d * N), Matrix::Zero(d, d * N)};
+    SmoothedEquations result{Vector(d * N + a.size()), Matrix::Zero(d, d * N), Matrix::Zero(d, d * N)};
     for (Eigen::Index i = 0; i < N; ++i) pair(i, p.segment(d * i, d), motion.segment(d * i, d), result);
     if (a.size() > 0) result.F.tail(a.size()) = problem_.G.transpose() * p + problem_.f;
     return result;
   }
 
  private:
-  void pair(Eigen::Index i, const Local& p, const Local& u, Equations& to) const {
+  void pair(Eigen::Index i, const Local& p, const Local& u, SmoothedEquations& to) const {
     const Eigen::Index d = problem_.dimension, t = d - 1;
     const double mu = problem_.mu[i], r = mu > 0.0 ? std::min(r_(0, i), r_(1, i)) : r_(0, i);
     auto F = to.F.segment(d * i, d);
@@ -85,7 +85,7 @@ class Smoothed {
 };
 
 /// J d = -F with J = [A W + B, A G; G', 0].
-bool direction(const Problem& problem, const Equations& at, Vector& step) {
+bool direction(const Problem& problem, const SmoothedEquations& at, Vector& step) {
   const Eigen::Index d = problem.dimension, N = problem.pairs(), n = d * N, m = problem.G.cols();
   const Matrix& W = problem.W.dense();
   for (double alpha : {0.0, 1e-10, 1e-6}) {  // W + alpha: redundant pairs
@@ -118,7 +118,7 @@ End fischer_burmeister(const Problem& problem, Vector p, Vector a, const Control
   double eps = std::max(0.1 * largest(residual_of(problem, r, p, a)), 10.0 * control.small);
   while (true) {
     const double residual = largest(residual_of(problem, r, p, a));
-    const Equations now = Smoothed(problem, eps).at(p, a);
+    const SmoothedEquations now = Smoothed(problem, eps).at(p, a);
     const std::vector<int> states = states_at(problem, r, p, motion_of(problem, p, a));
     best.offer(p, a, residual);
     end.trace.push_back(
@@ -139,7 +139,7 @@ End fischer_burmeister(const Problem& problem, Vector p, Vector a, const Control
     bool descended = false;
     for (step_length = 1.0; step_length > 1e-4; step_length *= 0.5) {
       const Vector p_next = p + step_length * d.head(size), a_next = a + step_length * d.tail(a.size());
-      const Equations next = Smoothed(problem, eps).at(p_next, a_next);
+      const SmoothedEquations next = Smoothed(problem, eps).at(p_next, a_next);
       if (!(next.merit() <= (1.0 - 2e-4 * step_length) * now.merit())) continue;
       p = p_next;
       a = a_next;
