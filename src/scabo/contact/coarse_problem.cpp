@@ -8,7 +8,7 @@ namespace scabo::contact {
 
 namespace {
 
-constexpr Eigen::Index d = 2;
+constexpr Eigen::Index components = 2;
 constexpr int none = -1;
 
 /// The pair without a group that pair i is to share one with, or none.
@@ -18,8 +18,8 @@ Eigen::Index neighbour_of(Eigen::Index i, const Problem& problem, const std::vec
   Eigen::Index nearest = none;
   double strongest = 0.0, most = 0.0;  // of all, of those without a group; times sqrt((W_nn)_ii)
   for (Eigen::Index j = 0; j < problem.pairs(); ++j) {
-    if (j == i || !(W(d * j, d * j) > 0.0) || std::isinf(problem.tension_of(j)) != bonded) continue;
-    const double coupling = W(d * j, d * i) / std::sqrt(W(d * j, d * j));
+    if (j == i || !(W(components * j, components * j) > 0.0) || std::isinf(problem.tension_of(j)) != bonded) continue;
+    const double coupling = W(components * j, components * i) / std::sqrt(W(components * j, components * j));
     if (coupling > strongest) strongest = coupling;
     if (coupling > most && group[static_cast<std::size_t>(j)] == none) most = coupling, nearest = j;
   }
@@ -57,14 +57,14 @@ Vector weakest(const Vector& strength, const CoarseProblem& coarse, int groups) 
 }  // namespace
 
 Vector CoarseProblem::prolong(const Vector& p_coarse) const {
-  Vector p(d * share.size());
+  Vector p(components * share.size());
   for (Eigen::Index i = 0; i < share.size(); ++i)
-    p.segment<d>(d * i) = share[i] * p_coarse.segment<d>(d * group[static_cast<std::size_t>(i)]);
+    p.segment<components>(components * i) = share[i] * p_coarse.segment<components>(components * group[static_cast<std::size_t>(i)]);
   return p;
 }
 
 CoarseProblem coarse_problem(const Problem& problem) {
-  ensure(problem.dimension == d && problem.W.is_dense(),
+  ensure(problem.dimension == components && problem.W.is_dense(),
          "a coarse problem is made of a plane problem with dense W");
   const Matrix& W = problem.W.dense();
   const Eigen::Index N = problem.pairs();
@@ -74,19 +74,19 @@ CoarseProblem coarse_problem(const Problem& problem) {
   small.cohesion = weakest(problem.cohesion, coarse, groups);
   small.tension = weakest(problem.tension, coarse, groups);
   small.mu.setConstant(groups, HUGE_VAL);
-  small.q.setZero(d * groups);
-  small.G.setZero(d * groups, problem.G.cols());
+  small.q.setZero(components * groups);
+  small.G.setZero(components * groups, problem.G.cols());
   small.f = problem.f;
-  Matrix W_small = Matrix::Zero(d * groups, d * groups);
+  Matrix W_small = Matrix::Zero(components * groups, components * groups);
   for (Eigen::Index j = 0; j < N; ++j) {
     const Eigen::Index to = coarse.group[static_cast<std::size_t>(j)];
     const double share = coarse.share[j];
     small.mu[to] = std::min(small.mu[to], problem.mu[j]);
-    small.q.segment<d>(d * to) += share * problem.q.segment<d>(d * j);
-    small.G.middleRows<d>(d * to) += share * problem.G.middleRows<d>(d * j);
+    small.q.segment<components>(components * to) += share * problem.q.segment<components>(components * j);
+    small.G.middleRows<components>(components * to) += share * problem.G.middleRows<components>(components * j);
     for (Eigen::Index i = 0; i < N; ++i)
-      W_small.block<d, d>(d * coarse.group[static_cast<std::size_t>(i)], d * to) +=
-          share * coarse.share[i] * W.block<d, d>(d * i, d * j);
+      W_small.block<components, components>(components * coarse.group[static_cast<std::size_t>(i)], components * to) +=
+          share * coarse.share[i] * W.block<components, components>(components * i, components * j);
   }
   small.W = std::move(W_small);
   return coarse;

@@ -10,8 +10,6 @@
 
 namespace scabo::linalg {
 
-namespace {
-
 /// CHOLMOD's workspace and factor, freed together.
 class SparseCholesky {
  public:
@@ -77,8 +75,6 @@ class SparseCholesky {
   mutable cholmod_common common_{};
   cholmod_factor* factor_ = nullptr;
 };
-
-}  // namespace
 
 struct SymmetricPositiveSolver::Factor {
   int n = 0;
