@@ -101,10 +101,10 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Median seconds of each task; the tasks in turn, after one run of each that does not count.
-std::vector<double> medians(const std::vector<std::function<void()>>& tasks, int repeat) {
+/// Median seconds of each task; the tasks in turn, after one run of each that does not count (where `warm`).
+std::vector<double> medians(const std::vector<std::function<void()>>& tasks, int repeat, bool warm = true) {
   std::vector<std::vector<double>> times(tasks.size());
-  for (int k = -1; k < repeat; ++k)
+  for (int k = warm ? -1 : 0; k < repeat; ++k)
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       const double time = seconds(tasks[t]);
       if (k >= 0) times[t].push_back(time);
@@ -173,7 +173,7 @@ void large_table(const char* name, Ring (*make)(int), int most, int textbook, in
     std::vector<std::function<void()>> tasks = {[&] { solution = solve_super_element(ring, concrete, 1.0); },
                                                 [&] { modes = modal_solution(solve_super_element(ring, concrete, 1.0)); }};
     if (n <= textbook) tasks.push_back([&] { K = eigenvector_route(ring, concrete); });
-    const auto t = medians(tasks, n > 2000 ? 1 : n >= 640 ? std::min(repeat, 5) : repeat);
+    const auto t = medians(tasks, n > 1000 ? 1 : n >= 640 ? std::min(repeat, 5) : repeat, n < 1000);
     const double residual = riccati_residual(ring, concrete, solution.K);
     std::printf("| %ld | %zu | ", static_cast<long>(solution.K.rows()), solution.blocks.size());
     if (K.size() > 0)
