@@ -8,9 +8,9 @@ namespace scabo::linalg::SCABO_KERNEL {
 
 namespace {
 
-typedef double V8 __attribute__((vector_size(64), aligned(8), may_alias));
-typedef double V4 __attribute__((vector_size(32), aligned(8), may_alias));
-typedef double V2 __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double V8 __attribute__((vector_size(64)));
+typedef double V4 __attribute__((vector_size(32)));
+typedef double V2 __attribute__((vector_size(16)));
 
 template <int W>
 struct Vector;
@@ -22,6 +22,18 @@ template <>
 struct Vector<2> { typedef V2 type; };
 template <>
 struct Vector<1> { typedef double type; };
+
+/// Vectors at any address: by copies, which compilers turn into one unaligned move.
+template <typename V>
+inline V load(const double* from) {
+  V value;
+  __builtin_memcpy(&value, from, sizeof value);
+  return value;
+}
+template <typename V>
+inline void put(const V& value, double* to) {
+  __builtin_memcpy(to, &value, sizeof value);
+}
 
 constexpr int lanes = SCABO_LANES;
 constexpr int tile_vectors = SCABO_TILE_VECTORS, tile_columns = SCABO_TILE_COLUMNS;
@@ -45,7 +57,7 @@ inline void subtract(const double* A, long a_stride, Factor B, int depth, const 
   for (int k = 0; k < depth; ++k, A += a_stride, B.at += B.row) {
     V left[R];
 #pragma GCC unroll 8
-    for (int r = 0; r < R; ++r) left[r] = *reinterpret_cast<const V*>(A + r * W);
+    for (int r = 0; r < R; ++r) left[r] = load<V>(A + r * W);
 #pragma GCC unroll 8
     for (int c = 0; c < C; ++c) {
       const double right = B.at[c * B.column];
@@ -56,16 +68,15 @@ inline void subtract(const double* A, long a_stride, Factor B, int depth, const 
 #pragma GCC unroll 8
   for (int r = 0; r < R; ++r)
 #pragma GCC unroll 8
-    for (int c = 0; c < C; ++c) acc[r][c] = *reinterpret_cast<const V*>(from + c * from_stride + r * W) - acc[r][c];
+    for (int c = 0; c < C; ++c) acc[r][c] = load<V>(from + c * from_stride + r * W) - acc[r][c];
 }
 
 template <int W, int R, int C>
 inline void store(const typename Vector<W>::type (&acc)[R][C], double* out, long out_stride) {
-  using V = typename Vector<W>::type;
 #pragma GCC unroll 8
   for (int r = 0; r < R; ++r)
 #pragma GCC unroll 8
-    for (int c = 0; c < C; ++c) *reinterpret_cast<V*>(out + c * out_stride + r * W) = acc[r][c];
+    for (int c = 0; c < C; ++c) put(acc[r][c], out + c * out_stride + r * W);
 }
 
 /// Calls f<W, R>(first row) for tiles that cover `rows` rows: widest first, single rows at the end.
