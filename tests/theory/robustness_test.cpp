@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "scabo/element/batch.hpp"
+#include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/riccati.hpp"
 #include "scabo/element/stiffness.hpp"
@@ -230,6 +231,22 @@ TEST(Robustness, IllPosedOnesAreNamed) {
   expect_refused(good, sectors, 1.0, "the elasticity of boundary element 5 is not positive definite");
   expect_refused(good, D, 0.0, "thickness");
   expect_refused(good, D, -1.0, "thickness");
+}
+
+/// Above most_exact_rows there is no residual in long double: the doubling alone must do.
+TEST(Robustness, LargeOnesOfGreatContrastAreSolved) {
+  const std::vector<int> on_each = {60, 40, 50, 30};
+  const Ring ring = polygon_ring({{-3.0, -0.75}, {3.1, -0.8}, {2.8, 0.85}, {-2.9, 0.7}}, on_each, 2);
+  std::vector<Mat3> sectors;
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    sectors.insert(sectors.end(), static_cast<std::size_t>(on_each[edge]), elasticity(edge % 2 == 0 ? 1e5 : 1.0, 0.3));
+  const SuperElementSolution solution = solve_super_element(ring, sectors, 1.0);
+  ASSERT_EQ(solution.K.rows(), 720);
+  ASSERT_GT(solution.K.rows(), most_exact_rows);
+  EXPECT_LE(solution.residual, 1e-10);
+  const Vector turned = at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(-x.y(), x.x()); });
+  EXPECT_LE(relative(solution.K * turned, solution.K.cwiseAbs() * turned.cwiseAbs()), 1e-10);
+  EXPECT_EQ(largest(solution.K - solution.K.transpose()), 0.0);
 }
 
 }  // namespace

@@ -8,32 +8,23 @@
 #include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/line_basis.hpp"
 #include "scabo/element/stiffness.hpp"
+#include "scabo/linalg/instruction_sets.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {
 
-#if defined(__x86_64__)
 namespace batch_avx512 {
 extern const BatchKernel kernel;
 }
 namespace batch_avx2 {
 extern const BatchKernel kernel;
 }
-#endif
 namespace batch_baseline {
 extern const BatchKernel kernel;
 }
 
 const BatchKernel* batch_kernel(int rank) {
-  static const std::vector<const BatchKernel*> kernels = [] {
-    std::vector<const BatchKernel*> found;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) found.push_back(&batch_avx512::kernel);
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) found.push_back(&batch_avx2::kernel);
-#endif
-    found.push_back(&batch_baseline::kernel);
-    return found;
-  }();
+  static const auto kernels = linalg::runnable(batch_avx512::kernel, batch_avx2::kernel, batch_baseline::kernel);
   return rank < static_cast<int>(kernels.size()) ? kernels[static_cast<std::size_t>(rank)] : nullptr;
 }
 

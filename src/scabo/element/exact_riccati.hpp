@@ -12,8 +12,9 @@
 
 namespace scabo::element {
 
-/// Elasticity::contrast() above which the digits are worth their price.
+/// Elasticity::contrast() above which the digits are worth their price, and rows of a block up to which (500: about two seconds).
 inline constexpr double great_contrast = 1e3;
+inline constexpr int most_exact_rows = 500;
 
 /// E0, E1, E2, n x n, of a bounded domain, and its translations R (n x m) that are taken out of the rows J: I are those left.
 struct WithTranslations {

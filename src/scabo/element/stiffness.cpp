@@ -150,16 +150,20 @@ IllPosed digits_lost(double residual) {
   return IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual));
 }
 
-/// What ring doubling made of a bounded block, with its last digits where they are needed; sets K.
+/// What ring doubling made of a bounded block, with its last digits where they are needed and the block is not too large for
+/// them; sets K.
 void finish_bounded(Block& block, const Matrix& E1, const Matrix& E2, const Matrix& motions, bool contrast, Matrix& K,
                     RingStiffness& ring) {
   const auto finished = [&] {
     K = with_translations(block, ring.K);
     return ring.residual <= too_much && is_definite(block, K, motions);
   };
-  if (!contrast && finished()) return;
-  correct_last_digits({block.E0, E1, E2, block.R, block.I}, ring);
-  if (finished()) return;
+  const bool affordable = block.E0.rows() <= most_exact_rows;
+  if (!(contrast && affordable) && finished()) return;
+  if (affordable) {
+    correct_last_digits({block.E0, E1, E2, block.R, block.I}, ring);
+    if (finished()) return;
+  }
   if (!(ring.residual <= too_much)) throw digits_lost(ring.residual);
   throw IllPosed("its stiffness is not positive definite: digits were lost");
 }
