@@ -1,30 +1,51 @@
-// Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the local problem. Slow and hard to stop: a start for
-// Newton where Newton's own fail (Jourdan, Alart, Jean, Comput. Methods Appl. Mech. Engrg. 155 (1998) 31).
+// Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the pair's own problem (Jourdan, Alart, Jean, Comput. Methods Appl.
+// Mech. Engrg. 155 (1998) 31). Linear at best: a start for Newton, a way back where Newton's own fail, and what sweeps.hpp
+// accelerates.
 #pragma once
 
-#include <Eigen/SparseCore>
+#include <variant>
+#include <vector>
 
+#include "scabo/contact/pair_problem.hpp"
 #include "scabo/contact/problem.hpp"
 
 namespace scabo::contact {
 
-/// Force of one pair, [normal, tangents], whose motion is free + W p, for its own part of W (d x d): open, stick, or slip
-/// at the bound. In space slip is u_t = -s p_t with s > 0 from one equation, bracketed and found by regula falsi.
-Vector local_force(const Matrix& W, const Vector& free, double mu, double cohesion = 0.0, double tension = 0.0);
+/// Sweeps over the pairs of a problem of d components without rigid motions (m = 0). A condensed W is formed. The problem must
+/// outlive them.
+template <int d>
+class PairSweeps {
+ public:
+  explicit PairSweeps(const Problem& problem);
+  /// motion = q + W p from scratch; for a start, and where rounding has piled up.
+  void start(const Vector& p, Vector& motion) const;
+  /// One sweep on forces and motions: the largest change of a force component.
+  double sweep(Vector& p, Vector& motion);
+  const std::vector<PairProblem<d>>& pairs() const { return pairs_; }
 
-/// Sweeps over the pairs of a problem without rigid motions (m = 0), dense or sparse.
+ private:
+  void read_block(Eigen::Index i, double* block) const;
+  void add(Eigen::Index i, const double* change, double* motion) const;
+
+  const Problem* problem_;
+  std::vector<PairProblem<d>> pairs_;
+  const double* values_ = nullptr;
+  const int *columns_ = nullptr, *rows_ = nullptr;  // of a sparse W
+};
+
+extern template class PairSweeps<2>;
+extern template class PairSweeps<3>;
+
+/// The same in two or three components, with its motions.
 class GaussSeidel {
  public:
   explicit GaussSeidel(const Problem& problem);
-  /// One sweep on the forces p: the largest change of a force component.
-  double sweep(Vector& p);
-  /// Recomputes the motions of p from scratch; for a start, and where rounding has piled up.
   void start(const Vector& p);
+  double sweep(Vector& p);
   const Vector& motion() const { return motion_; }
 
  private:
-  const Problem& problem_;
-  Matrix blocks_;
+  std::variant<PairSweeps<2>, PairSweeps<3>> sweeps_;
   Vector motion_;
 };
 

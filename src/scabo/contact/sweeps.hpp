@@ -10,16 +10,7 @@
 // least met since, the changes are forgotten. Sweeps go on while thirty of them divide the least natural map
 // by four or more, and end where the judge is content with motions computed afresh.
 //
-// The pair's own problem is solved exactly. In the plane it has a closed form. In space slip is u_t = -s p_t,
-// s > 0, and with u_n = 0 (A + s) p_t = -c, A and c what the normal leaves of W_tt and of the free slip. With
-// N(s) = det(A + s) p_t:
-//
-//     g(s) = |N(s)| + mu / W_nn (a_n det(A + s) + W_nt N(s)) = 0,   a_n < 0 the free normal motion
-//
-// a quartic in s by another name, solved by Newton within a bracket from the s of the sweep before: one or
-// two steps near the end.
-//
-// The functions are marked hot so that they lie together in the program: what a small problem costs in a new
+// Its functions and those of a sweep are marked hot so that they lie together in the program: what a small problem costs in a new
 // process is mostly the code that it is the first to touch (4 to 8 us for each 64 kB; a second solve takes 2
 // to 20).
 #pragma once

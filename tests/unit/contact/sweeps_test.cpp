@@ -1,13 +1,10 @@
-// Accelerated sweeps: the pair's own problem against the slow bracketing of gauss_seidel.hpp, and when sweeps
-// alone suffice.
+// Accelerated sweeps: when they alone suffice, and that they end. Their pairs: pair_problem_test.cpp.
 #include "scabo/contact/sweeps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
-#include <random>
 
 #include "scabo/contact/certificate.hpp"
 #include "scabo/contact/gauss_seidel.hpp"
@@ -15,13 +12,6 @@
 
 namespace scabo::contact {
 namespace {
-
-using Random = std::mt19937;
-
-Vector random_motion(Random& random, Eigen::Index size) {
-  std::normal_distribution<double> normal;
-  return Vector::NullaryExpr(size, [&] { return normal(random); });
-}
 
 Problem coulomb(int d, Matrix W, Vector q, double mu) {
   Problem problem;
@@ -32,13 +22,6 @@ Problem coulomb(int d, Matrix W, Vector q, double mu) {
   problem.f = Vector::Zero(0);
   problem.q = std::move(q);
   return problem;
-}
-
-/// Positive definite, normal and tangents coupled; `rank` below its size: singular.
-Matrix random_operator(Random& random, Eigen::Index size, Eigen::Index rank) {
-  Matrix B(size, rank);
-  for (Eigen::Index k = 0; k < rank; ++k) B.col(k) = random_motion(random, size);
-  return B * B.transpose();
 }
 
 /// A row of pairs on bodies joined by springs: what one pair presses spreads slowly.
@@ -57,39 +40,6 @@ Problem chain(int d, int pairs, double ground, double mu) {
   });
   const Matrix W = K.inverse();
   return coulomb(d, W, W * load, mu);
-}
-
-TEST(AcceleratedSweeps, OnePairIsSolvedExactlyByTheFirst) {
-  Random random(3);
-  int open = 0, stick = 0, slip = 0;
-  for (int k = 0; k < 3000; ++k) {
-    const int d = 2 + k % 2;
-    const double mu = std::array{0.0, 0.1, 0.3, 0.6}[static_cast<std::size_t>(k) / 2 % 4],
-                 unit = std::pow(10.0, k % 13 - 6);
-    const Matrix W = unit * random_operator(random, d, d + 1);
-    const Vector q = random_motion(random, d) / unit;
-    const Problem problem = coulomb(d, W, q, mu);
-    const SweepsEnd end = accelerated_sweeps(problem, Vector::Zero(d), 1e-10);
-    const Vector oracle = local_force(W, q, mu);
-    const double size = std::max(oracle.norm(), end.p.norm());
-    if (size == 0.0)
-      ++open;
-    else
-      ++(end.p.tail(d - 1).norm() < (1.0 - 1e-9) * mu * end.p[0] ? stick : slip);
-    const Vector u = q + W * end.p;
-    // The law itself, free of units.
-    EXPECT_GE(u[0], -1e-12 * q.norm()) << k;
-    EXPECT_LE(std::abs(u[0] * end.p[0]), 1e-12 * q.norm() * size) << k;
-    EXPECT_LE(end.p.tail(d - 1).norm(), mu * end.p[0] * (1.0 + 1e-11)) << k;
-    EXPECT_LE(u.tail(d - 1).norm() * mu * end.p[0] + u.tail(d - 1).dot(end.p.tail(d - 1)),
-              1e-11 * q.norm() * size)
-        << k;
-    // Where the pair has one solution only, it is the oracle's.
-    if (mu <= 0.1 && W(0, 0) > 0.3 * W.trace()) EXPECT_LE((end.p - oracle).norm(), 1e-9 * size) << k;
-  }
-  EXPECT_GT(open, 300);
-  EXPECT_GT(stick, 100);
-  EXPECT_GT(slip, 300);
 }
 
 TEST(AcceleratedSweeps, PairsThatNothingMovesAndPairsWithoutTangentialMotion) {

@@ -1,0 +1,54 @@
+// One pair's own problem: its force under Coulomb's law with cohesion and tensile strength, every other force held. Sweeps
+// (gauss_seidel.hpp) solve it pair by pair.
+//
+// Its motion is free + W p, W its own block. Open, p_n = -T, where free_n >= W_nn T. Otherwise u_n = 0, and what the normal leaves
+// for the tangents is u_t = A p_t + c,
+//
+//     A = W_tt - W_tn W_nt / W_nn,   c = free_t - W_tn free_n / W_nn
+//
+// Stick is p_t = -A^-1 c within the bound C + mu (p_n)+. In the plane slip has a closed form. In space it is u_t = -s p_t, s > 0, hence
+// (A + s) p_t = -c; with N(s) = det(A + s) p_t
+//
+//     g(s) = |N| + mu / W_nn (free_n det(A + s) + W_nt N) - C det(A + s) = 0
+//
+// a quartic in s by another name, solved by Newton within a bracket from the s of the time before: one or two steps near the end
+// of the sweeps. Where p_n < 0 comes out the bound is C alone, mu = 0 in g. Where no force obeys the law (large mu, W not positive
+// definite) p_n = -free_n / W_nn without friction.
+#pragma once
+
+namespace scabo::contact {
+
+template <int d>
+class PairProblem {
+ public:
+  PairProblem() = default;
+  /// `W`: d x d by columns, [normal, tangents]; kept.
+  PairProblem(const double* W, double mu, double cohesion, double tension);
+
+  /// `free`, `force`: d.
+  void solve(const double* free, double* force);
+
+  const double* W() const { return W_; }
+  double inverse() const { return inverse_; }  ///< 1 / W_nn; 0 where no force moves the pair along its normal
+
+ private:
+  using Tangential = double[2][2];
+
+  bool open(const double* free, double* force);
+  bool stick(double a_n, const double* c, double* force) const;
+  bool slip(double a_n, const double* c, double mu, double* force);
+  void slide(const Tangential& A, double a_n, const double* c, double m, double* p_t);
+  double normal(double a_n, const double* p_t) const;
+
+  double W_[d * d];
+  double inverse_, mu_, cohesion_, tension_;
+  double nt_[2] = {0.0, 0.0}, tn_[2] = {0.0, 0.0};  // W_nt, W_tn / W_nn; in the plane the second tangent does not exist
+  Tangential A_ = {{0.0, 0.0}, {0.0, 0.0}};
+  double determinant_;  // of A; 0: singular
+  double s_ = 0.0;      // of the time before; 0: none
+};
+
+extern template class PairProblem<2>;
+extern template class PairProblem<3>;
+
+}  // namespace scabo::contact
