@@ -6,6 +6,7 @@
 #   make bench       against CalculiX and GetFEM
 #   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
 #   make bench-elements  super-elements against the eigenvector route, one thread
+#   make format      lay the sources out by .clang-format
 #   make packages    everything that apt can bring
 #   make install     to PREFIX (/usr/local)
 #   make clean       removes build/ and build-*/
@@ -19,7 +20,7 @@ FUZZ_SECONDS ?= 45
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build test test-release test-asan fuzz bench bench-contact bench-elements packages install clean
+.PHONY: help demo build test test-release test-asan fuzz bench bench-contact bench-elements format packages install clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -68,6 +69,10 @@ bench-elements:
 	@$(configure) release -DSCABO_BENCHMARKS=ON
 	@cmake --build --preset release --target super_elements --parallel $(JOBS)
 	@OPENBLAS_NUM_THREADS=1 build/bin/super_elements
+
+format:
+	@cmake/install_packages.sh format
+	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
 packages:
 	@cmake/install_packages.sh build test bench

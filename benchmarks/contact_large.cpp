@@ -8,9 +8,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <unit/contact/layer.hpp>
 
 #include "scabo/contact/solve.hpp"
-#include <unit/contact/layer.hpp>
 
 int main(int count, char** words) {
   using namespace scabo;

@@ -1,9 +1,10 @@
-// Time of super-elements on one thread, side by side with the textbook route by eigenvectors of the 2n matrix (LAPACK's dgeev),
-// in turn, medians of processor time:
+// Time of super-elements on one thread, side by side with the textbook route by eigenvectors of the 2n matrix (LAPACK's
+// dgeev), in turn, medians of processor time:
 //
 //     super_elements [--largest N] [--repeat N] [--textbook N] [--table batch|large|recover]
 //
-// Three tables: many small ones (batch), one of n = 40 to 5000 degrees of freedom (large), and one recovered inside (recover).
+// Three tables: many small ones (batch), one of n = 40 to 5000 degrees of freedom (large), and one recovered inside
+// (recover).
 #include <lapacke.h>
 #include <sys/resource.h>
 #include <time.h>
@@ -17,13 +18,13 @@
 #include <functional>
 #include <numeric>
 #include <random>
+#include <theory/rings.hpp>
 
 #include "scabo/element/batch.hpp"
 #include "scabo/element/batch_kernel.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/linalg/cholesky_factor.hpp"
 #include "scabo/linalg/dense.hpp"
-#include <theory/rings.hpp>
 
 namespace {
 
@@ -57,7 +58,8 @@ Matrix eigenvector_route(const Ring& ring, const Mat3& D) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(2 * n));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return real[a] > real[b]; });
-  // Real and imaginary parts of the vectors span the same space: the inverse stays real. n - 2 of them and the translations.
+  // Real and imaginary parts of the vectors span the same space: the inverse stays real. n - 2 of them and the
+  // translations.
   Matrix u(n, n), q = Matrix::Zero(n, n);
   for (Eigen::Index k = 0; k < n - 2; ++k) {
     u.col(k) = vectors.col(order[static_cast<std::size_t>(k)]).head(n);
@@ -135,13 +137,19 @@ std::vector<BatchItem> polygons(int count, int edges) {
 }
 
 void batch_table(int repeat) {
-  std::printf("Many small ones, polygons of two-node edges: microseconds each\n\n"
-              "| n | eigenvectors | one at a time | batch | eigenvectors / batch | error: eigenvectors, batch |\n|---|---|---|---|---|---|\n");
+  std::printf(
+      "Many small ones, polygons of two-node edges: microseconds each\n\n"
+      "| n | eigenvectors | one at a time | batch | eigenvectors / batch | error: eigenvectors, batch "
+      "|\n|---|---|---|---|---|---|\n");
   for (int n : {8, 12, 16, 24, 32, 48, 64}) {
     const int many = std::max(256, 65536 / (n * n)), few = 64;
     const std::vector<BatchItem> items = polygons(many, n / 2);
-    const auto t = medians({[&] { for (int i = 0; i < few; ++i) eigenvector_route(items[i].ring, concrete); },
-                            [&] { for (int i = 0; i < few; ++i) solve_super_element(items[i].ring, concrete, 1.0); },
+    const auto t = medians({[&] {
+                              for (int i = 0; i < few; ++i) eigenvector_route(items[i].ring, concrete);
+                            },
+                            [&] {
+                              for (int i = 0; i < few; ++i) solve_super_element(items[i].ring, concrete, 1.0);
+                            },
                             [&] { solve_batch(items); }},
                            repeat);
     const Matrix K = solve_super_element(items[0].ring, concrete, 1.0).K;
@@ -161,17 +169,21 @@ void batch_table(int repeat) {
 }
 
 void large_table(const char* name, Ring (*make)(int), int most, int textbook, int repeat) {
-  std::printf("%s, quadratic edges: milliseconds\n\n"
-              "| n | blocks | eigenvectors | stiffness | stiffness and modes | eigenvectors / stiffness | / with modes | residual: "
-              "eigenvectors, doubling |\n|---|---|---|---|---|---|---|---|\n", name);
+  std::printf(
+      "%s, quadratic edges: milliseconds\n\n"
+      "| n | blocks | eigenvectors | stiffness | stiffness and modes | eigenvectors / stiffness | / with modes | "
+      "residual: "
+      "eigenvectors, doubling |\n|---|---|---|---|---|---|---|---|\n",
+      name);
   for (int n : {40, 80, 160, 320, 640, 1280, 2560, 5000}) {
     if (n > most) break;
     const Ring ring = make(n);
     SuperElementSolution solution;
     ModalSolution modes;
     Matrix K;
-    std::vector<std::function<void()>> tasks = {[&] { solution = solve_super_element(ring, concrete, 1.0); },
-                                                [&] { modes = modal_solution(solve_super_element(ring, concrete, 1.0)); }};
+    std::vector<std::function<void()>> tasks = {
+        [&] { solution = solve_super_element(ring, concrete, 1.0); },
+        [&] { modes = modal_solution(solve_super_element(ring, concrete, 1.0)); }};
     if (n <= textbook) tasks.push_back([&] { K = eigenvector_route(ring, concrete); });
     const auto t = medians(tasks, n > 1000 ? 1 : n >= 640 ? std::min(repeat, 5) : repeat, n < 1000);
     const double residual = riccati_residual(ring, concrete, solution.K);
@@ -188,8 +200,10 @@ void large_table(const char* name, Ring (*make)(int), int most, int textbook, in
 
 /// Solved, taken apart into modes, and one point inside asked for: a linear field, known everywhere.
 void recover_table(int most) {
-  std::printf("Recovered inside, without symmetry\n\n"
-              "| n | stiffness, s | modes, s | a point, ms | error of K u | error of stress | peak memory, MB |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "Recovered inside, without symmetry\n\n"
+      "| n | stiffness, s | modes, s | a point, ms | error of K u | error of stress | peak memory, MB "
+      "|\n|---|---|---|---|---|---|---|\n");
   for (int n : {640, 1280, 2560, 5000}) {
     if (n > most) break;
     const Ring ring = crooked_ring(n);
@@ -208,9 +222,9 @@ void recover_table(int most) {
     const Vector q = matrices.E0 * u + matrices.E1.transpose() * u;  // xi u,xi = u for a linear field
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    std::printf("| %ld | %.2f | %.2f | %.1f | %.0e | %.0e | %.0f |\n", static_cast<long>(solution.K.rows()), solve, modal,
-                point * 1e3, largest(solution.K * u - q) / largest(q), largest(values.stress - stress) / largest(stress),
-                static_cast<double>(usage.ru_maxrss) / 1024.0);
+    std::printf("| %ld | %.2f | %.2f | %.1f | %.0e | %.0e | %.0f |\n", static_cast<long>(solution.K.rows()), solve,
+                modal, point * 1e3, largest(solution.K * u - q) / largest(q),
+                largest(values.stress - stress) / largest(stress), static_cast<double>(usage.ru_maxrss) / 1024.0);
     std::fflush(stdout);
   }
   std::printf("\n");
@@ -223,17 +237,24 @@ int main(int count, char** arguments) {
   std::string table;
   for (int i = 1; i + 1 < count; i += 2) {
     const std::string key = arguments[i];
-    if (key == "--largest") most = std::atoi(arguments[i + 1]);
-    else if (key == "--repeat") repeat = std::atoi(arguments[i + 1]);
-    else if (key == "--textbook") textbook = std::atoi(arguments[i + 1]);
-    else if (key == "--table") table = arguments[i + 1];
-    else return std::fprintf(stderr, "super_elements: no option '%s'\n", key.c_str()), 1;
+    if (key == "--largest")
+      most = std::atoi(arguments[i + 1]);
+    else if (key == "--repeat")
+      repeat = std::atoi(arguments[i + 1]);
+    else if (key == "--textbook")
+      textbook = std::atoi(arguments[i + 1]);
+    else if (key == "--table")
+      table = arguments[i + 1];
+    else
+      return std::fprintf(stderr, "super_elements: no option '%s'\n", key.c_str()), 1;
   }
   linalg::set_blas_threads(1);
   if (table.empty() || table == "batch") batch_table(repeat);
   if (table.empty() || table == "large") {
     large_table("Without symmetry", crooked_ring, most, textbook, repeat);
-    large_table("Rectangle 6 x 1.5 m", [](int n) { return rectangle_ring(6.0, 1.5, n / 10, n / 40, 2); }, most, textbook, repeat);
+    large_table(
+        "Rectangle 6 x 1.5 m", [](int n) { return rectangle_ring(6.0, 1.5, n / 10, n / 40, 2); }, most, textbook,
+        repeat);
   }
   if (table.empty() || table == "recover") recover_table(most);
 }

@@ -16,12 +16,11 @@ std::string bodies_table(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<std::vector<std::string>> rows = {{"body", "nodes", "dofs", "mesh"}};
   for (size_t i = 0; i < model.bodies.size(); ++i) {
     const mesh::BodyMesh& body = mesh.bodies[i];
-    const std::string kind = model.bodies[i].rigid ? "rigid"
-                             : !body.super_elements.empty()
-                                 ? count(body.super_elements.size(), "super-element")
-                                 : count(body.elements.size(), "finite element");
-    rows.push_back({model.bodies[i].name, fmt::format("{}", body.nodes.size()),
-                    fmt::format("{}", 2 * body.nodes.size()), kind});
+    const std::string kind = model.bodies[i].rigid          ? "rigid"
+                             : !body.super_elements.empty() ? count(body.super_elements.size(), "super-element")
+                                                            : count(body.elements.size(), "finite element");
+    rows.push_back(
+        {model.bodies[i].name, fmt::format("{}", body.nodes.size()), fmt::format("{}", 2 * body.nodes.size()), kind});
   }
   return result::table(rows);
 }
@@ -31,8 +30,8 @@ std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
   const std::vector<int> pairs = moving_pairs(model, mesh);
   for (size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const model::Contact& contact = model.contacts[mesh.interfaces[i].contact];
-    rows.push_back({contact.name, contact.a.text + ", " + contact.b.text,
-                    result::describe_law(contact), fmt::format("{}", pairs[i])});
+    rows.push_back({contact.name, contact.a.text + ", " + contact.b.text, result::describe_law(contact),
+                    fmt::format("{}", pairs[i])});
   }
   return result::table(rows);
 }

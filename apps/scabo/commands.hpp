@@ -23,7 +23,7 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::filesystem::path output;  ///< results directory; empty: `model.results` beside `model.yaml`
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< 1 or more
-  bool quiet = false;            ///< only errors and warnings
+  bool quiet = false;                                                                 ///< only errors and warnings
 };
 
 struct ExponentsOptions {
@@ -38,10 +38,10 @@ struct ContactOptions {
   double tolerance = 1e-10;                 ///< of natural-map residual and certificate, > 0
   int iterations = 0;                       ///< of one attempt, > 0; 0: the solver's own
   bool json = false;
-  bool uniqueness = false;                  ///< looks for other solutions
+  bool uniqueness = false;  ///< looks for other solutions
   bool write_trace = false;
-  std::string trace;                        ///< empty: `file.trace.csv`
-  std::string save;                         ///< where problem and solution go; empty: nowhere
+  std::string trace;  ///< empty: `file.trace.csv`
+  std::string save;   ///< where problem and solution go; empty: nowhere
 };
 
 ExitStatus run(const RunOptions& options);

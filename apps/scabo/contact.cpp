@@ -29,10 +29,10 @@ contact::Method method_of(const std::string& name) {
   std::string all;
   for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
   const std::string nearest = model::nearest_name(name, names);
-  throw InputError(
-      "--solver", {{{},
-                    fmt::format("no solver is called {}{}; there are {}", model::quoted_name(name),
-                                nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
+  throw InputError("--solver",
+                   {{{},
+                     fmt::format("no solver is called {}{}; there are {}", model::quoted_name(name),
+                                 nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
 }
 
 double rounding_of(const contact::Problem& problem, const contact::Solution& solution) {
@@ -57,8 +57,7 @@ contact::Solution sharpened(const contact::SavedProblem& saved, contact::Method 
     options.tolerance = std::max(1e-14, 1e-2 * options.tolerance);
     contact::Solution next = contact::solve_with(method, saved.problem, {best.p, best.a}, options);
     if (!(next.natural_map_residual < best.natural_map_residual)) break;
-    for (contact::Iteration& iteration : next.trace)
-      iteration.iteration += best.iterations + best.coarse_iterations;
+    for (contact::Iteration& iteration : next.trace) iteration.iteration += best.iterations + best.coarse_iterations;
     next.trace.insert(next.trace.begin(), best.trace.begin(), best.trace.end());
     next.iterations += best.iterations;
     next.coarse_iterations += best.coarse_iterations;
@@ -90,8 +89,8 @@ Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) 
     judged.status = contact::Status::solved;
     return judged;
   }
-  judged.status = solution.status == contact::Status::mechanism ? contact::Status::mechanism
-                                                                : contact::Status::not_converged;
+  judged.status =
+      solution.status == contact::Status::mechanism ? contact::Status::mechanism : contact::Status::not_converged;
   judged.reason = solution.reason;
   if (judged.reason.empty())
     judged.reason = fmt::format("the natural-map residual, {:.2g}, is above the tolerance {:.2g}",
@@ -117,9 +116,8 @@ void refuse_files_of_others(const std::filesystem::path& file, std::string_view 
   std::ifstream stream(file, std::ios::binary);
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   if (stream.gcount() > 0 && beginning.find(mark) == std::string::npos)
-    throw InputError(
-        file.string(),
-        {{{}, "exists, and is no trace that Scabo wrote: name another file, as in --trace=FILE.csv"}});
+    throw InputError(file.string(),
+                     {{{}, "exists, and is no trace that Scabo wrote: name another file, as in --trace=FILE.csv"}});
 }
 
 /// Where the iterations go, and the picture of them.
@@ -132,8 +130,7 @@ TraceFiles trace_files(const ContactOptions& options) {
   files.table = files.picture = options.trace.empty() ? options.file + ".trace.csv" : options.trace;
   files.picture.replace_extension("svg");
   if (files.picture == files.table)
-    throw InputError(options.trace,
-                     {{{}, "is the name of the picture: name the table, as in --trace=FILE.csv"}});
+    throw InputError(options.trace, {{{}, "is the name of the picture: name the table, as in --trace=FILE.csv"}});
   refuse_files_of_others(files.table, trace_header);
   refuse_files_of_others(files.picture, result::convergence_plot_mark);
   return files;
@@ -143,8 +140,7 @@ void write_trace(const TraceFiles& files, const contact::SavedProblem& saved, co
                  const Judged& judged) {
   result::write_file(files.table, report_trace(judged.solution));
   const std::string title = saved.title.empty() ? options.file : saved.title;
-  const result::ConvergenceCurve curve{judged.solver, judged.solution.trace,
-                                       judged.status == contact::Status::solved};
+  const result::ConvergenceCurve curve{judged.solver, judged.solution.trace, judged.status == contact::Status::solved};
   result::write_file(files.picture, result::convergence_plot({curve}, title, options.tolerance));
 }
 
@@ -177,12 +173,10 @@ ExitStatus solve_contact(const ContactOptions& options) {
   const contact::SavedProblem saved = contact::read_problem_file(options.file);
   const TraceFiles trace = options.write_trace ? trace_files(options) : TraceFiles();
   Judged judged = judge(saved, options);
-  if (options.uniqueness && judged.status == contact::Status::solved)
-    judged.uniqueness = uniqueness_of(saved, judged);
+  if (options.uniqueness && judged.status == contact::Status::solved) judged.uniqueness = uniqueness_of(saved, judged);
   if (options.write_trace) write_trace(trace, saved, options, judged);
   if (!options.save.empty()) save(options.save, saved, judged);
-  print_output(options.json ? report_json(options.file, saved, judged)
-                            : report_table(options.file, saved, judged));
+  print_output(options.json ? report_json(options.file, saved, judged) : report_table(options.file, saved, judged));
   if (judged.status == contact::Status::solved) return ExitStatus::solved;
   print_error(fmt::format("{}: {}: {}", options.file,
                           judged.status == contact::Status::mechanism ? "mechanism" : "did not converge",

@@ -69,15 +69,12 @@ std::string forces_table(const contact::SavedProblem& saved, const contact::Solu
   for (std::size_t i = 0; i < solution.states.size(); ++i) {
     Sum& sum = sums[saved.contact_of_pair.empty() ? 0 : static_cast<std::size_t>(saved.contact_of_pair[i])];
     const contact::ContactState state = solution.states[i];
-    ++(state == contact::ContactState::open    ? sum.open
-       : state == contact::ContactState::stick ? sum.stick
-                                               : sum.slip);
+    ++(state == contact::ContactState::open ? sum.open : state == contact::ContactState::stick ? sum.stick : sum.slip);
     const double p_n = solution.p[static_cast<Eigen::Index>(i) * saved.problem.dimension];
     sum.normal += p_n;
     sum.largest = std::max(sum.largest, p_n);
   }
-  std::vector<std::vector<std::string>> rows = {
-      {"contact", "open", "stick", "slip", "normal force", "largest"}};
+  std::vector<std::vector<std::string>> rows = {{"contact", "open", "stick", "slip", "normal force", "largest"}};
   for (std::size_t k = 0; k < sums.size(); ++k)
     rows.push_back({saved.contacts.empty() ? "all pairs" : saved.contacts[k], fmt::format("{}", sums[k].open),
                     fmt::format("{}", sums[k].stick), fmt::format("{}", sums[k].slip),
@@ -91,19 +88,15 @@ std::string uniqueness_line(const contact::UniquenessReport& report) {
   if (!report.others.empty())
     text += fmt::format(" ({}{})", count(static_cast<int>(report.others.size()), "other"),
                         report.complete ? ", no more" : "");
-  text +=
-      std::isfinite(report.bound) ? fmt::format(", bound {:.3g}", report.bound) : ", bound does not apply";
+  text += std::isfinite(report.bound) ? fmt::format(", bound {:.3g}", report.bound) : ", bound does not apply";
   if (report.index != 0) text += fmt::format(", index {}", report.index);
   return text + "\n\n";
 }
 
 Json json_of(const contact::UniquenessReport& report) {
-  Json json = {{"unique", contact::name_of(report.unique)},
-               {"others", report.others.size()},
-               {"complete", report.complete},
-               {"bound", number_or_null(report.bound)},
-               {"index", report.index},
-               {"r", Json::array()}};
+  Json json = {
+      {"unique", contact::name_of(report.unique)}, {"others", report.others.size()}, {"complete", report.complete},
+      {"bound", number_or_null(report.bound)},     {"index", report.index},          {"r", Json::array()}};
   for (const Vector& p : report.others) json["r"].push_back(list(p));
   return json;
 }
@@ -115,8 +108,7 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
   const contact::Solution& solution = judged.solution;
   std::string text = fmt::format("{}: {}\n", file, saved.layout);
   if (!saved.title.empty()) text += saved.title + "\n";
-  text += fmt::format("{} in {}D, {}", count(problem.pairs(), "pair"), problem.dimension,
-                      describe_matrix(problem));
+  text += fmt::format("{} in {}D, {}", count(problem.pairs(), "pair"), problem.dimension, describe_matrix(problem));
   if (problem.G.cols() > 0) text += ", " + count(problem.G.cols(), "rigid motion");
   if (saved.start.p.size() > 0) text += ", with a start";
 
@@ -129,11 +121,9 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
       judged.seconds);
 
   if (judged.uniqueness) text += uniqueness_line(*judged.uniqueness);
-  std::vector<std::vector<std::string>> rows = {
-      {"certificate", fmt::format("tolerance {:.0e}", judged.tolerance), ""}};
+  std::vector<std::vector<std::string>> rows = {{"certificate", fmt::format("tolerance {:.0e}", judged.tolerance), ""}};
   for (const auto& [name, value] : figures(solution.certificate))
-    rows.push_back(
-        {name, fmt::format("{:.1e}", value), value <= judged.tolerance ? "" : "above the tolerance"});
+    rows.push_back({name, fmt::format("{:.1e}", value), value <= judged.tolerance ? "" : "above the tolerance"});
   const double natural = solution.natural_map_residual;
   rows.push_back({"natural_map_residual", fmt::format("{:.1e}", natural),
                   natural <= judged.tolerance  ? ""
@@ -163,8 +153,7 @@ std::string report_json(const std::string& file, const contact::SavedProblem& sa
   json["states"] = Json::array();
   for (const contact::ContactState state : solution.states) json["states"].push_back(result::name_of(state));
   json["certificate"] = Json::object();
-  for (const auto& [name, value] : figures(solution.certificate))
-    json["certificate"][name] = number_or_null(value);
+  for (const auto& [name, value] : figures(solution.certificate)) json["certificate"][name] = number_or_null(value);
   if (judged.uniqueness) json["uniqueness"] = json_of(*judged.uniqueness);
   json["tolerance"] = judged.tolerance;
   json["rounding"] = number_or_null(judged.rounding);
@@ -188,8 +177,8 @@ std::string report_trace(const contact::Solution& solution) {
   fmt::memory_buffer rows;
   fmt::format_to(std::back_inserter(rows), "{}", trace_header);
   for (const contact::Iteration& at : solution.trace)
-    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{}\n", at.iteration,
-                   result::csv_quoted(at.stage), at.residual, at.merit, at.step_length, at.states_changed);
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{}\n", at.iteration, result::csv_quoted(at.stage),
+                   at.residual, at.merit, at.step_length, at.states_changed);
   return fmt::to_string(rows);
 }
 

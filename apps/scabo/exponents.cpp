@@ -1,11 +1,12 @@
 // `scabo exponents`: the exponents of every super-element, u ~ xi^lambda.
+#include "scabo/analysis/exponents.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "scabo/analysis/exponents.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/read_model.hpp"
 #include "scabo/result/report.hpp"

@@ -92,7 +92,8 @@ class CommandLine {
         ->type_name("DIR")
         ->option_text("DIR");
     add_settings(*run_, run_options_.settings);
-    run_->add_option("--threads", run_options_.threads, "Number of threads, 1 or more; without it one for each processor")
+    run_->add_option("--threads", run_options_.threads,
+                     "Number of threads, 1 or more; without it one for each processor")
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
@@ -109,7 +110,9 @@ class CommandLine {
 
     contact_->add_option("FILE", contact_options_.file, "Discrete contact problem")->option_text(" ");
     contact_->add_option("--solver", contact_options_.solver, solver_help())->option_text("NAME");
-    contact_->add_option("--tolerance", contact_options_.tolerance, "Of natural-map residual and certificate; default 1e-10")
+    contact_
+        ->add_option("--tolerance", contact_options_.tolerance,
+                     "Of natural-map residual and certificate; default 1e-10")
         ->option_text("X")
         ->check(CLI::Range(1e-15, 0.1));
     contact_->add_option("--iterations", contact_options_.iterations, "Of one attempt at most")
@@ -118,13 +121,15 @@ class CommandLine {
     contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
     contact_->add_flag("--uniqueness", contact_options_.uniqueness,
                        "Looks for other solutions, and says whether there are any");
-    trace_ = contact_->add_option("--trace", contact_options_.trace,
-                                  "Writes every iteration as CSV, and a plot of them (.svg) beside it; without a name to "
-                                  "FILE.trace.csv")
+    trace_ = contact_
+                 ->add_option("--trace", contact_options_.trace,
+                              "Writes every iteration as CSV, and a plot of them (.svg) beside it; without a name to "
+                              "FILE.trace.csv")
                  ->option_text("[=CSV]")
                  ->expected(0, 1);
-    contact_->add_option("--save", contact_options_.save,
-                         "Writes the problem and its solution as HDF5; to a name that ends in .dat the problem as text")
+    contact_
+        ->add_option("--save", contact_options_.save,
+                     "Writes the problem and its solution as HDF5; to a name that ends in .dat the problem as text")
         ->option_text("NEW");
     contact_->footer(contact_example);
 
@@ -183,10 +188,10 @@ class CommandLine {
 
   CLI::App app_{"Scabo: frictional contact by the scaled boundary finite element method", "scabo"};
   CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
-  CLI::App* check_ =
-      app_.add_subcommand("check", "Reads and meshes a model, reports its sizes; solves nothing");
+  CLI::App* check_ = app_.add_subcommand("check", "Reads and meshes a model, reports its sizes; solves nothing");
   CLI::App* exponents_ = app_.add_subcommand("exponents", "Prints the exponents of every super-element");
-  CLI::App* contact_ = app_.add_subcommand("contact", "Solves a discrete contact problem from a file, and certifies it");
+  CLI::App* contact_ =
+      app_.add_subcommand("contact", "Solves a discrete contact problem from a file, and certifies it");
   CLI::Option* trace_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   RunOptions run_options_;
@@ -221,8 +226,8 @@ ExitStatus main_program(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
 #if defined(__GLIBC__)
-  // Matrices come and go by the hundred. Handing each back to the system and having it cleared again took a third of the
-  // time of a small super-element (17 ms against 12 ms at 320 degrees of freedom).
+  // Matrices come and go by the hundred. Handing each back to the system and having it cleared again took a third of
+  // the time of a small super-element (17 ms against 12 ms at 320 degrees of freedom).
   mallopt(M_MMAP_THRESHOLD, 256 << 20);
   mallopt(M_TRIM_THRESHOLD, 512 << 20);
 #endif

@@ -60,16 +60,13 @@ void Progress::meshed(const analysis::StaticSolution& solution) {
 void Progress::increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result) {
   before_ = outcome_of(result);
   if (style_ == Style::lines) {
-    const std::string step =
-        solution.model.steps.size() > 1 ? fmt::format(" (step {})", result.step_name) : "";
+    const std::string step = solution.model.steps.size() > 1 ? fmt::format(" (step {})", result.step_name) : "";
     show(fmt::format("{}{}: {}", increment_at_work(), step, before_));
   }
   ++done_;
 }
 
-std::string Progress::increment_at_work() const {
-  return fmt::format("increment {} of {}", done_ + 1, increments_);
-}
+std::string Progress::increment_at_work() const { return fmt::format("increment {} of {}", done_ + 1, increments_); }
 
 void Progress::clear() {
   if (!line_shown_) return;

@@ -21,9 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// `model.results` beside `model.yaml`.
 std::filesystem::path default_output(const std::string& model) {
@@ -31,9 +29,11 @@ std::filesystem::path default_output(const std::string& model) {
   return path.replace_extension("results");
 }
 
-/// One file for each attempt, with the solution where it was accepted. Not in result/, which knows no files of problems.
+/// One file for each attempt, with the solution where it was accepted. Not in result/, which knows no files of
+/// problems.
 void write_problems(const result::ResultsDirectory& directory, const model::Model& model,
-                    const analysis::IncrementResult& increment, const std::vector<analysis::DiscreteProblem>& problems) {
+                    const analysis::IncrementResult& increment,
+                    const std::vector<analysis::DiscreteProblem>& problems) {
   for (std::size_t attempt = 0; attempt < problems.size(); ++attempt) {
     const analysis::DiscreteProblem& discrete = problems[attempt];
     contact::SavedProblem saved;
@@ -47,10 +47,10 @@ void write_problems(const result::ResultsDirectory& directory, const model::Mode
     for (const model::Contact& contact : model.contacts) saved.contacts.push_back(contact.name);
     saved.contact_of_pair = discrete.contact_of_pair;
     saved.number_of_pair = discrete.number_of_pair;
-    saved.title = fmt::format("{}: step {}, increment {}", model.title.empty() ? model.file : model.title, increment.step_name,
-                              increment.increment);
-    saved.description = fmt::format("By Scabo {}, attempt {} of {}, {}", result::version(), attempt + 1, problems.size(),
-                                    discrete.accepted ? "accepted" : "not accepted");
+    saved.title = fmt::format("{}: step {}, increment {}", model.title.empty() ? model.file : model.title,
+                              increment.step_name, increment.increment);
+    saved.description = fmt::format("By Scabo {}, attempt {} of {}, {}", result::version(), attempt + 1,
+                                    problems.size(), discrete.accepted ? "accepted" : "not accepted");
     contact::write_fclib(directory.problem_file(increment, attempt).string(), saved);
   }
 }
@@ -72,8 +72,7 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
                        count(converged, "increment"), solution.timing.total, certificate);
     if (last->error) text += fmt::format("Estimated error {:.2g} of the energy norm\n", last->error->relative);
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
-    text += last->contacts.empty() ? result::report_reactions(solution.model, *last)
-                                   : result::report_contacts(*last);
+    text += last->contacts.empty() ? result::report_reactions(solution.model, *last) : result::report_contacts(*last);
     text += result::report_cracks(*last);
   }
   return text + fmt::format("Results: {}\n", directory.string());

@@ -32,8 +32,9 @@ ExitStatus run_modal(const model::Model& model, const std::filesystem::path& dir
   progress.clear();
   for (const std::string& warning : result.warnings) print_warning(warning);
   if (!options.quiet)
-    print_output(fmt::format("{} in {:.3g} s\n{}Results: {}\n", count(static_cast<long>(result.modes.size()), "natural mode"),
-                             result.timing.total, result::report_modes(result), directory.string()));
+    print_output(fmt::format("{} in {:.3g} s\n{}Results: {}\n",
+                             count(static_cast<long>(result.modes.size()), "natural mode"), result.timing.total,
+                             result::report_modes(result), directory.string()));
   return ExitStatus::solved;
 }
 

@@ -15,8 +15,7 @@ namespace {
 /// What supports hold of one body.
 class Held {
  public:
-  Held(const model::Body& body, const mesh::BodyMesh& mesh,
-       const std::vector<system::Constraint>& constraints)
+  Held(const model::Body& body, const mesh::BodyMesh& mesh, const std::vector<system::Constraint>& constraints)
       : whole_(body.rigid && constraints.size() >= 3), dofs_(2 * mesh.nodes.size()) {
     if (body.rigid) return;
     for (const system::Constraint& constraint : constraints) dofs_[constraint.dof] = true;
@@ -38,14 +37,12 @@ class Held {
 std::vector<int> moving_pairs(const model::Model& model, const mesh::Mesh& mesh) {
   const auto constraints = system::constraints_of(model, mesh);
   std::vector<Held> held;
-  for (size_t i = 0; i < model.bodies.size(); ++i)
-    held.emplace_back(model.bodies[i], mesh.bodies[i], constraints[i]);
+  for (size_t i = 0; i < model.bodies.size(); ++i) held.emplace_back(model.bodies[i], mesh.bodies[i], constraints[i]);
   std::vector<int> moving;
   for (const mesh::Interface& interface : mesh.interfaces) {
     const model::Contact& contact = model.contacts[interface.contact];
     const auto moves = [&](const mesh::ContactPair& pair) {
-      return !held[contact.a.body].at(pair.node_a, pair.normal) ||
-             !held[contact.b.body].at(pair.node_b, pair.normal);
+      return !held[contact.a.body].at(pair.node_a, pair.normal) || !held[contact.b.body].at(pair.node_b, pair.normal);
     };
     moving.push_back(static_cast<int>(std::count_if(interface.pairs.begin(), interface.pairs.end(), moves)));
   }

@@ -20,8 +20,7 @@ std::vector<scabo::model::Override> overrides_in(std::string_view text) {
   while (text.substr(0, override_mark.size()) == override_mark && overrides.size() < 10) {
     const auto end = text.find('\n');
     if (end == std::string_view::npos) break;
-    overrides.push_back(
-        scabo::model::parse_override(text.substr(override_mark.size(), end - override_mark.size())));
+    overrides.push_back(scabo::model::parse_override(text.substr(override_mark.size(), end - override_mark.size())));
     text.remove_prefix(end + 1);
   }
   return overrides;

@@ -14,8 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (problem.W.size() != rows || problem.q.size() != rows || !problem.q.allFinite()) __builtin_trap();
     if (problem.mu.size() == 0 || problem.mu.minCoeff() < 0.0) __builtin_trap();
     // What was read can be written and read again.
-    const auto again =
-        scabo::contact::parse_text_problem(scabo::contact::text_of(problem), "again.dat").problem;
+    const auto again = scabo::contact::parse_text_problem(scabo::contact::text_of(problem), "again.dat").problem;
     if (again.q != problem.q || again.mu != problem.mu) __builtin_trap();
   } catch (const scabo::InputError& error) {
     if (error.diagnostics().empty()) __builtin_trap();

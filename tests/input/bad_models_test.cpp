@@ -71,8 +71,7 @@ class BadModel : public testing::TestWithParam<fs::path> {};
 TEST_P(BadModel, LeadsToTheMessagesItSays) {
   const Expectation expectation = expectation_of(GetParam());
   if (expectation.later) {
-    EXPECT_THAT(messages_of(GetParam()), testing::IsEmpty())
-        << "what is wrong here is found after the reader";
+    EXPECT_THAT(messages_of(GetParam()), testing::IsEmpty()) << "what is wrong here is found after the reader";
     return;
   }
   ASSERT_FALSE(expectation.messages.empty()) << "no '# expect: ' line";

@@ -14,8 +14,9 @@ using std::numbers::pi;
 
 const Mat3 steel = elasticity(1.0, 0.3, model::Plane::strain);
 
-// Williams' symmetric and antisymmetric singular fields of a notch with free faces, closed form (Muskhelishvili's potentials):
-// 2 mu (u + i v) = kappa phi - z conj(phi') - conj(psi), phi = A z^lambda, psi = B z^lambda, about the bisector x1.
+// Williams' symmetric and antisymmetric singular fields of a notch with free faces, closed form (Muskhelishvili's
+// potentials): 2 mu (u + i v) = kappa phi - z conj(phi') - conj(psi), phi = A z^lambda, psi = B z^lambda, about the
+// bisector x1.
 Vec2 notch_field(const Kolosov& m, double lambda, double half, bool symmetric, double r, double t) {
   using C = std::complex<double>;
   const double sign = symmetric ? 1.0 : -1.0;
@@ -29,7 +30,8 @@ Vec2 notch_field(const Kolosov& m, double lambda, double half, bool symmetric, d
   return {w.real(), w.imag()};
 }
 
-// On the bisector s_tt = s_22, s_rt = s_12 of that field: s_22 - s_11 + 2 i s_12 = 2 (conj(z) phi'' + psi'), s_11 + s_22 = 4 Re phi'.
+// On the bisector s_tt = s_22, s_rt = s_12 of that field: s_22 - s_11 + 2 i s_12 = 2 (conj(z) phi'' + psi'), s_11 +
+// s_22 = 4 Re phi'.
 Vec2 notch_stress(double lambda, double half, bool symmetric) {
   using C = std::complex<double>;
   const double sign = symmetric ? 1.0 : -1.0;
@@ -49,7 +51,9 @@ TEST(CornerField, NotchFactorsOfWilliamsFields) {
   const double lambda[2] = {analysis.modes().singular[0].T(0, 0), analysis.modes().singular[1].T(0, 0)};
   for (const bool symmetric : {true, false}) {
     const double power = lambda[symmetric ? 0 : 1];
-    const Vector u = at_nodes(ring.nodes, [&](const Vec2& x) { return notch_field(m, power, half, symmetric, x.norm(), std::atan2(x.y(), x.x())); });
+    const Vector u = at_nodes(ring.nodes, [&](const Vec2& x) {
+      return notch_field(m, power, half, symmetric, x.norm(), std::atan2(x.y(), x.x()));
+    });
     const StressIntensity found = analysis.of(u);
     ASSERT_EQ(found.kind, CornerKind::corner);
     ASSERT_EQ(found.terms.size(), 2u);
@@ -94,8 +98,9 @@ TEST(CornerField, TractionsOnRaysConvergeWithTwiceTheOrder) {
     const double opening = group.Phi(group.Phi.rows() - 1, 0) - group.Phi(1, 0);
     const Kolosov m(1.0, 0.3, model::Plane::strain);
     const double lambda = 0.54448373678;
-    const double exact = notch_stress(lambda, half, true)[0] /
-                         (notch_field(m, lambda, half, true, 1.0, half) - notch_field(m, lambda, half, true, 1.0, -half)).y();
+    const double exact =
+        notch_stress(lambda, half, true)[0] /
+        (notch_field(m, lambda, half, true, 1.0, half) - notch_field(m, lambda, half, true, 1.0, -half)).y();
     errors[i] = std::abs(ray.F(0, 0) / opening / exact - 1.0);
   }
   RecordProperty("errors", testing::PrintToString(errors));
@@ -111,7 +116,8 @@ struct Wedges {
 Wedges wedges(double ratio, double first, double second) {
   Ring ring = sector_ring(0.0, first + second, {first}, 0.7, 10);
   std::vector<Mat3> laws;
-  for (const double angle : middle_angles(ring)) laws.push_back(elasticity(angle < first ? ratio : 1.0, 0.3, model::Plane::strain));
+  for (const double angle : middle_angles(ring))
+    laws.push_back(elasticity(angle < first ? ratio : 1.0, 0.3, model::Plane::strain));
   return {std::move(ring), Elasticity(std::move(laws))};
 }
 
@@ -122,8 +128,8 @@ std::vector<std::complex<double>> lowest(double ratio, double first, double seco
   return {values[2], values[3]};
 }
 
-// Between a real pair and a complex one the exponents merge, and the field gets a logarithm. What the factors say there must be what
-// they say a little to either side, however ill-conditioned the single modes are.
+// Between a real pair and a complex one the exponents merge, and the field gets a logarithm. What the factors say there
+// must be what they say a little to either side, however ill-conditioned the single modes are.
 TEST(CornerField, FactorsAreContinuousWhereExponentsMerge) {
   const double ratio = 10.0, first = pi;
   double real = 0.5 * pi, complex = pi;  // second wedge
@@ -144,7 +150,8 @@ TEST(CornerField, FactorsAreContinuousWhereExponentsMerge) {
     const Wedges w = wedges(ratio, first, second);
     const auto solution = solve_super_element(w.ring, w.D, 1.0);
     const CornerAnalysis analysis(w.ring, w.D, solution, 0.3);
-    const Vector u = at_nodes(w.ring.nodes, [](const Vec2& x) { return Vec2(0.3 * x.x() - x.y() * x.y(), x.x() + 0.5 * x.y() * x.x()); });
+    const Vector u = at_nodes(
+        w.ring.nodes, [](const Vec2& x) { return Vec2(0.3 * x.x() - x.y() * x.y(), x.x() + 0.5 * x.y() * x.x()); });
     return analysis.of(u);
   };
   const StressIntensity there = factors(real);

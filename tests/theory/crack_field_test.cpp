@@ -68,7 +68,8 @@ TEST(CrackField, InterfaceCrackComesBackWithItsReferenceLength) {
       const Kolosov above(ratio, 0.3, model::Plane::strain), below(1.0, 0.3, model::Plane::strain);
       const Ring ring = cracked_square(1, 12);
       std::vector<Mat3> D;
-      for (double angle : middle_angles(ring)) D.push_back(elasticity(angle < pi ? 1.0 : ratio, 0.3, model::Plane::strain));
+      for (double angle : middle_angles(ring))
+        D.push_back(elasticity(angle < pi ? 1.0 : ratio, 0.3, model::Plane::strain));
       const double e11 = 0.3;
       const Vector u = around_tip(ring, [&](double r, double t) {
         return interface_crack(above, below, {1.0, 0.5}, length, e11, r, t);
@@ -85,8 +86,8 @@ TEST(CrackField, InterfaceCrackComesBackWithItsReferenceLength) {
     }
 }
 
-// No closed form: the traction ahead, from the equilibrium of an element, against the opening behind, from the nodes. The
-// reference length and the direction of the oscillation must agree.
+// No closed form: the traction ahead, from the equilibrium of an element, against the opening behind, from the nodes.
+// The reference length and the direction of the oscillation must agree.
 TEST(CrackField, BetweenAnisotropicHalvesTheTractionAheadBelongsToTheOpeningBehind) {
   const Mat3 above = orthotropic(10.0, 1.0, 0.6, 0.25, 0.4), below = orthotropic(1.0, 3.0, 0.5, 0.1, -1.0);
   for (const double angle : {0.0, 1.1}) {

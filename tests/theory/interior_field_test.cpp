@@ -23,13 +23,14 @@ const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4
 /// double. S t = 0 of the translations is made exact: what rounding of K leaves of it is a slope of 1 / xi.
 struct Oracle {
   LongMatrix S;
-  double rounding;  // of S in double: eps times the condition of E0: 5e-15, 5e-12 where the material is nearly incompressible
+  double rounding;  // of S in double: eps times the condition of E0: 5e-15, 5e-12 where the material is nearly
+                    // incompressible
   Oracle(const Ring& ring, const Mat3& D, const Matrix& K) {
     const CoefficientMatrices matrices = coefficient_matrices(ring, D, 1.0);
-    const LongMatrix E0 = Matrix(matrices.E0).cast<long double>(),
-                     E1 = Matrix(matrices.E1).cast<long double>();
+    const LongMatrix E0 = Matrix(matrices.E0).cast<long double>(), E1 = Matrix(matrices.E1).cast<long double>();
     S = E0.partialPivLu().solve(K.cast<long double>() - E1.transpose());
-    const Vector sizes = Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(matrices.E0), Eigen::EigenvaluesOnly).eigenvalues();
+    const Vector sizes =
+        Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(matrices.E0), Eigen::EigenvaluesOnly).eigenvalues();
     rounding = std::numeric_limits<double>::epsilon() * sizes.maxCoeff() / sizes.minCoeff();
     for (Eigen::Index component : {0, 1}) {
       LongVector t = LongVector::Zero(S.cols());
@@ -55,8 +56,8 @@ TEST(InteriorField, AgreesWithTheDenseMatrixExponential) {
     const auto solution = solve_super_element(ring, elastic, 1.0);
     const auto modal = modal_solution(solution);
     const Oracle oracle(ring, elastic, solution.K);
-    const Vector u = at_nodes(
-        ring.nodes, [&](const Vec2&) { return Vec2(uniform(random, -1, 1), uniform(random, -1, 1)); });
+    const Vector u =
+        at_nodes(ring.nodes, [&](const Vec2&) { return Vec2(uniform(random, -1, 1), uniform(random, -1, 1)); });
     const RadialField field(solution, modal, u, {});
     for (double xi : {1.0, 0.999, 0.9, 0.5, 0.1, 0.01}) {
       const auto values = field.at(xi);
@@ -76,8 +77,7 @@ TEST(InteriorField, IsTheBoundaryAtTheBoundaryAndFiniteAtTheCentre) {
   const Mat3 D = elasticity(10e9, 0.3);
   const auto solution = solve_super_element(ring, D, 1.0);
   const auto modal = modal_solution(solution);
-  const Vector u =
-      at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(x.x()), std::cos(2 * x.y())); });
+  const Vector u = at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(x.x()), std::cos(2 * x.y())); });
   const RadialField field(solution, modal, u, {});
   EXPECT_LT(largest(field.at(1.0).u - u), 1e-13);
   const PointValues centre = point_values(ring, field.at(0.0), D, 0, 0.0);
@@ -97,14 +97,13 @@ TEST(InteriorField, LinearFieldIsExactDownToTheCentre) {
        {rectangle_ring(6, 1.5, 4, 1, 2), rectangle_ring(6, 1.5, 16, 4, 2), polygon_ring(skew, 3, 3)}) {
     const auto solution = solve_super_element(ring, D, 1.0);
     const auto modal = modal_solution(solution);
-    const RadialField field(solution, modal,
-                            at_nodes(ring.nodes, [&](const Vec2& x) { return Vec2(gradient * x); }), {});
+    const RadialField field(solution, modal, at_nodes(ring.nodes, [&](const Vec2& x) { return Vec2(gradient * x); }),
+                            {});
     for (double xi : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 0.0}) {
       double error = 0.0;
       const auto values = field.at(xi);
       for (int e = 0; e < static_cast<int>(ring.elements.size()); ++e)
-        error =
-            std::max(error, largest(point_values(ring, values, D, e, 0.3).stress - stress) / largest(stress));
+        error = std::max(error, largest(point_values(ring, values, D, e, 0.3).stress - stress) / largest(stress));
       EXPECT_LT(error, 1e-10) << "xi = " << xi;
     }
   }
@@ -116,8 +115,7 @@ TEST(InteriorField, StrainIsTheGradientOfDisplacement) {
   const Mat3 D = elasticity(1.0, 0.2);
   const auto solution = solve_super_element(ring, D, 1.0);
   const auto modal = modal_solution(solution);
-  const Vector u =
-      at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(3 * x.y()), std::cos(2 * x.x())); });
+  const Vector u = at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(std::sin(3 * x.y()), std::cos(2 * x.x())); });
   const Vector F_b = solution.K * u;  // any load per node: the field only has to be consistent
   const RadialField field(solution, modal, u, {RadialLoad{2.0, F_b, {}}});
   const auto displacement = [&](const Vec2& x) {
@@ -130,8 +128,7 @@ TEST(InteriorField, StrainIsTheGradientOfDisplacement) {
     const Vec2 by_x = (displacement(x + Vec2(h, 0)) - displacement(x - Vec2(h, 0))) / (2 * h);
     const Vec2 by_y = (displacement(x + Vec2(0, h)) - displacement(x - Vec2(0, h))) / (2 * h);
     const PointValues values = point_values(ring, field.at(0.6), D, e, 0.37);
-    EXPECT_LT(largest(values.strain - Vec3(by_x.x(), by_y.y(), by_x.y() + by_y.x())),
-              1e-7 * largest(values.strain));
+    EXPECT_LT(largest(values.strain - Vec3(by_x.x(), by_y.y(), by_x.y() + by_y.x())), 1e-7 * largest(values.strain));
     EXPECT_LT(largest(values.stress - D * values.strain), 1e-14);
   }
 }

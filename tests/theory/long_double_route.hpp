@@ -1,5 +1,6 @@
-// The stiffness of a bounded super-element in 64-bit significands (long double), as an oracle for what double loses: the
-// coefficient matrices integrated anew, the translations taken out, one ring doubled until nothing couples. Plain and slow.
+// The stiffness of a bounded super-element in 64-bit significands (long double), as an oracle for what double loses:
+// the coefficient matrices integrated anew, the translations taken out, one ring doubled until nothing couples. Plain
+// and slow.
 #pragma once
 
 #include <Eigen/Dense>
@@ -37,7 +38,8 @@ struct Basis {
     std::vector<Real> nodes(static_cast<std::size_t>(order) + 1);
     for (int i = 0; i <= order; ++i) {
       Real x = -std::cos(pi * i / order);
-      if (i == 0 || i == order) x = i == 0 ? -1 : 1;
+      if (i == 0 || i == order)
+        x = i == 0 ? -1 : 1;
       else
         for (int k = 0; k < 50; ++k) {
           const auto [value, first, second] = legendre(order, x);
@@ -59,7 +61,8 @@ struct Basis {
         Real value = 1, over = 0;
         for (int k = 0; k <= order; ++k)
           if (k != j) {
-            const Real apart = nodes[static_cast<std::size_t>(j)] - nodes[static_cast<std::size_t>(k)], from = x - nodes[static_cast<std::size_t>(k)];
+            const Real apart = nodes[static_cast<std::size_t>(j)] - nodes[static_cast<std::size_t>(k)],
+                       from = x - nodes[static_cast<std::size_t>(k)];
             value *= from / apart, over += 1 / from;
           }
         N(q, j) = value, slope(q, j) = value * over;
@@ -92,7 +95,8 @@ inline Coefficients coefficients(const element::Ring& ring, const element::Elast
       b1 << ty, 0, 0, -tx, -tx, ty;
       b2 << -y, 0, 0, x, x, -y;
       const Dense weighted = D * (basis.weights[q] * thickness / J);
-      const Dense c0 = b1.transpose() * weighted * b1, c1 = b2.transpose() * weighted * b1, c2 = b2.transpose() * weighted * b2;
+      const Dense c0 = b1.transpose() * weighted * b1, c1 = b2.transpose() * weighted * b1,
+                  c2 = b2.transpose() * weighted * b2;
       for (std::size_t i = 0; i < nodes.size(); ++i)
         for (std::size_t j = 0; j < nodes.size(); ++j) {
           const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
@@ -121,7 +125,8 @@ inline Dense stiffness(const Coefficients& of) {
   const Dense E0R = E0 * R, E1R = E1 * R, M = R.transpose() * E0R;
   const Eigen::LLT<Dense> root(M);
   const Dense G = root.matrixL().solve(Dense(E0R.transpose())), H = root.matrixL().solve(Dense(E1R.transpose()));
-  const Dense e0 = Dense(E0 - G.transpose() * G)(I, I), e1 = Dense(E1 - H.transpose() * G)(I, I), e2 = Dense(E2 - H.transpose() * H)(I, I);
+  const Dense e0 = Dense(E0 - G.transpose() * G)(I, I), e1 = Dense(E1 - H.transpose() * G)(I, I),
+              e2 = Dense(E2 - H.transpose() * H)(I, I);
   Real h = 2;
   for (Eigen::Index i = 0; i < m; ++i) h = std::max(h, e2(i, i) / e0(i, i));
   const Real g = std::sqrt(std::sqrt(h)), even = g / 2, other = 1 / (2 * g);

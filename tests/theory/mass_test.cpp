@@ -28,8 +28,8 @@ Vector translation(const Ring& ring, int component) {
   return at_nodes(ring.nodes, [&](const Vec2&) { return component == 0 ? Vec2(1, 0) : Vec2(0, 1); });
 }
 
-/// int_0^1 xi (xi^S)' M0 xi^S dxi by Gauss points in t, xi = t^4 (exponents may lie near 0.5), with the dense exponential of
-/// the whole S = E0^-1 (K - E1').
+/// int_0^1 xi (xi^S)' M0 xi^S dxi by Gauss points in t, xi = t^4 (exponents may lie near 0.5), with the dense
+/// exponential of the whole S = E0^-1 (K - E1').
 Matrix by_quadrature(const Ring& ring, const Mat3& D, const Matrix& K, const std::vector<double>& density) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, 1.0);
   Matrix S = Matrix(matrices.E0).llt().solve(K - Matrix(matrices.E1).transpose());
@@ -44,7 +44,8 @@ Matrix by_quadrature(const Ring& ring, const Mat3& D, const Matrix& K, const std
   return M;
 }
 
-/// A square with a crack along the negative x axis: the mouth is doubled, the chain runs from its lower to its upper node.
+/// A square with a crack along the negative x axis: the mouth is doubled, the chain runs from its lower to its upper
+/// node.
 Ring cracked_square(int divisions, int order) {
   Ring closed = polygon_ring({{-1, 0}, {-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, divisions, order);
   Ring ring;
@@ -112,7 +113,8 @@ TEST(Mass, OfATranslationIsThatOfTheBody) {
   }
 }
 
-// Linear fields are in the space of xi^S u(1): their kinetic energy is exact. Second moments of a polygon by Green's theorem.
+// Linear fields are in the space of xi^S u(1): their kinetic energy is exact. Second moments of a polygon by Green's
+// theorem.
 TEST(Mass, OfLinearVelocitiesIsExact) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 20; ++trial) {
@@ -137,8 +139,7 @@ TEST(Mass, IsPositiveDefinite) {
   std::mt19937 random(11);
   double least = 1.0;
   for (int trial = 0; trial < 20; ++trial) {
-    const Solved solved(polygon_ring(random_star(random), 1, whole(random, 1, 8)),
-                        random_elasticity(random));
+    const Solved solved(polygon_ring(random_star(random), 1, whole(random, 1, 8)), random_elasticity(random));
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(solved.mass({1.0}), Eigen::EigenvaluesOnly);
     least = std::min(least, eigen.eigenvalues().minCoeff() / eigen.eigenvalues().maxCoeff());
   }

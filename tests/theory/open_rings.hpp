@@ -11,7 +11,8 @@ namespace scabo::test {
 
 /// Chain of straight edges vertices[0] -> vertices[1] -> ...; edge i is divided into elements that end at the given
 /// fractions of its length (all of them: the last is 1).
-inline element::Ring open_ring(const std::vector<Vec2>& vertices, const std::vector<std::vector<double>>& ends, int order) {
+inline element::Ring open_ring(const std::vector<Vec2>& vertices, const std::vector<std::vector<double>>& ends,
+                               int order) {
   const std::vector<double> points = mesh::lobatto_points(order);
   element::Ring ring;
   ring.nodes.push_back(vertices.front());
@@ -52,15 +53,16 @@ inline Vec2 turned(const Vec2& x, double angle) {
   return {std::cos(angle) * x.x() - std::sin(angle) * x.y(), std::sin(angle) * x.x() + std::cos(angle) * x.y()};
 }
 
-/// Square of side 2 around a crack tip at the origin, mouth at (-1, 0) turned by `angle`; the boundary has a node ahead of the tip.
+/// Square of side 2 around a crack tip at the origin, mouth at (-1, 0) turned by `angle`; the boundary has a node ahead
+/// of the tip.
 inline element::Ring cracked_square(int divisions, int order, double angle = 0.0, double size = 1.0) {
   std::vector<Vec2> vertices = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}};
   for (Vec2& vertex : vertices) vertex = size * turned(vertex, angle);
   return open_ring(vertices, divisions, order);
 }
 
-/// A corner of the material angle `opening`, first face along `first`: elements of equal angle on the unit circle's polygon, with a
-/// node at every angle of `marks` (from the first face).
+/// A corner of the material angle `opening`, first face along `first`: elements of equal angle on the unit circle's
+/// polygon, with a node at every angle of `marks` (from the first face).
 inline element::Ring sector_ring(double first, double opening, std::vector<double> marks, double longest, int order) {
   marks.push_back(opening);
   std::sort(marks.begin(), marks.end());
@@ -83,7 +85,8 @@ inline std::vector<double> middle_angles(const element::Ring& ring) {
   std::vector<double> middles;
   double angle = 0.0;
   for (const auto& line : ring.elements) {
-    const Vec2 &a = ring.nodes[static_cast<std::size_t>(line.nodes.front())], &b = ring.nodes[static_cast<std::size_t>(line.nodes.back())];
+    const Vec2 &a = ring.nodes[static_cast<std::size_t>(line.nodes.front())],
+               &b = ring.nodes[static_cast<std::size_t>(line.nodes.back())];
     const double seen = std::atan2(cross(a, b), a.dot(b));
     middles.push_back(angle + 0.5 * seen);
     angle += seen;
@@ -91,7 +94,8 @@ inline std::vector<double> middle_angles(const element::Ring& ring) {
   return middles;
 }
 
-/// Values at the nodes of a field given in the crack's frame by distance and angle, -pi on the right face, pi on the left.
+/// Values at the nodes of a field given in the crack's frame by distance and angle, -pi on the right face, pi on the
+/// left.
 template <typename Field>
 Vector around_tip(const element::Ring& ring, Field field) {
   Vector u(static_cast<Eigen::Index>(2 * ring.nodes.size()));
@@ -117,7 +121,8 @@ struct Kolosov {
 
 /// Williams' terms of K_I, K_II and T (closed form).
 inline Vec2 williams(const Kolosov& m, double K_I, double K_II, double T, double r, double t) {
-  const double f = std::sqrt(r / (2 * std::numbers::pi)) / (2 * m.mu), c = std::cos(t / 2), s = std::sin(t / 2), cost = std::cos(t);
+  const double f = std::sqrt(r / (2 * std::numbers::pi)) / (2 * m.mu), c = std::cos(t / 2), s = std::sin(t / 2),
+               cost = std::cos(t);
   const Vec2 singular(f * (K_I * c * (m.kappa - cost) + K_II * s * (m.kappa + 2 + cost)),
                       f * (K_I * s * (m.kappa - cost) - K_II * c * (m.kappa - 2 + cost)));
   return singular + T / m.young * r * Vec2(std::cos(t), -m.poisson * std::sin(t));
@@ -144,30 +149,36 @@ inline Vec2 sih_paris_irwin(const element::Mat3& a, double K_I, double K_II, dou
   }
   const double f = std::sqrt(2 * r / std::numbers::pi);
   const C over = 1.0 / (s[0] - s[1]);
-  return {f * (K_I * (over * (s[0] * p[1] * w[1] - s[1] * p[0] * w[0])).real() + K_II * (over * (p[1] * w[1] - p[0] * w[0])).real()),
-          f * (K_I * (over * (s[0] * q[1] * w[1] - s[1] * q[0] * w[0])).real() + K_II * (over * (q[1] * w[1] - q[0] * w[0])).real())};
+  return {f * (K_I * (over * (s[0] * p[1] * w[1] - s[1] * p[0] * w[0])).real() +
+               K_II * (over * (p[1] * w[1] - p[0] * w[0])).real()),
+          f * (K_I * (over * (s[0] * q[1] * w[1] - s[1] * q[0] * w[0])).real() +
+               K_II * (over * (q[1] * w[1] - q[0] * w[0])).real())};
 }
 
 /// Oscillation index between isotropic halves (Hutchinson, Suo 1992).
 inline double interface_epsilon(const Kolosov& above, const Kolosov& below) {
-  return std::log((above.kappa / above.mu + 1 / below.mu) / (below.kappa / below.mu + 1 / above.mu)) / (2 * std::numbers::pi);
+  return std::log((above.kappa / above.mu + 1 / below.mu) / (below.kappa / below.mu + 1 / above.mu)) /
+         (2 * std::numbers::pi);
 }
 
-/// Interface crack between isotropic halves, s22 + i s12 = (K_I + i K_II) (r/l)^(i epsilon) / sqrt(2 pi r) ahead, plus the strain e11 of
-/// a T-stress. By Muskhelishvili's potentials: 2 mu (u + i v) = kappa phi(z) - omega(zbar) - (z - zbar) conj(phi'(z)), with
-/// phi_1' = omega_2' = a z^s above, omega_1' = phi_2' = a e^(2 pi epsilon) z^s below, s = -1/2 - i epsilon.
-inline Vec2 interface_crack(const Kolosov& above, const Kolosov& below, std::complex<double> K, double l, double e11, double r,
-                            double t) {
+/// Interface crack between isotropic halves, s22 + i s12 = (K_I + i K_II) (r/l)^(i epsilon) / sqrt(2 pi r) ahead, plus
+/// the strain e11 of a T-stress. By Muskhelishvili's potentials: 2 mu (u + i v) = kappa phi(z) - omega(zbar) - (z -
+/// zbar) conj(phi'(z)), with phi_1' = omega_2' = a z^s above, omega_1' = phi_2' = a e^(2 pi epsilon) z^s below, s =
+/// -1/2 - i epsilon.
+inline Vec2 interface_crack(const Kolosov& above, const Kolosov& below, std::complex<double> K, double l, double e11,
+                            double r, double t) {
   using C = std::complex<double>;
   const double pi = std::numbers::pi, epsilon = interface_epsilon(above, below);
   const C s(-0.5, -epsilon), i(0, 1);
-  const C a = std::conj(K) * std::exp(i * epsilon * std::log(l)) / (std::sqrt(2 * pi) * (1 + std::exp(2 * pi * epsilon)));
+  const C a =
+      std::conj(K) * std::exp(i * epsilon * std::log(l)) / (std::sqrt(2 * pi) * (1 + std::exp(2 * pi * epsilon)));
   const C upper = a, lower = a * std::exp(2 * pi * epsilon);
   const bool is_above = t > 0;
   const Kolosov& m = is_above ? above : below;
   const C own = is_above ? upper : lower, other = is_above ? lower : upper;
   const C log_z(std::log(r), t), z = std::exp(log_z);
-  const C phi = own * std::exp((s + 1.0) * log_z) / (s + 1.0), omega = other * std::exp((s + 1.0) * std::conj(log_z)) / (s + 1.0);
+  const C phi = own * std::exp((s + 1.0) * log_z) / (s + 1.0),
+          omega = other * std::exp((s + 1.0) * std::conj(log_z)) / (s + 1.0);
   const C slope = own * std::exp(s * log_z);
   const C u = (m.kappa * phi - omega - (z - std::conj(z)) * std::conj(slope)) / (2 * m.mu);
   return {u.real() + e11 * r * std::cos(t), u.imag() - m.poisson * e11 * r * std::sin(t)};

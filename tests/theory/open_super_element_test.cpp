@@ -65,7 +65,7 @@ TEST(OpenSuperElement, SplitsAtTheLineThatExchangesItsFaces) {
 
 /// Stress linear in x and y, in equilibrium with the body force b = -div stress, and its displacement, by integration.
 struct LinearField2 {
-  Mat2 gradient;  // of the displacement at the origin
+  Mat2 gradient;                       // of the displacement at the origin
   Eigen::Matrix<double, 2, 3> second;  // u = gradient x + second [x^2, x y, y^2]
   Vec2 displacement(const Vec2& x) const {
     return gradient * x + second * Eigen::Vector3d(x.x() * x.x(), x.x() * x.y(), x.y() * x.y());
@@ -84,15 +84,15 @@ LinearField2 quadratic_field() {
   return field;
 }
 
-/// Largest errors of nodal forces, displacement and stress of an exact field with face tractions, body force and temperature.
+/// Largest errors of nodal forces, displacement and stress of an exact field with face tractions, body force and
+/// temperature.
 void expect_exact(const Ring& ring, const Mat3& D, const Vec3& unit_strain, const LinearField& temperature,
                   const LinearField2& exact, double tolerance) {
   const double t = 0.4;
   const auto stress = [&](const Vec2& x) { return Vec3(D * (exact.strain(x) - unit_strain * temperature.at(x))); };
   // b = -div stress, linear fields have constant derivatives.
   const Vec3 at0 = stress({0, 0}), by_x = stress({1, 0}) - at0, by_y = stress({0, 1}) - at0;
-  std::vector<RadialLoad> loads =
-      body_force_loads(ring, {-(by_x[0] + by_y[2])}, {-(by_x[2] + by_y[1])}, t);
+  std::vector<RadialLoad> loads = body_force_loads(ring, {-(by_x[0] + by_y[2])}, {-(by_x[2] + by_y[1])}, t);
   if (!temperature.is_zero()) add_radial_loads(loads, thermal_loads(ring, D, {unit_strain}, temperature, t), 1.0);
   if (ring.is_open())
     for (Face face : {Face::first, Face::last}) {
@@ -105,9 +105,8 @@ void expect_exact(const Ring& ring, const Mat3& D, const Vec3& unit_strain, cons
   const auto solution = solve_super_element(ring, D, t);
   const auto modal = modal_solution(solution);
   const Vector u = at_nodes(ring.nodes, [&](const Vec2& x) { return exact.displacement(x); });
-  const Vector f = system::traction_forces(ring.elements, ring.nodes, t, [&](const Vec2& x, const Vec2& n) {
-    return test::traction_of(stress(x), n);
-  });
+  const Vector f = system::traction_forces(
+      ring.elements, ring.nodes, t, [&](const Vec2& x, const Vec2& n) { return test::traction_of(stress(x), n); });
   const Vector h = equivalent_load(solution, loads);
   EXPECT_LT(largest(solution.K * u - h - f) / std::max(largest(f), largest(h)), tolerance);
   const RadialField field(solution, modal, u, loads);
@@ -120,7 +119,8 @@ void expect_exact(const Ring& ring, const Mat3& D, const Vec3& unit_strain, cons
     }
 }
 
-// Face tractions xi^0 and xi^1, body forces xi^0; the exponents 1 and 2 are among those of the super-element: resonance.
+// Face tractions xi^0 and xi^1, body forces xi^0; the exponents 1 and 2 are among those of the super-element:
+// resonance.
 TEST(InteriorLoads, PolynomialFieldsAreExactOnOpenSuperElements) {
   const Mat3 D = elasticity(10.0, 0.3);
   for (int order : {2, 3, 6})
@@ -152,8 +152,8 @@ TEST(InteriorLoads, FreeExpansionIsWithoutStress) {
   EXPECT_LT(largest(solution.K * u - h) / largest(h), 1e-12);
 }
 
-// A quadratic traction on both faces in balance with itself, and a power that is a whole exponent: the nodal forces do not
-// depend on how the load is divided into powers near the resonance.
+// A quadratic traction on both faces in balance with itself, and a power that is a whole exponent: the nodal forces do
+// not depend on how the load is divided into powers near the resonance.
 TEST(InteriorLoads, PowersNearAnExponentGoOverIntoIt) {
   const Ring ring = corner_270(2, 4);
   const Mat3 D = elasticity(1.0, 0.25);
@@ -212,8 +212,8 @@ TEST(UnboundedSuperElement, SquareHoleUnderExactTractionsConverges) {
   EXPECT_LT(before, 1e-6);
 }
 
-// Loads out of balance (Kelvin's point force; on a half-plane, Flamant's): stress and relative displacement are those of the
-// closed form, whatever the distance at which displacement is held.
+// Loads out of balance (Kelvin's point force; on a half-plane, Flamant's): stress and relative displacement are those
+// of the closed form, whatever the distance at which displacement is held.
 TEST(UnboundedSuperElement, ForceOnAHalfPlaneIsFlamants) {
   const Ring ring = half_plane(4, 8);
   const double E = 2.0, nu = 0.3;

@@ -32,14 +32,13 @@ struct Errors {
 
 /// K u - h(b) against the consistent nodal forces of the exact tractions; displacement and stress at ten
 /// random points.
-Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactField& exact,
-                 std::mt19937& random) {
+Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactField& exact, std::mt19937& random) {
   const auto solution = solve_super_element(ring, D, thickness);
   const auto modal = modal_solution(solution);
   const Vector u = at_nodes(ring.nodes, exact.displacement);
-  const Vector f =
-      system::traction_forces(ring.elements, ring.nodes, thickness,
-                              [&](const Vec2& x, const Vec2& n) { return traction_of(exact.stress(x), n); });
+  const Vector f = system::traction_forces(ring.elements, ring.nodes, thickness, [&](const Vec2& x, const Vec2& n) {
+    return traction_of(exact.stress(x), n);
+  });
   const std::vector<RadialLoad> loads = uniform_body_force(ring, exact.body_force, thickness);
   const Vector h = equivalent_load(solution, loads);
   Errors errors;
@@ -55,8 +54,7 @@ Errors errors_of(const Ring& ring, const Mat3& D, double thickness, const ExactF
     const int element = whole(random, 0, static_cast<int>(ring.elements.size()) - 1);
     const Vec2 x = xi * boundary_position(ring, element, eta);
     const PointValues values = point_values(ring, field.at(xi), D, element, eta);
-    errors.displacement =
-        std::max(errors.displacement, largest(values.displacement - exact.displacement(x)) / size);
+    errors.displacement = std::max(errors.displacement, largest(values.displacement - exact.displacement(x)) / size);
     errors.stress = std::max(errors.stress, largest(values.stress - exact.stress(x)) / stress_size);
   }
   return errors;
@@ -111,15 +109,13 @@ TEST(PatchTest, PolynomialSolutionsOfTheOrderOfTheEdges) {
     const double G = D(2, 2), lame = D(0, 1), kappa = (lame + 3.0 * G) / (lame + G);
     double size = 0.0;
     for (const Vec2& node : ring.nodes) size = std::max(size, node.norm());
-    const Complex a(uniform(random, -1, 1), uniform(random, -1, 1)),
-        b(uniform(random, -1, 1), uniform(random, -1, 1));
+    const Complex a(uniform(random, -1, 1), uniform(random, -1, 1)), b(uniform(random, -1, 1), uniform(random, -1, 1));
     const auto power = [&](Complex z, int n) { return n < 0 ? Complex(0.0) : std::pow(z / size, n); };
     const ExactField exact{
         [&](const Vec2& x) {
           const Complex z(x.x(), x.y());
           const Complex phi = a * power(z, degree), slope = a * (degree / size) * power(z, degree - 1);
-          const Complex u =
-              (kappa * phi - z * std::conj(slope) - std::conj(b * power(z, degree))) / (2.0 * G);
+          const Complex u = (kappa * phi - z * std::conj(slope) - std::conj(b * power(z, degree))) / (2.0 * G);
           return Vec2(u.real(), u.imag());
         },
         [&](const Vec2& x) {
@@ -127,10 +123,8 @@ TEST(PatchTest, PolynomialSolutionsOfTheOrderOfTheEdges) {
           const Complex slope = a * (degree / size) * power(z, degree - 1);
           const Complex curvature = a * (degree * (degree - 1) / (size * size)) * power(z, degree - 2);
           const double sum = 4.0 * slope.real();
-          const Complex difference =
-              2.0 * (std::conj(z) * curvature + b * (degree / size) * power(z, degree - 1));
-          return Vec3(0.5 * (sum - difference.real()), 0.5 * (sum + difference.real()),
-                      0.5 * difference.imag());
+          const Complex difference = 2.0 * (std::conj(z) * curvature + b * (degree / size) * power(z, degree - 1));
+          return Vec3(0.5 * (sum - difference.real()), 0.5 * (sum + difference.real()), 0.5 * difference.imag());
         }};
     const Errors errors = errors_of(ring, D, 1.0, exact, random);
     worst.raise(errors);

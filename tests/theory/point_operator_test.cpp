@@ -1,7 +1,8 @@
 // Points condensed to the boundary: the rows N and B against the field itself, and where they are known in closed form.
+#include "scabo/element/point_operator.hpp"
+
 #include <gtest/gtest.h>
 
-#include "scabo/element/point_operator.hpp"
 #include "scabo/element/radial_table.hpp"
 #include "theory/rings.hpp"
 
@@ -121,13 +122,15 @@ TEST(PointOperator, HoldsForExponentsBelowOne) {
     const Vec3 strain = condensation.at(point).B * u;
     EXPECT_LT((strain - Vec3(along_x.x(), along_y.y(), along_x.y() + along_y.x())).norm(), 1e-6 * strain.norm());
   }
-  // Differences are free of the uniform strain: what is left grows like xi^(lambda - 1), with the two exponents near 1/2.
+  // Differences are free of the uniform strain: what is left grows like xi^(lambda - 1), with the two exponents near
+  // 1/2.
   const ModalSolution modal = modal_solution(solution);
   const double mode_1 = modal.exponents[2].real(), mode_2 = modal.exponents[3].real();  // after the translations
   EXPECT_NEAR(mode_1, 0.5, 1e-3);
   EXPECT_NEAR(mode_2, 0.5, 1e-3);
   const auto strain_at = [&](double xi) { return Vec3(condensation.at({xi, 3, 0.2}).B * u); };
-  const double farther = (strain_at(1e-6) - strain_at(1e-4)).norm(), nearer = (strain_at(1e-8) - strain_at(1e-6)).norm();
+  const double farther = (strain_at(1e-6) - strain_at(1e-4)).norm(),
+               nearer = (strain_at(1e-8) - strain_at(1e-6)).norm();
   EXPECT_GT(nearer / farther, std::pow(100.0, 1.0 - mode_2) - 1e-5);
   EXPECT_LT(nearer / farther, std::pow(100.0, 1.0 - mode_1) + 1e-5);
 }

@@ -40,12 +40,13 @@ inline Ring ring_through(const std::vector<Vec2>& vertices, int order, bool open
 }
 
 inline Mat3 random_isotropic(std::mt19937& random) {
-  const double nu = whole(random, 0, 1) == 0 ? uniform(random, -0.3, 0.45) : 0.5 - std::pow(10.0, uniform(random, -5.0, -1.0));
+  const double nu =
+      whole(random, 0, 1) == 0 ? uniform(random, -0.3, 0.45) : 0.5 - std::pow(10.0, uniform(random, -5.0, -1.0));
   return elasticity(1.0, nu, whole(random, 0, 2) == 0 ? model::Plane::stress : model::Plane::strain);
 }
 
-/// 3 to 40 edges, orders 1 to 8, aspect to 1:100, edges 1 to 1e-4 of the size, nu to 0.49999, E ratio between sectors to 1e6;
-/// a third with a crack, a half of several materials. At most `most` degrees of freedom.
+/// 3 to 40 edges, orders 1 to 8, aspect to 1:100, edges 1 to 1e-4 of the size, nu to 0.49999, E ratio between sectors
+/// to 1e6; a third with a crack, a half of several materials. At most `most` degrees of freedom.
 inline Sample random_sample(std::mt19937& random, int most) {
   const int order = whole(random, 1, 8);
   std::vector<Vec2> corners = random_star(random);  // 3 to 12 edges

@@ -13,8 +13,7 @@ namespace scabo::test {
 
 /// A closed polygon, counter-clockwise, as the scaling centre at the origin sees it. Edge i (from vertex i)
 /// is divided into divisions[i] elements of one order.
-inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions,
-                                  int order) {
+inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions, int order) {
   const std::vector<double> points = mesh::lobatto_points(order);
   element::Ring ring;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -23,8 +22,7 @@ inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::
       mesh::LineElement element;
       for (int k = 0; k <= order; ++k) element.nodes.push_back(static_cast<int>(ring.nodes.size()) + k);
       for (int k = 0; k < order; ++k)
-        ring.nodes.push_back(from + (part + 0.5 * (points[static_cast<std::size_t>(k)] + 1.0)) /
-                                        divisions[i] * along);
+        ring.nodes.push_back(from + (part + 0.5 * (points[static_cast<std::size_t>(k)] + 1.0)) / divisions[i] * along);
       ring.elements.push_back(element);
     }
   }
@@ -111,8 +109,7 @@ inline element::Mat3 random_elasticity(std::mt19937& random) {
   model::Material material;
   material.young = std::pow(10.0, uniform(random, 0.0, 12.0));
   material.poisson = uniform(random, -0.5, 0.49);
-  return element::elasticity_matrix(material,
-                                    whole(random, 0, 1) == 0 ? model::Plane::stress : model::Plane::strain);
+  return element::elasticity_matrix(material, whole(random, 0, 1) == 0 ? model::Plane::stress : model::Plane::strain);
 }
 
 inline element::Mat3 elasticity(double young, double poisson, model::Plane plane = model::Plane::stress) {
@@ -126,8 +123,7 @@ inline element::Mat3 elasticity(double young, double poisson, model::Plane plane
 template <typename Field>
 Vector at_nodes(const std::vector<Vec2>& nodes, Field field) {
   Vector u(static_cast<Eigen::Index>(2 * nodes.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
+  for (std::size_t i = 0; i < nodes.size(); ++i) u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
   return u;
 }
 

@@ -1,5 +1,5 @@
-// Ten thousand random super-elements, from good ones to what no mesh generator should make, and ill-posed ones: what must hold
-// exactly holds, and what has no solution says so. docs/methods/18_robustness.md has the worst figures.
+// Ten thousand random super-elements, from good ones to what no mesh generator should make, and ill-posed ones: what
+// must hold exactly holds, and what has no solution says so. docs/methods/18_robustness.md has the worst figures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,18 +41,21 @@ double relative(const Vector& force, const Vector& size) {
   return force.cwiseAbs().cwiseQuotient(size.cwiseMax(std::numeric_limits<double>::min())).maxCoeff();
 }
 
-/// The Riccati residual of K, divided by what changing every entry of K and of the coefficient matrices in its last digit makes of it:
-/// P changes by S'(dK - dE1') + (dK - dE1) S - S'dE0 S - dE2, |dK| = eps |K| and so on.
+/// The Riccati residual of K, divided by what changing every entry of K and of the coefficient matrices in its last
+/// digit makes of it: P changes by S'(dK - dE1') + (dK - dE1) S - S'dE0 S - dE2, |dK| = eps |K| and so on.
 double residual_in_roundings(const CoefficientMatrices& matrices, const Matrix& K) {
   linalg::CholeskyFactor L;
   L.A = matrices.E0;
   if (!L.factorise()) return std::numeric_limits<double>::infinity();
   const RiccatiResidual residual = riccati_residual(L, matrices.E1, matrices.E2, K);
-  const Matrix half = linalg::multiply_transposed(residual.S.cwiseAbs(), K.cwiseAbs() + Matrix(matrices.E1.cwiseAbs().transpose()));
-  const Matrix size = residual.S.cwiseAbs(), middle = linalg::multiply_transposed(size, linalg::multiply(Matrix(matrices.E0.cwiseAbs()), size));
+  const Matrix half =
+      linalg::multiply_transposed(residual.S.cwiseAbs(), K.cwiseAbs() + Matrix(matrices.E1.cwiseAbs().transpose()));
+  const Matrix size = residual.S.cwiseAbs(),
+               middle = linalg::multiply_transposed(size, linalg::multiply(Matrix(matrices.E0.cwiseAbs()), size));
   const Matrix change = half + half.transpose() + middle + Matrix(matrices.E2.cwiseAbs());
   const Vector scale = matrices.E2.diagonal().cwiseSqrt().cwiseInverse();
-  return residual.size / (std::numeric_limits<double>::epsilon() * largest(scale.asDiagonal() * change * scale.asDiagonal()));
+  return residual.size /
+         (std::numeric_limits<double>::epsilon() * largest(scale.asDiagonal() * change * scale.asDiagonal()));
 }
 
 /// Linear displacements that are a solution: any for a closed ring, uniaxial stress along a crack.
@@ -75,7 +78,8 @@ Matrix scaled(const Matrix& A, const Matrix& K) {
 }
 
 struct Campaign {
-  Worst asymmetry, translation, rotation, patch, solved_residual, riccati, zero, soft, slow, error, rounding, of_rounded;
+  Worst asymmetry, translation, rotation, patch, solved_residual, riccati, zero, soft, slow, error, rounding,
+      of_rounded;
   int solved[classes] = {}, refused[classes] = {}, largest = 0, compared = 0;
 
   void exponents(const SuperElementSolution& solution, Class of, int k) {
@@ -102,9 +106,12 @@ struct Campaign {
     EXPECT_GT(values[3], 0.0);
   }
 
-  /// Against 64-bit significands: the error of K, and what rounding the coefficient matrices to double alone makes of it.
+  /// Against 64-bit significands: the error of K, and what rounding the coefficient matrices to double alone makes of
+  /// it.
   void oracle(const Sample& sample, const CoefficientMatrices& matrices, const Matrix& K, Class of, int k) {
-    const auto real = [](const Eigen::SparseMatrix<double>& A) { return oracle::Dense(Matrix(A).cast<oracle::Real>()); };
+    const auto real = [](const Eigen::SparseMatrix<double>& A) {
+      return oracle::Dense(Matrix(A).cast<oracle::Real>());
+    };
     const oracle::Dense exact = oracle::stiffness(sample.ring, sample.D, sample.thickness),
                         rounded = oracle::stiffness({real(matrices.E0), real(matrices.E1), real(matrices.E2)});
     error.raise(of, largest_entry(scaled((K.cast<oracle::Real>() - exact).cast<double>(), K)), k);
@@ -135,7 +142,8 @@ struct Campaign {
       const Mat2 gradient = exact_gradient(random, sample);
       const Vector u = at_nodes(sample.ring.nodes, [&](const Vec2& x) { return Vec2(gradient * x); });
       const Vector q = matrices.E0 * u + matrices.E1.transpose() * u;  // xi u,xi = u
-      const Vector terms = size * u.cwiseAbs() + matrices.E0.cwiseAbs() * u.cwiseAbs() + matrices.E1.transpose().cwiseAbs() * u.cwiseAbs();
+      const Vector terms = size * u.cwiseAbs() + matrices.E0.cwiseAbs() * u.cwiseAbs() +
+                           matrices.E1.transpose().cwiseAbs() * u.cwiseAbs();
       patch.raise(of, relative(K * u - q, terms), k);
     }
     exponents(solution, of, k);
@@ -160,7 +168,7 @@ TEST(Robustness, TenThousandRandomSuperElements) {
     }
   }
   std::printf("| | one material | cracked | several | cracked |\n|---|---|---|---|---|\n");
-  const auto counts = [](const char* name, const int (&count)[classes]) {
+  const auto counts = [](const char* name, const int(&count)[classes]) {
     std::printf("| %s | %d | %d | %d | %d |\n", name, count[0], count[1], count[2], count[3]);
   };
   counts("solved", campaign.solved);

@@ -25,18 +25,16 @@ std::ostream& operator<<(std::ostream& out, const Shape& shape) { return out << 
 
 std::vector<Shape> small_shapes() {
   const Mat3 stress = elasticity(10e9, 0.3), strain = elasticity(200e9, 0.25, model::Plane::strain);
-  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2},
-                                  {0.3, 0.4},   {-0.2, 1.3}, {-1.0, 0.1}};
-  return {
-      {"square, order 1", polygon_ring(rectangle(2, 2), 3, 1), stress},
-      {"triangle, order 2", polygon_ring(regular_polygon(3, 1.0, 0.4), 2, 2), strain},
-      {"rectangle, order 2", rectangle_ring(6, 1.5, 4, 1, 2), stress},
-      {"hexagon, order 3", polygon_ring(regular_polygon(6, 0.01, 0.0), 1, 3), strain},
-      {"skew, order 1", polygon_ring(skew, 4, 1), stress},
-      {"skew, order 2", polygon_ring(skew, 2, 2), strain},
-      {"skew, order 4", polygon_ring(skew, 1, 4), stress},
-      {"square, order 8", polygon_ring(rectangle(1, 1), 1, 8), stress},
-      {"far centre", polygon_ring({{-0.2, -0.15}, {1.8, -0.15}, {1.8, 1.85}, {-0.2, 1.85}}, 2, 2), stress}};
+  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
+  return {{"square, order 1", polygon_ring(rectangle(2, 2), 3, 1), stress},
+          {"triangle, order 2", polygon_ring(regular_polygon(3, 1.0, 0.4), 2, 2), strain},
+          {"rectangle, order 2", rectangle_ring(6, 1.5, 4, 1, 2), stress},
+          {"hexagon, order 3", polygon_ring(regular_polygon(6, 0.01, 0.0), 1, 3), strain},
+          {"skew, order 1", polygon_ring(skew, 4, 1), stress},
+          {"skew, order 2", polygon_ring(skew, 2, 2), strain},
+          {"skew, order 4", polygon_ring(skew, 1, 4), stress},
+          {"square, order 8", polygon_ring(rectangle(1, 1), 1, 8), stress},
+          {"far centre", polygon_ring({{-0.2, -0.15}, {1.8, -0.15}, {1.8, 1.85}, {-0.2, 1.85}}, 2, 2), stress}};
 }
 
 class TextbookRoute : public testing::TestWithParam<Shape> {};
@@ -120,8 +118,7 @@ TEST(ExactStiffness, SlenderRectangleOfAnySize) {
 
 TEST(ExactStiffness, WithoutSymmetryBlocks) {
   for (int n : {40, 160, 640})
-    expect_exact("unsplit, n = " + std::to_string(n), unsplit(rectangle_ring(6.0, 1.5, n / 10, n / 40, 2)),
-                 concrete);
+    expect_exact("unsplit, n = " + std::to_string(n), unsplit(rectangle_ring(6.0, 1.5, n / 10, n / 40, 2)), concrete);
 }
 
 TEST(ExactStiffness, VerySlenderRectangle) {
@@ -138,23 +135,20 @@ TEST(ExactStiffness, NearlyIncompressible) {
 }
 
 TEST(ExactStiffness, EveryEdgeOrder) {
-  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2},
-                                  {0.3, 0.4},   {-0.2, 1.3}, {-1.0, 0.1}};
+  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
   for (int order = 1; order <= 8; ++order) {
-    expect_exact("rectangle, order " + std::to_string(order), rectangle_ring(6.0, 1.5, 8, 2, order),
-                 concrete);
+    expect_exact("rectangle, order " + std::to_string(order), rectangle_ring(6.0, 1.5, 8, 2, order), concrete);
     expect_exact("skew, order " + std::to_string(order), polygon_ring(skew, 2, order), concrete);
   }
 }
 
 TEST(SymmetryBlocks, GiveTheStiffnessOfTheUnsplitSuperElement) {
   const std::vector<Vec2> house = {{-1, -1}, {1, -1}, {1, 0.4}, {0, 1.2}, {-1, 0.4}};  // one mirror line
-  const std::vector<std::pair<Ring, std::size_t>> rings = {
-      {rectangle_ring(6, 1.5, 8, 2, 2), 4},
-      {polygon_ring(rectangle(1, 1), 3, 1), 4},
-      {polygon_ring(house, 2, 3), 2},
-      {polygon_ring(regular_polygon(5, 1, 0.7), 1, 2), 2},
-      {polygon_ring(regular_polygon(8, 1, 0.7), 1, 2), 4}};
+  const std::vector<std::pair<Ring, std::size_t>> rings = {{rectangle_ring(6, 1.5, 8, 2, 2), 4},
+                                                           {polygon_ring(rectangle(1, 1), 3, 1), 4},
+                                                           {polygon_ring(house, 2, 3), 2},
+                                                           {polygon_ring(regular_polygon(5, 1, 0.7), 1, 2), 2},
+                                                           {polygon_ring(regular_polygon(8, 1, 0.7), 1, 2), 4}};
   for (const auto& [ring, blocks] : rings) {
     const auto split = solve_super_element(ring, concrete, 1.0);
     const auto whole = solve_super_element(unsplit(ring), concrete, 1.0);
@@ -179,8 +173,7 @@ TEST(SymmetryBlocks, ATurnedRectangleHasTheTurnedStiffness) {
 }
 
 TEST(SuperElement, StiffnessScalesWithModulusAndThicknessAndNotWithSize) {
-  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2},
-                                  {0.3, 0.4},   {-0.2, 1.3}, {-1.0, 0.1}};
+  const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
   const Ring ring = polygon_ring(skew, 2, 2);
   Ring small = ring;
   for (Vec2& node : small.nodes) node *= 1e-3;

@@ -24,8 +24,7 @@ struct TextbookSolution {
 };
 
 inline TextbookSolution textbook_route(const element::CoefficientMatrices& matrices) {
-  const double unit =
-      Matrix(matrices.E0).cwiseAbs().maxCoeff();  // u and q of one size: Eigen does not balance
+  const double unit = Matrix(matrices.E0).cwiseAbs().maxCoeff();  // u and q of one size: Eigen does not balance
   const Matrix E0 = matrices.E0 / unit, E1 = matrices.E1 / unit, E2 = matrices.E2 / unit;
   const Eigen::Index n = E0.rows();
   const Matrix inverse = E0.inverse();
@@ -47,8 +46,7 @@ inline TextbookSolution textbook_route(const element::CoefficientMatrices& matri
     phi.col(k) = eigen.eigenvectors().col(column);
     solution.exponents.push_back(eigen.eigenvalues()[column]);
   }
-  const Eigen::MatrixXcd transposed =
-      phi.topRows(n).transpose().fullPivLu().solve(phi.bottomRows(n).transpose());
+  const Eigen::MatrixXcd transposed = phi.topRows(n).transpose().fullPivLu().solve(phi.bottomRows(n).transpose());
   solution.K = unit * transposed.transpose().real();
   return solution;
 }

@@ -1,5 +1,6 @@
-// Closed forms of friction on whole models: a pushed block, a wedge, two blocks, a load that goes to and fro. Without Poisson's
-// ratio and with shear on its sides, a block under pressure is in one uniform state, so that its joint slips all at once.
+// Closed forms of friction on whole models: a pushed block, a wedge, two blocks, a load that goes to and fro. Without
+// Poisson's ratio and with shear on its sides, a block under pressure is in one uniform state, so that its joint slips
+// all at once.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -85,7 +86,8 @@ TEST(Wedge, PressedInItsForcesBalanceTheLoad) {
       const auto solution = run(wedge(alpha, mu, F));
       double vertical = 0.0;
       for (const analysis::ContactResult& side : last(solution).contacts) {
-        const double s = std::sin(alpha), c = std::cos(alpha), N = side.normal_force, T = std::abs(side.tangential_force);
+        const double s = std::sin(alpha), c = std::cos(alpha), N = side.normal_force,
+                     T = std::abs(side.tangential_force);
         vertical += N * s + T * c;
         EXPECT_LE(T, mu * N * (1.0 + 1e-9));
         if (mu == 0.0) EXPECT_NEAR(N, F / (2.0 * s), 1e-8 * F);
@@ -162,16 +164,18 @@ steps: {}]
                      -p / 1e9, amplitude, mu, steps);
 }
 
-/// The same with the shear of the block on its sides as well: one uniform state, which slides as a whole at tau = mu p, and
-/// not before the drive has gone u_y = tau h / G. Every step ends where the law has a corner.
+/// The same with the shear of the block on its sides as well: one uniform state, which slides as a whole at tau = mu p,
+/// and not before the drive has gone u_y = tau h / G. Every step ends where the law has a corner.
 std::string uniform_cycle(double p, double mu, double amplitude, int parts) {
   const double tau = mu * p, yield = tau / 0.5e9 / amplitude;
   std::string steps = fmt::format("[{{name: press, increments: {}, loads: {{down: 1}}}}", parts);
   const auto go = [&](double drive, double shear) {
-    steps += fmt::format(", {{increments: {}, loads: {{down: 1, drive: {:.17g}, left: {}, right: {}}}}}", parts, drive, shear, shear);
+    steps += fmt::format(", {{increments: {}, loads: {{down: 1, drive: {:.17g}, left: {}, right: {}}}}}", parts, drive,
+                         shear, shear);
   };
   go(yield, 1.0), go(1.0, 1.0);
-  for (int cycle = 0; cycle < 2; ++cycle) go(1.0 - 2.0 * yield, -1.0), go(-1.0, -1.0), go(2.0 * yield - 1.0, 1.0), go(1.0, 1.0);
+  for (int cycle = 0; cycle < 2; ++cycle)
+    go(1.0 - 2.0 * yield, -1.0), go(-1.0, -1.0), go(2.0 * yield - 1.0, 1.0), go(1.0, 1.0);
   return fmt::format(R"(
 scabo: 1
 materials: {{m: {{young: 1e9, poisson: 0}}}}
@@ -192,8 +196,8 @@ steps: {}]
                      -p / 1e9, amplitude, -tau, tau, mu, steps);
 }
 
-// Work of the loads, stored energy and dissipation at every corner of the loop and between, to 1e-10 of the work; the loop takes
-// 4 tau (A - u_y) over the joint of 2 m2.
+// Work of the loads, stored energy and dissipation at every corner of the loop and between, to 1e-10 of the work; the
+// loop takes 4 tau (A - u_y) over the joint of 2 m2.
 TEST(CyclicLoad, HysteresisLoopAndEnergyBalance) {
   const double p = 1e6, mu = 0.3, A = 2e-3, tau = mu * p, yield = tau / 0.5e9, volume = 2.0, area = 2.0;
   for (int parts : {1, 3}) {
@@ -223,12 +227,13 @@ TEST(CyclicLoad, HysteresisLoopAndEnergyBalance) {
 TEST(CyclicLoad, FrictionNeverGivesEnergyBack) {
   for (int parts : {1, 2, 3}) {
     // Pressed less while it is driven back: the force before is along the slip and larger than that at the end.
-    const auto solution =
-        run(cyclic(1e6, 0.3, 2e-3, parts), {"steps.2.loads={down: 0.3, drive: -1}", "steps.4.loads={down: 0.5, drive: -0.7}"});
+    const auto solution = run(cyclic(1e6, 0.3, 2e-3, parts),
+                              {"steps.2.loads={down: 0.3, drive: -1}", "steps.4.loads={down: 0.5, drive: -0.7}"});
     last(solution);
     double before = 0.0;
     for (const analysis::IncrementResult& increment : solution.increments) {
-      EXPECT_GE(increment.energy.friction, before - 1e-12 * increment.energy.external) << parts << ": " << increment.step_name;
+      EXPECT_GE(increment.energy.friction, before - 1e-12 * increment.energy.external)
+          << parts << ": " << increment.step_name;
       before = increment.energy.friction;
     }
   }
@@ -244,7 +249,8 @@ TEST(CyclicLoad, HysteresisLoopCloses) {
   const double force = at(0).contacts.front().tangential_force;
   for (std::size_t k = 0; k <= 4; ++k)
     EXPECT_NEAR(at(k).contacts.front().tangential_force, k % 2 == 0 ? force : -force, 1e-8 * std::abs(force)) << k;
-  const double first = at(2).energy.friction - at(0).energy.friction, second = at(4).energy.friction - at(2).energy.friction;
+  const double first = at(2).energy.friction - at(0).energy.friction,
+               second = at(4).energy.friction - at(2).energy.friction;
   EXPECT_NEAR(second, first, 1e-9 * first);
 }
 

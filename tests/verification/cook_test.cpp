@@ -1,5 +1,5 @@
-// Cook's membrane: E = 1, nu = 1/3, plane stress, a total shear of 1 on the right edge. Deflection of the middle of that edge, 23.966
-// where it is quoted as converged (e.g. Fredriksson, Ottosen 2004); 23.9677 here, by two meshes.
+// Cook's membrane: E = 1, nu = 1/3, plane stress, a total shear of 1 on the right edge. Deflection of the middle of
+// that edge, 23.966 where it is quoted as converged (e.g. Fredriksson, Ottosen 2004); 23.9677 here, by two meshes.
 #include "run.hpp"
 #include "scabo/result/probe.hpp"
 

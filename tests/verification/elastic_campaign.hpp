@@ -1,4 +1,5 @@
-// Random discrete problems of elastic type: W of real bodies, condensed to their pairs, and random motions and histories.
+// Random discrete problems of elastic type: W of real bodies, condensed to their pairs, and random motions and
+// histories.
 #pragma once
 
 #include <random>
@@ -22,18 +23,21 @@ inline Matrix flexibility_of(const std::string& text) {
   return W / W.diagonal().mean();
 }
 
-/// Two bodies, one on the other, of given sizes and materials; the lower one held at its bottom or left, the upper at its
-/// top or left.
+/// Two bodies, one on the other, of given sizes and materials; the lower one held at its bottom or left, the upper at
+/// its top or left.
 inline std::string two_bodies(double width, double lower, double upper, double size, double young_ratio, double poisson,
                               bool beams) {
   const auto number = [](double x) { return std::to_string(x); };
   const std::string fixed_a = beams ? "a.left" : "a.bottom", fixed_b = beams ? "b.left" : "b.top";
   return "scabo: 1\nanalysis: {plane: strain}\nmaterials:\n  m: {young: 1.0, poisson: " + number(poisson) +
-         "}\n  n: {young: " + number(young_ratio) + ", poisson: 0.3}\nbodies:\n  a: {material: m, shape: {rectangle: {corner: [0, 0], size: [" +
-         number(width) + ", " + number(lower) + "]}}, mesh: {size: " + number(size) +
-         "}}\n  b: {material: n, shape: {rectangle: {corner: [0, " + number(lower) + "], size: [" + number(width) + ", " +
-         number(upper) + "]}}, mesh: {size: " + number(size) + "}}\nsupports:\n  - {on: " + fixed_a +
-         ", fix: [x, y]}\n  - {on: " + fixed_b + ", fix: [x, y]}\nloads: {l: {on: a.top, force: [1, 0]}}\ncontacts:\n  c: {between: [a.top, b.bottom], friction: 0.5}\n";
+         "}\n  n: {young: " + number(young_ratio) +
+         ", poisson: 0.3}\nbodies:\n  a: {material: m, shape: {rectangle: {corner: [0, 0], size: [" + number(width) +
+         ", " + number(lower) + "]}}, mesh: {size: " + number(size) +
+         "}}\n  b: {material: n, shape: {rectangle: {corner: [0, " + number(lower) + "], size: [" + number(width) +
+         ", " + number(upper) + "]}}, mesh: {size: " + number(size) + "}}\nsupports:\n  - {on: " + fixed_a +
+         ", fix: [x, y]}\n  - {on: " + fixed_b +
+         ", fix: [x, y]}\nloads: {l: {on: a.top, force: [1, 0]}}\ncontacts:\n  c: {between: [a.top, b.bottom], "
+         "friction: 0.5}\n";
 }
 
 inline std::vector<Matrix> real_flexibilities() {
@@ -51,7 +55,8 @@ struct Path {
   std::vector<Vector> motions;
 };
 
-inline Path random_path(std::mt19937& random, const std::vector<Matrix>& flexibilities, double least_mu, double most_mu) {
+inline Path random_path(std::mt19937& random, const std::vector<Matrix>& flexibilities, double least_mu,
+                        double most_mu) {
   const auto real = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
   const auto whole = [&](int from, int to) { return std::uniform_int_distribution<int>(from, to)(random); };
   const Matrix& W = flexibilities[static_cast<std::size_t>(whole(0, static_cast<int>(flexibilities.size()) - 1))];
@@ -80,7 +85,8 @@ inline Path random_path(std::mt19937& random, const std::vector<Matrix>& flexibi
     const double turn = 0.7 * k, size = static_cast<double>(k) / increments;
     for (Eigen::Index i = 0; i < N; ++i) {
       const double s = N > 1 ? static_cast<double>(i) / static_cast<double>(N - 1) : 0.0;
-      const double smooth_n = press + std::cos(wave * 3.0 * s), smooth_t = aside * std::cos(turn) + 0.5 * std::sin(wave * 2.0 * s);
+      const double smooth_n = press + std::cos(wave * 3.0 * s),
+                   smooth_t = aside * std::cos(turn) + 0.5 * std::sin(wave * 2.0 * s);
       q[2 * i] = gap[i] + size * (kind == 1 ? 2.0 * driven[2 * i] : smooth_n + noise * real(-1.0, 1.0));
       q[2 * i + 1] = size * (kind == 1 ? 2.0 * driven[2 * i + 1] * std::cos(turn) : smooth_t + noise * real(-1.0, 1.0));
       if (kind == 2) q[2 * i] = 0.5 * std::round(2.0 * q[2 * i]), q[2 * i + 1] = 0.5 * std::round(2.0 * q[2 * i + 1]);

@@ -1,11 +1,12 @@
-// Ten thousand random problems of elastic type, of one to five increments each: W from super-elements, friction up to 2,
-// motions of mixed signs, gaps, ties, zeros. With mu <= 1 all are solved and certified; above, solved and certified or
-// reported with a reason, never wrong. Seeds are fixed; the figures printed are those of docs/methods/12_contact_solver.md.
+// Ten thousand random problems of elastic type, of one to five increments each: W from super-elements, friction up to
+// 2, motions of mixed signs, gaps, ties, zeros. With mu <= 1 all are solved and certified; above, solved and certified
+// or reported with a reason, never wrong. Seeds are fixed; the figures printed are those of
+// docs/methods/12_contact_solver.md.
+#include "elastic_campaign.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
-
-#include "elastic_campaign.hpp"
 
 namespace scabo::verification {
 namespace {
@@ -15,9 +16,10 @@ struct Tally {
   long iterations = 0;
 
   void print(const char* name) const {
-    std::printf("%s: %d problems, %d increments, %d solved, %d reported, iterations mean %.2f worst %d, fallbacks %.2f %%\n",
-                name, problems, increments, solved, reported, static_cast<double>(iterations) / increments, worst,
-                100.0 * fallbacks / increments);
+    std::printf(
+        "%s: %d problems, %d increments, %d solved, %d reported, iterations mean %.2f worst %d, fallbacks %.2f %%\n",
+        name, problems, increments, solved, reported, static_cast<double>(iterations) / increments, worst,
+        100.0 * fallbacks / increments);
   }
 };
 
@@ -27,8 +29,8 @@ double violation(const contact::Problem& problem, const Vector& p) {
   double worst = 0.0;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const double bound = problem.mu[i] * p[2 * i] - std::abs(p[2 * i + 1]);
-    worst = std::max({worst, -u[2 * i], -p[2 * i], std::abs(u[2 * i] * p[2 * i]), -bound, std::abs(u[2 * i + 1] * bound),
-                      u[2 * i + 1] * p[2 * i + 1]});
+    worst = std::max({worst, -u[2 * i], -p[2 * i], std::abs(u[2 * i] * p[2 * i]), -bound,
+                      std::abs(u[2 * i + 1] * bound), u[2 * i + 1] * p[2 * i + 1]});
   }
   return worst;
 }
@@ -50,8 +52,8 @@ void follow(const Path& path, int number, Tally& tally) {
       ++tally.reported;
       EXPECT_FALSE(solution.reason.empty());
       if (problem.mu.maxCoeff() <= 1.0)
-        ADD_FAILURE() << "problem " << number << ", " << problem.pairs() << " pairs, mu " << problem.mu.maxCoeff() << ": "
-                      << solution.reason;
+        ADD_FAILURE() << "problem " << number << ", " << problem.pairs() << " pairs, mu " << problem.mu.maxCoeff()
+                      << ": " << solution.reason;
       return;
     }
     ++tally.solved;

@@ -39,17 +39,19 @@ double true_error(const analysis::StaticSolution& solution, double exact) {
 
 double estimated(const analysis::StaticSolution& solution) { return last(solution).error->relative; }
 
-/// From this model to a tolerance of 1e-4 (12.0208030021, 458 degrees of freedom) and 2e-5 (12.0208030119, 590), with the rest of
-/// the estimated errors; good to 5e-8, or 6e-5 in the norm.
+/// From this model to a tolerance of 1e-4 (12.0208030021, 458 degrees of freedom) and 2e-5 (12.0208030119, 590), with
+/// the rest of the estimated errors; good to 5e-8, or 6e-5 in the norm.
 constexpr double exact_energy_of_cook = 12.02080304;
 
 TEST(ErrorEstimate, IsBetweenHalfAndTwiceTheTrueErrorOfCooksMembrane) {
   const double exact = exact_energy_of_cook;
-  // Half of the work of the load, 1 in total, on the mean deflection of the loaded edge: near that of its middle, 23.966.
+  // Half of the work of the load, 1 in total, on the mean deflection of the loaded edge: near that of its
+  // middle, 23.966.
   EXPECT_NEAR(2 * exact, 23.966, 0.1);
   for (const int order : {1, 2, 3, 4, 6})
     for (const char* size : {"22", "11", "5.5"}) {
-      const auto solution = run(cook, {"bodies.panel.mesh.order=" + std::to_string(order), std::string("bodies.panel.mesh.size=") + size});
+      const auto solution = run(
+          cook, {"bodies.panel.mesh.order=" + std::to_string(order), std::string("bodies.panel.mesh.size=") + size});
       const double effectivity = estimated(solution) / true_error(solution, exact);
       EXPECT_GT(effectivity, 0.5) << "order " << order << ", size " << size;
       EXPECT_LT(effectivity, 2.0) << "order " << order << ", size " << size;
@@ -63,16 +65,16 @@ TEST(Refinement, MeetsTheToleranceOfCooksMembrane) {
     EXPECT_LE(estimated(solution), tolerance);
     EXPECT_LE(true_error(solution, exact), tolerance);
     const double effectivity = estimated(solution) / true_error(solution, exact);
-    std::cout << "Cook, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, true " << true_error(solution, exact)
-              << ", effectivity " << effectivity << "\n";
+    std::cout << "Cook, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, true "
+              << true_error(solution, exact) << ", effectivity " << effectivity << "\n";
     EXPECT_GT(effectivity, 0.7);
     EXPECT_LT(effectivity, 1.1);
   }
 }
 
-// Lame: a circular hole of radius a in the infinite plane under the pressure p opens by p a (1 + nu) / E; the pressure does work on that.
-// Smooth. Elements stand for the arcs, too, and that error, of first order in the energy, is not in the estimate: it has to stay below the
-// tolerance by itself.
+// Lame: a circular hole of radius a in the infinite plane under the pressure p opens by p a (1 + nu) / E; the pressure
+// does work on that. Smooth. Elements stand for the arcs, too, and that error, of first order in the energy, is not in
+// the estimate: it has to stay below the tolerance by itself.
 TEST(Refinement, MeetsTheToleranceOfATunnelUnderPressure) {
   const char* const tunnel = R"(
 scabo: 1
@@ -94,8 +96,8 @@ loads: {lower: {on: ground.edge_1, pressure: 1e-3}, upper: {on: ground.edge_2, p
   }
 }
 
-// Re-entrant corners of the ground around a square hole: exponent 0.544. Energy from this model to a tolerance of 5e-4 (1006 degrees of
-// freedom), with the rest of the estimated error: good to 1e-7, or 3e-4 in the norm.
+// Re-entrant corners of the ground around a square hole: exponent 0.544. Energy from this model to a tolerance of 5e-4
+// (1006 degrees of freedom), with the rest of the estimated error: good to 1e-7, or 3e-4 in the norm.
 TEST(Refinement, MeetsTheToleranceOfASquareHole) {
   const char* const hole = R"(
 scabo: 1
@@ -139,8 +141,8 @@ loads: {pull: {on: plate.top, traction: [0, 1e-3]}, hold: {on: plate.bottom, tra
   EXPECT_NEAR(last(converged).cracks[0].factors.K_I / (1e-3 * std::sqrt(0.5 * std::numbers::pi)), 2.82546, 3e-5);
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
     const auto solution = run(plate, {fmt_setting("bodies.plate.mesh.tolerance", tolerance)});
-    std::cout << "crack, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, estimated " << estimated(solution)
-              << ", true " << true_error(solution, exact) << "\n";
+    std::cout << "crack, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, estimated "
+              << estimated(solution) << ", true " << true_error(solution, exact) << "\n";
     EXPECT_LE(true_error(solution, exact), tolerance);
     EXPECT_GT(estimated(solution) / true_error(solution, exact), 0.7);
   }
@@ -150,14 +152,15 @@ TEST(Refinement, TakesFewerDegreesOfFreedomThanEqualElements) {
   const double exact = exact_energy_of_cook;
   const auto refined = run(cook, {"bodies.panel.mesh.tolerance=1e-3"});
   const auto equal = run(cook, {"bodies.panel.mesh.size=1"});
-  std::cout << "refined " << 2 * refined.mesh.nodes() << " dofs, true " << true_error(refined, exact) << "; equal quadratic "
-            << 2 * equal.mesh.nodes() << " dofs, true " << true_error(equal, exact) << "\n";
+  std::cout << "refined " << 2 * refined.mesh.nodes() << " dofs, true " << true_error(refined, exact)
+            << "; equal quadratic " << 2 * equal.mesh.nodes() << " dofs, true " << true_error(equal, exact) << "\n";
   EXPECT_LT(2 * refined.mesh.nodes(), equal.mesh.nodes());
   EXPECT_LT(true_error(refined, exact), true_error(equal, exact));
 }
 
 TEST(Refinement, SaysWhyAToleranceIsNotReachedAndKeepsTheLastMesh) {
-  const model::Model model = model::parse_model(cook, "test.yaml", {model::parse_override("bodies.panel.mesh.tolerance=1e-3")});
+  const model::Model model =
+      model::parse_model(cook, "test.yaml", {model::parse_override("bodies.panel.mesh.tolerance=1e-3")});
   analysis::RefinementLimits limits;
   limits.dofs = 150;
   int reported = 0;
@@ -173,7 +176,8 @@ TEST(Refinement, SaysWhyAToleranceIsNotReachedAndKeepsTheLastMesh) {
   EXPECT_LE(2 * few.mesh.nodes(), 150);
   limits = {};
   limits.passes = 2;
-  EXPECT_NE(analysis::solve_refined(model, {}, limits).reason.find("after 2 passes the estimated error is"), std::string::npos);
+  EXPECT_NE(analysis::solve_refined(model, {}, limits).reason.find("after 2 passes the estimated error is"),
+            std::string::npos);
 }
 
 const char* const beams = R"(
@@ -198,8 +202,8 @@ TEST(ErrorEstimate, OfTwoBeamsInContactFallsWithTheSize) {
     const auto solution = run(beams, {"bodies.lower.mesh.size=" + value, "bodies.upper.mesh.size=" + value});
     const analysis::ErrorEstimate& error = *last(solution).error;
     EXPECT_LT(error.relative, 0.9 * before);
-    EXPECT_NEAR(std::pow(error.relative, 2), std::pow(error.bodies[0]->relative, 2) + std::pow(error.bodies[1]->relative, 2),
-                1e-10);
+    EXPECT_NEAR(std::pow(error.relative, 2),
+                std::pow(error.bodies[0]->relative, 2) + std::pow(error.bodies[1]->relative, 2), 1e-10);
     before = error.relative;
   }
 }
@@ -226,8 +230,9 @@ TEST(Refinement, NamesAContactWhoseOtherBodyIsNotRefined) {
     run(beams, {"bodies.upper.mesh.tolerance=1e-2"});
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_NE(error.diagnostics().front().message.find("body 'upper' is refined for its tolerance and body 'lower' is not"),
-              std::string::npos)
+    EXPECT_NE(
+        error.diagnostics().front().message.find("body 'upper' is refined for its tolerance and body 'lower' is not"),
+        std::string::npos)
         << error.diagnostics().front().message;
   }
 }

@@ -1,5 +1,5 @@
-// Stress intensity factors, exponents and T-stress against closed forms and published numbers, by one super-element with its
-// scaling centre at the tip. None has more than 200 degrees of freedom.
+// Stress intensity factors, exponents and T-stress against closed forms and published numbers, by one super-element
+// with its scaling centre at the tip. None has more than 200 degrees of freedom.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -16,7 +16,8 @@ using std::numbers::pi;
 
 constexpr Eigen::Index most = 200;  // degrees of freedom
 
-/// Displacement of a body without supports under a stress given on its boundary: rigid motions are held by nothing but equilibrium.
+/// Displacement of a body without supports under a stress given on its boundary: rigid motions are held by nothing but
+/// equilibrium.
 template <typename Stress>
 Vector free_body(const Ring& ring, const SuperElementSolution& solution, Stress stress) {
   const Eigen::Index n = solution.K.rows();
@@ -30,7 +31,8 @@ Vector free_body(const Ring& ring, const SuperElementSolution& solution, Stress 
       const BoundaryPoint point = boundary_point(ring, line, N, basis.derivatives(rule.points[q]));
       const Vec2 normal(point.x_eta.y(), -point.x_eta.x());  // outward, times ds / deta
       for (std::size_t i = 0; i < line.nodes.size(); ++i)
-        f.segment<2>(2 * line.nodes[i]) += N[static_cast<Eigen::Index>(i)] * rule.weights[q] * traction_of(stress(point.x), normal);
+        f.segment<2>(2 * line.nodes[i]) +=
+            N[static_cast<Eigen::Index>(i)] * rule.weights[q] * traction_of(stress(point.x), normal);
     }
   }
   Matrix R(n, 3);
@@ -46,7 +48,8 @@ const Mat3 steel = elasticity(1.0, 0.3, model::Plane::strain);
 
 // Numbers of two independent programs; half-height h, width W, crack a from the edge.
 TEST(Fracture, SingleEdgeCrackUnderUniformTension) {
-  const double cases[][3] = {{1, 0.5, 2.82546}, {0.5, 0.5, 3.00876}, {1, 0.4, 2.11276}, {1, 0.2, 1.36804}, {1, 0.6, 4.0333}};
+  const double cases[][3] = {
+      {1, 0.5, 2.82546}, {0.5, 0.5, 3.00876}, {1, 0.4, 2.11276}, {1, 0.2, 1.36804}, {1, 0.6, 4.0333}};
   for (const auto& [h, a, expected] : cases) {
     const std::vector<Vec2> corners = {{-a, 0}, {-a, -h}, {1 - a, -h}, {1 - a, h}, {-a, h}, {-a, 0}};
     const Ring ring = open_ring(corners, std::vector<int>{1, 2, 2, 2, 1}, 12);
@@ -95,20 +98,23 @@ TEST(Fracture, EdgeCrackedDiskUnderRadialTension) {
   expect_disk(1.0, 1.5, 8.97218);
 }
 
-// Infinite plate with a crack of length 2a turned by b from the normal of the tension: exact displacement (Muskhelishvili) on a square
-// about one tip. Here K_I, K_II and T are all closed forms.
+// Infinite plate with a crack of length 2a turned by b from the normal of the tension: exact displacement
+// (Muskhelishvili) on a square about one tip. Here K_I, K_II and T are all closed forms.
 TEST(Fracture, InclinedCrackInAnInfinitePlate) {
   const double a = 1.0, s = 1.0;
   const Kolosov m(1.0, 0.3, model::Plane::strain);
   for (const double b : {0.0, 0.3, pi / 4, 1.2}) {
-    const double s11 = s * std::sin(b) * std::sin(b), s22 = s * std::cos(b) * std::cos(b), s12 = s * std::sin(b) * std::cos(b);
+    const double s11 = s * std::sin(b) * std::sin(b), s22 = s * std::cos(b) * std::cos(b),
+                 s12 = s * std::sin(b) * std::cos(b);
     const Ring ring = cracked_square(1, 12, 0.4, 0.8);
     const Vector u = around_tip(ring, [&](double r, double t) {
       using C = std::complex<double>;
       const C c(0.5 * s22, -0.5 * s12), x = std::polar(r, t);
       const double A = 0.25 * (s11 - s22);
       const C root = std::polar(std::sqrt(r), 0.5 * t) * std::sqrt(x + 2.0 * a), z = x + a;
-      const C phi = c * root + A * z, omega = c * std::conj(std::polar(std::sqrt(r), 0.5 * t)) * std::sqrt(std::conj(x) + 2.0 * a) - A * std::conj(z);
+      const C phi = c * root + A * z,
+              omega = c * std::conj(std::polar(std::sqrt(r), 0.5 * t)) * std::sqrt(std::conj(x) + 2.0 * a) -
+                      A * std::conj(z);
       const C slope = c * z / root + A;
       const C w = (m.kappa * phi - omega - (x - std::conj(x)) * std::conj(slope)) / (2 * m.mu);
       return Vec2(w.real(), w.imag());
@@ -130,7 +136,8 @@ TEST(Fracture, PressureOnTheFacesLeavesTheFactorsOfTheModes) {
     return Vec2(williams(m, 1.0, 0.4, 0.0, r, t) + r * Vec2(strain[0] * std::cos(t), strain[1] * std::sin(t)));
   });
   const auto solution = solve_super_element(ring, steel, 1.0);
-  const std::vector<RadialLoad> loads = {face_load(ring, Face::first, 0.0, {0, -p}, 1.0), face_load(ring, Face::last, 0.0, {0, p}, 1.0)};
+  const std::vector<RadialLoad> loads = {face_load(ring, Face::first, 0.0, {0, -p}, 1.0),
+                                         face_load(ring, Face::last, 0.0, {0, p}, 1.0)};
   std::vector<RadialLoad> together;
   add_radial_loads(together, loads, 1.0);
   const StressIntensity found = CornerAnalysis(ring, steel, solution).of(u, together);
@@ -154,7 +161,8 @@ TEST(Fracture, ExponentsOfAnInterfaceCrack) {
   for (const auto& [ratio, expected] : cases) {
     const Ring ring = cracked_square(1, 12);
     std::vector<Mat3> laws;
-    for (const double angle : middle_angles(ring)) laws.push_back(elasticity(angle < pi ? ratio : 1.0, 0.3, model::Plane::strain));
+    for (const double angle : middle_angles(ring))
+      laws.push_back(elasticity(angle < pi ? ratio : 1.0, 0.3, model::Plane::strain));
     const Elasticity D(laws);
     const auto modes = singular_modes(solve_super_element(ring, D, 1.0));
     ASSERT_EQ(modes.singular.size(), 1u);

@@ -1,4 +1,5 @@
-// An increment that fails leaves nothing of itself behind: halved and repeated, it ends where it ends when nothing fails.
+// An increment that fails leaves nothing of itself behind: halved and repeated, it ends where it ends when nothing
+// fails.
 #include "run.hpp"
 
 namespace scabo::verification {

@@ -1,6 +1,7 @@
 // Closed form: a block on an incline slips exactly when tan(angle) > mu.
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <numbers>
 
 #include "run.hpp"
@@ -39,7 +40,8 @@ TEST_P(Incline, SlidesAboveTheAngleOfFriction) {
   const double limit = std::tan(GetParam() * std::numbers::pi / 180.0);
   const auto solution = run(incline(GetParam(), limit * (1.0 - 1e-6)));
   EXPECT_EQ(solution.outcome, analysis::Outcome::mechanism);
-  EXPECT_NE(solution.reason.find("mechanism: body 'block': translation along (1, 0)"), std::string::npos) << solution.reason;
+  EXPECT_NE(solution.reason.find("mechanism: body 'block': translation along (1, 0)"), std::string::npos)
+      << solution.reason;
 }
 
 INSTANTIATE_TEST_SUITE_P(Degrees, Incline, testing::Values(5.0, 17.0, 30.0, 44.0));

@@ -1,5 +1,5 @@
-// An interference given as a negative gap and the same given as a prescribed displacement are one problem: the upper block is moved
-// down by 0.1 mm, or 0.1 mm too tall. Small displacements: forces, gaps and slips are the same.
+// An interference given as a negative gap and the same given as a prescribed displacement are one problem: the upper
+// block is moved down by 0.1 mm, or 0.1 mm too tall. Small displacements: forces, gaps and slips are the same.
 #include "run.hpp"
 
 namespace scabo::verification {

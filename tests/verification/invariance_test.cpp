@@ -24,9 +24,10 @@ std::string double_cantilever(const Telling& telling) {
     return fmt::format("[{}, {}]", m * (c * x - s * y), m * (s * x + c * y));
   };
   const auto body = [&](const char* name, double y) {
-    return fmt::format("  {}: {{material: concrete, shape: {{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, "
-                       "top: edge_3, left: edge_4, tip: vertex_3}}}}}}, mesh: {{size: {}}}}}\n",
-                       name, point(0, y), point(6, y), point(6, y + 1.5), point(0, y + 1.5), 0.375 * telling.length);
+    return fmt::format(
+        "  {}: {{material: concrete, shape: {{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, "
+        "top: edge_3, left: edge_4, tip: vertex_3}}}}}}, mesh: {{size: {}}}}}\n",
+        name, point(0, y), point(6, y), point(6, y + 1.5), point(0, y + 1.5), 0.375 * telling.length);
   };
   const std::string lower = body("lower", 0.0), upper = body("upper", 1.5);
   const double F = -100e3 * telling.force;
@@ -70,12 +71,14 @@ TEST_P(Invariance, SameAnswerAndSameIterations) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tellings, Invariance,
-                         testing::Values(Named{"millimetres", {.length = 1e3}}, Named{"centimetres_kN", {.length = 1e2, .force = 1e-3}},
-                                         Named{"swapped", {.swapped = true}}, Named{"turned", {.turned = 37.0}},
-                                         Named{"upper_first", {.upper_first = true}},
-                                         Named{"all_at_once", {.length = 1e3, .force = 1e-3, .turned = -53.0, .swapped = true, .upper_first = true}}),
-                         [](const auto& parameter) { return parameter.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Tellings, Invariance,
+    testing::Values(Named{"millimetres", {.length = 1e3}}, Named{"centimetres_kN", {.length = 1e2, .force = 1e-3}},
+                    Named{"swapped", {.swapped = true}}, Named{"turned", {.turned = 37.0}},
+                    Named{"upper_first", {.upper_first = true}},
+                    Named{"all_at_once",
+                          {.length = 1e3, .force = 1e-3, .turned = -53.0, .swapped = true, .upper_first = true}}),
+    [](const auto& parameter) { return parameter.param.name; });
 
 // Thickness is in the unit of length, and the answer must not depend on how a model is thick: forces do.
 TEST(Invariance, TwiceAsThickUnderTwiceTheLoad) {

@@ -1,5 +1,6 @@
-// Kirsch 1898: a plate with a circular hole of radius 1 pulled along x by 1. Stress everywhere, three times the tension at the hole.
-// Once as a quarter plate, closed and with exact tractions; once as the infinite plate, an unbounded super-element.
+// Kirsch 1898: a plate with a circular hole of radius 1 pulled along x by 1. Stress everywhere, three times the tension
+// at the hole. Once as a quarter plate, closed and with exact tractions; once as the infinite plate, an unbounded
+// super-element.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -30,7 +31,8 @@ void add_curve(Ring& ring, int n, int order, const std::function<Vec2(double)>& 
   for (int part = 0; part < n; ++part) {
     mesh::LineElement element;
     for (int k = 0; k <= order; ++k) element.nodes.push_back(static_cast<int>(ring.nodes.size()) + k);
-    for (int k = 0; k < order; ++k) ring.nodes.push_back(curve((part + 0.5 * (points[static_cast<std::size_t>(k)] + 1)) / n));
+    for (int k = 0; k < order; ++k)
+      ring.nodes.push_back(curve((part + 0.5 * (points[static_cast<std::size_t>(k)] + 1)) / n));
     ring.elements.push_back(element);
   }
   ring.elements.back().nodes.back() = 0;
@@ -46,9 +48,8 @@ Ring quarter(int n, int order) {
     add_curve(ring, n, order, [&](double t) { return Vec2(corners[i] + t * (corners[i + 1] - corners[i]) - centre); });
     ring.elements.back().nodes.back() = static_cast<int>(ring.nodes.size());
   }
-  add_curve(ring, n, order, [&](double t) {
-    return Vec2(Vec2(std::cos(0.5 * pi * (1 - t)), std::sin(0.5 * pi * (1 - t))) - centre);
-  });
+  add_curve(ring, n, order,
+            [&](double t) { return Vec2(Vec2(std::cos(0.5 * pi * (1 - t)), std::sin(0.5 * pi * (1 - t))) - centre); });
   return ring;
 }
 
@@ -57,7 +58,8 @@ Vector solve(const Ring& ring, const Matrix& K, const Vector& f) {
   int far = 0;
   for (std::size_t i = 0; i < ring.nodes.size(); ++i)
     if (std::abs(ring.nodes[i].y() - ring.nodes[0].y()) < 1e-12 &&
-        std::abs(ring.nodes[i].x() - ring.nodes[0].x()) > std::abs(ring.nodes[static_cast<std::size_t>(far)].x() - ring.nodes[0].x()))
+        std::abs(ring.nodes[i].x() - ring.nodes[0].x()) >
+            std::abs(ring.nodes[static_cast<std::size_t>(far)].x() - ring.nodes[0].x()))
       far = static_cast<int>(i);
   constraints[0].dof = 0, constraints[1].dof = 1, constraints[2].dof = 2 * far + 1;
   system::Stiffness stiffness;
@@ -74,8 +76,9 @@ TEST(Kirsch, StressOfAQuarterPlateConvergesToTheClosedForm) {
       const Ring ring = quarter(n, order);
       const auto solution = solve_super_element(ring, D, 1.0);
       const auto modal = modal_solution(solution);
-      const Vector f = system::traction_forces(ring.elements, ring.nodes, 1.0,
-                                               [&](const Vec2& x, const Vec2& normal) { return traction_of(stress(x), normal); });
+      const Vector f = system::traction_forces(ring.elements, ring.nodes, 1.0, [&](const Vec2& x, const Vec2& normal) {
+        return traction_of(stress(x), normal);
+      });
       const double error = stress_error(ring, RadialField(solution, modal, solve(ring, solution.K, f)), D, stress);
       std::cout << "quarter, order " << order << ", " << n << " elements a side: " << error << "\n";
       if (before > 0.0) {
@@ -93,8 +96,9 @@ TEST(Kirsch, StressAtTheHoleOfAQuarterPlateIsThreeTimesTheTension) {
   const auto solution = solve_super_element(ring, D, 1.0);
   const auto modal = modal_solution(solution);
   const auto stress = [](const Vec2& x) { return kirsch(x + centre); };
-  const Vector f = system::traction_forces(ring.elements, ring.nodes, 1.0,
-                                           [&](const Vec2& x, const Vec2& normal) { return traction_of(stress(x), normal); });
+  const Vector f = system::traction_forces(ring.elements, ring.nodes, 1.0, [&](const Vec2& x, const Vec2& normal) {
+    return traction_of(stress(x), normal);
+  });
   const Vector u = solve(ring, solution.K, f);
   const int arc = 16;  // the first element of the arc begins at (0, 1)
   const PointValues top = point_values(ring, RadialField(solution, modal, u).at(1.0), D, arc, -1.0);

@@ -111,9 +111,8 @@ TEST(BrittleJoint, BreaksAtItsClosedFormLiftAndStaysBroken) {
   const analysis::ContactResult& joint = last(holds).contacts.front();
   EXPECT_NEAR(joint.normal_force, -force * just_below, 1e-8 * force);
   EXPECT_EQ(joint.broken, 0);
-  const auto breaks =
-      run(model(limit * just_above,
-                "[{increments: 3}, {name: back, loads: {lift: 0.5}}, {name: press, loads: {lift: -1}}]"));
+  const auto breaks = run(model(
+      limit * just_above, "[{increments: 3}, {name: back, loads: {lift: 0.5}}, {name: press, loads: {lift: -1}}]"));
   last(breaks);
   ASSERT_EQ(breaks.increments.size(), 5u);
   EXPECT_NEAR(breaks.increments[1].contacts.front().normal_force, -force * just_above * 2 / 3, 1e-8 * force);
@@ -130,9 +129,9 @@ TEST(BrittleJoint, BreaksAtItsClosedFormLiftAndStaysBroken) {
 // Once all pairs slide, the whole force falls from at most mu_s N to mu_d N.
 TEST(SlidingBlock, ForceFallsFromTheStaticToTheDynamicCoefficient) {
   for (const char* distance : {"0", "1e-6"}) {
-    const auto solution = run(moved_block(
-        2e-3, -1e-3, fmt::format("friction: {{static: 0.5, dynamic: 0.3, slip_distance: {}}}", distance),
-        "[{name: press, loads: {lift: 1}}, {name: push, increments: 10}]"));
+    const auto solution = run(
+        moved_block(2e-3, -1e-3, fmt::format("friction: {{static: 0.5, dynamic: 0.3, slip_distance: {}}}", distance),
+                    "[{name: press, loads: {lift: 1}}, {name: push, increments: 10}]"));
     const analysis::ContactResult& contact = last(solution).contacts.front();
     EXPECT_EQ(contact.slip, static_cast<int>(contact.pairs.size()));
     EXPECT_NEAR(contact.tangential_force, -0.3 * contact.normal_force, 1e-9 * contact.normal_force);
@@ -168,12 +167,9 @@ std::string cantilever(bool halves) {
                                     : R"(
   upper: {material: m, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.25}})";
   const std::string lower_support = halves ? "\n  - {on: lower.left, fix: [x, y]}" : "";
-  const std::string joint =
-      halves ? "contacts: {joint: {between: [lower.top, upper.bottom], bond: true}}\n" : "";
-  return "scabo: 1\nmaterials: {m: {young: 1e9, poisson: 0.3}}\nbodies:" + bodies +
-         "\nsupports:" + lower_support +
-         "\n  - {on: upper.left, fix: [x, y]}\nloads:\n  top: {on: upper.top, traction: [3e3, -1e4]}\n" +
-         joint;
+  const std::string joint = halves ? "contacts: {joint: {between: [lower.top, upper.bottom], bond: true}}\n" : "";
+  return "scabo: 1\nmaterials: {m: {young: 1e9, poisson: 0.3}}\nbodies:" + bodies + "\nsupports:" + lower_support +
+         "\n  - {on: upper.left, fix: [x, y]}\nloads:\n  top: {on: upper.top, traction: [3e3, -1e4]}\n" + joint;
 }
 
 // Same elements, same nodes: two halves bonded are the body in one piece, node by node.

@@ -39,10 +39,11 @@ std::vector<double> elastic(const analysis::ModalResult& result) {
   return frequencies;
 }
 
-/// Converged: 8-node elements of 1/16, 1/32 and 1/64, extrapolated (orders of convergence 4.0, at the built-in corners 1.4 to 2).
+/// Converged: 8-node elements of 1/16, 1/32 and 1/64, extrapolated (orders of convergence 4.0, at the built-in
+/// corners 1.4 to 2).
 const std::vector<double> square_converged = {2008.9149, 2139.6523, 2139.6523, 2275.4153, 2586.1454,
                                               2988.5675, 3223.0587, 3223.0587, 3725.1275, 4301.2834};
-const std::vector<double> cantilever_converged = {32.5938,  176.074,  259.984,   420.504,   700.395,
+const std::vector<double> cantilever_converged = {32.5938, 176.074, 259.984,  420.504,  700.395,
                                                   777.618, 998.457, 1286.038, 1297.690, 1580.877};
 
 /// Errors in per cent, rounded to a hundredth.
@@ -112,21 +113,24 @@ TEST(NaturalFrequencies, OfSuperElementsAreUpperBoundsThatFallAsTheBoundaryIsRef
 TEST(NaturalFrequencies, OfASlenderBeamTendToEulersBeam) {
   const double beta = 1.875104068711961, L = 40.0, E = 210e9, rho = 7800.0;
   const double euler = beta * beta / (2.0 * std::numbers::pi * L * L) * std::sqrt(E / (12.0 * rho));
-  const auto frequencies = elastic(run(cantilever, {"bodies.beam.shape.rectangle.size=[40, 1]", "bodies.beam.mesh.size=0.5"}));
+  const auto frequencies =
+      elastic(run(cantilever, {"bodies.beam.shape.rectangle.size=[40, 1]", "bodies.beam.mesh.size=0.5"}));
   EXPECT_NEAR(frequencies[0] / euler, 1.0, 1e-3);
 }
 
 TEST(NaturalFrequencies, ScaleWithTheSpeedOfSoundOverTheSize) {
   const auto metres = elastic(run(free_square));
   const auto millimetres =  // N, mm, tonne
-      elastic(run(free_square, {"materials.steel={young: 210e3, poisson: 0.3, density: 7.8e-9}", "bodies.plate.mesh.size=250",
-                                "bodies.plate.shape.rectangle.size=[1000, 1000]", "analysis.thickness=17"}));
+      elastic(run(free_square,
+                  {"materials.steel={young: 210e3, poisson: 0.3, density: 7.8e-9}", "bodies.plate.mesh.size=250",
+                   "bodies.plate.shape.rectangle.size=[1000, 1000]", "analysis.thickness=17"}));
   ASSERT_EQ(metres.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(millimetres[i] / metres[i], 1.0, 1e-11);
 }
 
 TEST(NaturalFrequencies, AFreeBodyHasThreeRigidBodyModes) {
-  for (const char* mesh : {"{size: 0.25}", "{size: 0.5, order: 5}", "{kind: fem, size: 0.25}", "{kind: fem, size: 0.0625}"}) {
+  for (const char* mesh :
+       {"{size: 0.25}", "{size: 0.5, order: 5}", "{kind: fem, size: 0.25}", "{kind: fem, size: 0.0625}"}) {
     const auto result = run(free_square, {std::string("bodies.plate.mesh=") + mesh});
     for (std::size_t k = 0; k < result.modes.size(); ++k) {
       EXPECT_EQ(result.modes[k].rigid, k < 3) << mesh;
@@ -167,7 +171,8 @@ contacts: {joint: {between: [beam.top, other.bottom]}}
     EXPECT_EQ(two.modes[k].body, static_cast<int>(k % 2));
   }
   ASSERT_EQ(two.warnings.size(), 2u);
-  EXPECT_EQ(two.warnings[0], "a modal analysis leaves out the model's loads and contacts: every body vibrates by itself");
+  EXPECT_EQ(two.warnings[0],
+            "a modal analysis leaves out the model's loads and contacts: every body vibrates by itself");
   EXPECT_NE(two.warnings[1].find("'settle'"), std::string::npos);
 }
 

@@ -1,7 +1,8 @@
-// Polynomial fields under side-face tractions, body forces and temperature, from a model file to points inside: exact to rounding.
+// Polynomial fields under side-face tractions, body forces and temperature, from a model file to points inside: exact
+// to rounding.
 //
-// u is a cubic in x and y. Its nodes on the boundary are held there, one support each; body force, temperature and the tractions on the
-// faces of a crack come from it by hand, and what is looked at is inside: displacement and stress.
+// u is a cubic in x and y. Its nodes on the boundary are held there, one support each; body force, temperature and the
+// tractions on the faces of a crack come from it by hand, and what is looked at is inside: displacement and stress.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -51,7 +52,7 @@ struct Cubic {
 struct Material {
   const char* name;
   std::string plane, text;
-  Mat3 D;           // stress = D (strain - unit T)
+  Mat3 D;  // stress = D (strain - unit T)
   Vec3 unit;
 };
 
@@ -76,10 +77,12 @@ std::vector<Material> materials() {
   general << 12, 3, 1.5, 3, 9, -0.8, 1.5, -0.8, 4;
   const double turn = 30 * 3.14159265358979323846 / 180, c = std::cos(turn), s = std::sin(turn);
   return {
-      {"isotropic", "strain", "{young: 10, poisson: 0.3, expansion: 1e-3}", isotropic_strain(10, 0.3), 1.3e-3 * Vec3(1, 1, 0)},
+      {"isotropic", "strain", "{young: 10, poisson: 0.3, expansion: 1e-3}", isotropic_strain(10, 0.3),
+       1.3e-3 * Vec3(1, 1, 0)},
       {"nearly incompressible", "strain", "{young: 10, poisson: 0.4999, expansion: 1e-3}", isotropic_strain(10, 0.4999),
        1.4999e-3 * Vec3(1, 1, 0)},
-      {"orthotropic", "stress", "{orthotropic: {E1: 14, E2: 4, nu12: 0.25, G12: 3, angle: 30}, expansion: [5e-4, 3e-3]}",
+      {"orthotropic", "stress",
+       "{orthotropic: {E1: 14, E2: 4, nu12: 0.25, G12: 3, angle: 30}, expansion: [5e-4, 3e-3]}",
        turned_compliance(14, 4, 0.25, 3, turn).inverse(),
        Vec3(5e-4 * c * c + 3e-3 * s * s, 5e-4 * s * s + 3e-3 * c * c, 2 * c * s * (5e-4 - 3e-3))},
       {"anisotropic", "stress",
@@ -97,16 +100,20 @@ Errors errors(const Material& material, bool cracked) {
   const Cubic u;
   const Vec2 tip(0.9, 1.1), mouth(0.0, 0.8);
   const double T0 = 0.4, Tx = -0.3, Ty = 0.5;
-  const auto stress = [&](const Vec2& x) { return Vec3(material.D * (u.strain(x) - material.unit * (T0 + Tx * x.x() + Ty * x.y()))); };
+  const auto stress = [&](const Vec2& x) {
+    return Vec3(material.D * (u.strain(x) - material.unit * (T0 + Tx * x.x() + Ty * x.y())));
+  };
   // b = -div stress: constant + x + y.
   const auto force = [&](const Vec2& x) {
-    const Vec3 by_x = material.D * (u.strain(x, 1, 0) - material.unit * Tx), by_y = material.D * (u.strain(x, 0, 1) - material.unit * Ty);
+    const Vec3 by_x = material.D * (u.strain(x, 1, 0) - material.unit * Tx),
+               by_y = material.D * (u.strain(x, 0, 1) - material.unit * Ty);
     return Vec2(-by_x[0] - by_y[2], -by_x[2] - by_y[1]);
   };
   const Vec2 b0 = force({0, 0}), bx = force({1, 0}) - b0, by = force({0, 1}) - b0;
   const auto vector = [](const Vec2& x) { return fmt::format("[{}, {}]", x.x(), x.y()); };
   const auto text = [&](const std::string& supports) {
-    std::string model = fmt::format(R"(
+    std::string model = fmt::format(
+        R"(
 scabo: 1
 analysis: {{plane: {}, thickness: 0.3}}
 materials: {{stuff: {}}}
@@ -121,9 +128,9 @@ supports:
   inside: {{on: plate, body_force: {{constant: {}, x: {}, y: {}}}}}
   warm: {{on: plate, temperature: {{constant: {}, x: {}, y: {}}}}}
 )",
-                                    material.plane, material.text,
-                                    cracked ? fmt::format("cracks: [{{tip: {}, mouth: {}, name: flaw}}]", vector(tip), vector(mouth)) : "",
-                                    supports, vector(b0), vector(bx), vector(by), T0, Tx, Ty);
+        material.plane, material.text,
+        cracked ? fmt::format("cracks: [{{tip: {}, mouth: {}, name: flaw}}]", vector(tip), vector(mouth)) : "",
+        supports, vector(b0), vector(bx), vector(by), T0, Tx, Ty);
     if (!cracked) return model;
     const Vec2 along = (tip - mouth).normalized();
     for (const std::string side : {"left", "right"}) {
@@ -135,8 +142,8 @@ supports:
         return Vec2(s[0] * n.x() + s[2] * n.y(), s[2] * n.x() + s[1] * n.y());
       };
       const Vec2 c0 = t(0), c2 = 2 * (t(1) + t(0) - 2 * t(0.5)), c1 = t(1) - c0 - c2;
-      model += fmt::format("  {}: {{on: plate.flaw.{}, traction: {{powers: {{0: {}, 1: {}, 2: {}}}}}}}\n", side, side, vector(c0), vector(c1),
-                           vector(c2));
+      model += fmt::format("  {}: {{on: plate.flaw.{}, traction: {{powers: {{0: {}, 1: {}, 2: {}}}}}}}\n", side, side,
+                           vector(c0), vector(c1), vector(c2));
     }
     return model;
   };
@@ -157,14 +164,16 @@ supports:
     for (const char* side : {"plate.flaw.mouth_left", "plate.flaw.mouth_right"}) support(side, mouth);
   const analysis::StaticSolution solution = run(text(supports));
   std::vector<mesh::OutputPoint> points;
-  for (const Vec2& x : {Vec2(0.3, 0.3), Vec2(1.5, 0.6), Vec2(1.0, 1.6), Vec2(0.2, 1.3), Vec2(0.5, 0.8), Vec2(2.0, 1.2)}) points.push_back({"p", 0, x, 0.0});
+  for (const Vec2& x : {Vec2(0.3, 0.3), Vec2(1.5, 0.6), Vec2(1.0, 1.6), Vec2(0.2, 1.3), Vec2(0.5, 0.8), Vec2(2.0, 1.2)})
+    points.push_back({"p", 0, x, 0.0});
   const result::PointEvaluation evaluation(solution, points, 1);
   const auto values = evaluation.at(solution, last(solution));
   Errors errors;
   const double scale = stress({2.3, 1.8}).norm();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2& x = points[i].at;
-    errors.displacement = std::max(errors.displacement, (values[i].values.displacement - u.at(x, 0, 0)).norm() / largest);
+    errors.displacement =
+        std::max(errors.displacement, (values[i].values.displacement - u.at(x, 0, 0)).norm() / largest);
     errors.stress = std::max(errors.stress, (values[i].values.stress - stress(x)).norm() / scale);
   }
   return errors;
@@ -174,8 +183,8 @@ TEST(PolynomialLoads, FromAModelFileAreExactInside) {
   for (const Material& material : materials())
     for (const bool cracked : {false, true}) {
       const Errors found = errors(material, cracked);
-      std::cout << material.name << (cracked ? ", cracked" : "") << ": displacement " << found.displacement << ", stress " << found.stress
-                << "\n";
+      std::cout << material.name << (cracked ? ", cracked" : "") << ": displacement " << found.displacement
+                << ", stress " << found.stress << "\n";
       EXPECT_LT(found.displacement, 1e-11) << material.name << cracked;
       EXPECT_LT(found.stress, 1e-9) << material.name << cracked;
     }

@@ -40,7 +40,8 @@ Solved solve_block(int pairs, double friction) {
   options.on_problems = [&](const analysis::IncrementResult&, const std::vector<analysis::DiscreteProblem>& problems) {
     result.problem = problems.back();
   };
-  result.solution = analysis::solve_static(model::parse_model(block(pairs, friction, "superelement"), "test.yaml", {}), options);
+  result.solution =
+      analysis::solve_static(model::parse_model(block(pairs, friction, "superelement"), "test.yaml", {}), options);
   return result;
 }
 

@@ -33,7 +33,8 @@ double displacement_at(const analysis::ContactResult& contact, double x) {
 struct Value {
   double x, displacement;  // m
 };
-const Value published[] = {{0.0, 28.60e-6}, {1.25e-3, 27.23e-6}, {5e-3, 22.87e-6}, {7.5e-3, 19.81e-6}, {11.25e-3, 15.41e-6}};
+const Value published[] = {
+    {0.0, 28.60e-6}, {1.25e-3, 27.23e-6}, {5e-3, 22.87e-6}, {7.5e-3, 19.81e-6}, {11.25e-3, 15.41e-6}};
 
 class Raous : public testing::TestWithParam<const char*> {};
 

@@ -1,5 +1,6 @@
-// A leaning strut that friction jams: where mu is above K_tt / |K_tn|, tan of its angle from the normal, the quasi-static problem
-// has several solutions (Klarbring, Ing.-Archiv 60 (1990) 529): its foot is stuck under thrust, or off the floor.
+// A leaning strut that friction jams: where mu is above K_tt / |K_tn|, tan of its angle from the normal, the
+// quasi-static problem has several solutions (Klarbring, Ing.-Archiv 60 (1990) 529): its foot is stuck under thrust, or
+// off the floor.
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +29,8 @@ contacts:
          std::to_string(friction) + "}\nsteps: " + steps + "\n";
 }
 
-const char* const pressed_first = "[{name: press, loads: {up: -1}}, {name: drive, increments: 10, loads: {up: 1, left: 1}}]";
+const char* const pressed_first =
+    "[{name: press, loads: {up: -1}}, {name: drive, increments: 10, loads: {up: 1, left: 1}}]";
 
 TEST(LeaningStrut, StaysOnTheBranchOfItsHistoryAndIsToldToHaveOthers) {
   const auto jammed = run(strut(1.0, pressed_first), {"solver.uniqueness=true"});
@@ -57,7 +59,8 @@ TEST(LeaningStrut, WithLittleFrictionItLetsGo) {
   EXPECT_NEAR(last(solution).contacts.front().normal_force, 0.0, 1e-9);  // N; jammed: 1e5
   for (const analysis::IncrementResult& increment : solution.increments)
     EXPECT_NE(increment.uniqueness->verdict, "several found") << increment.increment;
-  for (const std::string& warning : solution.warnings) EXPECT_EQ(warning.find("other solutions"), std::string::npos) << warning;
+  for (const std::string& warning : solution.warnings)
+    EXPECT_EQ(warning.find("other solutions"), std::string::npos) << warning;
 }
 
 }  // namespace

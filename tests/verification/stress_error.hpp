@@ -1,5 +1,5 @@
-// Error of a super-element's stress in the energy norm, by quadrature of the difference from a field that is known: nothing
-// cancels, so that errors down to 1e-12 can be told, where energies tell them to 1e-7.
+// Error of a super-element's stress in the energy norm, by quadrature of the difference from a field that is known:
+// nothing cancels, so that errors down to 1e-12 can be told, where energies tell them to 1e-7.
 #pragma once
 
 #include <Eigen/LU>
@@ -11,7 +11,8 @@
 
 namespace scabo::test {
 
-/// sqrt(int (s_h - s)' D^-1 (s_h - s) / int s' D^-1 s) over a bounded body, s the exact stress about the scaling centre.
+/// sqrt(int (s_h - s)' D^-1 (s_h - s) / int s' D^-1 s) over a bounded body, s the exact stress about the scaling
+/// centre.
 inline double stress_error(const element::Ring& ring, const element::RadialField& field, const element::Mat3& D,
                            const std::function<element::Vec3(const Vec2&)>& exact) {
   const element::Mat3 S = D.inverse();

@@ -30,9 +30,8 @@ struct Discrete {
 /// constraints with the exact displacements at two corners (the first, in x and y, and the last, in x).
 Discrete discrete(const Ring& ring, int last_corner, const Mat3& D, const ExactField& exact) {
   const auto solution = solve_super_element(ring, D, 1.0);
-  const Vector f = system::traction_forces(ring.elements, ring.nodes, 1.0, [&](const Vec2& x, const Vec2& n) {
-    return traction_of(exact.stress(x), n);
-  });
+  const Vector f = system::traction_forces(
+      ring.elements, ring.nodes, 1.0, [&](const Vec2& x, const Vec2& n) { return traction_of(exact.stress(x), n); });
   std::vector<system::Constraint> constraints(3);
   constraints[0].dof = 0;
   constraints[1].dof = 1;
@@ -53,9 +52,8 @@ ExactField timoshenko() {
   ExactField exact;
   exact.displacement = [](const Vec2& at) {
     const double x = at.x() + 0.5 * L, y = at.y();
-    return Vec2(
-        P * y / (6 * E * I) * ((6 * L - 3 * x) * x + (2 + nu) * (y * y - D * D / 4)),
-        -P / (6 * E * I) * (3 * nu * y * y * (L - x) + (4 + 5 * nu) * D * D * x / 4 + (3 * L - x) * x * x));
+    return Vec2(P * y / (6 * E * I) * ((6 * L - 3 * x) * x + (2 + nu) * (y * y - D * D / 4)),
+                -P / (6 * E * I) * (3 * nu * y * y * (L - x) + (4 + 5 * nu) * D * D * x / 4 + (3 * L - x) * x * x));
   };
   exact.stress = [](const Vec2& at) {
     const double x = at.x() + 0.5 * L, y = at.y();
@@ -122,10 +120,9 @@ ExactField exponential(double young, double poisson, double waves = 1.0) {
   };
   const Ring fine = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, 8, 12);
   const Vector u = at_nodes(fine.nodes, exact.displacement);
-  exact.energy =
-      0.5 * u.dot(system::traction_forces(fine.elements, fine.nodes, 1.0, [&](const Vec2& x, const Vec2& n) {
-        return traction_of(exact.stress(x), n);
-      }));
+  exact.energy = 0.5 * u.dot(system::traction_forces(fine.elements, fine.nodes, 1.0, [&](const Vec2& x, const Vec2& n) {
+    return traction_of(exact.stress(x), n);
+  }));
   return exact;
 }
 
@@ -137,8 +134,7 @@ TEST_P(SmoothSolution, ConvergesWithTheOrderOfItsEdges) {
   const ExactField exact = exponential(1.0, 0.3);
   const auto error = [&](int n) {
     const Ring ring = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, n, order);
-    return std::sqrt(
-        std::abs(1.0 - discrete(ring, 3 * n * order, elasticity(1.0, 0.3), exact).energy / exact.energy));
+    return std::sqrt(std::abs(1.0 - discrete(ring, 3 * n * order, elasticity(1.0, 0.3), exact).energy / exact.energy));
   };
   const double e_coarse = error(coarse), e_fine = error(fine);
   const double rate = std::log(e_coarse / e_fine) / std::log(static_cast<double>(fine) / coarse);
@@ -156,8 +152,8 @@ INSTANTIATE_TEST_SUITE_P(Orders, SmoothSolution,
 TEST(StressOfASmoothSolution, ConvergesWithTheOrderOfItsEdges) {
   const ExactField exact = exponential(1.0, 0.3);
   const Mat3 D = elasticity(1.0, 0.3);
-  for (const Row& row :
-       {Row{1, 16, 32}, Row{2, 8, 16}, Row{3, 6, 12}, Row{4, 5, 10}, Row{5, 8, 16}, Row{6, 6, 12}, Row{7, 4, 8}, Row{8, 3, 6}}) {
+  for (const Row& row : {Row{1, 16, 32}, Row{2, 8, 16}, Row{3, 6, 12}, Row{4, 5, 10}, Row{5, 8, 16}, Row{6, 6, 12},
+                         Row{7, 4, 8}, Row{8, 3, 6}}) {
     const int order = row.order, coarse = row.coarse, fine = row.fine;
     const auto error = [&](int n) {
       const Ring ring = polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, n, order);

@@ -1,5 +1,7 @@
-// Effectivity of the error estimate by two orders: estimated over true error in the energy norm. The true error is that against an
-// energy in closed form or against the same boundary with elements of much higher order.
+// Effectivity of the error estimate by two orders: estimated over true error in the energy norm. The true error is that
+// against an energy in closed form or against the same boundary with elements of much higher order.
+#include "scabo/element/two_orders.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <functional>
 #include <numeric>
 
-#include "scabo/element/two_orders.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/loads.hpp"
 #include "theory/rings.hpp"
@@ -25,7 +26,8 @@ Ring raised(const Ring& ring, int more) {
   std::vector<int> first(ring.nodes.size(), -1);
   const auto shared = [&](int node) {
     int& number = first[static_cast<std::size_t>(node)];
-    if (number < 0) number = static_cast<int>(fine.nodes.size()), fine.nodes.push_back(ring.nodes[static_cast<std::size_t>(node)]);
+    if (number < 0)
+      number = static_cast<int>(fine.nodes.size()), fine.nodes.push_back(ring.nodes[static_cast<std::size_t>(node)]);
     return number;
   };
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
@@ -106,8 +108,18 @@ Ring quarter_with_hole(int n, int order) {
   const Vec2 centre(2.3, 2.3);
   const auto side = [&](const Vec2& a, const Vec2& b, double t) { return Vec2(a + t * (b - a) - centre); };
   const std::vector<std::function<Vec2(double)>> sides = {
-      [&](double t) { return side({1, 0}, {4, 0}, t); }, [&](double t) { return side({4, 0}, {4, 4}, t); },
-      [&](double t) { return side({4, 4}, {0, 4}, t); }, [&](double t) { return side({0, 4}, {0, 1}, t); },
+      [&](double t) {
+        return side({1, 0}, {4, 0}, t);
+      },
+      [&](double t) {
+        return side({4, 0}, {4, 4}, t);
+      },
+      [&](double t) {
+        return side({4, 4}, {0, 4}, t);
+      },
+      [&](double t) {
+        return side({0, 4}, {0, 1}, t);
+      },
       [&](double t) {
         const double angle = 0.5 * std::numbers::pi * (1 - t);
         return Vec2(Vec2(std::cos(angle), std::sin(angle)) - centre);
@@ -134,7 +146,9 @@ struct Case {
 std::vector<Case> cases() {
   return {{"Timoshenko", [](int n, int p) { return rectangle_ring(8, 4, 2 * n, n, p); }, cantilever_stress},
           {"smooth",
-           [](int n, int p) { return polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, 2 * n, p); },
+           [](int n, int p) {
+             return polygon_ring({{-1.0, -0.8}, {1.2, -0.9}, {0.9, 1.0}, {-0.8, 0.7}}, 2 * n, p);
+           },
            smooth_stress},
           {"Kirsch", quarter_with_hole, [](const Vec2& x) { return kirsch_stress(x + Vec2(2.3, 2.3)); }}};
 }

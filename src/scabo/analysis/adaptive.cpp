@@ -14,8 +14,8 @@ namespace scabo::analysis {
 
 namespace {
 
-/// Part of the tolerance that the estimate, which falls short of the error, is to stay below; 0.77 is the least effectivity measured on
-/// meshes that refinement made.
+/// Part of the tolerance that the estimate, which falls short of the error, is to stay below; 0.77 is the least
+/// effectivity measured on meshes that refinement made.
 constexpr double aim = 0.7;
 /// Of the largest nodal force: a reaction below it is rounding.
 constexpr double some_reaction = 1e-6;
@@ -57,7 +57,8 @@ Reactions reactions_of(const StaticSolution& solution) {
   return reactions;
 }
 
-/// Elements beside point forces and the like (adaptive.hpp), and those that cannot change without parting pairs of nodes.
+/// Elements beside point forces and the like (adaptive.hpp), and those that cannot change without parting pairs of
+/// nodes.
 Frozen frozen_elements(const StaticSolution& solution) {
   const mesh::Mesh& mesh = solution.mesh;
   Frozen frozen(mesh.bodies.size());
@@ -96,7 +97,8 @@ Frozen frozen_elements(const StaticSolution& solution) {
 std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, const mesh::Division& division) {
   std::vector<mesh::EdgeElement> elements;
   for (const model::Load& load : model.loads) {
-    if (!load.on || load.on->kind != model::Place::Kind::corner || !std::holds_alternative<model::Force>(load.kind)) continue;
+    if (!load.on || load.on->kind != model::Place::Kind::corner || !std::holds_alternative<model::Force>(load.kind))
+      continue;
     const int b = load.on->body, corner = load.on->index;
     if (!model.bodies[static_cast<std::size_t>(b)].mesh.tolerance) continue;
     const mesh::BodyDivision& body = division[static_cast<std::size_t>(b)];
@@ -130,8 +132,8 @@ Options quiet(const Options& options, const std::string& what) {
 }
 
 /// The analysis on the wider mesh; nothing, with the reason in `why`, where it has not the same increments.
-std::optional<StaticSolution> solve_wider(const StaticSolution& solution, const Options& options, const std::string& what,
-                                          std::string& why) {
+std::optional<StaticSolution> solve_wider(const StaticSolution& solution, const Options& options,
+                                          const std::string& what, std::string& why) {
   try {
     mesh::Mesh mesh = mesh::enriched(solution.model, solution.mesh, frozen_elements(solution));
     StaticSolution wider = solve_on_mesh(solution.model, std::move(mesh), quiet(options, what));
@@ -157,9 +159,10 @@ void warn_of_frozen(StaticSolution& solution) {
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
   for (const std::string& place : places)
-    solution.warnings.push_back(fmt::format("stress under the point force at {} is infinite: the estimated error takes the force "
-                                            "as spread over the elements beside it, which are not refined",
-                                            place));
+    solution.warnings.push_back(
+        fmt::format("stress under the point force at {} is infinite: the estimated error takes the force "
+                    "as spread over the elements beside it, which are not refined",
+                    place));
 }
 
 /// Reports a solution that is complete already, as if its increments came one by one.
@@ -202,7 +205,8 @@ Judgement judge(const StaticSolution& solution) {
 }
 
 /// Parts of the sum that the elements hold in the worst increment.
-std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const StaticSolution& wider, std::size_t worst) {
+std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const StaticSolution& wider,
+                                           std::size_t worst) {
   std::vector<std::vector<double>> shares(solution.model.bodies.size());
   for (std::size_t b = 0; b < shares.size(); ++b) {
     const auto& tolerance = solution.model.bodies[b].mesh.tolerance;
@@ -236,23 +240,29 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
   for (const mesh::Interface& interface : mesh.interfaces) {
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(interface.contact)];
     const bool a = refined(contact.a), b = refined(contact.b);
-    const auto name = [&](const model::Place& place) { return model.bodies[static_cast<std::size_t>(place.body)].name; };
-    const auto elastic = [&](const model::Place& place) { return !model.bodies[static_cast<std::size_t>(place.body)].rigid; };
+    const auto name = [&](const model::Place& place) {
+      return model.bodies[static_cast<std::size_t>(place.body)].name;
+    };
+    const auto elastic = [&](const model::Place& place) {
+      return !model.bodies[static_cast<std::size_t>(place.body)].rigid;
+    };
     if (a != b && elastic(contact.a) && elastic(contact.b))
-      mistakes.push_back({contact.source,
-                          fmt::format("body '{}' is refined for its tolerance and body '{}' is not, so that their nodes would "
-                                      "no longer match: give both a mesh.tolerance, or neither",
-                                      name(a ? contact.a : contact.b), name(a ? contact.b : contact.a))});
+      mistakes.push_back(
+          {contact.source,
+           fmt::format("body '{}' is refined for its tolerance and body '{}' is not, so that their nodes would "
+                       "no longer match: give both a mesh.tolerance, or neither",
+                       name(a ? contact.a : contact.b), name(a ? contact.b : contact.a))});
   }
   for (const mesh::EdgeElement& at : mesh::paired_elements(model, mesh).alone) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(at.body)];
     if (!body.mesh.tolerance || !mistakes.empty()) continue;
     const std::string edge = body.name + "." + body.outline.edges[static_cast<std::size_t>(at.edge)].names.back();
-    mistakes.push_back({body.mesh.source,
-                        fmt::format("element {} of {} faces no element like it in its contact, so that the two sides cannot be "
-                                    "refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
-                                    "shorter edge fall on ends of elements of the longer one",
-                                    at.element + 1, edge)});
+    mistakes.push_back(
+        {body.mesh.source,
+         fmt::format("element {} of {} faces no element like it in its contact, so that the two sides cannot be "
+                     "refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
+                     "shorter edge fall on ends of elements of the longer one",
+                     at.element + 1, edge)});
   }
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
 }
@@ -282,14 +292,16 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
   return error;
 }
 
-std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
-                                   const IncrementResult& wider_increment, std::size_t body) {
+std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment,
+                                   const StaticSolution& wider, const IncrementResult& wider_increment,
+                                   std::size_t body) {
   const SolvedSuperElement &narrow = *solution.super_elements[body], &wide = *wider.super_elements[body];
-  std::vector<double> errors =
-      element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), increment.displacements[body]},
-                                  {wide.ring, wide.solution, wide.modes(), wider_increment.displacements[body]}, wide.sectors.D);
+  std::vector<double> errors = element::sector_differences(
+      {narrow.ring, narrow.solution, narrow.modes(), increment.displacements[body]},
+      {wide.ring, wide.solution, wide.modes(), wider_increment.displacements[body]}, wide.sectors.D);
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
-  for (double& error : errors) error = sum > 0.0 ? increment.error->bodies[body]->relative * std::sqrt(error / sum) : 0.0;
+  for (double& error : errors)
+    error = sum > 0.0 ? increment.error->bodies[body]->relative * std::sqrt(error / sum) : 0.0;
   return errors;
 }
 
@@ -354,19 +366,24 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     if (judgement.sum <= aim * aim) return end(std::move(solution));
     // Where there is no way on: an estimate between the aim and the tolerance is good enough.
     const bool below = judgement.sum <= 1.0;
-    const auto stuck = [&](const std::string& why_not) { return end(below ? std::move(solution) : not_reached(std::move(solution), why_not)); };
+    const auto stuck = [&](const std::string& why_not) {
+      return end(below ? std::move(solution) : not_reached(std::move(solution), why_not));
+    };
 
-    const auto at = [&] { return fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error, passes.back().dofs); };
+    const auto at = [&] {
+      return fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error,
+                         passes.back().dofs);
+    };
     const auto back = static_cast<std::size_t>(limits.without_progress);
     if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
       return stuck(at() + ", and more of them do not help");
     if (static_cast<int>(passes.size()) == limits.passes)
       return stuck(fmt::format("after {} passes {}", limits.passes, at()));
-    const RefinementPass refined = refinement.refine(solution.mesh, shares_of(solution, *wider, judgement.worst), frozen_elements(solution));
+    const RefinementPass refined =
+        refinement.refine(solution.mesh, shares_of(solution, *wider, judgement.worst), frozen_elements(solution));
     passes.back().raised = refined.raised;
     passes.back().divided = refined.divided;
-    if (refined.raised + refined.divided == 0)
-      return stuck(at() + ", and no element can be refined further");
+    if (refined.raised + refined.divided == 0) return stuck(at() + ", and no element can be refined further");
     const mesh::Division& division = refinement.division();
     int nodes = 0;
     for (const mesh::BodyDivision& body : division) {
@@ -376,7 +393,8 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
       nodes = std::max(nodes, of_body);
     }
     if (2 * nodes > std::max(limits.dofs, largest_body(solution.mesh)))
-      return stuck(fmt::format("{}; a finer mesh would have {} in one body, more than {}", at(), 2 * nodes, limits.dofs));
+      return stuck(
+          fmt::format("{}; a finer mesh would have {} in one body, more than {}", at(), 2 * nodes, limits.dofs));
     last = std::move(solution);
   }
 }

@@ -10,10 +10,8 @@ namespace scabo::analysis {
 /// Looks for other solutions; where one is nearer to the accepted forces than the one at hand, the increment
 /// goes there, so that the branch connected to the history is followed. Nothing where `evolution` is not
 /// solved.
-std::optional<UniquenessResult> follow_history(const contact::Problem& problem,
-                                               const contact::JointLaws& laws,
+std::optional<UniquenessResult> follow_history(const contact::Problem& problem, const contact::JointLaws& laws,
                                                const contact::History& history, const contact::Start& start,
-                                               const contact::SolverOptions& options,
-                                               contact::Evolution& evolution);
+                                               const contact::SolverOptions& options, contact::Evolution& evolution);
 
 }  // namespace scabo::analysis

@@ -23,13 +23,14 @@ constexpr double resonance = 1e-4;
 /// A crack's exponents are 1/2; computed ones that are farther off come from a boundary too coarse for them.
 constexpr double poor_exponent = 1e-3;
 
-/// Whether a load that acts has an exponent of a singular mode. The stress then grows like that of the mode times ln(xi): the factor of
-/// the mode has no limit.
+/// Whether a load that acts has an exponent of a singular mode. The stress then grows like that of the mode times
+/// ln(xi): the factor of the mode has no limit.
 bool in_resonance(const element::StressIntensity& factors, const std::vector<element::RadialLoad>& loads) {
   return std::any_of(loads.begin(), loads.end(), [&](const element::RadialLoad& load) {
     return load.g.norm() + load.c.norm() > 0.0 &&
-           std::any_of(factors.exponents.begin(), factors.exponents.end(),
-                       [&](const std::complex<double>& exponent) { return std::abs(exponent - load.power) < resonance; });
+           std::any_of(factors.exponents.begin(), factors.exponents.end(), [&](const std::complex<double>& exponent) {
+             return std::abs(exponent - load.power) < resonance;
+           });
   });
 }
 
@@ -56,17 +57,19 @@ std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks) 
   std::vector<std::string> warnings;
   for (const CrackResult& crack : cracks) {
     if (std::isnan(crack.factors.K_I))
-      warnings.push_back(fmt::format("the load on the faces of '{}' grows towards the tip just as the singular stress does, which "
-                                     "makes that grow like ln(r) times it: its stress intensity factors have no value",
-                                     crack.name));
+      warnings.push_back(
+          fmt::format("the load on the faces of '{}' grows towards the tip just as the singular stress does, which "
+                      "makes that grow like ln(r) times it: its stress intensity factors have no value",
+                      crack.name));
     if (resolved(crack.factors)) continue;
     std::string list;
     for (const std::complex<double>& exponent : crack.factors.exponents)
       list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
-    warnings.push_back(fmt::format("the boundary of '{}' is too coarse for its singular stress: the exponents came out as {}, and are "
-                                   "0.5 twice; its stress intensity factors are wrong by as much: use a smaller mesh size, a higher "
-                                   "order, or a tip farther from the boundary",
-                                   crack.name, list));
+    warnings.push_back(
+        fmt::format("the boundary of '{}' is too coarse for its singular stress: the exponents came out as {}, and are "
+                    "0.5 twice; its stress intensity factors are wrong by as much: use a smaller mesh size, a higher "
+                    "order, or a tip farther from the boundary",
+                    crack.name, list));
   }
   return warnings;
 }
@@ -77,7 +80,8 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
     const auto& super_element = solution.super_elements[b];
     if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
     const std::vector<element::RadialLoad>& loads = increment.interior[b].loads;
-    results.push_back({name_of(solution.model.bodies[b]), super_element->corner().of(increment.displacements[b], loads)});
+    results.push_back(
+        {name_of(solution.model.bodies[b]), super_element->corner().of(increment.displacements[b], loads)});
     if (in_resonance(results.back().factors, loads)) take_back(results.back().factors);
   }
   return results;

@@ -5,8 +5,8 @@
 
 namespace scabo::analysis {
 
-/// One for each bounded open super-element, from its boundary displacements and the loads inside it. Factors are not numbers where a
-/// load has an exponent of a singular mode.
+/// One for each bounded open super-element, from its boundary displacements and the loads inside it. Factors are not
+/// numbers where a load has an exponent of a singular mode.
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment);
 
 /// What users must know of them: factors without a value, exponents that the boundary does not resolve.

@@ -26,10 +26,13 @@ bool is_defective(const element::SuperElementSolution& solution, std::complex<do
 }
 
 void explain(Exponent& exponent, bool open, bool unbounded) {
-  const auto add = [&](const char* words) { exponent.meaning += (exponent.meaning.empty() ? "" : ", ") + std::string(words); };
+  const auto add = [&](const char* words) {
+    exponent.meaning += (exponent.meaning.empty() ? "" : ", ") + std::string(words);
+  };
   if (exponent.value == 0.0) return add("translations");
   if (unbounded) return;
-  if (std::abs(exponent.value - 1.0) <= alike) add(open ? (exponent.multiplicity > 1 ? "rotation, T-stress" : "rotation") : "rotation, constant strains");
+  if (std::abs(exponent.value - 1.0) <= alike)
+    add(open ? (exponent.multiplicity > 1 ? "rotation, T-stress" : "rotation") : "rotation, constant strains");
   if (exponent.singular) add("singular");
   if (exponent.singular && exponent.value.imag() != 0.0) add("oscillating");
   if (exponent.defective) add("defective: power-logarithmic");

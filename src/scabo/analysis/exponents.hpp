@@ -1,7 +1,7 @@
 // The exponents of the super-elements of a model: u ~ xi^lambda, xi the distance from the scaling centre.
 //
-// Bounded: 0 for the two translations, 1 for the rotation and for linear displacements; below 1 stress is infinite at the
-// scaling centre (open super-elements: cracks, notches, corners). Unbounded: negative real parts, and 0.
+// Bounded: 0 for the two translations, 1 for the rotation and for linear displacements; below 1 stress is infinite at
+// the scaling centre (open super-elements: cracks, notches, corners). Unbounded: negative real parts, and 0.
 #pragma once
 
 #include <complex>

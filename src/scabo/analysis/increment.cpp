@@ -52,10 +52,11 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
     for (const Vec2& x : {pair.point_a, pair.point_b}) size = std::max(size, x.norm());
     if (gap >= -1e-12 * std::max(size, std::abs(pair.gap))) continue;
     const model::Contact& named = prepared.model.contacts[static_cast<std::size_t>(contact.held[i].contact)];
-    throw InputError(prepared.model.file,
-                     {{named.source, fmt::format("supports on both sides hold the pair at ({:.6g}, {:.6g}) {:.3g} inside "
-                                                 "each other, and no force can part it: free one side there",
-                                                 pair.point_a.x(), pair.point_a.y(), -gap)}});
+    throw InputError(
+        prepared.model.file,
+        {{named.source, fmt::format("supports on both sides hold the pair at ({:.6g}, {:.6g}) {:.3g} inside "
+                                    "each other, and no force can part it: free one side there",
+                                    pair.point_a.x(), pair.point_a.y(), -gap)}});
   }
 }
 
@@ -69,7 +70,8 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.elastic += prepared.structure.bodies[b]->elastic_energy(to.u[b]);
   }
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
-    const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)], &after = to.history[static_cast<std::size_t>(i)];
+    const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)],
+                               &after = to.history[static_cast<std::size_t>(i)];
     // Where the strength fell at once, the slip took place under what was left of it; friction never gives energy back.
     const bool fell = before.broken != after.broken || before.slipped != after.slipped;
     const double slip = to.slip[i] - from.slip[i], at_end = -to.p[2 * i + 1] * slip;
@@ -98,8 +100,9 @@ double largest_force(const State& state) {
   return largest;
 }
 
-/// What forces of a state are judged against: the largest at work so far. Without any load, and where nothing but the rounding of
-/// K u is at work (supports that move a body without stress), the forces by which K would resist displacements as large.
+/// What forces of a state are judged against: the largest at work so far. Without any load, and where nothing but the
+/// rounding of K u is at work (supports that move a body without stress), the forces by which K would resist
+/// displacements as large.
 double scale_of(const Prepared& prepared, const State& state, double largest_at_work) {
   if (prepared.force_scale > 0.0) return largest_at_work;
   double resistance = 0.0;
@@ -136,12 +139,13 @@ Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int
   const auto b = static_cast<std::size_t>(body);
   const Vec2 u = node >= 0 ? Vec2(state.u[b].segment<2>(2 * node))
                            : Vec2(system::rigid_point(point, prepared.structure.bodies[b]->reference(),
-                                                      prepared.structure.bodies[b]->lever()) * state.u[b]);
+                                                      prepared.structure.bodies[b]->lever()) *
+                                  state.u[b]);
   return {u.dot(normal), u.dot(tangent_of(normal))};
 }
 
-/// Pressure and shear at the pairs in contact, from their nodal forces on the shape functions of the elastic edge (A's when
-/// both are): int N_i N_j ds p_j = F_i / thickness over the pairs in contact; open pairs carry none.
+/// Pressure and shear at the pairs in contact, from their nodal forces on the shape functions of the elastic edge (A's
+/// when both are): int N_i N_j ds p_j = F_i / thickness over the pairs in contact; open pairs carry none.
 void recover_pressure(const Prepared& prepared, std::size_t contact, ContactResult& result,
                       const std::vector<int>& index_of_pair) {
   const model::Contact& named = prepared.model.contacts[contact];
@@ -154,8 +158,7 @@ void recover_pressure(const Prepared& prepared, std::size_t contact, ContactResu
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     if (result.pairs[i].state == contact::ContactState::open) continue;
-    const mesh::ContactPair& pair =
-        prepared.mesh.interfaces[contact].pairs[static_cast<std::size_t>(index_of_pair[i])];
+    const mesh::ContactPair& pair = prepared.mesh.interfaces[contact].pairs[static_cast<std::size_t>(index_of_pair[i])];
     const int node = on_b ? pair.node_b : pair.node_a;
     unknown_of[static_cast<std::size_t>(node)] = static_cast<int>(nodes.size());
     nodes.push_back(node);
@@ -245,7 +248,8 @@ void add(element::InteriorLoads& to, const element::InteriorLoads& loads, double
 Factors between(const Factors& from, const Factors& to, double part) {
   if (part == 1.0) return to;
   Factors factors = to;
-  for (std::size_t i = 0; i < to.loads.size(); ++i) factors.loads[i] = from.loads[i] + part * (to.loads[i] - from.loads[i]);
+  for (std::size_t i = 0; i < to.loads.size(); ++i)
+    factors.loads[i] = from.loads[i] + part * (to.loads[i] - from.loads[i]);
   for (std::size_t i = 0; i < to.supports.size(); ++i)
     factors.supports[i] = from.supports[i] + part * (to.supports[i] - from.supports[i]);
   return factors;
@@ -327,14 +331,16 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
   to.largest_force = std::max(from.largest_force, largest_force(to));
-  certify_structure(prepared, to, scale_of(prepared, to, std::max(options.force_scale, to.largest_force)), result.certificate);
+  certify_structure(prepared, to, scale_of(prepared, to, std::max(options.force_scale, to.largest_force)),
+                    result.certificate);
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;
 }
 
 DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt) {
-  DiscreteProblem discrete{attempt.problem, attempt.start, attempt.solution, attempt.accepted, attempt.force_scale, {}, {}};
+  DiscreteProblem discrete{
+      attempt.problem, attempt.start, attempt.solution, attempt.accepted, attempt.force_scale, {}, {}};
   for (const system::ContactSystem::Pair& pair : prepared.contact.pairs) {
     discrete.contact_of_pair.push_back(pair.contact);
     discrete.number_of_pair.push_back(pair.number);
@@ -377,9 +383,10 @@ std::string too_large(const Prepared& prepared, const State& state) {
     const double size = 2.0 * prepared.structure.bodies[b]->lever();
     const double largest = state.u[b].lpNorm<Eigen::Infinity>();
     if (largest > 0.1 * size)
-      return fmt::format("displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory holds for small "
-                         "ones; check the units of stiffness and loads",
-                         prepared.model.bodies[b].name, largest);
+      return fmt::format(
+          "displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory holds for small "
+          "ones; check the units of stiffness and loads",
+          prepared.model.bodies[b].name, largest);
   }
   return {};
 }

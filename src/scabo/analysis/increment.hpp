@@ -26,10 +26,10 @@ Factors between(const Factors& from, const Factors& to, double part);
 /// itself behind.
 struct State {
   Factors factors;
-  Vector p;                        // 2N, contact forces on B
-  Vector a;                        // m, rigid motions
-  Vector gap, slip;                // N; slip since the start
-  contact::History history;        // N, of the laws
+  Vector p;                  // 2N, contact forces on B
+  Vector a;                  // m, rigid motions
+  Vector gap, slip;          // N; slip since the start
+  contact::History history;  // N, of the laws
   std::vector<contact::ContactState> states;
   std::vector<Vector> u;           // per body
   std::vector<Vector> forces;      // per body: applied forces without contact
@@ -59,8 +59,8 @@ DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attemp
 /// What users see of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);
 
-/// Bodies whose displacements pass a tenth of their size, where small displacements are no longer small: a sentence for the
-/// first, empty where there is none.
+/// Bodies whose displacements pass a tenth of their size, where small displacements are no longer small: a sentence for
+/// the first, empty where there is none.
 std::string too_large(const Prepared& prepared, const State& state);
 
 /// `body 'upper': translation along (1, 0)` for rigid motions `a`.

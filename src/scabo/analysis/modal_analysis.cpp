@@ -41,8 +41,8 @@ class Matrices {
         density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
       std::shared_ptr<const Matrix>& mass = masses_[super_element.get()];
       if (!mass)
-        mass = std::make_shared<const Matrix>(element::mass_matrix(super_element->ring, super_element->solution,
-                                                                   super_element->modes(), density, thickness, threads_));
+        mass = std::make_shared<const Matrix>(element::mass_matrix(
+            super_element->ring, super_element->solution, super_element->modes(), density, thickness, threads_));
       matrices.K.dense = std::shared_ptr<const Matrix>(super_element, &super_element->solution.K);
       matrices.M.dense = mass;
     } else {
@@ -152,8 +152,9 @@ IncrementResult state_of(const ModalResult& result, const NaturalMode& mode) {
   IncrementResult state;
   state.converged = true;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const auto size = model.bodies[b].rigid ? Eigen::Index{3}
-                                            : static_cast<Eigen::Index>(2 * result.structure.mesh.bodies[b].nodes.size());
+    const auto size = model.bodies[b].rigid
+                          ? Eigen::Index{3}
+                          : static_cast<Eigen::Index>(2 * result.structure.mesh.bodies[b].nodes.size());
     state.displacements.push_back(static_cast<int>(b) == mode.body ? mode.shape : Vector(Vector::Zero(size)));
     state.interior.emplace_back();
   }

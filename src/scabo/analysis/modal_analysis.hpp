@@ -1,5 +1,5 @@
-// Natural frequencies and modes of the elastic bodies of a model: Model -> Mesh -> stiffness and mass -> modes. Bodies do not
-// touch: contacts, loads and steps play no part, prescribed displacements are 0 (Model::warnings says so).
+// Natural frequencies and modes of the elastic bodies of a model: Model -> Mesh -> stiffness and mass -> modes. Bodies
+// do not touch: contacts, loads and steps play no part, prescribed displacements are 0 (Model::warnings says so).
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"
@@ -7,18 +7,19 @@
 namespace scabo::analysis {
 
 struct NaturalMode {
-  int body = 0;                       ///< index of the body that moves; the others are at rest
-  bool rigid = false;                 ///< the body moves without deformation: frequency 0 exactly
-  double frequency = 0.0;             ///< 1 / time (SI: Hz)
-  Vector shape;                       ///< 2 per node of the body; the largest displacement of a node is 1
-  double modal_mass = 0.0;            ///< shape' M shape, mass
-  Vec2 effective_mass = Vec2::Zero(); ///< of motions of the supports along x and y, mass: (shape' M r)^2 / modal mass
-  double residual = 0.0;              ///< of K phi = omega^2 M phi, free of units (system/natural_modes.hpp)
+  int body = 0;                        ///< index of the body that moves; the others are at rest
+  bool rigid = false;                  ///< the body moves without deformation: frequency 0 exactly
+  double frequency = 0.0;              ///< 1 / time (SI: Hz)
+  Vector shape;                        ///< 2 per node of the body; the largest displacement of a node is 1
+  double modal_mass = 0.0;             ///< shape' M shape, mass
+  Vec2 effective_mass = Vec2::Zero();  ///< of motions of the supports along x and y, mass: (shape' M r)^2 / modal mass
+  double residual = 0.0;               ///< of K phi = omega^2 M phi, free of units (system/natural_modes.hpp)
 };
 
 /// Seconds.
 struct ModalTiming {
-  double read = 0.0, mesh = 0.0, super_elements = 0.0, mass = 0.0, eigenvalues = 0.0, recover = 0.0, write = 0.0, total = 0.0;
+  double read = 0.0, mesh = 0.0, super_elements = 0.0, mass = 0.0, eigenvalues = 0.0, recover = 0.0, write = 0.0,
+         total = 0.0;
 };
 
 struct ModalResult {

@@ -12,10 +12,13 @@ void check_references(const model::Model& model, const mesh::Mesh& mesh) {
     const model::Body& body = model.bodies[b];
     if (!body.reference) continue;
     const mesh::SuperElement& super_element = mesh.bodies[b].super_elements.front();
-    if (!element::locate(element::ring_of(super_element, mesh.bodies[b].nodes), *body.reference - super_element.centre, true))
-      mistakes.push_back({body.source, fmt::format("the reference point ({:.6g}, {:.6g}) does not lie in this body: name a point of the "
-                                                   "ground, far from the hole",
-                                                   body.reference->x(), body.reference->y())});
+    if (!element::locate(element::ring_of(super_element, mesh.bodies[b].nodes), *body.reference - super_element.centre,
+                         true))
+      mistakes.push_back(
+          {body.source,
+           fmt::format("the reference point ({:.6g}, {:.6g}) does not lie in this body: name a point of the "
+                       "ground, far from the hole",
+                       body.reference->x(), body.reference->y())});
   }
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
 }
@@ -27,10 +30,11 @@ std::string without_reference(const Prepared& prepared, const State& state) {
     const Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
     const Vec2 sum = forces.reshaped(2, forces.size() / 2).rowwise().sum();
     if (sum.norm() > 1e-9 * forces.lpNorm<1>())
-      return fmt::format("the forces on '{}', which reaches to infinity, are out of balance by ({:.4g}, {:.4g}): in the plane its "
-                         "displacement is then relative. It is held a thousand radii away here; name a 'reference' point that stands "
-                         "still",
-                         body.name, sum.x(), sum.y());
+      return fmt::format(
+          "the forces on '{}', which reaches to infinity, are out of balance by ({:.4g}, {:.4g}): in the plane its "
+          "displacement is then relative. It is held a thousand radii away here; name a 'reference' point that stands "
+          "still",
+          body.name, sum.x(), sum.y());
   }
   return {};
 }
@@ -45,8 +49,9 @@ void refer_displacements(const StaticSolution& solution, IncrementResult& result
     const auto at = element::locate(super_element.ring, *body.reference - centre, true);
     ensure(at.has_value(), "the reference point of an outside body lies in it");
     const element::RadialField field(super_element.solution, super_element.modes(), result.displacements[b]);
-    const Vec2 shift = element::point_values(super_element.ring, field.at(at->xi), super_element.sectors.D, at->element, at->eta)
-                           .displacement;
+    const Vec2 shift =
+        element::point_values(super_element.ring, field.at(at->xi), super_element.sectors.D, at->element, at->eta)
+            .displacement;
     for (Vector& u : result.displacements) {
       const Eigen::Index points = u.size() == 3 ? 1 : u.size() / 2;  // a rigid body: its centroid
       for (Eigen::Index i = 0; i < points; ++i) u.segment<2>(2 * i) -= shift;

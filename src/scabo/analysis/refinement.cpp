@@ -16,8 +16,8 @@ constexpr double bulk = 0.8;
 constexpr double after_raise = 0.4, after_divide = 4.0;
 /// Length of the part at a corner over the whole, known to suit singularities.
 constexpr double grading = 0.15;
-/// Shorter elements, over their edge, are not divided: the stiffness loses about 1e-15 times the ratio of the lengths of its
-/// elements (5e-10 measured for 1e-5), and energies as many digits.
+/// Shorter elements, over their edge, are not divided: the stiffness loses about 1e-15 times the ratio of the lengths
+/// of its elements (5e-10 measured for 1e-5), and energies as many digits.
 constexpr double shortest = 1e-4;
 
 using Partners = std::map<mesh::EdgeElement, mesh::EdgeElement>;
@@ -133,7 +133,8 @@ RefinementPass Refinement::refine(const mesh::Mesh& mesh, const std::vector<std:
     };
     const auto other = partner.find(element.at);
     // An element that is divided already by its partner keeps that cut.
-    if (other != partner.end() && wanted.contains(other->second) && wanted[other->second].change == Change::divide) continue;
+    if (other != partner.end() && wanted.contains(other->second) && wanted[other->second].change == Change::divide)
+      continue;
     want(element.at, cut);
     if (other != partner.end()) want(other->second, 1.0 - cut);
   }

@@ -16,8 +16,9 @@ class Refinement {
   /// Divides elements that end at a corner, the small part at the corner; those that face them alike.
   void divide_at_corners(const mesh::Mesh& mesh, const std::vector<mesh::EdgeElement>& elements);
 
-  /// Refines after a pass. `shares`: [body][boundary element], each element's part of the sum of eq. (1) of adaptive.hpp;
-  /// `frozen` elements stay. Returns how many were raised and divided; none: nothing can be refined any more.
+  /// Refines after a pass. `shares`: [body][boundary element], each element's part of the sum of eq. (1) of
+  /// adaptive.hpp; `frozen` elements stay. Returns how many were raised and divided; none: nothing can be refined any
+  /// more.
   RefinementPass refine(const mesh::Mesh& mesh, const std::vector<std::vector<double>>& shares,
                         const std::vector<std::vector<bool>>& frozen);
 

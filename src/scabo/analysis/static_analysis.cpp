@@ -70,23 +70,23 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       reached.certificate = tried.certificate;
       reached.mechanism = mechanism;
       if (mechanism)
-        reached.reason = fmt::format("mechanism: {}; {}", describe_motions(prepared, tried.solution.motion),
-                                     tried.solution.reason);
+        reached.reason =
+            fmt::format("mechanism: {}; {}", describe_motions(prepared, tried.solution.motion), tried.solution.reason);
       else if (tried.solution.status == contact::Status::solved)
         reached.reason = fmt::format("the certificate's worst figure, {:.3g}, is above the tolerance {:.3g}",
                                      tried.certificate.worst(), prepared.model.solver.tolerance);
       else
-        reached.reason = fmt::format("contact did not converge after {} halvings: {}", reached.halvings,
-                                     tried.solution.reason);
+        reached.reason =
+            fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
       if (tried.solution.status == contact::Status::not_converged) {
         if (const auto motion = breaks(prepared) ? contact::mechanism_once_broken(tried.problem, prepared.contact.laws,
                                                                                   reached.state.history)
                                                  : std::nullopt) {
           reached.mechanism = true;
-          reached.reason =
-              fmt::format("mechanism: {}; no forces were found with what is left of the joints' strengths, not even after {} "
-                          "halvings, and nothing holds this motion without them",
-                          describe_motions(prepared, *motion), reached.halvings);
+          reached.reason = fmt::format(
+              "mechanism: {}; no forces were found with what is left of the joints' strengths, not even after {} "
+              "halvings, and nothing holds this motion without them",
+              describe_motions(prepared, *motion), reached.halvings);
           return reached;
         }
         contact::SolverOptions solver;
@@ -113,14 +113,16 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   };
   for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
     const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
-    add(motion, fmt::format("neither supports, friction nor load fix {}; the smallest such motion was taken: add a support if "
-                            "the position matters",
-                            motion));
+    add(motion,
+        fmt::format("neither supports, friction nor load fix {}; the smallest such motion was taken: add a support if "
+                    "the position matters",
+                    motion));
   }
   if (reached.uniqueness && reached.uniqueness->others > 0)
-    add("solutions as well", fmt::format("there are other solutions as well ({} found); the one nearest to the increment before "
-                                      "was taken: see uniqueness in summary.json",
-                                      reached.uniqueness->others));
+    add("solutions as well",
+        fmt::format("there are other solutions as well ({} found); the one nearest to the increment before "
+                    "was taken: see uniqueness in summary.json",
+                    reached.uniqueness->others));
   for (std::size_t c = 0; c < at.contacts.size(); ++c) {
     if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
     const std::string open = fmt::format("open pairs of contact '{}'", at.contacts[c].name);
@@ -159,7 +161,8 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
         });
       if (there && !std::isfinite(result.energy.elastic)) {
         there = false;
-        reached.reason = "the elastic energy is beyond the range of numbers: check the units of stiffness, loads and temperature";
+        reached.reason =
+            "the elastic energy is beyond the range of numbers: check the units of stiffness, loads and temperature";
       }
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
@@ -225,9 +228,9 @@ StaticSolution solve_static(model::Model model, const Options& options) {
   double seconds = 0.0;
   if (options.on_stage) options.on_stage("mesh");
   mesh::Mesh mesh = timed(seconds, [&] { return check(model); });
-  StaticSolution solution = wants_refinement(model)  ? solve_refined(std::move(model), options)
-                            : model.output.error     ? solve_with_error(std::move(model), std::move(mesh), options)
-                                                     : solve_on_mesh(std::move(model), std::move(mesh), options);
+  StaticSolution solution = wants_refinement(model) ? solve_refined(std::move(model), options)
+                            : model.output.error    ? solve_with_error(std::move(model), std::move(mesh), options)
+                                                    : solve_on_mesh(std::move(model), std::move(mesh), options);
   solution.timing.mesh += seconds;
   return solution;
 }
@@ -243,9 +246,8 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   Timing& timing = solution.timing;
 
   stage("super-elements");
-  solution.super_elements = timed(timing.super_elements, [&] {
-    return solve_super_elements(solution.model, solution.mesh, options.threads);
-  });
+  solution.super_elements = timed(timing.super_elements,
+                                  [&] { return solve_super_elements(solution.model, solution.mesh, options.threads); });
   stage("factorisation");
   const auto pointers = solutions_of(solution);
   system::Structure structure =

@@ -28,10 +28,12 @@ bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
 
 /// What is wrong with a super-element, in the words of the model file.
 Diagnostic ill_posed(const model::Body& body, const element::IllPosed& error) {
-  return {body.source, fmt::format("{}; the constants of its material are too far apart for the digits there are (Poisson's ratio too "
-                                   "close to 1/2, or moduli that differ by a factor of 1e12 or more), or the scaling centre is too "
-                                   "close to the boundary",
-                                   error.what())};
+  return {
+      body.source,
+      fmt::format("{}; the constants of its material are too far apart for the digits there are (Poisson's ratio too "
+                  "close to 1/2, or moduli that differ by a factor of 1e12 or more), or the scaling centre is too "
+                  "close to the boundary",
+                  error.what())};
 }
 
 /// Many are shared out among the threads; of few, the blocks of each. `bodies`: the first body of each.
@@ -43,9 +45,9 @@ void solve_all(const model::Model& model, const std::vector<std::shared_ptr<Solv
     SolvedSuperElement& super_element = *distinct[static_cast<std::size_t>(i)];
     super_element.threads = threads;
     try {
-      super_element.solution = element::solve_super_element(super_element.ring, super_element.sectors.D,
-                                                            super_element.thickness, many ? 1 : threads,
-                                                            super_element.domain);
+      super_element.solution =
+          element::solve_super_element(super_element.ring, super_element.sectors.D, super_element.thickness,
+                                       many ? 1 : threads, super_element.domain);
     } catch (const element::IllPosed& error) {
       throw InputError(model.file, {ill_posed(model.bodies[bodies[static_cast<std::size_t>(i)]], error)});
     }
@@ -53,7 +55,8 @@ void solve_all(const model::Model& model, const std::vector<std::shared_ptr<Solv
   linalg::parallel_for(count, many ? threads : 1, solve);
 }
 
-/// An outside body's displacement vanishes, on average, as far away as its reference point; without one, a thousand radii away.
+/// An outside body's displacement vanishes, on average, as far away as its reference point; without one, a thousand
+/// radii away.
 element::Domain domain_of(const model::Body& body, const element::Ring& ring) {
   element::Domain domain;
   domain.unbounded = body.outside;
@@ -88,7 +91,8 @@ std::vector<std::shared_ptr<const SolvedSuperElement>> solve_super_elements(cons
     wanted->sectors = element::sectors_of(model, model.bodies[b], mesh.bodies[b]);
     wanted->domain = domain_of(model.bodies[b], wanted->ring);
     wanted->thickness = model.analysis.thickness;
-    const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto& other) { return are_alike(*wanted, *other); });
+    const auto same =
+        std::find_if(distinct.begin(), distinct.end(), [&](const auto& other) { return are_alike(*wanted, *other); });
     of_body[b] = same == distinct.end() ? wanted : *same;
     if (same == distinct.end()) distinct.push_back(wanted), bodies.push_back(b);
   }

@@ -18,9 +18,7 @@ std::string join(const std::string& file, const std::vector<Diagnostic>& diagnos
 }  // namespace
 
 InputError::InputError(std::string file, std::vector<Diagnostic> diagnostics)
-    : std::runtime_error(join(file, diagnostics)),
-      file_(std::move(file)),
-      diagnostics_(std::move(diagnostics)) {}
+    : std::runtime_error(join(file, diagnostics)), file_(std::move(file)), diagnostics_(std::move(diagnostics)) {}
 
 std::string format_diagnostic(std::string_view file, const Diagnostic& diagnostic) {
   std::string text(file);

@@ -14,8 +14,8 @@ namespace scabo {
 
 /// Where something stands in a model file.
 struct Source {
-  int line = 0;    ///< from 1; 0 when the model was not read from a file
-  int column = 0;  ///< from 1
+  int line = 0;      ///< from 1; 0 when the model was not read from a file
+  int column = 0;    ///< from 1
   std::string path;  ///< keys from the root, as in `bodies.upper.material`
 };
 
@@ -43,8 +43,7 @@ std::string format_diagnostic(std::string_view file, const Diagnostic& diagnosti
 /// An invariant of Scabo's own code does not hold: a bug, to be reported.
 class BrokenInvariant : public std::logic_error {
  public:
-  explicit BrokenInvariant(const std::string& what)
-      : std::logic_error("bug in Scabo, please report it: " + what) {}
+  explicit BrokenInvariant(const std::string& what) : std::logic_error("bug in Scabo, please report it: " + what) {}
 };
 
 /// Throws BrokenInvariant with `what` unless `holds`.

@@ -150,13 +150,14 @@ void BDifferentiableEquations::evaluate_at_motion(const Vector& p, Residual& at)
     balance.noalias() += problem_.G.transpose() * p;
   }
   double largest = largest_q_;
-  for (Eigen::Index k = 0; k < d * N; ++k) largest = std::max({largest, std::abs(p[k]), std::abs(r_[k] * at.motion[k])});
+  for (Eigen::Index k = 0; k < d * N; ++k)
+    largest = std::max({largest, std::abs(p[k]), std::abs(r_[k] * at.motion[k])});
   const double smallest = rounding * largest;
   for (Eigen::Index i = 0; i < N; ++i) {
     Branch& branch = at.branches[static_cast<std::size_t>(i)];
     const Vec2 p_t = tangent_part(p, i, d);
-    const Pair pair{p[d * i], r_[d * i] * at.motion[d * i], p_t,
-                    p_t - r_[d * i + 1] * tangent_part(at.motion, i, d), smallest};
+    const Pair pair{p[d * i], r_[d * i] * at.motion[d * i], p_t, p_t - r_[d * i + 1] * tangent_part(at.motion, i, d),
+                    smallest};
     at.H[d * i] = evaluate_normal(pair, problem_.tension_of(i), branch);
     set_tangent_part(at.H, i, d, evaluate_tangent(pair, problem_.mu[i], problem_.cohesion_of(i), branch));
   }
@@ -191,8 +192,7 @@ Vector BDifferentiableEquations::derivative(const Residual& at, const Vector& di
     slope[d * i] = branch.normal_tie ? std::min(dg, dp_n) : branch.contact ? dg : dp_n;
     const Vec2 dp_t = tangent_part(direction, i, d);
     const Vec2 dt = dp_t - r_[d * i + 1] * tangent_part(du, i, d);
-    set_tangent_part(slope, i, d,
-                     dp_t - projected_derivative(branch, dt, bound_slope(branch, problem_.mu[i], dp_n)));
+    set_tangent_part(slope, i, d, dp_t - projected_derivative(branch, dt, bound_slope(branch, problem_.mu[i], dp_n)));
   }
   if (m > 0) slope.tail(m) = problem_.G.transpose() * direction.head(d * N);
   return slope;
@@ -200,7 +200,8 @@ Vector BDifferentiableEquations::derivative(const Residual& at, const Vector& di
 
 int BDifferentiableEquations::follow(Residual& at, const Vector& direction) const {
   const Eigen::Index N = problem_.pairs(), d = problem_.dimension;
-  if (std::none_of(at.branches.begin(), at.branches.end(), [](const Branch& branch) { return branch.tied(); })) return 0;
+  if (std::none_of(at.branches.begin(), at.branches.end(), [](const Branch& branch) { return branch.tied(); }))
+    return 0;
   motion_along(direction, at.along);
   const Vector& du = at.along;
   int changed = 0;

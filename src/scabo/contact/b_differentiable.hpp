@@ -6,16 +6,16 @@
 //     H3 = p_t - lambda p_t(r), p_t(r) = p_t - r u_t, lambda = min(b / |p_t(r)|, 1)          (eq. 8)
 //     HR = G' p + f
 //
-// with the bound b = c + mu (p_n)+. In the plane p_t has one component, in space two; everything else is the same, and the
-// plane is space with the second component zero. lambda p_t(r) is the projection of p_t(r) on the disc of radius b. With
-// e = p_t(r) / |p_t(r)|, dg = r du_n, dt = dp_t - r du_t and db = mu dp_n, mu (dp_n)+ or 0 for p_n >, =, < 0:
+// with the bound b = c + mu (p_n)+. In the plane p_t has one component, in space two; everything else is the same, and
+// the plane is space with the second component zero. lambda p_t(r) is the projection of p_t(r) on the disc of radius b.
+// With e = p_t(r) / |p_t(r)|, dg = r du_n, dt = dp_t - r du_t and db = mu dp_n, mu (dp_n)+ or 0 for p_n >, =, < 0:
 //
 //     H2'  dg where r u_n < p_n + c_t, dp_n where >, min(dg, dp_n) at the tie
 //     H3'  dp_t - dt                                    stick, |p_t(r)| < b
 //          dp_t - dt + max(e'dt - db, 0) e              its edge, |p_t(r)| = b > 0
 //          dp_t - db e - lambda (dt - (e'dt) e)         slip, |p_t(r)| > b
 //          dp_t                                         free, b = 0 and p_n < 0 or mu = 0
-//          dp_t - P_db(dt)                              tip of the cone, b = 0 and p_t(r) = 0: the law itself, once more
+//          dp_t - P_db(dt)                              tip of the cone, b = 0 and p_t(r) = 0: the law itself, again
 //     HR'  G' dp
 //
 // A proximal term may be added to the motions: u = q + W p + G a + (w / r)(p - centre).
@@ -30,15 +30,15 @@ namespace scabo::contact {
 /// Where one pair lies, and which branch is followed where several meet.
 struct Branch {
   enum class Tangent { free, stick, slip };
-  bool contact = false;              ///< min taken by r u_n
+  bool contact = false;  ///< min taken by r u_n
   Tangent tangent = Tangent::free;
-  bool normal_tie = false;           ///< both arguments of min are equal within rounding
-  bool edge = false;                 ///< |p_t(r)| = b > 0 within rounding
-  bool tip = false;                  ///< p_t(r) = 0 and b = 0
-  bool bound_tie = false;            ///< p_n = 0: b has two slopes
-  double slope = 0.0;                ///< db / dp_n followed
-  double lambda = 1.0;               ///< slip: b / |p_t(r)|
-  Vec2 along = Vec2::Zero();         ///< slip: e
+  bool normal_tie = false;    ///< both arguments of min are equal within rounding
+  bool edge = false;          ///< |p_t(r)| = b > 0 within rounding
+  bool tip = false;           ///< p_t(r) = 0 and b = 0
+  bool bound_tie = false;     ///< p_n = 0: b has two slopes
+  double slope = 0.0;         ///< db / dp_n followed
+  double lambda = 1.0;        ///< slip: b / |p_t(r)|
+  Vec2 along = Vec2::Zero();  ///< slip: e
 
   bool tied() const { return normal_tie || edge || tip || bound_tie; }
   bool same_branch(const Branch& other) const {
@@ -49,9 +49,9 @@ struct Branch {
 
 /// H and all that goes with it at one point; memory is kept from point to point.
 struct Residual {
-  Vector motion;  // dN, u
-  Vector along;   // dN, room for the change of u along a direction
-  Vector H;       // dN + m: [H2, H3] of every pair, HR
+  Vector motion;                 // dN, u
+  Vector along;                  // dN, room for the change of u along a direction
+  Vector H;                      // dN + m: [H2, H3] of every pair, HR
   std::vector<Branch> branches;  // N
   double merit() const { return 0.5 * H.squaredNorm(); }
   double largest() const { return H.size() > 0 ? H.lpNorm<Eigen::Infinity>() : 0.0; }
@@ -86,7 +86,7 @@ class BDifferentiableEquations {
 
  private:
   const Problem& problem_;
-  Vector r_;  // dN
+  Vector r_;                // dN
   double largest_q_ = 0.0;  // as a force
   double weight_ = 0.0;
   Vector centre_;

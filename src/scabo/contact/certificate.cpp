@@ -45,7 +45,8 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
   return certify_at(problem, p, motion_of(problem, p, a), scales);
 }
 
-[[gnu::hot]] Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion, const Scales& scales) {
+[[gnu::hot]] Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion,
+                                    const Scales& scales) {
   Certificate certificate;
   if (!motion.allFinite() || !p.allFinite()) {  // comparisons with nan would all look right
     certificate.penetration = HUGE_VAL;

@@ -18,8 +18,8 @@ struct Certificate {
   double rigid_balance = 0.0;    ///< force and moment balance of a body (contact part; completed by the analysis)
 
   double worst() const {
-    return std::max({equilibrium, penetration, tension, friction_excess, complementarity, slip_direction,
-                     rigid_balance});
+    return std::max(
+        {equilibrium, penetration, tension, friction_excess, complementarity, slip_direction, rigid_balance});
   }
 };
 
@@ -34,10 +34,10 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
 /// The same where the motions u are known.
 Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion, const Scales& scales);
 
-/// The residual by which FCLIB judges: | p - P_K(p - (u + mu |u_t| n)) | / |q|, with P_K the projection on Coulomb's cone,
-/// motions u and forces p as they are, units and all (absolute where q = 0). For a pair with cohesion or tension, whose set of
-/// forces is no cone: | [p_n - max(p_n - u_n, -tension), p_t - P_b(p_t - u_t)] |, P_b the projection on the disc of radius
-/// b = cohesion + mu (p_n)+. Infinite where a number is not finite.
+/// The residual by which FCLIB judges: | p - P_K(p - (u + mu |u_t| n)) | / |q|, with P_K the projection on Coulomb's
+/// cone, motions u and forces p as they are, units and all (absolute where q = 0). For a pair with cohesion or tension,
+/// whose set of forces is no cone: | [p_n - max(p_n - u_n, -tension), p_t - P_b(p_t - u_t)] |, P_b the projection on
+/// the disc of radius b = cohesion + mu (p_n)+. Infinite where a number is not finite.
 double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a);
 /// The same where the motions u are known.
 double natural_map_residual_at(const Problem& problem, const Vector& p, const Vector& motion);

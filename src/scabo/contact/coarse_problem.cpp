@@ -59,7 +59,8 @@ Vector weakest(const Vector& strength, const CoarseProblem& coarse, int groups) 
 Vector CoarseProblem::prolong(const Vector& p_coarse) const {
   Vector p(components * share.size());
   for (Eigen::Index i = 0; i < share.size(); ++i)
-    p.segment<components>(components * i) = share[i] * p_coarse.segment<components>(components * group[static_cast<std::size_t>(i)]);
+    p.segment<components>(components * i) =
+        share[i] * p_coarse.segment<components>(components * group[static_cast<std::size_t>(i)]);
   return p;
 }
 

@@ -5,8 +5,8 @@
 //     W_c = P' W P     q_c = P' q     G_c = P' G     f_c = f                          P'P diagonal, sum_i s_i = 1
 //
 // W_c is symmetric and positive semidefinite with W, the motion of a group is the mean of its members', and
-// G_c' p_c + f = G' p + f: the balance of the rigid motions and their a are those of the fine problem. The law of a group is
-// that of its weakest member,
+// G_c' p_c + f = G' p + f: the balance of the rigid motions and their a are those of the fine problem. The law of a
+// group is that of its weakest member,
 //
 //     mu_c = min mu_i     c_c = min c_i / s_i     c_t,c = min c_t,i / s_i,
 //

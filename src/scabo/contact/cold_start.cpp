@@ -29,8 +29,7 @@ bool solve_loosely(const Problem& coarse, ColdStart& start) {
   options.small = 5e-2 * start.p.lpNorm<Eigen::Infinity>();
   options.iterations = 3;
   options.stage = "newton, " + std::to_string(coarse.pairs()) + " pairs";
-  NewtonEnd end =
-      newton(BDifferentiableEquations(coarse, 1.0), std::move(start.p), std::move(start.a), options);
+  NewtonEnd end = newton(BDifferentiableEquations(coarse, 1.0), std::move(start.p), std::move(start.a), options);
   for (Iteration& iteration : end.trace) {
     iteration.iteration += start.coarse_iterations;
     start.trace.push_back(std::move(iteration));

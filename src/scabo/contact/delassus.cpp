@@ -38,7 +38,8 @@ Matrix probed_blocks(const Delassus& W, int d) {
     for (Eigen::Index i = colour; i < N; i += colours)
       for (int k = 0; k < d; ++k) probes(d * i + k, k) = sign[i];
     const Matrix images = W.times(probes);
-    for (Eigen::Index i = colour; i < N; i += colours) blocks.middleCols(d * i, d) = sign[i] * images.middleRows(d * i, d);
+    for (Eigen::Index i = colour; i < N; i += colours)
+      blocks.middleCols(d * i, d) = sign[i] * images.middleRows(d * i, d);
   }
   return blocks;
 }

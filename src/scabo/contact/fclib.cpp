@@ -38,8 +38,8 @@ Integers spread(const Hdf5Reader& file, const std::string& path, const Integers&
   if (p.front() != 0) file.fail(path, fmt::format("must start with 0, not {}", p.front()));
   for (std::size_t k = 0; k + 1 < p.size(); ++k) {
     if (p[k + 1] < p[k] || p[k + 1] > static_cast<std::int64_t>(values))
-      file.fail(path, fmt::format("entry {} is {}: must be from {} (the one before) to {} (the values of x)",
-                                  k + 1, p[k + 1], p[k], values));
+      file.fail(path, fmt::format("entry {} is {}: must be from {} (the one before) to {} (the values of x)", k + 1,
+                                  p[k + 1], p[k], values));
     index.insert(index.end(), static_cast<std::size_t>(p[k + 1] - p[k]), static_cast<std::int64_t>(k));
   }
   return index;
@@ -51,8 +51,7 @@ Entries read_entries(const Hdf5Reader& file, const std::string& group, std::int6
   if (nz < -2)
     file.fail(
         group + "/nz",
-        fmt::format("must be -1 (compressed columns), -2 (compressed rows) or the number of triplets, not {}",
-                    nz));
+        fmt::format("must be -1 (compressed columns), -2 (compressed rows) or the number of triplets, not {}", nz));
   Integers p = file.integers(group + "/p"), i = file.integers(group + "/i");
   if (nz >= 0) {
     expect_at_least(file, group + "/p", p.size(), nz, "nz");
@@ -84,11 +83,9 @@ Sparse read_matrix(const Hdf5Reader& file, const std::string& group) {
   for (std::size_t k = 0; k < entries.row.size(); ++k) {
     const std::int64_t row = entries.row[k], column = entries.column[k];
     if (row < 0 || row >= m || column < 0 || column >= n)
-      file.fail(
-          group,
-          fmt::format(
-              "entry {} stands in row {} and column {} (from 0) of a matrix of {} x {}: i or p is wrong", k,
-              row, column, m, n));
+      file.fail(group,
+                fmt::format("entry {} stands in row {} and column {} (from 0) of a matrix of {} x {}: i or p is wrong",
+                            k, row, column, m, n));
     const double value = x[static_cast<Index>(k)];
     if (!std::isfinite(value))
       file.fail(group + "/x", fmt::format("entry {} is {}: must be a finite number", k, value));
@@ -101,8 +98,7 @@ Sparse read_matrix(const Hdf5Reader& file, const std::string& group) {
 
 Vector read_vector(const Hdf5Reader& file, const std::string& path, Index size, const char* why) {
   Vector values = file.numbers(path);
-  if (values.size() != size)
-    file.fail(path, fmt::format("must hold {} values ({}), not {}", size, why, values.size()));
+  if (values.size() != size) file.fail(path, fmt::format("must hold {} values ({}), not {}", size, why, values.size()));
   for (Index k = 0; k < size; ++k)
     if (!std::isfinite(values[k]))
       file.fail(path, fmt::format("entry {} is {}: must be a finite number", k, values[k]));
@@ -119,16 +115,15 @@ int read_dimension(const Hdf5Reader& file, const std::string& path) {
 Index pairs_of(const Hdf5Reader& file, const std::string& path, Index rows, int dimension) {
   if (rows == 0) file.fail(path, "is 0: there is no contact to solve");
   if (rows % dimension != 0)
-    file.fail(path, fmt::format("is {}, no multiple of spacedim, {}: every pair has a normal and {}", rows,
-                                dimension, dimension == 3 ? "two tangents" : "a tangent"));
+    file.fail(path, fmt::format("is {}, no multiple of spacedim, {}: every pair has a normal and {}", rows, dimension,
+                                dimension == 3 ? "two tangents" : "a tangent"));
   return rows / dimension;
 }
 
 Vector read_mu(const Hdf5Reader& file, const std::string& path, Index pairs) {
   Vector mu = read_vector(file, path, pairs, "one for each pair");
   for (Index k = 0; k < pairs; ++k)
-    if (mu[k] < 0.0)
-      file.fail(path, fmt::format("entry {} is {}: a coefficient of friction is 0 or more", k, mu[k]));
+    if (mu[k] < 0.0) file.fail(path, fmt::format("entry {} is {}: a coefficient of friction is 0 or more", k, mu[k]));
   return mu;
 }
 
@@ -151,11 +146,10 @@ void read_constraints(const Hdf5Reader& file, Problem& problem) {
   if (!file.has(V_path) && !file.has(R_path)) return;
   const Sparse V = read_matrix(file, V_path), R = read_matrix(file, R_path);
   if (V.rows() != problem.q.size())
-    file.fail(V_path + "/m",
-              fmt::format("must be {}, as many as rows of W, not {}", problem.q.size(), V.rows()));
+    file.fail(V_path + "/m", fmt::format("must be {}, as many as rows of W, not {}", problem.q.size(), V.rows()));
   if (R.rows() != V.cols() || R.cols() != V.cols())
-    file.fail(R_path, fmt::format("must be {0} x {0}, as many as columns of V, not {1} x {2}", V.cols(),
-                                  R.rows(), R.cols()));
+    file.fail(R_path,
+              fmt::format("must be {0} x {0}, as many as columns of V, not {1} x {2}", V.cols(), R.rows(), R.cols()));
   const Vector s = read_vector(file, "fclib_local/vectors/s", V.cols(), "one for each column of V");
   if (R.norm() == 0.0) {
     problem.G = Matrix(V);
@@ -164,16 +158,14 @@ void read_constraints(const Hdf5Reader& file, Problem& problem) {
   }
   const Eigen::FullPivLU<Matrix> lu{Matrix(R)};
   if (!lu.isInvertible())
-    file.fail(R_path,
-              "must be zero or nonsingular: constraints of both kinds in one problem are not supported");
+    file.fail(R_path, "must be zero or nonsingular: constraints of both kinds in one problem are not supported");
   const Matrix X = lu.solve(Matrix(V.transpose()));
   problem.W = Delassus(Matrix(problem.W.dense() - Matrix(V * X)));
   problem.q -= V * Vector(lu.solve(s));
 }
 
 /// `guesses/1` and `solution`: r and l where they are.
-void read_known(const Hdf5Reader& file, const std::string& group, const Problem& problem, Vector& r,
-                Vector& l) {
+void read_known(const Hdf5Reader& file, const std::string& group, const Problem& problem, Vector& r, Vector& l) {
   if (!file.has(group + "/r")) return;
   r = read_vector(file, group + "/r", problem.q.size(), "as many as q");
   l = Vector::Zero(problem.G.cols());
@@ -204,8 +196,7 @@ void read_origin(const Hdf5Reader& file, SavedProblem& saved) {
     }
     return numbers;
   };
-  saved.contact_of_pair =
-      read("scabo/contact_of_pair", 0, static_cast<std::int64_t>(saved.contacts.size()) - 1);
+  saved.contact_of_pair = read("scabo/contact_of_pair", 0, static_cast<std::int64_t>(saved.contacts.size()) - 1);
   saved.number_of_pair = read("scabo/number_of_pair", 1, std::numeric_limits<int>::max());
 }
 
@@ -215,8 +206,7 @@ SavedProblem read_local(const Hdf5Reader& file) {
   Problem& problem = saved.problem;
   problem.dimension = read_dimension(file, "fclib_local/spacedim");
   Sparse W = read_matrix(file, "fclib_local/W");
-  if (W.rows() != W.cols())
-    file.fail("fclib_local/W", fmt::format("must be square, not {} x {}", W.rows(), W.cols()));
+  if (W.rows() != W.cols()) file.fail("fclib_local/W", fmt::format("must be square, not {} x {}", W.rows(), W.cols()));
   const Index pairs = pairs_of(file, "fclib_local/W/m", W.rows(), problem.dimension);
   problem.q = read_vector(file, "fclib_local/vectors/q", W.rows(), "as many as rows of W");
   problem.mu = read_mu(file, "fclib_local/vectors/mu", pairs);
@@ -238,12 +228,10 @@ SavedProblem read_global(const Hdf5Reader& file) {
   global.dimension = read_dimension(file, "fclib_global/spacedim");
   global.M = read_matrix(file, "fclib_global/M");
   const Index n = global.M.rows();
-  if (global.M.cols() != n)
-    file.fail("fclib_global/M", fmt::format("must be square, not {} x {}", n, global.M.cols()));
+  if (global.M.cols() != n) file.fail("fclib_global/M", fmt::format("must be square, not {} x {}", n, global.M.cols()));
   global.H = read_matrix(file, "fclib_global/H");
   if (global.H.rows() != n)
-    file.fail("fclib_global/H/m",
-              fmt::format("must be {}, as many as rows of M, not {}", n, global.H.rows()));
+    file.fail("fclib_global/H/m", fmt::format("must be {}, as many as rows of M, not {}", n, global.H.rows()));
   const Index pairs = pairs_of(file, "fclib_global/H/n", global.H.cols(), global.dimension);
   global.f = read_vector(file, "fclib_global/vectors/f", n, "as many as rows of M");
   global.w = read_vector(file, "fclib_global/vectors/w", global.H.cols(), "as many as columns of H");
@@ -253,8 +241,7 @@ SavedProblem read_global(const Hdf5Reader& file) {
   if (file.has("fclib_global/G")) {
     global.G = read_matrix(file, "fclib_global/G");
     if (global.G.rows() != n)
-      file.fail("fclib_global/G/m",
-                fmt::format("must be {}, as many as rows of M, not {}", n, global.G.rows()));
+      file.fail("fclib_global/G/m", fmt::format("must be {}, as many as rows of M, not {}", n, global.G.rows()));
     global.b = read_vector(file, "fclib_global/vectors/b", global.G.cols(), "as many as columns of G");
   }
   try {
@@ -283,8 +270,8 @@ void write_matrix(Hdf5Writer& file, const std::string& group, Sparse A) {
 /// Every entry of a dense matrix, zeros too: what is read back is dense again.
 Sparse all_entries(const Matrix& A) {
   if (A.size() > std::numeric_limits<int>::max())
-    throw std::runtime_error(fmt::format("a matrix of {} x {} has more entries than FCLIB's layout can count",
-                                         A.rows(), A.cols()));
+    throw std::runtime_error(
+        fmt::format("a matrix of {} x {} has more entries than FCLIB's layout can count", A.rows(), A.cols()));
   Sparse S(A.rows(), A.cols());
   S.reserve(Eigen::VectorXi::Constant(A.cols(), static_cast<int>(A.rows())));
   for (Index j = 0; j < A.cols(); ++j)
@@ -301,8 +288,7 @@ void write_forces(Hdf5Writer& file, const std::string& group, const Problem& pro
   if (l.size() > 0) file.numbers(group + "/l", l);
 }
 
-void write_info(Hdf5Writer& file, const std::string& form, const std::string& title,
-                const std::string& description) {
+void write_info(Hdf5Writer& file, const std::string& form, const std::string& title, const std::string& description) {
   file.text(form + "/info/title", title);
   file.text(form + "/info/description", description);
   file.text(form + "/info/math_info", "");
@@ -315,13 +301,12 @@ SavedProblem read_fclib(const std::string& name) {
   const bool local = file.has("fclib_local");
   if (!local && !file.has("fclib_global")) {
     std::string there;
-    for (const std::string& group : file.names("/"))
-      there += (there.empty() ? "" : ", ") + group.substr(0, 60);
-    throw InputError(
-        name, {{{},
-                fmt::format("has neither fclib_local nor fclib_global, so it is no problem in FCLIB's layout "
-                            "(there is: {})",
-                            there.empty() ? "nothing" : there.substr(0, 300))}});
+    for (const std::string& group : file.names("/")) there += (there.empty() ? "" : ", ") + group.substr(0, 60);
+    throw InputError(name,
+                     {{{},
+                       fmt::format("has neither fclib_local nor fclib_global, so it is no problem in FCLIB's layout "
+                                   "(there is: {})",
+                                   there.empty() ? "nothing" : there.substr(0, 300))}});
   }
   SavedProblem saved = local ? read_local(file) : read_global(file);
   const std::string form = local ? "fclib_local" : "fclib_global";
@@ -336,8 +321,7 @@ void write_fclib(const std::string& name, const SavedProblem& saved) {
   const Problem& problem = saved.problem;
   Hdf5Writer file(name);
   file.integer("fclib_local/spacedim", problem.dimension);
-  write_matrix(file, "fclib_local/W",
-               problem.W.is_sparse() ? problem.W.sparse() : all_entries(problem.W.dense()));
+  write_matrix(file, "fclib_local/W", problem.W.is_sparse() ? problem.W.sparse() : all_entries(problem.W.dense()));
   file.numbers("fclib_local/vectors/q", problem.q);
   file.numbers("fclib_local/vectors/mu", problem.mu);
   if (problem.cohesion.size() > 0) file.numbers("fclib_local/vectors/cohesion", problem.cohesion);
@@ -363,8 +347,7 @@ void write_fclib(const std::string& name, const SavedProblem& saved) {
   file.finish();
 }
 
-void write_fclib(const std::string& name, const GlobalProblem& global, const std::string& title,
-                 const Vector& r) {
+void write_fclib(const std::string& name, const GlobalProblem& global, const std::string& title, const Vector& r) {
   Hdf5Writer file(name);
   file.integer("fclib_global/spacedim", global.dimension);
   write_matrix(file, "fclib_global/M", global.M);

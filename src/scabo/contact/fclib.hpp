@@ -27,7 +27,6 @@ SavedProblem read_fclib(const std::string& file);
 void write_fclib(const std::string& file, const SavedProblem& saved);
 
 /// Writes the global form, and a solution where `r` is not empty.
-void write_fclib(const std::string& file, const GlobalProblem& global, const std::string& title,
-                 const Vector& r = {});
+void write_fclib(const std::string& file, const GlobalProblem& global, const std::string& title, const Vector& r = {});
 
 }  // namespace scabo::contact

@@ -51,8 +51,7 @@ template <int d>
     if (d == 2)
       for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1];
     else
-      for (Index k = 0; k < size; ++k)
-        motion[k] += W_n[k] * change[0] + W_t[k] * change[1] + W_s[k] * change[d - 1];
+      for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1] + W_s[k] * change[d - 1];
     return;
   }
   for (int k = 0; k < d; ++k)

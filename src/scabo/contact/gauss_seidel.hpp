@@ -1,6 +1,6 @@
-// Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the pair's own problem (Jourdan, Alart, Jean, Comput. Methods Appl.
-// Mech. Engrg. 155 (1998) 31). Linear at best: a start for Newton, a way back where Newton's own fail, and what sweeps.hpp
-// accelerates.
+// Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the pair's own problem (Jourdan, Alart, Jean, Comput.
+// Methods Appl. Mech. Engrg. 155 (1998) 31). Linear at best: a start for Newton, a way back where Newton's own fail,
+// and what sweeps.hpp accelerates.
 #pragma once
 
 #include <variant>
@@ -11,8 +11,8 @@
 
 namespace scabo::contact {
 
-/// Sweeps over the pairs of a problem of d components without rigid motions (m = 0). A condensed W is formed. The problem must
-/// outlive them.
+/// Sweeps over the pairs of a problem of d components without rigid motions (m = 0). A condensed W is formed. The
+/// problem must outlive them.
 template <int d>
 class PairSweeps {
  public:

@@ -20,8 +20,7 @@ void add(Triplets& entries, const Sparse& block, Index row, Index column, double
   for (Index j = 0; j < block.outerSize(); ++j)
     for (Sparse::InnerIterator at(block, j); at; ++at)
       entries.emplace_back(static_cast<int>(row + (transposed ? at.col() : at.row())),
-                           static_cast<int>(column + (transposed ? at.row() : at.col())),
-                           factor * at.value());
+                           static_cast<int>(column + (transposed ? at.row() : at.col())), factor * at.value());
 }
 
 /// S = [M, -G; -G', 0].

@@ -1,5 +1,5 @@
-// GMRES with restarts and a preconditioner on the right (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856), for
-// matrices that are known by their products alone.
+// GMRES with restarts and a preconditioner on the right (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856),
+// for matrices that are known by their products alone.
 #pragma once
 
 #include <functional>

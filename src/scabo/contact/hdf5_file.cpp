@@ -58,8 +58,7 @@ class Handle {
 bool exists(hid_t file, const std::string& path) {
   for (std::size_t end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1))
     if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-  return H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0 &&
-         H5Oexists_by_name(file, path.c_str(), H5P_DEFAULT) > 0;
+  return H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0 && H5Oexists_by_name(file, path.c_str(), H5P_DEFAULT) > 0;
 }
 
 const char* kind_of(H5T_class_t type) {
@@ -78,23 +77,17 @@ const char* kind_of(H5T_class_t type) {
 /// A dataset opened for reading, its number of values known.
 struct Dataset {
   Dataset(const Hdf5Reader& reader, hid_t file, const std::string& path)
-      : id(open(reader, file, path), H5Dclose),
-        type(H5Dget_type(id), H5Tclose),
-        space(H5Dget_space(id), H5Sclose) {
+      : id(open(reader, file, path), H5Dclose), type(H5Dget_type(id), H5Tclose), space(H5Dget_space(id), H5Sclose) {
     count = type.valid() && space.valid() ? H5Sget_simple_extent_npoints(space) : -1;
     if (count < 0) reader.fail(path, "cannot be read: the file is damaged or cut off; take a whole copy");
     if (count > most_values)
-      reader.fail(
-          path,
-          fmt::format("holds {} values, more than any problem that could be solved: the file is damaged",
-                      static_cast<long long>(count)));
+      reader.fail(path, fmt::format("holds {} values, more than any problem that could be solved: the file is damaged",
+                                    static_cast<long long>(count)));
   }
   static hid_t open(const Hdf5Reader& reader, hid_t file, const std::string& path) {
-    if (!exists(file, path))
-      reader.fail(path, "is missing: FCLIB's layout has it (docs/methods/13_problem_files.md)");
+    if (!exists(file, path)) reader.fail(path, "is missing: FCLIB's layout has it (docs/methods/13_problem_files.md)");
     const hid_t id = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
-    if (id < 0)
-      reader.fail(path, "must be a dataset that can be read: it is a group, or the file is damaged");
+    if (id < 0) reader.fail(path, "must be a dataset that can be read: it is a group, or the file is damaged");
     return id;
   }
   H5T_class_t kind() const { return H5Tget_class(type); }
@@ -114,11 +107,11 @@ Hdf5Reader::Hdf5Reader(std::string file) : file_(std::move(file)) {
   const Quiet quiet;
   id_ = H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id_ < 0)
-    throw InputError(
-        file_, {{{},
-                 is_hdf5(file_) ? "the HDF5 file cannot be opened: it is damaged, cut off or being written; "
-                                  "take a whole copy"
-                                : "is not an HDF5 file"}});
+    throw InputError(file_,
+                     {{{},
+                       is_hdf5(file_) ? "the HDF5 file cannot be opened: it is damaged, cut off or being written; "
+                                        "take a whole copy"
+                                      : "is not an HDF5 file"}});
 }
 
 Hdf5Reader::~Hdf5Reader() {
@@ -154,8 +147,7 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
   if (dataset.kind() != H5T_INTEGER)
     fail(path, fmt::format("must hold whole numbers, not {}", kind_of(dataset.kind())));
   std::vector<std::int64_t> values(static_cast<std::size_t>(dataset.count));
-  if (!values.empty() &&
-      H5Dread(dataset.id, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+  if (!values.empty() && H5Dread(dataset.id, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(path, "cannot be read: the file is damaged or cut off; take a whole copy");
   return values;
 }
@@ -172,8 +164,7 @@ Vector Hdf5Reader::numbers(const std::string& path) const {
   if (dataset.kind() != H5T_FLOAT && dataset.kind() != H5T_INTEGER)
     fail(path, fmt::format("must hold numbers, not {}", kind_of(dataset.kind())));
   Vector values(static_cast<Eigen::Index>(dataset.count));
-  if (values.size() > 0 &&
-      H5Dread(dataset.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+  if (values.size() > 0 && H5Dread(dataset.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(path, "cannot be read: the file is damaged or cut off; take a whole copy");
   return values;
 }

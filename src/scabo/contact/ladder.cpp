@@ -55,7 +55,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
 
 NewtonEnd Ladder::climb(const Vector& p, const Vector& a) {
   return options_.judge == Judge::natural_map && problem_.G.cols() == 0 && may_sweep() ? climb_rank_deficient(p)
-                                                                                      : climb_elastic(p, a);
+                                                                                       : climb_elastic(p, a);
 }
 
 NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a) {
@@ -97,8 +97,8 @@ NewtonEnd Ladder::after_start(ColdStart start, const std::string& stage) {
   return newton_alone(start.p, start.a, {stage});
 }
 
-// Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps and
-// 1e-2 those.
+// Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps
+// and 1e-2 those.
 NewtonEnd Ladder::climb_rank_deficient(const Vector& p) {
   // Of many pairs sweeps tell little before they have carried forces from one end to the other.
   constexpr int many = 2000;
@@ -148,7 +148,8 @@ NewtonEnd Ladder::enough(Vector p, int sweeps) {
   end.p = std::move(p);
   end.converged = true;
   end.residual = at.largest();
-  trace_.push_back({iterations_ + coarse_iterations_, end.residual, at.merit(), 1.0, 0, std::to_string(sweeps) + " sweeps"});
+  trace_.push_back(
+      {iterations_ + coarse_iterations_, end.residual, at.merit(), 1.0, 0, std::to_string(sweeps) + " sweeps"});
   return end;
 }
 

@@ -18,7 +18,8 @@ double stiffness_of(const Problem& problem);
 
 class Ladder {
  public:
-  /// `small`: the largest |H| at which Newton may stop; `content`: the judge of forces and (scaled) motions, where H is not it.
+  /// `small`: the largest |H| at which Newton may stop; `content`: the judge of forces and (scaled) motions, where H is
+  /// not it.
   Ladder(const Problem& scaled_problem, const SolverOptions& options, double small,
          std::function<bool(const Vector& p, const Vector& motion)> content);
 

@@ -1,6 +1,6 @@
 // Damped Newton method on the B-differentiable equations: direction (newton_direction.hpp), line search on the merit
-// theta = 1/2 |H|^2, until H is small or a judge of its own is content. Where no step descends, a few full steps are tried
-// (H is made of pieces, and a step may lead past a kink); the best point is kept.
+// theta = 1/2 |H|^2, until H is small or a judge of its own is content. Where no step descends, a few full steps are
+// tried (H is made of pieces, and a step may lead past a kink); the best point is kept.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ struct NewtonOptions {
 };
 
 struct NewtonEnd {
-  Vector p, a;            ///< the best point
+  Vector p, a;  ///< the best point
   bool converged = false;
   bool singular = false;  ///< a direction did not exist: forces cannot balance on the branch
   int iterations = 0;

@@ -27,8 +27,8 @@ namespace {
 constexpr Eigen::Index most_direct = 2500;  // unknowns of a dense factorisation
 constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
 
-/// Components that no contact force and no rigid motion moves (a support holds the pair along the joint): rows and columns of W
-/// and rows of G that are zero. Empty where there are none.
+/// Components that no contact force and no rigid motion moves (a support holds the pair along the joint): rows and
+/// columns of W and rows of G that are zero. Empty where there are none.
 std::vector<bool> immovable_components(const Problem& problem) {
   std::vector<bool> immovable;
   if (!problem.W.is_dense()) return immovable;
@@ -44,7 +44,9 @@ std::vector<bool> immovable_components(const Problem& problem) {
 }  // namespace
 
 NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
-    : equations_(equations), work_(std::make_unique<Workspace>()), immovable_(immovable_components(equations.problem())) {}
+    : equations_(equations),
+      work_(std::make_unique<Workspace>()),
+      immovable_(immovable_components(equations.problem())) {}
 NewtonDirection::~NewtonDirection() = default;
 
 bool NewtonDirection::find(Residual& at, double regularisation, Vector& d) {
@@ -106,13 +108,15 @@ void NewtonDirection::lay_out(const Residual& at) {
     Eigen::Vector3d normal(1.0, 0.0, 0.0);
     if (slips) normal.tail<2>() = branch.slope * branch.along;
     if (branch.contact) {
-      if (!(met(d * i) && normal.tail<2>().isZero(0.0))) unknowns_.push_back({pair, Eigen::Vector3d::UnitX(), normal, r[d * i], 0.0});
+      if (!(met(d * i) && normal.tail<2>().isZero(0.0)))
+        unknowns_.push_back({pair, Eigen::Vector3d::UnitX(), normal, r[d * i], 0.0});
     } else {
       for (Eigen::Index k = 0; k < d; ++k) known_[d * i + k] = -at.H[d * i] * normal[k];
     }
     if (branch.tangent == Branch::Tangent::stick) {
       for (Eigen::Index k = 1; k < d; ++k)
-        if (!met(d * i + k)) unknowns_.push_back({pair, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Unit(k), r[d * i + k], 0.0});
+        if (!met(d * i + k))
+          unknowns_.push_back({pair, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Unit(k), r[d * i + k], 0.0});
       continue;
     }
     const bool across = slips && d == 3 && branch.lambda > 1e-14;
@@ -158,7 +162,8 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   for (Eigen::Index j = 0; j < size; ++j) {
     const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
     double H = 0.0;
-    for (Eigen::Index k = 0; k < problem.dimension; ++k) H += unknown.row[k] * at.H[problem.dimension * unknown.pair + k];
+    for (Eigen::Index k = 0; k < problem.dimension; ++k)
+      H += unknown.row[k] * at.H[problem.dimension * unknown.pair + k];
     right_[j] = -H - unknown.scale * right_[j];
   }
   if (m > 0) {
@@ -286,8 +291,7 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   work.residual = right - A * y_;
   y_ += work.sparse_solver.solve(work.residual);
   work.residual = right - A * y_;
-  return y_.allFinite() &&
-         work.residual.lpNorm<Eigen::Infinity>() <= 1e-8 * (right.lpNorm<Eigen::Infinity>() + 1e-300);
+  return y_.allFinite() && work.residual.lpNorm<Eigen::Infinity>() <= 1e-8 * (right.lpNorm<Eigen::Infinity>() + 1e-300);
 }
 
 void NewtonDirection::apply(const Vector& y, double regularisation, Vector& result) {

@@ -1,19 +1,20 @@
 // The direction d of Newton's method: H(z) + H'(z; d) = 0.
 //
-// On chosen branches it is linear. Forces whose row holds no motion are eliminated (open normals, free tangents, in slip the
-// component along e, which follows the normal force); what remains are the unknowns y of
+// On chosen branches it is linear. Forces whose row holds no motion are eliminated (open normals, free tangents, in
+// slip the component along e, which follows the normal force); what remains are the unknowns y of
 //
 //     [ L'(R W + w + alpha) C + 1 - lambda   L'R G ] [ y  ]   [ -H - L'R W known ]
 //     [ G'C                                  0     ] [ da ] = [ -H_R - G' known  ]       dp = known + C y
 //
-// with a column in C and a row in L for each: n (+ mu e in slip), both tangents where it sticks, in space the tangent across e
-// with weight lambda where it slips. w: proximal term; alpha: regularisation where W is rank deficient, 0 where it need not be.
+// with a column in C and a row in L for each: n (+ mu e in slip), both tangents where it sticks, in space the tangent
+// across e with weight lambda where it slips. w: proximal term; alpha: regularisation where W is rank deficient, 0
+// where it need not be.
 //
-// At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the branches
-// of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
+// At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the
+// branches of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
 //
-// Dense LU up to a few thousand unknowns, sparse LU where W is sparse, GMRES with the blocks of the pairs as preconditioner
-// otherwise.
+// Dense LU up to a few thousand unknowns, sparse LU where W is sparse, GMRES with the blocks of the pairs as
+// preconditioner otherwise.
 #pragma once
 
 #include <memory>

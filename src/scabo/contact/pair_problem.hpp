@@ -1,19 +1,19 @@
-// One pair's own problem: its force under Coulomb's law with cohesion and tensile strength, every other force held. Sweeps
-// (gauss_seidel.hpp) solve it pair by pair.
+// One pair's own problem: its force under Coulomb's law with cohesion and tensile strength, every other force held.
+// Sweeps (gauss_seidel.hpp) solve it pair by pair.
 //
-// Its motion is free + W p, W its own block. Open, p_n = -T, where free_n >= W_nn T. Otherwise u_n = 0, and what the normal leaves
-// for the tangents is u_t = A p_t + c,
+// Its motion is free + W p, W its own block. Open, p_n = -T, where free_n >= W_nn T. Otherwise u_n = 0, and what the
+// normal leaves for the tangents is u_t = A p_t + c,
 //
 //     A = W_tt - W_tn W_nt / W_nn,   c = free_t - W_tn free_n / W_nn
 //
-// Stick is p_t = -A^-1 c within the bound C + mu (p_n)+. In the plane slip has a closed form. In space it is u_t = -s p_t, s > 0, hence
-// (A + s) p_t = -c; with N(s) = det(A + s) p_t
+// Stick is p_t = -A^-1 c within the bound C + mu (p_n)+. In the plane slip has a closed form. In space it is u_t = -s
+// p_t, s > 0, hence (A + s) p_t = -c; with N(s) = det(A + s) p_t
 //
 //     g(s) = |N| + mu / W_nn (free_n det(A + s) + W_nt N) - C det(A + s) = 0
 //
-// a quartic in s by another name, solved by Newton within a bracket from the s of the time before: one or two steps near the end
-// of the sweeps. Where p_n < 0 comes out the bound is C alone, mu = 0 in g. Where no force obeys the law (large mu, W not positive
-// definite) p_n = -free_n / W_nn without friction.
+// a quartic in s by another name, solved by Newton within a bracket from the s of the time before: one or two steps
+// near the end of the sweeps. Where p_n < 0 comes out the bound is C alone, mu = 0 in g. Where no force obeys the law
+// (large mu, W not positive definite) p_n = -free_n / W_nn without friction.
 #pragma once
 
 namespace scabo::contact {

@@ -1,8 +1,8 @@
 // The discrete problem of frictional contact: a value, apart from its solver.
 //
 // N pairs with relative motions u and forces p on B, for every pair [normal, tangent] in the plane (d = 2), [normal,
-// tangent 1, tangent 2] in space (d = 3); signs as in docs/notation.md (n out of A, towards B; forces act on B), which are those
-// of FCLIB, the public collection of such problems:
+// tangent 1, tangent 2] in space (d = 3); signs as in docs/notation.md (n out of A, towards B; forces act on B), which
+// are those of FCLIB, the public collection of such problems:
 //
 //     u = q + W p + G a          length (or velocity): gap u_n, > 0 open; slip u_t since the last accepted increment
 //     0 = G' p + f               equilibrium of the rigid motions that contact alone holds
@@ -40,8 +40,8 @@ struct Problem {
   }
 };
 
-/// What an increment starts from, part of a saved problem: forces and rigid motions of the increment before (empty: from
-/// nothing). Slip so far is in q.
+/// What an increment starts from, part of a saved problem: forces and rigid motions of the increment before (empty:
+/// from nothing). Slip so far is in q.
 struct Start {
   Vector p, a;
 };

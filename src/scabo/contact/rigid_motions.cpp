@@ -11,8 +11,8 @@ namespace scabo::contact {
 
 namespace {
 
-/// The proof moves up the friction cones while it slides; the slide that changes no gap says the same more plainly. It is
-/// taken where the proof is mostly that.
+/// The proof moves up the friction cones while it slides; the slide that changes no gap says the same more plainly. It
+/// is taken where the proof is mostly that.
 Vector slide_of(const Problem& problem, const Vector& motion) {
   if (problem.pairs() == 0) return motion;
   Matrix normals(problem.pairs(), motion.size());
@@ -26,9 +26,9 @@ Vector slide_of(const Problem& problem, const Vector& motion) {
   return slide.norm() > 0.7 ? Vector(slide.normalized()) : motion;
 }
 
-/// Effects on the rigid motions of rays whose non-negative combinations hold all friction forces: in the plane the extreme
-/// rays n + mu t and n - mu t, in space those of a pyramid around the cone, so that a proof against it is one against the
-/// cone.
+/// Effects on the rigid motions of rays whose non-negative combinations hold all friction forces: in the plane the
+/// extreme rays n + mu t and n - mu t, in space those of a pyramid around the cone, so that a proof against it is one
+/// against the cone.
 Matrix rays_of(const Problem& problem) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   constexpr int sides = 16;
@@ -41,8 +41,10 @@ Matrix rays_of(const Problem& problem) {
       if (d == 2) {
         ray += (k == 0 ? 1.0 : -1.0) * problem.mu[i] * problem.G.row(2 * i + 1).transpose();
       } else {
-        const double angle = 2.0 * std::numbers::pi * k / sides, reach = problem.mu[i] / std::cos(std::numbers::pi / sides);
-        ray += reach * (std::cos(angle) * problem.G.row(3 * i + 1) + std::sin(angle) * problem.G.row(3 * i + 2)).transpose();
+        const double angle = 2.0 * std::numbers::pi * k / sides,
+                     reach = problem.mu[i] / std::cos(std::numbers::pi / sides);
+        ray += reach *
+               (std::cos(angle) * problem.G.row(3 * i + 1) + std::sin(angle) * problem.G.row(3 * i + 2)).transpose();
       }
       rays.col(count * i + k) = ray;
     }
@@ -78,9 +80,9 @@ Vector resisting(const Problem& problem, const Vector& v) {
   return problem.G.transpose() * p;
 }
 
-/// With cohesion and tension the forces of a pair are no cone. Their convex hull is p_0 + Coulomb's cone over p_0 = [-c_t, at most
-/// c along the tangents]; what balances no point of the hull balances no force. Extreme points of the sum of the p_0 are made as
-/// they are needed: with weights that sum to 1 they are columns like the rays.
+/// With cohesion and tension the forces of a pair are no cone. Their convex hull is p_0 + Coulomb's cone over p_0 =
+/// [-c_t, at most c along the tangents]; what balances no point of the hull balances no force. Extreme points of the
+/// sum of the p_0 are made as they are needed: with weights that sum to 1 they are columns like the rays.
 std::optional<Vector> mechanism_against_strengths(const Problem& problem, const Matrix& cone) {
   const Eigen::Index m = problem.G.cols();
   const Matrix free = unlimited(problem);
@@ -100,18 +102,18 @@ std::optional<Vector> mechanism_against_strengths(const Problem& problem, const 
     const Vector residual = b - A * linalg::nonnegative_least_squares(A, b);
     const Vector v = residual.head(m);
     if (residual.norm() <= 3e-8 * scale) return std::nullopt;  // its square must stand out of rounding
-    // Were there balance, |residual|^2 = residual'b would be at most this, the weights being 1 in all; half is for rounding.
+    // Were there balance, |residual|^2 = residual'b would be at most this, the weights being 1 in all; half is for
+    // rounding.
     const double most_of_hull = v.dot(resisting(problem, v)) + scale * residual[m];
-    if (most_of_hull <= 0.5 * residual.squaredNorm())
-      return slide_of(problem, -v.normalized());
+    if (most_of_hull <= 0.5 * residual.squaredNorm()) return slide_of(problem, -v.normalized());
     A.conservativeResize(Eigen::NoChange, A.cols() + 1);
     add(A.cols() - 1, v);
   }
   return std::nullopt;
 }
 
-/// The same problem with coefficients and strengths no larger than loads usually ask for; what balances there balances with more,
-/// and numbers far above the loads leave nothing of them but rounding.
+/// The same problem with coefficients and strengths no larger than loads usually ask for; what balances there balances
+/// with more, and numbers far above the loads leave nothing of them but rounding.
 Problem moderate(Problem problem) {
   const double force = problem.f.norm();
   problem.mu = problem.mu.cwiseMin(10.0);

@@ -9,15 +9,16 @@
 namespace scabo::contact {
 
 /// A rigid motion v (m) that nothing holds although the loads drive it, f'v > 0: no forces in the friction cones
-/// balance f. With cohesion or tension: no forces in the convex hull of what the pairs carry. Nothing where the loads can be
-/// balanced.
+/// balance f. With cohesion or tension: no forces in the convex hull of what the pairs carry. Nothing where the loads
+/// can be balanced.
 std::optional<Vector> find_mechanism(const Problem& problem);
 
 /// Rigid motions (columns, m x k) that change no gap in contact and no tangent that sticks: the forces are known, the
 /// position along these is not.
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
 
-/// Rigid motions eliminated by a proximal term: G'p + f = c (a - a_0), so that a = a_0 + (G'p + f) / c. W is formed; m = 0.
+/// Rigid motions eliminated by a proximal term: G'p + f = c (a - a_0), so that a = a_0 + (G'p + f) / c. W is formed; m
+/// = 0.
 Problem held_at(const Problem& problem, const Vector& a_0, double c);
 
 }  // namespace scabo::contact

@@ -31,11 +31,11 @@ struct Solution {
   int coarse_iterations = 0;         ///< of problems of fewer pairs that made the start; not counted above
   double residual = 0.0;             ///< |H| / force scale
   Certificate certificate;
-  double natural_map_residual = 0.0; ///< contact/certificate.hpp
-  Vector motion;                     ///< m: with `mechanism`, the motion that nothing holds
-  Matrix undetermined;               ///< m x k: rigid motions that neither contact nor load fixes (solved all the same)
-  std::vector<Iteration> trace;      ///< every iteration of every stage
-  std::string reason;                ///< why not, in a sentence
+  double natural_map_residual = 0.0;  ///< contact/certificate.hpp
+  Vector motion;                      ///< m: with `mechanism`, the motion that nothing holds
+  Matrix undetermined;           ///< m x k: rigid motions that neither contact nor load fixes (solved all the same)
+  std::vector<Iteration> trace;  ///< every iteration of every stage
+  std::string reason;            ///< why not, in a sentence
 };
 
 }  // namespace scabo::contact

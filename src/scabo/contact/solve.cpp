@@ -28,7 +28,7 @@ namespace {
 }
 
 [[gnu::hot]] std::vector<ContactState> states_of(const Problem& problem, const Vector& p, const Vector& motion,
-                                    const Scales& scales) {
+                                                 const Scales& scales) {
   std::vector<ContactState> states;
   states.reserve(static_cast<std::size_t>(problem.pairs()));
   const Eigen::Index d = problem.dimension;
@@ -36,18 +36,20 @@ namespace {
     const double p_n = p[d * i], bound = problem.friction_bound(i, p_n), tension = problem.tension_of(i);
     const double friction = p.segment(d * i + 1, d - 1).norm(), slip = motion.segment(d * i + 1, d - 1).norm();
     // Touching at zero force counts as contact only where force is really there.
-    if (!std::isinf(tension) && p_n + tension <= 1e-13 * scales.force) states.push_back(ContactState::open);
-    else if (friction < bound * (1.0 - 1e-10)) states.push_back(ContactState::stick);
-    else states.push_back(slip > 1e-12 * scales.length || bound == 0.0 ? ContactState::slip : ContactState::stick);
+    if (!std::isinf(tension) && p_n + tension <= 1e-13 * scales.force)
+      states.push_back(ContactState::open);
+    else if (friction < bound * (1.0 - 1e-10))
+      states.push_back(ContactState::stick);
+    else
+      states.push_back(slip > 1e-12 * scales.length || bound == 0.0 ? ContactState::slip : ContactState::stick);
   }
   return states;
 }
 
 /// What the judge compares with the tolerance. The natural map knows forces and motions of pairs only.
 [[gnu::hot]] double judged_figure(const Solution& solution, Judge judge) {
-  return judge == Judge::certificate
-             ? solution.certificate.worst()
-             : std::max(solution.natural_map_residual, solution.certificate.rigid_balance);
+  return judge == Judge::certificate ? solution.certificate.worst()
+                                     : std::max(solution.natural_map_residual, solution.certificate.rigid_balance);
 }
 
 std::string reason_of(const Solution& solution, const SolverOptions& options, bool singular) {
@@ -68,7 +70,8 @@ std::string reason_of(const Solution& solution, const SolverOptions& options, bo
 [[gnu::hot]] double reference_force(const Problem& problem, const Vector& p_start, const SolverOptions& options,
                                     double q_force) {
   // What rounding left of forces that are gone is no force to measure by.
-  const double largest_start = largest_of(p_start), from_history = largest_start > 1e-10 * q_force ? largest_start : 0.0;
+  const double largest_start = largest_of(p_start),
+               from_history = largest_start > 1e-10 * q_force ? largest_start : 0.0;
   const double applied = std::max({options.force_scale, largest_of(problem.f), from_history});
   return applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
 }
@@ -108,14 +111,16 @@ std::string reason_of(const Solution& solution, const SolverOptions& options, bo
   Solution solution;
   solution.p = std::move(end.p);
   solution.residual = end.residual;
-  solution.trace.push_back({0, end.residual, 0.5 * end.residual * end.residual, 1.0, 0, std::to_string(end.sweeps) + " sweeps"});
+  solution.trace.push_back(
+      {0, end.residual, 0.5 * end.residual * end.residual, 1.0, 0, std::to_string(end.sweeps) + " sweeps"});
   const double stiffness = stiffness_of(problem);
   complete(solution, problem, end.motion, reference_force(problem, p_start, options, stiffness * largest_of(problem.q)),
            stiffness, options, false);
   return solution;
 }
 
-Solution climbed_solution(const Problem& problem, const Vector& p_start, const Start& start, const SolverOptions& options) {
+Solution climbed_solution(const Problem& problem, const Vector& p_start, const Start& start,
+                          const SolverOptions& options) {
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, N = problem.pairs();
   Solution solution;
   const Scaled scaled_problem = scaled(problem);
@@ -136,8 +141,8 @@ Solution climbed_solution(const Problem& problem, const Vector& p_start, const S
   // Well below the tolerance, but not below the rounding of the gaps themselves (a body that hovers far away).
   const double epsilon = std::numeric_limits<double>::epsilon();
   const bool by_map = options.judge == Judge::natural_map;
-  const double small = by_map ? epsilon * reference
-                              : std::max(0.01 * options.tolerance * reference, 4.0 * epsilon * q_force);
+  const double small =
+      by_map ? epsilon * reference : std::max(0.01 * options.tolerance * reference, 4.0 * epsilon * q_force);
   std::function<bool(const Vector&, const Vector&)> content;
   if (by_map)
     content = [&, real = Vector()](const Vector& p, const Vector& motion) mutable {

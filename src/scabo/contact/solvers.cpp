@@ -63,15 +63,13 @@ std::string refusal(const Road& road, const Problem& problem) {
   if (!is_built(road)) return std::string(road.name) + " is not in this build (CMake option SCABO_SICONOS)";
   if (problem.dimension == 2 && !road.plane) return who + "problems in the plane";
   if (problem.dimension == 3 && !road.space) return who + "problems in space";
-  if (!road.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0)
-    return who + "friction: mu must be 0";
+  if (!road.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0) return who + "friction: mu must be 0";
   const auto some = [](const Vector& v) { return v.size() > 0 && v.maxCoeff() > 0.0; };
-  if (!road.strength && (some(problem.cohesion) || some(problem.tension)))
-    return who + "cohesion and tension";
+  if (!road.strength && (some(problem.cohesion) || some(problem.tension))) return who + "cohesion and tension";
   if (!road.rigid && problem.G.cols() > 0) return who + "rigid motions that contact alone holds";
   if (road.most > 0 && problem.q.size() > road.most)
-    return who + "more than " + std::to_string(road.most) +
-           " contact unknowns (its matrices are dense), here " + std::to_string(problem.q.size());
+    return who + "more than " + std::to_string(road.most) + " contact unknowns (its matrices are dense), here " +
+           std::to_string(problem.q.size());
   return {};
 }
 
@@ -103,8 +101,8 @@ End pivoted(const Problem& problem, const Vector& p_start, const Control& contro
   return end;
 }
 
-End travel(const Road& road, const Problem& problem, const Vector& p, const Vector& a,
-           const SolverOptions& options, const Control& control) {
+End travel(const Road& road, const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options,
+           const Control& control) {
   switch (road.method) {
     case Method::newton_only:
       return newton_only(problem, p, a, options, control);
@@ -227,8 +225,7 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
   } else {
     solution.reason =
         std::string(road.name) + ": " +
-        (end.reason.empty() ? "it ended, but what it ended with is not the law's to the tolerance"
-                            : end.reason);
+        (end.reason.empty() ? "it ended, but what it ended with is not the law's to the tolerance" : end.reason);
   }
   return solution;
 }

@@ -56,7 +56,6 @@ std::string method_name(Method method);
 /// Of this build, the default first.
 std::vector<std::string> method_names();
 
-Solution solve_with(Method method, const Problem& problem, const Start& start = {},
-                    const SolverOptions& options = {});
+Solution solve_with(Method method, const Problem& problem, const Start& start = {}, const SolverOptions& options = {});
 
 }  // namespace scabo::contact

@@ -159,8 +159,7 @@ class Sweeps {
       double trial[2] = {p[1] - r_t * u[1], d == 3 ? p[d - 1] - r_t * u[d - 1] : 0.0};
       const double size = std::sqrt(trial[0] * trial[0] + trial[1] * trial[1]);
       const double lambda = size > bound ? bound / size : 1.0;
-      largest = std::max({largest, std::abs(std::min(pair.inverse() * u[0], p[0])),
-                          std::abs(p[1] - lambda * trial[0]),
+      largest = std::max({largest, std::abs(std::min(pair.inverse() * u[0], p[0])), std::abs(p[1] - lambda * trial[0]),
                           d == 3 ? std::abs(p[d - 1] - lambda * trial[1]) : 0.0});
     }
     return largest;

@@ -10,9 +10,9 @@
 // least met since, the changes are forgotten. Sweeps go on while thirty of them divide the least natural map
 // by four or more, and end where the judge is content with motions computed afresh.
 //
-// Its functions and those of a sweep are marked hot so that they lie together in the program: what a small problem costs in a new
-// process is mostly the code that it is the first to touch (4 to 8 us for each 64 kB; a second solve takes 2
-// to 20).
+// Its functions and those of a sweep are marked hot so that they lie together in the program: what a small problem
+// costs in a new process is mostly the code that it is the first to touch (4 to 8 us for each 64 kB; a second solve
+// takes 2 to 20).
 #pragma once
 
 #include "scabo/contact/problem.hpp"

@@ -125,8 +125,7 @@ Matrix read_dense(Words& words, Index size) {
 std::vector<long> read_ends(Words& words, const char* what, long count, long size) {
   std::vector<long> ends{0};
   for (long k = 0; k < count; ++k) ends.push_back(words.integer(what, ends.back() + 1, size));
-  if (ends.back() != size)
-    words.fail(fmt::format("the last must be {}, the size of W, not {}", size, ends.back()));
+  if (ends.back() != size) words.fail(fmt::format("the last must be {}, the size of W, not {}", size, ends.back()));
   return ends;
 }
 
@@ -141,8 +140,7 @@ Sparse read_blocks(Words& words, Index size) {
   const long pointers = words.integer("number of row pointers", 1, rows + 1);
   words.integer("number of blocks, again", blocks, blocks);
   std::vector<long> first, column;
-  for (long k = 0; k < pointers; ++k)
-    first.push_back(words.integer("row pointers", k == 0 ? 0 : first.back(), blocks));
+  for (long k = 0; k < pointers; ++k) first.push_back(words.integer("row pointers", k == 0 ? 0 : first.back(), blocks));
   if (first.front() != 0 || first.back() != blocks)
     words.fail(fmt::format("row pointers must go from 0 to {}", blocks));
   for (long k = 0; k < blocks; ++k) column.push_back(words.integer("block columns", 0, columns - 1));
@@ -243,10 +241,8 @@ void write_sparse(Text to, Sparse W) {
   fmt::format_to(to, "2\nCSparse Version 3.2.0\n{0}-by-{0}, nzmax: {1} nnz: {1}, 1-norm: {2:g}\n", W.cols(),
                  W.nonZeros(), norm);
   for (Index j = 0; j < W.cols(); ++j) {
-    fmt::format_to(to, "    col {} : locations {} to {}\n", j, W.outerIndexPtr()[j],
-                   W.outerIndexPtr()[j + 1] - 1);
-    for (Sparse::InnerIterator at(W, j); at; ++at)
-      fmt::format_to(to, "      {} : {:.17g}\n", at.row(), at.value());
+    fmt::format_to(to, "    col {} : locations {} to {}\n", j, W.outerIndexPtr()[j], W.outerIndexPtr()[j + 1] - 1);
+    for (Sparse::InnerIterator at(W, j); at; ++at) fmt::format_to(to, "      {} : {:.17g}\n", at.row(), at.value());
   }
 }
 

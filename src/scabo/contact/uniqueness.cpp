@@ -19,8 +19,7 @@ double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infin
 
 /// Scales of a certificate for forces p, as solve() judges them.
 Scales scales_of(const Problem& problem, const Vector& p, const SolverOptions& options) {
-  const double mean = problem.W.size() > 0 ? problem.W.diagonal().mean() : 1.0,
-               length = mean > 0.0 ? mean : 1.0;
+  const double mean = problem.W.size() > 0 ? problem.W.diagonal().mean() : 1.0, length = mean > 0.0 ? mean : 1.0;
   double applied = std::max({options.force_scale, largest_of(problem.f)});
   if (applied == 0.0) applied = largest_of(problem.q) / length;
   const double force = std::max({applied, largest_of(p), 1e-300});
@@ -31,8 +30,8 @@ bool solves(const Problem& problem, const Vector& p, const Vector& a, const Solv
   return p.allFinite() && certify(problem, p, a, scales_of(problem, p, options)).worst() <= options.tolerance;
 }
 
-/// Forces that differ but move nothing (of a pair that a support holds along the joint) are no other solution, and what rounding
-/// leaves of the forces at work (`scale`) is none at all.
+/// Forces that differ but move nothing (of a pair that a support holds along the joint) are no other solution, and what
+/// rounding leaves of the forces at work (`scale`) is none at all.
 bool same(const Problem& problem, const Vector& p, const Vector& other, double scale) {
   const double mean = problem.W.diagonal().mean(), force = std::max({largest_of(p), largest_of(other), 1e-5 * scale});
   const Vector difference = p - other;
@@ -50,8 +49,7 @@ enum class Trial { open, stick, slip_plus, slip_minus };
 
 /// Forces of a plane problem whose pairs all have these states; nothing where there are none. `determined`
 /// becomes false where there are many.
-std::optional<Vector> forces_with(const Problem& problem, const std::vector<Trial>& states,
-                                  bool& determined) {
+std::optional<Vector> forces_with(const Problem& problem, const std::vector<Trial>& states, bool& determined) {
   Matrix A = problem.W.dense();
   Vector b = -problem.q;
   const double scale = A.cwiseAbs().maxCoeff();
@@ -76,8 +74,8 @@ std::optional<Vector> forces_with(const Problem& problem, const std::vector<Tria
 }
 
 bool may_enumerate(const Problem& problem) {
-  return problem.dimension == 2 && problem.G.cols() == 0 && problem.pairs() > 0 &&
-         problem.pairs() <= most_enumerated && problem.cohesion.size() == 0 && problem.tension.size() == 0;
+  return problem.dimension == 2 && problem.G.cols() == 0 && problem.pairs() > 0 && problem.pairs() <= most_enumerated &&
+         problem.cohesion.size() == 0 && problem.tension.size() == 0;
 }
 
 /// Off the kink of the gap: its rows of H' are those of dp whatever the slope of the bound, and enter no
@@ -98,8 +96,7 @@ std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const
 
 /// Starts that lead elsewhere: open, frictionless, stuck, friction turned round, and a few at random in the
 /// cones.
-std::vector<Vector> other_starts(const Problem& problem, const Solution& solution,
-                                 const SolverOptions& options) {
+std::vector<Vector> other_starts(const Problem& problem, const Solution& solution, const SolverOptions& options) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   std::vector<Vector> starts{Vector::Zero(d * N)};
   Problem changed = problem;
@@ -181,7 +178,8 @@ int index_of(const Problem& problem, const Vector& p, const Vector& a) {
     if (const double size = H.row(row).norm(); size > 0.0) H.row(row) /= size;
   const Eigen::PartialPivLU<Matrix> lu(H);
   if (!(lu.rcond() > 1e-13)) return 0;
-  // The rows of equilibrium make [W G; G' 0] of it, whose determinant has the sign of (-1)^m where W is positive definite.
+  // The rows of equilibrium make [W G; G' 0] of it, whose determinant has the sign of (-1)^m where W is positive
+  // definite.
   double sign = lu.permutationP().determinant() * (problem.G.cols() % 2 == 0 ? 1.0 : -1.0);
   for (Eigen::Index k = 0; k < n; ++k) sign *= lu.matrixLU()(k, k) < 0.0 ? -1.0 : 1.0;
   return sign > 0.0 ? 1 : -1;
@@ -196,8 +194,7 @@ std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double 
   std::vector<Vector> solutions;
   std::vector<Trial> states(static_cast<std::size_t>(problem.pairs()));
   for (int combination = 0; combination < 1 << (2 * problem.pairs()); ++combination) {
-    for (std::size_t i = 0; i < states.size(); ++i)
-      states[i] = static_cast<Trial>(combination >> (2 * i) & 3);
+    for (std::size_t i = 0; i < states.size(); ++i) states[i] = static_cast<Trial>(combination >> (2 * i) & 3);
     bool determined = true;
     const auto p = forces_with(problem, states, determined);
     if (!determined) return std::nullopt;

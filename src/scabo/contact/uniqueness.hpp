@@ -31,8 +31,8 @@ const char* name_of(Uniqueness uniqueness);
 
 struct UniquenessReport {
   Uniqueness unique = Uniqueness::not_decided;
-  double bound = HUGE_VAL;  ///< left side of the condition; below 1: proven. Infinite where it does not apply
-  int index = 0;            ///< sign of (-1)^m det H'(z); 0 on a kink or where it is not computed
+  double bound = HUGE_VAL;     ///< left side of the condition; below 1: proven. Infinite where it does not apply
+  int index = 0;               ///< sign of (-1)^m det H'(z); 0 on a kink or where it is not computed
   std::vector<Vector> others;  ///< forces of the other solutions found, each certified
   int nearest = -1;            ///< of `others`: nearer to the start than the solution at hand; -1: none is
   bool complete = false;       ///< all states were tried: there are no more

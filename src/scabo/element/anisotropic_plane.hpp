@@ -3,30 +3,31 @@
 // A plane law D (stress = D strain, in-plane) has C_ijkl by Voigt's order. With (ab)_jk = a_i C_ijkl b_l for the frame
 // m = (cos t, sin t), n = (-sin t, cos t),
 //
-//     N1 = -(nn)^-1 (nm),   N2 = (nn)^-1,   N3 = (mn)(nn)^-1(nm) - (mm),   N(t) = [[N1, N2], [N3, N1']]            (1)
+//     N1 = -(nn)^-1 (nm),   N2 = (nn)^-1,   N3 = (mn)(nn)^-1(nm) - (mm),   N(t) = [[N1, N2], [N3, N1']]         (1)
 //
-// is the fundamental elasticity matrix (Ting 1996, section 5.5 and 7.4). With stress function phi (traction on a ray = d phi / dr
-// on its side), a field [u; phi] = w(t) r^T obeys
+// is the fundamental elasticity matrix (Ting 1996, section 5.5 and 7.4). With stress function phi (traction on a ray =
+// d phi / dr on its side), a field [u; phi] = w(t) r^T obeys
 //
-//     dw/dt = N(t) w T                                                                                             (2)
+//     dw/dt = N(t) w T                                                                                          (2)
 //
-// The Barnett-Lothe tensors are the matrix function of N that is +-i on its eigenvalues in the upper and lower half plane,
+// The Barnett-Lothe tensors are the matrix function of N that is +-i on its eigenvalues in the upper and lower half
+// plane,
 //
-//     [[S, H], [-L, S']] = lim Y,   Y <- (c Y - (c Y)^-1) / 2   from Y = N(0)                                      (3)
+//     [[S, H], [-L, S']] = lim Y,   Y <- (c Y - (c Y)^-1) / 2   from Y = N(0)                                   (3)
 //
-// (Newton's iteration for the matrix sign of -i N): quadratic, real, and repeated roots, isotropic material among them, are
-// no special case. In plane strain, isotropic: L = E / (2 (1 - nu^2)).
+// (Newton's iteration for the matrix sign of -i N): quadratic, real, and repeated roots, isotropic material among them,
+// are no special case. In plane strain, isotropic: L = E / (2 (1 - nu^2)).
 //
 // Two half planes, 1 above and 2 below the x1 axis, of which x1 < 0 is a crack (Suo 1990; Ting 1996, chapter 11):
 //
 //     D = L1^-1 + L2^-1,   W = S1 L1^-1 - S2 L2^-1,   beta^2 = -tr((D^-1 W)^2) / 2
-//     |epsilon| = atanh(beta) / pi,   G = -(|epsilon| / beta) D^-1 W  (G^2 = -epsilon^2)                              (4)
-//     traction ahead:     t(r) = (2 pi r)^-1/2 (r/l)^G k,              t = [s12, s22], k = [K_II, K_I]               (5)
-//     opening behind:     du(r) = 2 D (r / 2 pi)^1/2 ((1 + 2 G) cosh(pi epsilon))^-1 (r/l)^G k                        (6)
-//     energy release:     G_J = k' D k / (4 cosh^2(pi epsilon))                                                       (7)
+//     |epsilon| = atanh(beta) / pi,   G = -(|epsilon| / beta) D^-1 W  (G^2 = -epsilon^2)                        (4)
+//     traction ahead:     t(r) = (2 pi r)^-1/2 (r/l)^G k,              t = [s12, s22], k = [K_II, K_I]          (5)
+//     opening behind:     du(r) = 2 D (r / 2 pi)^1/2 ((1 + 2 G) cosh(pi epsilon))^-1 (r/l)^G k                  (6)
+//     energy release:     G_J = k' D k / (4 cosh^2(pi epsilon))                                                 (7)
 //
-// epsilon has the sign that makes s22 + i s12 = (K_I + i K_II) (2 pi r)^-1/2 (r/l)^(i epsilon) between isotropic halves. In one
-// material G = 0 and (6) is du = 2 (2 r / pi)^1/2 L^-1 k.
+// epsilon has the sign that makes s22 + i s12 = (K_I + i K_II) (2 pi r)^-1/2 (r/l)^(i epsilon) between isotropic
+// halves. In one material G = 0 and (6) is du = 2 (2 r / pi)^1/2 L^-1 k.
 #pragma once
 
 #include "scabo/element/elasticity.hpp"

@@ -42,9 +42,11 @@ struct Group {
 bool fits(const BatchItem& item) {
   const auto nodes = static_cast<int>(item.ring.nodes.size());
   const auto in_range = [&](const mesh::LineElement& element) {
-    return element.nodes.size() >= 2 && std::all_of(element.nodes.begin(), element.nodes.end(), [&](int node) { return node >= 0 && node < nodes; });
+    return element.nodes.size() >= 2 &&
+           std::all_of(element.nodes.begin(), element.nodes.end(), [&](int node) { return node >= 0 && node < nodes; });
   };
-  return nodes >= fewest_nodes && nodes <= most_nodes && item.D.fits(item.ring) && !(item.D.contrast() > great_contrast) &&
+  return nodes >= fewest_nodes && nodes <= most_nodes && item.D.fits(item.ring) &&
+         !(item.D.contrast() > great_contrast) &&
          std::all_of(item.ring.elements.begin(), item.ring.elements.end(), in_range);
 }
 
@@ -188,7 +190,8 @@ BatchSolution solve_batch(std::span<const BatchItem> items, const BatchOptions& 
     const Task& task = tasks[static_cast<std::size_t>(k)];
     Lanes lanes(*task.group, kernel);
     for (std::size_t i = task.first; i < task.last; i += static_cast<std::size_t>(kernel.lanes))
-      lanes.solve(items, task.group->items.data() + i, static_cast<int>(std::min(i + static_cast<std::size_t>(kernel.lanes), task.last) - i),
+      lanes.solve(items, task.group->items.data() + i,
+                  static_cast<int>(std::min(i + static_cast<std::size_t>(kernel.lanes), task.last) - i),
                   options.largest_residual, solution.K, failed[static_cast<std::size_t>(k)]);
   });
   for (const std::vector<int>& some : failed) alone.insert(alone.end(), some.begin(), some.end());

@@ -1,14 +1,14 @@
 // Stiffness of many small super-elements: several at once in vector registers, on all cores.
 //
-// A mesh of polygons has thousands of super-elements of 8 to 64 degrees of freedom. One at a time, LAPACK and BLAS spend their
-// time on starting: their loops are shorter than a register. Here each lane of the registers holds another super-element
-// (batch_kernel.hpp); the method is that of stiffness.hpp, without symmetry blocks. Super-elements of equal shape (the
-// same boundary elements over the same node numbers) go together, in any order of input.
+// A mesh of polygons has thousands of super-elements of 8 to 64 degrees of freedom. One at a time, LAPACK and BLAS
+// spend their time on starting: their loops are shorter than a register. Here each lane of the registers holds another
+// super-element (batch_kernel.hpp); the method is that of stiffness.hpp, without symmetry blocks. Super-elements of
+// equal shape (the same boundary elements over the same node numbers) go together, in any order of input.
 //
-// What does not fit is solved one at a time by solve_super_element: more than 64 or fewer than 6 degrees of freedom, sectors whose
-// stiffness differs more than a thousandfold (exact_riccati.hpp), and any lane whose stiffness does not leave the rotation free of
-// force to `largest_residual`. That residual sees every step: a ring that is not positive definite, doubling that has not ended, lost
-// digits.
+// What does not fit is solved one at a time by solve_super_element: more than 64 or fewer than 6 degrees of freedom,
+// sectors whose stiffness differs more than a thousandfold (exact_riccati.hpp), and any lane whose stiffness does not
+// leave the rotation free of force to `largest_residual`. That residual sees every step: a ring that is not positive
+// definite, doubling that has not ended, lost digits.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ struct BatchKernel;
 /// A super-element of a batch.
 struct BatchItem {
   Ring ring;
-  Elasticity D;            // force / length^2
+  Elasticity D;  // force / length^2
   double thickness = 1.0;
 };
 

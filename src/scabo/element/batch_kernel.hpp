@@ -1,8 +1,8 @@
 // Stiffness of several super-elements of equal shape at once, one in each lane of the vector registers.
 //
-// A value here is a vector: lane l belongs to super-element l. Arrays are index-major, lane-minor (struct of arrays), aligned to
-// 64 bytes. The steps are those of stiffness.hpp without symmetry blocks: eq. (1.6) of the coefficient matrices, the
-// translations taken out, ring doubling, the translations put back.
+// A value here is a vector: lane l belongs to super-element l. Arrays are index-major, lane-minor (struct of arrays),
+// aligned to 64 bytes. The steps are those of stiffness.hpp without symmetry blocks: eq. (1.6) of the coefficient
+// matrices, the translations taken out, ring doubling, the translations put back.
 //
 // The same source (batch_kernel_lanes.hpp) is compiled once for each instruction set; which ones this processor has is
 // asked when the program runs.
@@ -30,7 +30,7 @@ struct BatchLanes {
   const double* D;          // 6 vectors for each elasticity: D11 D12 D13 D22 D23 D33
   const double* thickness;  // 1 vector
   double* K;                // n (n + 1) / 2 vectors, n = 2 nodes: lower triangle by rows
-  double* residual;         // 1 vector: |K r| / (|K| |r|) in the norm of sums, r the rotation; not a number where it failed
+  double* residual;  // 1 vector: |K r| / (|K| |r|) in the norm of sums, r the rotation; not a number where it failed
 };
 
 struct BatchKernel {

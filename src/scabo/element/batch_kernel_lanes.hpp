@@ -1,6 +1,6 @@
-// The source of batch_kernel.hpp, compiled for SCABO_LANES doubles a register in namespace SCABO_KERNEL. It includes no other header
-// and has internal linkage throughout: an inline function compiled here for a newer processor must not be the one
-// that the linker keeps for the rest of the program.
+// The source of batch_kernel.hpp, compiled for SCABO_LANES doubles a register in namespace SCABO_KERNEL. It includes no
+// other header and has internal linkage throughout: an inline function compiled here for a newer processor must not be
+// the one that the linker keeps for the rest of the program.
 //
 // Products of matrices are made in tiles of `tile` x `tile` vectors that stay in registers: as many multiplications for
 // every load as the number of registers allows.
@@ -110,8 +110,9 @@ void cholesky(V* L, int m) {
             V value = L[(i + r) * static_cast<long>(m) + j + c] - acc[r][c];
             for (int k = 0; k < c; ++k)
               value -= L[(i + r) * static_cast<long>(m) + j + k] * L[(j + c) * static_cast<long>(m) + j + k];
-            L[(i + r) * static_cast<long>(m) + j + c] =
-                i == j && r == c ? 1.0 / square_root(positive(value)) : value * L[(j + c) * static_cast<long>(m) + j + c];
+            L[(i + r) * static_cast<long>(m) + j + c] = i == j && r == c
+                                                            ? 1.0 / square_root(positive(value))
+                                                            : value * L[(j + c) * static_cast<long>(m) + j + c];
           }
       });
   }
@@ -202,7 +203,8 @@ int heaviest_node(const V* E0, int n) {
   return heaviest;
 }
 
-/// Eq. (4) of stiffness.hpp and (1) of ring_doubling.hpp: the first ring, without the rows J = out, out + 1. m x m, lower triangles of K11, K22.
+/// Eq. (4) of stiffness.hpp and (1) of ring_doubling.hpp: the first ring, without the rows J = out, out + 1. m x m,
+/// lower triangles of K11, K22.
 void first_ring(const V* E0, const V* E1, const V* E2, int n, int out, V* G, V* F, V* K11, V* K22, V* K12) {
   // G(a, i) = (R'E0)_ai, F(a, i) = (E1 R)_ia; M = R'E0R.
   V m00 = {}, m01 = {}, m11 = {};
@@ -211,8 +213,10 @@ void first_ring(const V* E0, const V* E1, const V* E2, int n, int out, V* G, V* 
     const V *e0 = E0 + i * static_cast<long>(n), *e1 = E1 + i * static_cast<long>(n);
     for (int j = 0; j < n; j += 2) g0 += e0[j], g1 += e0[j + 1], f0 += e1[j], f1 += e1[j + 1];
     G[i] = g0, G[n + i] = g1, F[i] = f0, F[n + i] = f1;
-    if (i % 2 == 0) m00 += g0, m01 += g1;
-    else m11 += g1;
+    if (i % 2 == 0)
+      m00 += g0, m01 += g1;
+    else
+      m11 += g1;
   }
   const V determinant = positive(m00 * m11 - m01 * m01);
   const V i00 = m11 / determinant, i01 = -m01 / determinant, i11 = m00 / determinant;
@@ -238,7 +242,8 @@ void first_ring(const V* E0, const V* E1, const V* E2, int n, int out, V* G, V* 
   }
 }
 
-/// Largest entry of K12 over all lanes where the diagonal of K22 is scaled to 1, lanes that failed left out. `scale`: m vectors.
+/// Largest entry of K12 over all lanes where the diagonal of K22 is scaled to 1, lanes that failed left out. `scale`: m
+/// vectors.
 double coupling(const V* K12, const V* K22, int m, V* scale) {
   for (long i = 0; i < m; ++i) scale[i] = 1.0 / square_root(positive(K22[i * m + i]));
   V largest = {};
@@ -258,7 +263,7 @@ void double_rings(int m, V* K11, V* K22, V* K12, V* L, V* Z, V* scale) {
   const long stride = 2 * static_cast<long>(m);
   for (int doubling = 0; doubling < most; ++doubling) {
     const double ratio = coupling(K12, K22, m, scale);
-    if (!(ratio > 1e-10)) return;  // the next step would change K22 by the square of it
+    if (!(ratio > 1e-10)) return;    // the next step would change K22 by the square of it
     const bool last = ratio < 1e-5;  // and the step after the next by its fourth power: K22 is all that is needed
     for (long i = 0; i < m; ++i)
       for (long j = 0; j <= i; ++j) L[i * m + j] = K11[i * m + j] + K22[i * m + j];
@@ -325,15 +330,16 @@ void solve(const BatchShape& shape, const BatchLanes& data, double* workspace) {
   const V* const x = reinterpret_cast<const V*>(data.x);
   const V* const D = reinterpret_cast<const V*>(data.D);
   V* const E0 = reinterpret_cast<V*>(workspace);
-  V *const E1 = E0 + full, *const E2 = E1 + full, *const K11 = E2 + full, *const K22 = K11 + part, *const K12 = K22 + part,
-    *const vectors = K12 + part;
+  V *const E1 = E0 + full, *const E2 = E1 + full, *const K11 = E2 + full, *const K22 = K11 + part,
+           *const K12 = K22 + part, *const vectors = K12 + part;
   for (long i = 0; i < 3 * full; ++i) E0[i] = V{};
   for (int e = 0; e < shape.elements; ++e)
-    add_element(shape.element[e], x, D + (shape.elasticities == 1 ? 0 : 6 * e), *reinterpret_cast<const V*>(data.thickness), n,
-                E0, E1, E2);
+    add_element(shape.element[e], x, D + (shape.elasticities == 1 ? 0 : 6 * e),
+                *reinterpret_cast<const V*>(data.thickness), n, E0, E1, E2);
   const int out = heaviest_node(E0, n);
   first_ring(E0, E1, E2, n, out, vectors, vectors + 2 * n, K11, K22, K12);
-  double_rings(m, K11, K22, K12, E0, E1, vectors);  // the coefficient matrices are not needed any more: room for L (m^2), Z (2 m^2)
+  // The coefficient matrices are not needed any more: room for L (m^2), Z (2 m^2).
+  double_rings(m, K11, K22, K12, E0, E1, vectors);
   V* const K = reinterpret_cast<V*>(data.K);
   put_back(K22, n, out, vectors, K);
   *reinterpret_cast<V*>(data.residual) = rotation_residual(K, x, n, vectors);

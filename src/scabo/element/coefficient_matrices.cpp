@@ -17,8 +17,7 @@ const LineBasis& basis_of(const mesh::LineElement& element) {
 
 }  // namespace
 
-BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Vector& N,
-                             const Vector& N_eta) {
+BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element, const Vector& N, const Vector& N_eta) {
   BoundaryPoint point;
   for (std::size_t i = 0; i < element.nodes.size(); ++i) {
     const Vec2& node = ring.nodes[static_cast<std::size_t>(element.nodes[i])];
@@ -29,7 +28,8 @@ BoundaryPoint boundary_point(const Ring& ring, const mesh::LineElement& element,
 }
 
 double Elasticity::contrast() const {
-  const auto [softest, stiffest] = std::minmax_element(D_.begin(), D_.end(), [](const Mat3& a, const Mat3& b) { return a.trace() < b.trace(); });
+  const auto [softest, stiffest] =
+      std::minmax_element(D_.begin(), D_.end(), [](const Mat3& a, const Mat3& b) { return a.trace() < b.trace(); });
   return D_.empty() ? 1.0 : stiffest->trace() / softest->trace();
 }
 

@@ -18,9 +18,9 @@
 
 namespace scabo::element {
 
-/// The boundary of a super-element as its scaling centre sees it: closed around the centre, or open where the super-element
-/// has side faces (a crack, a notch, a corner), straight lines from the centre to the first and to the last node. The
-/// two faces of a crack are one line: its first and last node lie in the same place.
+/// The boundary of a super-element as its scaling centre sees it: closed around the centre, or open where the
+/// super-element has side faces (a crack, a notch, a corner), straight lines from the centre to the first and to the
+/// last node. The two faces of a crack are one line: its first and last node lie in the same place.
 struct Ring {
   std::vector<Vec2> nodes;                  ///< relative to the scaling centre, counter-clockwise
   std::vector<mesh::LineElement> elements;  ///< each begins where the one before ends
@@ -62,8 +62,8 @@ struct CoefficientMatrices {
   Eigen::SparseMatrix<double> E0, E1, E2;  // n x n, n = 2 nodes
 };
 
-/// `thickness` multiplies all three. Throws IllPosed, with the number of the boundary element, where it has no length, the
-/// centre does not see it (|J| <= 0), or its elasticity is not positive definite.
+/// `thickness` multiplies all three. Throws IllPosed, with the number of the boundary element, where it has no length,
+/// the centre does not see it (|J| <= 0), or its elasticity is not positive definite.
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
 
 /// Position of a boundary point and its derivative along eta, by values and derivatives of the shape functions.

@@ -26,8 +26,10 @@ struct ThirdAxis {
 };
 
 std::optional<ThirdAxis> third_axis(const model::Material& material) {
-  if (!material.law) return ThirdAxis{-material.poisson / material.young, -material.poisson / material.young, material.young, 0.0};
-  if (const auto* o = std::get_if<model::Orthotropic>(&*material.law)) return ThirdAxis{-o->nu13 / o->E1, -o->nu23 / o->E2, o->E3, o->angle};
+  if (!material.law)
+    return ThirdAxis{-material.poisson / material.young, -material.poisson / material.young, material.young, 0.0};
+  if (const auto* o = std::get_if<model::Orthotropic>(&*material.law))
+    return ThirdAxis{-o->nu13 / o->E1, -o->nu23 / o->E2, o->E3, o->angle};
   return {};
 }
 

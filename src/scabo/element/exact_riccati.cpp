@@ -41,13 +41,15 @@ void correct_last_digits(const WithTranslations& of, RingStiffness& ring) {
   constexpr int most = 4;
   for (int k = 0;; ++k) {
     const Exact X = L.matrixL().solve(Exact((K - exact.E1).transpose()));
-    const RiccatiResidual residual =
-        judged(Exact(exact.E2 - X.transpose() * X).cast<double>(), Exact(L.matrixU().solve(X)).cast<double>(), exact.E2.cast<double>());
+    const RiccatiResidual residual = judged(Exact(exact.E2 - X.transpose() * X).cast<double>(),
+                                            Exact(L.matrixU().solve(X)).cast<double>(), exact.E2.cast<double>());
     ring.S = residual.S;
     ring.residual = residual.size;
     if (k == most || !std::isfinite(residual.size)) break;
     const Matrix step = newton_step(residual, scale.cwiseInverse());
-    const auto size = [&](const Matrix& A) { return (scale.asDiagonal() * A * scale.asDiagonal()).cwiseAbs().maxCoeff(); };
+    const auto size = [&](const Matrix& A) {
+      return (scale.asDiagonal() * A * scale.asDiagonal()).cwiseAbs().maxCoeff();
+    };
     K += step.cast<Real>();
     // A step is good to some six digits: is the next one below the rounding of K?
     if (residual.size < 1e-10 && size(step) < 1e-10 * size(ring.K)) {

@@ -24,8 +24,8 @@ struct ScaledPoint {
 /// The point of boundary element `element` at eta, relative to the scaling centre.
 Vec2 boundary_position(const Ring& ring, int element, double eta);
 
-/// (x, y), relative to the scaling centre, in scaled boundary coordinates; nothing when it lies outside the domain. A point on
-/// a crack counts to the face at the beginning of the ring.
+/// (x, y), relative to the scaling centre, in scaled boundary coordinates; nothing when it lies outside the domain. A
+/// point on a crack counts to the face at the beginning of the ring.
 std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x, bool unbounded = false);
 
 /// Values at a point of a ring: `values` = RadialField::at(xi). stress = D (strain - initial_strain).

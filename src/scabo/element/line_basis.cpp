@@ -45,8 +45,7 @@ GaussRule gauss_rule(int count) {
   return rule;
 }
 
-LineBasis::LineBasis(int order)
-    : order_(order), points_(mesh::lobatto_points(order)), rule_(gauss_rule(order + 2)) {
+LineBasis::LineBasis(int order) : order_(order), points_(mesh::lobatto_points(order)), rule_(gauss_rule(order + 2)) {
   for (std::size_t j = 0; j < points_.size(); ++j) {
     double product = 1.0;
     for (std::size_t k = 0; k < points_.size(); ++k)

@@ -30,8 +30,8 @@ class LineBasis {
   /// Rule used for coefficient matrices and loads: two points more than the p that linear displacement fields
   /// need, for curved elements.
   const GaussRule& rule() const { return rule_; }
-  const Matrix& values_at_rule() const { return N_; }            ///< rule points x nodes
-  const Matrix& derivatives_at_rule() const { return N_eta_; }   ///< rule points x nodes
+  const Matrix& values_at_rule() const { return N_; }           ///< rule points x nodes
+  const Matrix& derivatives_at_rule() const { return N_eta_; }  ///< rule points x nodes
 
   /// The basis of order p, made once and kept.
   static const LineBasis& of_order(int order);

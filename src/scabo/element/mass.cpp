@@ -28,14 +28,14 @@ Matrix mass_between(const Block& k, const ModalBlock& modes_k, const Block& l, c
   const Matrix M0_av = Matrix(k.R.transpose() * M0_kl)(Eigen::all, l.I);
   const Matrix M0_aa = k.R.transpose() * M0_kl * l.R;
 
-  const Matrix aa = 0.5 * M0_aa;                                                                       // eq. (3)
-  const Matrix va = solve_mixed(modes_k, M0_va - k.A.transpose() * aa);                             // eq. (4)
+  const Matrix aa = 0.5 * M0_aa;                                         // eq. (3)
+  const Matrix va = solve_mixed(modes_k, M0_va - k.A.transpose() * aa);  // eq. (4)
   const Matrix av = solve_mixed(modes_l, (M0_av - aa * l.A).transpose()).transpose();
   const Matrix &U_k = modes_k.modes.U(), &U_l = modes_l.modes.U();
   const Matrix right = M0_vv - k.A.transpose() * av - va * l.A;
   const Matrix Y = linalg::solve_sylvester(shifted(modes_k.modes.T(), 1.0), shifted(modes_l.modes.T(), 1.0),
                                            linalg::multiply(linalg::multiply_transposed(U_k, right), U_l));
-  const Matrix vv = linalg::multiply(linalg::multiply(U_k, Y), U_l.transpose());                       // eq. (5)
+  const Matrix vv = linalg::multiply(linalg::multiply(U_k, Y), U_l.transpose());  // eq. (5)
 
   // Back to displacements: v = u_I - R_I u_J, a = u_J.
   const Matrix R_k = k.R(k.I, Eigen::all), R_l = l.R(l.I, Eigen::all);

@@ -1,7 +1,7 @@
 // Mass matrix of a bounded super-element, consistent with its stiffness.
 //
-// The boundary displacements u(1) move the inside by the static solution u(xi) = xi^S u(1), so the kinetic energy of the
-// velocities of the boundary is 1/2 u(1)' M u(1) with
+// The boundary displacements u(1) move the inside by the static solution u(xi) = xi^S u(1), so the kinetic energy of
+// the velocities of the boundary is 1/2 u(1)' M u(1) with
 //
 //     M = int_0^1 xi (xi^S)' M0 xi^S dxi,     M0 = int N' rho N |J| deta times thickness                        (1)
 //
@@ -9,10 +9,10 @@
 //
 //     (S' + I) M + M (S + I) = M0                                                                            (2)
 //
-// The integration over xi is exact. (2) is solved in the real Schur form of S, so that equal and defective exponents do no
-// harm; its eigenvalues are 2 + lambda_i + lambda_j, never zero. In symmetry blocks k, l the translations are apart
-// (stiffness.hpp: u = E v + R a, xi v,xi = S v, xi a,xi = A v), and with z = [v; a] and M0 in these coordinates (2) falls
-// apart into, in this order,
+// The integration over xi is exact. (2) is solved in the real Schur form of S, so that equal and defective exponents do
+// no harm; its eigenvalues are 2 + lambda_i + lambda_j, never zero. In symmetry blocks k, l the translations are apart
+// (stiffness.hpp: u = E v + R a, xi v,xi = S v, xi a,xi = A v), and with z = [v; a] and M0 in these coordinates (2)
+// falls apart into, in this order,
 //
 //     2 X_aa = M0_aa                                                                                         (3)
 //     (S_k' + 2) X_va = M0_va - A_k' X_aa,     X_av (S_l + 2) = M0_av - X_aa A_l                             (4)
@@ -29,8 +29,8 @@
 
 namespace scabo::element {
 
-/// M0 of eq. (1), n x n. `density`: mass / length^3, one for all boundary elements or one for each. Integrated exactly, on
-/// curved elements too.
+/// M0 of eq. (1), n x n. `density`: mass / length^3, one for all boundary elements or one for each. Integrated exactly,
+/// on curved elements too.
 Eigen::SparseMatrix<double> boundary_mass(const Ring& ring, const std::vector<double>& density, double thickness);
 
 /// M, n x n, mass: symmetric, positive definite where density is positive. `solution` and `modal` are those of the

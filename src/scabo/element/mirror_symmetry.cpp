@@ -20,8 +20,8 @@ std::optional<Images> images_under(const Ring& ring, const Vec2& axis, int shift
   Images images(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const int image = ((shift - i) % n + n) % n;
-    const Vec2 error = mirrored(ring.nodes[static_cast<std::size_t>(i)], axis) -
-                       ring.nodes[static_cast<std::size_t>(image)];
+    const Vec2 error =
+        mirrored(ring.nodes[static_cast<std::size_t>(i)], axis) - ring.nodes[static_cast<std::size_t>(image)];
     if (error.squaredNorm() > tolerance * tolerance) return std::nullopt;
     images[static_cast<std::size_t>(i)] = image;
   }
@@ -76,8 +76,8 @@ std::vector<Mirror> mirror_of_open_ring(const Ring& ring, const Elasticity& D, d
   const int last = static_cast<int>(ring.nodes.size()) - 1;
   const Vec2 ends = ring.nodes.front().normalized() + ring.nodes.back().normalized();
   // A half-plane's ends are opposite to each other: the line stands upright on them.
-  const Vec2 axis = ends.norm() > 1e-6 ? Vec2(ends.normalized())
-                                       : Vec2(-ring.nodes.front().y(), ring.nodes.front().x()).normalized();
+  const Vec2 axis =
+      ends.norm() > 1e-6 ? Vec2(ends.normalized()) : Vec2(-ring.nodes.front().y(), ring.nodes.front().x()).normalized();
   auto images = images_under(ring, axis, last, tolerance);
   if (!images || !maps_elements(ring, D, axis, *images)) return {};
   return {{axis, std::move(*images)}};
@@ -102,8 +102,7 @@ std::vector<Mirror> find_mirrors(const Ring& ring, const Elasticity& D) {
     const Vec2 perpendicular(-axis.y(), axis.x());
     for (int other = 0; other < n; ++other) {
       const auto second = images_under(ring, perpendicular, other, tolerance);
-      if (second && maps_elements(ring, D, perpendicular, *second))
-        return {{axis, *images}, {perpendicular, *second}};
+      if (second && maps_elements(ring, D, perpendicular, *second)) return {{axis, *images}, {perpendicular, *second}};
     }
     if (found.empty()) found.push_back({axis, *images});
   }
@@ -145,11 +144,14 @@ std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const
         if (terms.front().first != node) continue;  // this orbit was taken at its lowest node
         std::vector<std::pair<int, double>> vector;
         for (const auto& [at, value] : terms) {
-          if (!vector.empty() && vector.back().first == at) vector.back().second += value;
-          else vector.emplace_back(at, value);
+          if (!vector.empty() && vector.back().first == at)
+            vector.back().second += value;
+          else
+            vector.emplace_back(at, value);
         }
-        const double norm = std::sqrt(std::accumulate(
-            vector.begin(), vector.end(), 0.0, [](double sum, const auto& term) { return sum + term.second * term.second; }));
+        const double norm =
+            std::sqrt(std::accumulate(vector.begin(), vector.end(), 0.0,
+                                      [](double sum, const auto& term) { return sum + term.second * term.second; }));
         if (norm == 0.0) continue;  // no such field at a node on a mirror line
         const Vec2 direction = component == 0 ? along : across;
         for (const auto& [at, value] : vector) {

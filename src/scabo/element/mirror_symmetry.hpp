@@ -1,9 +1,9 @@
 // Mirror symmetries of a super-element and the bases in which its matrices fall apart into blocks.
 //
-// A mirror line through the scaling centre that maps the boundary nodes and elements onto themselves, and the elasticity
-// of every element onto that of its image, commutes with the scaled boundary equation, so displacements symmetric and
-// antisymmetric about it do not interact. One line gives two blocks of half the size, two perpendicular ones four of a quarter: a rectangle's
-// stiffness costs a sixteenth.
+// A mirror line through the scaling centre that maps the boundary nodes and elements onto themselves, and the
+// elasticity of every element onto that of its image, commutes with the scaled boundary equation, so displacements
+// symmetric and antisymmetric about it do not interact. One line gives two blocks of half the size, two perpendicular
+// ones four of a quarter: a rectangle's stiffness costs a sixteenth.
 #pragma once
 
 #include <Eigen/SparseCore>

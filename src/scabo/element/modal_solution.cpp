@@ -52,7 +52,7 @@ ModalSolution modal_solution(const SuperElementSolution& solution, int threads) 
     const auto& modes = modal_block.modes;
     // A U T^-1 by the LU factors of T': they fill no more than T itself.
     const Matrix moving = modes.T().transpose().partialPivLu().solve((block.A * modes.U()).transpose()).transpose();
-    modal_block.Phi = block.R * moving;                                                         // eq. (2)
+    modal_block.Phi = block.R * moving;  // eq. (2)
     modal_block.Phi(block.I, Eigen::all) += modes.U();
   };
   linalg::parallel_for(static_cast<int>(solution.blocks.size()), threads, solve);
@@ -128,13 +128,14 @@ RadialField::Values RadialField::at(double xi) const {
   Values values{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
   xi = unbounded ? std::max(xi, 1.0) : std::clamp(xi, 0.0, 1.0);
   if (xi == 0.0 && !finite) {
-    for (std::size_t b = 0; b < parts_.size(); ++b) values.u += solution_.blocks[b].T * (solution_.blocks[b].R * parts_[b].a0);
+    for (std::size_t b = 0; b < parts_.size(); ++b)
+      values.u += solution_.blocks[b].T * (solution_.blocks[b].R * parts_[b].a0);
     values.u_xi.setConstant(std::nan(""));
     values.u_part.setConstant(std::nan(""));
     return values;
   }
-  // psi / xi^shift: strains near the centre are quotients of small numbers otherwise. Nothing fades more slowly; what does not
-  // fade at all no longer changes below 1e-9.
+  // psi / xi^shift: strains near the centre are quotients of small numbers otherwise. Nothing fades more slowly; what
+  // does not fade at all no longer changes below 1e-9.
   const double shift = unbounded ? -slowest_ : slowest_;
   const double s = std::log(finite ? std::max(xi, 1e-9) : xi);
   const double scale = std::pow(xi, shift), strain_scale = std::pow(xi, shift - 1.0);
@@ -160,7 +161,7 @@ RadialField::Values RadialField::at(double xi) const {
       u(block.I) += part.constant;
       u_part(block.I) += part.constant / xi;
     }
-    values.u += block.T * u;                                                                    // eq. (2)
+    values.u += block.T * u;  // eq. (2)
     values.u_part += block.T * u_part;
     values.u_xi += block.T * (strain_scale * (modal_.blocks[b].Phi * slope) + block.R * a_xi);  // eq. (3)
   }

@@ -31,10 +31,10 @@ struct ModalBlock {
 };
 
 struct ModalSolution {
-  std::vector<ModalBlock> blocks;                  ///< one for each of SuperElementSolution::blocks
-  std::vector<std::complex<double>> exponents;     ///< all n, ascending real part; the two translations are 0 exactly
-  /// Power of xi with which the slowest mode fades, a little less where it oscillates; at most 1. Below 1 strains are infinite
-  /// at the scaling centre. (Unbounded: of 1/xi.)
+  std::vector<ModalBlock> blocks;               ///< one for each of SuperElementSolution::blocks
+  std::vector<std::complex<double>> exponents;  ///< all n, ascending real part; the two translations are 0 exactly
+  /// Power of xi with which the slowest mode fades, a little less where it oscillates; at most 1. Below 1 strains are
+  /// infinite at the scaling centre. (Unbounded: of 1/xi.)
   double slowest = 1.0;
 };
 
@@ -52,9 +52,9 @@ class RadialField {
               const std::vector<RadialLoad>& loads = {});
 
   struct Values {
-    Vector u;      ///< displacement of the ring at xi (n)
-    Vector u_xi;   ///< u,xi
-    Vector u_part; ///< (u - R a) / xi, what the circumferential part of the strain needs: B2 R = 0
+    Vector u;       ///< displacement of the ring at xi (n)
+    Vector u_xi;    ///< u,xi
+    Vector u_part;  ///< (u - R a) / xi, what the circumferential part of the strain needs: B2 R = 0
   };
   /// 0 <= xi <= 1; at the centre, the limit, and what is infinite there is not a number. Unbounded: xi >= 1.
   Values at(double xi) const;
@@ -65,11 +65,11 @@ class RadialField {
     Vector b;  // eq. (2)
   };
   struct Part {
-    Vector c;                              // modal coordinates at xi = 1
-    std::vector<linalg::Forcing> w;        // eq. (1)
-    Vector a0;                             // eq. (2)
-    std::vector<Translation> translations; // eq. (2)
-    Vector constant, growth;               // unbounded: V F, C F
+    Vector c;                               // modal coordinates at xi = 1
+    std::vector<linalg::Forcing> w;         // eq. (1)
+    Vector a0;                              // eq. (2)
+    std::vector<Translation> translations;  // eq. (2)
+    Vector constant, growth;                // unbounded: V F, C F
   };
   void set_loads(const Block& block, const ModalBlock& modes, const std::vector<RadialLoad>& loads, Part& part) const;
   const SuperElementSolution& solution_;

@@ -65,10 +65,10 @@ PointOperator PointCondensation::at(const ScaledPoint& point) const {
     const auto of = [](const Matrix& of_rows, Eigen::Index first, Eigen::Index count) {
       return of_rows.middleCols(first, count);
     };
-    Matrix y(r_v.rows(), 5);                                                                     // eq. (2)
+    Matrix y(r_v.rows(), 5);  // eq. (2)
     y.leftCols(2) = xi * (of(r_v, 0, 2) + adjoint.A_over_S.transpose() * of(r_a, 0, 2));
-    y.rightCols(3) = block.S.transpose() * of(r_v, 2, 3) + block.A.transpose() * of(r_a, 2, 3) +
-                     of(r_v, 5, 3) + adjoint.A_over_S.transpose() * of(r_a, 5, 3);
+    y.rightCols(3) = block.S.transpose() * of(r_v, 2, 3) + block.A.transpose() * of(r_a, 2, 3) + of(r_v, 5, 3) +
+                     adjoint.A_over_S.transpose() * of(r_a, 5, 3);
     // X' = xi^(slowest - 1) e^((S' - slowest) s)
     const Matrix& U = adjoint.modes.U();
     const Matrix start = U.transpose() * y;

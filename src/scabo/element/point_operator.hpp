@@ -6,10 +6,10 @@
 //
 //     u(xi) = E xi X v + R (a + A S^-1 (xi X - 1) v),   u,xi = (E S + R A) X v,   u_part = (E + R A S^-1) X v  (2)
 //
-// so a row r' of shape functions or strain matrices, taken into the block (r_v: its rows I; r_a = R' r), needs X' times a
-// few vectors: the same exponential, of the transposed matrix, by the Schur form of S'. Each point costs five of them, and
-// from then on every load case 5 n products. What loads inside the super-element add is not in N and B: it is the field of
-// those loads with u = 0 (RadialField).
+// so a row r' of shape functions or strain matrices, taken into the block (r_v: its rows I; r_a = R' r), needs X' times
+// a few vectors: the same exponential, of the transposed matrix, by the Schur form of S'. Each point costs five of
+// them, and from then on every load case 5 n products. What loads inside the super-element add is not in N and B: it is
+// the field of those loads with u = 0 (RadialField).
 //
 // For bounded super-elements. Where exponents below 1 make strains infinite, xi = 0 has no B.
 #pragma once

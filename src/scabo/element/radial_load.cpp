@@ -68,7 +68,7 @@ std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, con
     const StrainMatrices strain = strain_matrices(ring, element, N, N_eta);
     const Vec3 stress = D.of(e) * unit_strain[unit_strain.size() == 1 ? 0 : e] * (strain.J * weight * thickness);
     const double linear = temperature.at(boundary_point(ring, element, N, N_eta).x) - temperature.constant;
-    const Vector c = strain.B1.transpose() * stress, g = strain.B2.transpose() * stress;     // eq. (4)
+    const Vector c = strain.B1.transpose() * stress, g = strain.B2.transpose() * stress;  // eq. (4)
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       const auto local = static_cast<Eigen::Index>(2 * i), global = static_cast<Eigen::Index>(2 * element.nodes[i]);
       at_centre.c.segment<2>(global) += temperature.constant * c.segment<2>(local);

@@ -30,8 +30,8 @@ struct LinearField {
   bool is_zero() const { return constant == 0.0 && per_x == 0.0 && per_y == 0.0; }
 };
 
-/// Body force, force / length^3, of (x, y) about the scaling centre, times `density`: one for all boundary elements or one
-/// for each.
+/// Body force, force / length^3, of (x, y) about the scaling centre, times `density`: one for all boundary elements or
+/// one for each.
 std::vector<RadialLoad> body_force_loads(const Ring& ring, const LinearField& b_x, const LinearField& b_y,
                                          double thickness, const std::vector<double>& density = {1.0});
 

@@ -1,10 +1,10 @@
 // A radial field at many xi: interpolated in s = ln xi from values that are found when first needed.
 //
 // The field is a sum of e^(lambda s), Re lambda >= 0, and powers of the loads. Where exponents go up to l, intervals of
-// width h = 8 / l let the polynomial through 28 Chebyshev points meet every term to rounding: for e^(lambda s) the error is below
-// 2 (l h / 4)^28 / 28! = 2e-21 of its largest value there. At a distance |s| from the boundary, terms with lambda |s| > 40
-// have died away, so that intervals grow: h = max(8 / l, |s| / 5). A grid of 10,000 points then costs some
-// hundred exponentials.
+// width h = 8 / l let the polynomial through 28 Chebyshev points meet every term to rounding: for e^(lambda s) the
+// error is below 2 (l h / 4)^28 / 28! = 2e-21 of its largest value there. At a distance |s| from the boundary, terms
+// with lambda |s| > 40 have died away, so that intervals grow: h = max(8 / l, |s| / 5). A grid of 10,000 points then
+// costs some hundred exponentials.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ class RadialTable {
 
  private:
   struct Interval {
-    double from = 0.0, to = 0.0;  // s, from < to <= 0
+    double from = 0.0, to = 0.0;                      // s, from < to <= 0
     mutable std::vector<RadialField::Values> values;  // at the points; empty: not needed yet
   };
   const RadialField& field_;

@@ -48,7 +48,8 @@ Matrix newton_step(const RiccatiResidual& residual, const Vector& scale) {
   for (int k = 0; k < most; ++k) {
     const Matrix more = linalg::multiply_transposed(C, linalg::multiply(Q, C));
     Q += more;
-    if (!(more.cwiseAbs().maxCoeff() > 1e-6 * Q.cwiseAbs().maxCoeff())) break;  // of a correction: a few digits are enough
+    if (!(more.cwiseAbs().maxCoeff() > 1e-6 * Q.cwiseAbs().maxCoeff()))
+      break;  // of a correction: a few digits are enough
     C = linalg::multiply(C, C);
   }
   const Matrix step = scale.asDiagonal() * Q * scale.asDiagonal();

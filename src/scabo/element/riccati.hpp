@@ -5,8 +5,8 @@
 //
 //     P(K) = (K - E1) E0^-1 (K - E1') - E2 = 0,   S = E0^-1 (K - E1')                                        (1)
 //
-// A root is K only where all exponents, the eigenvalues of S, have positive real part. Newton's step dK from there keeps
-// that (Kleinman 1968) and squares the error:
+// A root is K only where all exponents, the eigenvalues of S, have positive real part. Newton's step dK from there
+// keeps that (Kleinman 1968) and squares the error:
 //
 //     S' dK + dK S = -P(K)                                                                                  (2)
 //
@@ -23,9 +23,9 @@
 namespace scabo::element {
 
 struct RiccatiResidual {
-  Matrix P;            // n x n: -P(K), the lower triangle
-  Matrix S;            // n x n
-  double size = 0.0;   ///< largest |P_ij| / sqrt(E2_ii E2_jj)
+  Matrix P;           // n x n: -P(K), the lower triangle
+  Matrix S;           // n x n
+  double size = 0.0;  ///< largest |P_ij| / sqrt(E2_ii E2_jj)
 };
 
 /// With the size that belongs to them.

@@ -65,12 +65,14 @@ class Joiner {
   }
   void set_middle(const RingMatrix& ring) {
     const Eigen::Index n = ring.rows() / 2;
-    for (Eigen::Index j = 0; j < n; ++j) B_.A.col(j).tail(n - j) = ring.col(j).segment(j, n - j) + ring.col(n + j).tail(n - j);
+    for (Eigen::Index j = 0; j < n; ++j)
+      B_.A.col(j).tail(n - j) = ring.col(j).segment(j, n - j) + ring.col(n + j).tail(n - j);
   }
   void factorise() {
     if (!B_.factorise()) throw IllPosed("a ring is not positive definite");
   }
-  /// Of the outer nodes of the inner ring, which are the inner ones of the outer: Z = [K12a; K12b'] divided by L', one symmetric product.
+  /// Of the outer nodes of the inner ring, which are the inner ones of the outer: Z = [K12a; K12b'] divided by L', one
+  /// symmetric product.
   void eliminate(RingMatrix& ring) {
     const Eigen::Index n = ring.rows() / 2;
     factorise();
@@ -93,8 +95,8 @@ double coupling(const RingMatrix& ring) {
   return largest;
 }
 
-/// Largest exponent, roughly: the square root of the largest entry of E2 against E0 on their diagonals. It is between a half
-/// and the whole of it for edge orders 1 to 8; too small a value costs less than one too large.
+/// Largest exponent, roughly: the square root of the largest entry of E2 against E0 on their diagonals. It is between a
+/// half and the whole of it for edge orders 1 to 8; too small a value costs less than one too large.
 double largest_exponent(const Matrix& E0, const Matrix& E2) {
   double largest = 2.0;
   for (Eigen::Index i = 0; i < E0.rows(); ++i)
@@ -104,13 +106,15 @@ double largest_exponent(const Matrix& E0, const Matrix& E2) {
 
 /// K22 of rings doubled until it has arrived.
 RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
-  const double h = largest_exponent(E0, E2), w = std::sqrt(0.5 * std::sqrt(h) * (1.0 + h)), spread = std::sqrt(w * w - h);
+  const double h = largest_exponent(E0, E2), w = std::sqrt(0.5 * std::sqrt(h) * (1.0 + h)),
+               spread = std::sqrt(w * w - h);
   RingMatrix ring;
   Joiner joiner;
   joiner.start(E0, E1, E2, w - spread, w + spread, ring);
   constexpr int most = 60;
   for (int doublings = 0; doublings < most; ++doublings) {
-    // What a step takes from K22 is about the square of the coupling, what the step after it takes some 1e4 times the fourth power.
+    // What a step takes from K22 is about the square of the coupling, what the step after it takes some 1e4 times the
+    // fourth power.
     const double coupled = coupling(ring);
     if (coupled < 1e-5) {
       const bool arrived = coupled < 1e-9;

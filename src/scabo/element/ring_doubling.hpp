@@ -11,11 +11,12 @@
 //
 //     K22 = K22b - K12b' B^-1 K12b,   K11 = K11a - K12a B^-1 K12a',   K12 = -K12a B^-1 K12b                 (2)
 //
-// With a = b this doubles a ring; K22 tends to the stiffness inside and K11 to that outside, quadratically. The Cayley step
-// keeps invariant subspaces, so the limit is exact although the ring is not. Only Cholesky factors, triangular
+// With a = b this doubles a ring; K22 tends to the stiffness inside and K11 to that outside, quadratically. The Cayley
+// step keeps invariant subspaces, so the limit is exact although the ring is not. Only Cholesky factors, triangular
 // solves and symmetric products are used.
 //
-// A mode of exponent lambda shrinks over a ring by (g - lambda) / (g + lambda), g = 2/d. The ring that is doubled is two joined, with
+// A mode of exponent lambda shrinks over a ring by (g - lambda) / (g + lambda), g = 2/d. The ring that is doubled is
+// two joined, with
 //
 //     g = w +- sqrt(w^2 - h),  w^2 = sqrt(h) (1 + h) / 2,  h the largest exponent                           (3)
 //
@@ -36,8 +37,9 @@ struct RingStiffness {
   double residual = 0.0;  ///< of the Riccati equation, RiccatiResidual::size
 };
 
-/// Throws IllPosed when E0 or a ring is not positive definite (to working precision), or the doubling does not end. Where the Riccati
-/// residual is above 1e-13 (or n 1e-15) K is corrected (riccati.hpp), three times at most; what is left of it is the caller's to judge.
+/// Throws IllPosed when E0 or a ring is not positive definite (to working precision), or the doubling does not end.
+/// Where the Riccati residual is above 1e-13 (or n 1e-15) K is corrected (riccati.hpp), three times at most; what is
+/// left of it is the caller's to judge.
 RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2, Side side = Side::inside);
 
 }  // namespace scabo::element

@@ -18,7 +18,8 @@ ModeGroup group_of(const Block& block, const linalg::InvariantSubspace& subspace
   const Matrix R_I = block.R(block.I, Eigen::all);
   ModeGroup group{Matrix(), subspace.T, Matrix(), subspace.eigenvalues, subspace.projection_norm};
   // xi a,xi = A v, v = V xi^T c: a = A V T^-1 xi^T c.
-  Matrix in_block = block.R * subspace.T.transpose().partialPivLu().solve((block.A * subspace.V).transpose()).transpose();
+  Matrix in_block =
+      block.R * subspace.T.transpose().partialPivLu().solve((block.A * subspace.V).transpose()).transpose();
   in_block(block.I, Eigen::all) += subspace.V;
   group.Phi = block.T * in_block;
   Matrix coordinates = Matrix::Zero(subspace.Q.rows(), block.T.cols());  // of v = u_I - R_I u_J
@@ -60,25 +61,26 @@ std::vector<double> end_angles(const Ring& ring) {
   return angles;
 }
 
-/// [u; phi](t) of a group along the ray where element `element` ends (`at_end`) or begins, 4 x m, with r = `r` of the node. Stress
-/// functions are divided by `unit`.
+/// [u; phi](t) of a group along the ray where element `element` ends (`at_end`) or begins, 4 x m, with r = `r` of the
+/// node. Stress functions are divided by `unit`.
 Matrix state_at_node(const Corner& corner, const ModeGroup& group, std::size_t element, bool at_end, double unit) {
-  const CoefficientMatrices one = coefficient_matrices(single(corner.ring, element), Mat3(corner.D.of(element) / unit), 1.0);
+  const CoefficientMatrices one =
+      coefficient_matrices(single(corner.ring, element), Mat3(corner.D.of(element) / unit), 1.0);
   const auto& nodes = corner.ring.elements[element].nodes;
   const Eigen::Index row = 2 * (at_end ? nodes.back() : nodes.front());
   const Matrix slope = group.Phi * group.T, curve = slope * group.T;
   const Matrix residual = one.E0 * curve + (one.E1.transpose() * slope - one.E1 * slope) - one.E2 * group.Phi;
   Matrix state(4, group.size());
   state.topRows(2) = group.Phi.middleRows(row, 2);
-  // Traction on the side of the ray that faces against t: r s_t = -R at the end of an element, +R at its beginning; r phi,r = phi T
-  // is this traction times r.
+  // Traction on the side of the ray that faces against t: r s_t = -R at the end of an element, +R at its beginning; r
+  // phi,r = phi T is this traction times r.
   const Matrix flux = (at_end ? -1.0 : 1.0) * residual.middleRows(row, 2);
   state.bottomRows(2) = group.T.transpose().partialPivLu().solve(flux.transpose()).transpose();
   return state;
 }
 
-/// Carries a state from ray angle t0 to t1 (absolute angles) by dw/dt = N(t) w T: Gauss-Legendre of order 4 would need implicit
-/// solves; the classical Runge-Kutta step is enough at this size.
+/// Carries a state from ray angle t0 to t1 (absolute angles) by dw/dt = N(t) w T: Gauss-Legendre of order 4 would need
+/// implicit solves; the classical Runge-Kutta step is enough at this size.
 Matrix carried(const Mat3& law, Matrix w, const Matrix& T, double t0, double t1) {
   if (t0 == t1) return w;
   const int steps = std::max(8, static_cast<int>(std::ceil(std::abs(t1 - t0) / 0.004)));
@@ -166,7 +168,8 @@ RayTraction ray_traction(const Corner& corner, const ModeGroup& group, double an
   const double unit = law.trace() / 3.0;
   const auto& nodes = ring.elements[element].nodes;
   const double start = at_end ? ends[element + 1] : ends[element];
-  const Matrix w = carried(law / unit, state_at_node(corner, group, element, at_end, unit), group.T, zero + start, zero + angle);
+  const Matrix w =
+      carried(law / unit, state_at_node(corner, group, element, at_end, unit), group.T, zero + start, zero + angle);
   RayTraction ray;
   ray.r0 = ring.node(at_end ? nodes.back() : nodes.front()).norm();
   const Matrix flux = unit * (w.bottomRows(2) * group.T) / ray.r0;  // traction at r0, along x and y
@@ -178,7 +181,8 @@ RayTraction ray_traction(const Corner& corner, const ModeGroup& group, double an
 
 Vec2 generalised_factors(const RayTraction& ray, const ModeGroup& group, const Vector& c, double r) {
   if (group.size() == 0) return Vec2::Zero();
-  const Matrix power = linalg::small_exponential(group.T - Matrix::Identity(group.size(), group.size()), std::log(r / ray.r0));
+  const Matrix power =
+      linalg::small_exponential(group.T - Matrix::Identity(group.size(), group.size()), std::log(r / ray.r0));
   return std::sqrt(2.0 * pi * r) * Vec2(ray.F * (power * c));
 }
 

@@ -1,15 +1,15 @@
 // The singular part of the field of an open super-element: a crack, a notch, a corner where materials meet.
 //
-// The exponents of S (modal_solution.hpp) fall into groups: below 1 (singular stress), 1 (rotation, T-stress), the rest.
-// Of a group, with the spectral projections of linalg/ordered_schur.hpp,
+// The exponents of S (modal_solution.hpp) fall into groups: below 1 (singular stress), 1 (rotation, T-stress), the
+// rest. Of a group, with the spectral projections of linalg/ordered_schur.hpp,
 //
 //     u(xi) = Phi xi^T c,   c = Q u(1)                                                                              (1)
 //
-// T is quasi-triangular and small; xi^T is its matrix function, so power-logarithmic fields (T defective) are no special case. Phi
-// holds the translation that belongs to the modes, so (1) vanishes at the scaling centre.
+// T is quasi-triangular and small; xi^T is its matrix function, so power-logarithmic fields (T defective) are no
+// special case. Phi holds the translation that belongs to the modes, so (1) vanishes at the scaling centre.
 //
-// Stress: with the strain matrices of a boundary point, stress = D (B1 Phi T + B2 Phi) xi^(T - 1) c: order p. Tractions on a ray
-// between two boundary elements converge with order 2p, as nodal values do, when they are taken from the
+// Stress: with the strain matrices of a boundary point, stress = D (B1 Phi T + B2 Phi) xi^(T - 1) c: order p. Tractions
+// on a ray between two boundary elements converge with order 2p, as nodal values do, when they are taken from the
 // equilibrium of the element that ends there:
 //
 //     r t(r) = -R xi^T c,   R = [E0 Phi T^2 + (E1' - E1) Phi T - E2 Phi] of that element, rows of the node          (2)
@@ -27,9 +27,9 @@ namespace scabo::element {
 
 /// Modes of a group of exponents, eq. (1).
 struct ModeGroup {
-  Matrix Phi;  // n x m
-  Matrix T;    // m x m
-  Matrix Q;    // m x n
+  Matrix Phi;                                   // n x m
+  Matrix T;                                     // m x m
+  Matrix Q;                                     // m x n
   std::vector<std::complex<double>> exponents;  ///< m
   double projection_norm = 1.0;  ///< rounding in the coordinates grows by it; large where the next group is close
 
@@ -47,7 +47,8 @@ struct SingularModes {
 
 struct SingularOptions {
   double tolerance = 1e-4;  ///< exponents this close to 1 count as 1
-  double cluster = 2e-2;    ///< exponents closer than this are kept in one group: apart, their factors would be large and cancel
+  double cluster =
+      2e-2;  ///< exponents closer than this are kept in one group: apart, their factors would be large and cancel
 };
 
 SingularModes singular_modes(const SuperElementSolution& solution, const SingularOptions& options = {});
@@ -72,7 +73,8 @@ struct RayTraction {
 /// `angle` from the first face. By eq. (2) at the nearest node between elements, then around by the angular equation.
 RayTraction ray_traction(const Corner& corner, const ModeGroup& group, double angle);
 
-/// sqrt(2 pi r) [s_tt, s_rt] at the distance r: generalised stress intensity factors at a characteristic length (Song 2010).
+/// sqrt(2 pi r) [s_tt, s_rt] at the distance r: generalised stress intensity factors at a characteristic length (Song
+/// 2010).
 Vec2 generalised_factors(const RayTraction& ray, const ModeGroup& group, const Vector& c, double r);
 
 }  // namespace scabo::element

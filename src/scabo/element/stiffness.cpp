@@ -18,8 +18,8 @@ namespace scabo::element {
 namespace {
 
 /// Rows J, as many as R has columns, on which R is as well conditioned as can be had by greedy choice, measured by the
-/// energy that E0 gives to a row: were the rows of a soft sector taken out, those of a stiff one would hold a near translation
-/// of it, and what the deflation leaves of them would be the difference of large numbers.
+/// energy that E0 gives to a row: were the rows of a soft sector taken out, those of a stiff one would hold a near
+/// translation of it, and what the deflation leaves of them would be the difference of large numbers.
 std::vector<int> rows_taken_out(const Matrix& R, const Vector& E0_diagonal) {
   std::vector<int> J;
   Matrix rest = E0_diagonal.cwiseSqrt().asDiagonal() * R;
@@ -40,12 +40,12 @@ Matrix symmetrised(const Matrix& A) { return 0.5 * (A + A.transpose()); }
 
 /// E0, E1, E2 of one block without the translations, eq. (4).
 struct Deflated {
-  Matrix E0, E1, E2;  // (n_k - m) x (n_k - m)
+  Matrix E0, E1, E2;       // (n_k - m) x (n_k - m)
   Matrix G, H, M_inverse;  // m x n_k, m x n_k, m x m
 };
 
-/// By the Cholesky factor of M: with its inverse, E0R M^-1 R'E0 loses twice the digits of its condition, and M is nearly
-/// singular where one incompressible sector outweighs the others (3e-7 of K for nu = 0.49997, 1e-10 this way).
+/// By the Cholesky factor of M: with its inverse, E0R M^-1 R'E0 loses twice the digits of its condition, and M is
+/// nearly singular where one incompressible sector outweighs the others (3e-7 of K for nu = 0.49997, 1e-10 this way).
 Deflated deflate(const Block& block, const Matrix& E1, const Matrix& E2) {
   const Matrix E0R = block.E0 * block.R, E1R = E1 * block.R;
   const Eigen::LLT<Matrix> M(symmetrised(block.R.transpose() * E0R));
@@ -74,7 +74,8 @@ Matrix in_block(const Eigen::SparseMatrix<double>& T_transposed, const Eigen::Sp
   return result;
 }
 
-/// The translations that lie in this block (in a symmetry block: none, one or both), and the rows they are taken out of.
+/// The translations that lie in this block (in a symmetry block: none, one or both), and the rows they are taken out
+/// of.
 void find_translations(const Matrix& translations, Block& block) {
   const Matrix projected = block.T.transpose() * translations;
   // A direction lies in the block by all of its length or not at all.
@@ -129,8 +130,9 @@ Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, dou
   return symmetrised(f);
 }
 
-/// K of a bounded block must be positive definite but for the rigid motions r in it: K + sum of D r (D r)' / r'D r, D = diag K, is
-/// (its Cholesky factor exists). Where stiff sectors hang together by soft ones only, rounding can make it indefinite.
+/// K of a bounded block must be positive definite but for the rigid motions r in it: K + sum of D r (D r)' / r'D r, D =
+/// diag K, is (its Cholesky factor exists). Where stiff sectors hang together by soft ones only, rounding can make it
+/// indefinite.
 bool is_definite(const Block& block, const Matrix& K, const Matrix& motions) {
   const Vector D = K.diagonal();
   const Matrix r = block.T.transpose() * motions;
@@ -150,8 +152,8 @@ IllPosed digits_lost(double residual) {
   return IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual));
 }
 
-/// What ring doubling made of a bounded block, with its last digits where they are needed and the block is not too large for
-/// them; sets K.
+/// What ring doubling made of a bounded block, with its last digits where they are needed and the block is not too
+/// large for them; sets K.
 void finish_bounded(Block& block, const Matrix& E1, const Matrix& E2, const Matrix& motions, bool contrast, Matrix& K,
                     RingStiffness& ring) {
   const auto finished = [&] {
@@ -201,9 +203,9 @@ void add_block(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& 
 ///
 ///     K <- (1 - w r') K (1 - r w'),  w = D r / (r'D r),  D = diag K,  t'D r = 0 for the translations t            (7)
 ///
-/// so that every row is changed by what its own size allows (with D = 1 a soft sector took over what stiff ones had left: 1e-8 of
-/// its stiffness where moduli differ by 1e6) and K t = 0 stays. What left too much lost digits on the way, and is told. The lower
-/// triangle of K is read and written.
+/// so that every row is changed by what its own size allows (with D = 1 a soft sector took over what stiff ones had
+/// left: 1e-8 of its stiffness where moduli differ by 1e6) and K t = 0 stays. What left too much lost digits on the
+/// way, and is told. The lower triangle of K is read and written.
 void take_rotation_out(const Ring& ring, Matrix& K) {
   const Vector D = K.diagonal();
   Vec2 centre = Vec2::Zero(), weight = Vec2::Zero();

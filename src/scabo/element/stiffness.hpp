@@ -10,13 +10,13 @@
 //
 // and they are put back exactly: K of the rows J follows from K R = 0.
 //
-// Unbounded domain (outside the ring, xi >= 1): -K11 takes the place of K22, S has the exponents with negative real part. Loads
-// on it need not be in equilibrium: their resultant, R'q = F for every xi, adds
+// Unbounded domain (outside the ring, xi >= 1): -K11 takes the place of K22, S has the exponents with negative real
+// part. Loads on it need not be in equilibrium: their resultant, R'q = F for every xi, adds
 //
 //     v = v_h + V F,  V = -E2^-1 H',   xi a,xi = A v_h + C F,  C = M^-1 - H V                               (5)
 //
-// so that a grows with ln xi and the displacement is defined only up to a translation in proportion to F. The stiffness here
-// is that of a domain whose translation vanishes at xi = far (for F = 0: at infinity, whatever far is),
+// so that a grows with ln xi and the displacement is defined only up to a translation in proportion to F. The stiffness
+// here is that of a domain whose translation vanishes at xi = far (for F = 0: at infinity, whatever far is),
 //
 //     a = A S^-1 v_h - C F ln(far)                                                                          (6)
 #pragma once
@@ -49,16 +49,17 @@ struct Domain {
 
 /// Stiffness of a super-element and what its interior is recovered from.
 struct SuperElementSolution {
-  Matrix K;                   // n x n, force / length per unit displacement of the boundary nodes; symmetric
+  Matrix K;  // n x n, force / length per unit displacement of the boundary nodes; symmetric
   std::vector<Block> blocks;
   Domain domain;
-  int doublings = 0;          ///< largest number over the blocks
-  double residual = 0.0;      ///< of the Riccati equation, RiccatiResidual::size, largest over the blocks
+  int doublings = 0;      ///< largest number over the blocks
+  double residual = 0.0;  ///< of the Riccati equation, RiccatiResidual::size, largest over the blocks
 };
 
-/// Solves the super-element. Throws IllPosed where the centre does not see the boundary, an elasticity is not positive definite,
-/// or so many digits were lost that, to working precision, a ring is not, the Riccati residual stays above 1e-9, K resists rotation
-/// or is not positive definite but for rigid motions. Symmetry blocks are shared out among `threads` threads.
+/// Solves the super-element. Throws IllPosed where the centre does not see the boundary, an elasticity is not positive
+/// definite, or so many digits were lost that, to working precision, a ring is not, the Riccati residual stays above
+/// 1e-9, K resists rotation or is not positive definite but for rigid motions. Symmetry blocks are shared out among
+/// `threads` threads.
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1,
                                          const Domain& domain = {});
 

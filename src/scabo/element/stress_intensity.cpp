@@ -32,7 +32,8 @@ std::vector<double> interfaces(const Corner& corner) {
 CornerKind kind_of(const Corner& corner, const std::vector<double>& interfaces) {
   if (!is_crack(corner.ring)) return CornerKind::corner;
   if (interfaces.empty()) return CornerKind::crack;
-  return interfaces.size() == 1 && std::abs(interfaces.front() - pi) < 1e-9 ? CornerKind::interface_crack : CornerKind::corner;
+  return interfaces.size() == 1 && std::abs(interfaces.front() - pi) < 1e-9 ? CornerKind::interface_crack
+                                                                            : CornerKind::corner;
 }
 
 /// Distance of the boundary along a ray.
@@ -152,7 +153,7 @@ void CornerAnalysis::prepare_energy() {
   }
   const Matrix slope = linalg::multiply(Phi, T), mixed = linalg::multiply_transposed(Phi, Matrix(dE.E1 * slope));
   const Matrix P = linalg::multiply_transposed(slope, Matrix(dE.E0 * slope)) + mixed + mixed.transpose() +
-                   linalg::multiply_transposed(Phi, Matrix(dE.E2 * Phi));                             // eq. (3)
+                   linalg::multiply_transposed(Phi, Matrix(dE.E2 * Phi));  // eq. (3)
   energy_ = linalg::multiply_transposed(Q, linalg::multiply(linalg::solve_lyapunov(T, P), Q));
 }
 
@@ -173,7 +174,7 @@ Vector CornerAnalysis::coordinates(const ModeGroup& group, const Vector& u, cons
   Vector c = group.Q * u;
   const Matrix identity = Matrix::Identity(group.size(), group.size());
   for (const Forced& load : loads)
-    c -= (load.power * identity - group.T).partialPivLu().solve(Vector(group.Q * load.f));                 // eq. (5)
+    c -= (load.power * identity - group.T).partialPivLu().solve(Vector(group.Q * load.f));  // eq. (5)
   return c;
 }
 
@@ -188,7 +189,8 @@ StressIntensity CornerAnalysis::of(const Vector& u, const std::vector<RadialLoad
   if (kind_ == CornerKind::corner) {
     for (std::size_t k = 0; k < modes_.singular.size(); ++k) {
       const ModeGroup& group = modes_.singular[k];
-      CornerTerm term{group.exponents, generalised_factors(tractions_[k], group, coordinates(group, u, inside), length_), std::nullopt,
+      CornerTerm term{group.exponents,
+                      generalised_factors(tractions_[k], group, coordinates(group, u, inside), length_), std::nullopt,
                       group.defective()};
       if (group.size() == 1) term.limit = term.factors * std::pow(length_, 0.5 - group.exponents.front().real());
       result.K_I += term.factors[0];
@@ -201,7 +203,7 @@ StressIntensity CornerAnalysis::of(const Vector& u, const std::vector<RadialLoad
   Vector singular = Vector::Zero(u.size());
   for (const ModeGroup& group : modes_.singular) singular += group.Phi * coordinates(group, u, inside);
   const Vec2 opening = along(singular, ring_.last_node()) - along(singular, ring_.first_node());
-  const Vec2 k = bimaterial_.intensity(opening, mouth_, length_);                                     // eq. (1)
+  const Vec2 k = bimaterial_.intensity(opening, mouth_, length_);  // eq. (1)
   result.K_I = k[1];
   result.K_II = k[0];
   result.epsilon = bimaterial_.epsilon;
@@ -211,7 +213,7 @@ StressIntensity CornerAnalysis::of(const Vector& u, const std::vector<RadialLoad
     return result;
   const Vector linear = modes_.linear.Phi * coordinates(modes_.linear, u, inside);
   const double strain = -0.5 * (along(linear, ring_.last_node())[0] + along(linear, ring_.first_node())[0]) / mouth_;
-  result.T_left = strain / softness_left_;                                                            // eq. (2)
+  result.T_left = strain / softness_left_;  // eq. (2)
   result.T_right = strain / softness_right_;
   return result;
 }

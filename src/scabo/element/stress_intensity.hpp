@@ -1,28 +1,31 @@
 // What a crack or corner at the scaling centre of an open super-element does to the stress around it.
 //
-// Crack frame: x1 points from the mouth to the tip and on ahead, x2 to its left. The left face (end of the boundary chain) is above,
-// x2 > 0. du = u(left) - u(right).
+// Crack frame: x1 points from the mouth to the tip and on ahead, x2 to its left. The left face (end of the boundary
+// chain) is above, x2 > 0. du = u(left) - u(right).
 //
-// Crack in one material. K_I, K_II: traction ahead [s12, s22] = (2 pi r)^-1/2 [K_II, K_I]. K_I > 0 opens; K_II > 0 slides the
-// left face along +x1, and s12 > 0 ahead. From the opening of the singular modes at the mouth (nodal values: order 2p),
+// Crack in one material. K_I, K_II: traction ahead [s12, s22] = (2 pi r)^-1/2 [K_II, K_I]. K_I > 0 opens; K_II > 0
+// slides the left face along +x1, and s12 > 0 ahead. From the opening of the singular modes at the mouth (nodal values:
+// order 2p),
 //
 //     du = 2 (2 r / pi)^1/2 L^-1 [K_II, K_I]             isotropic: du = 8/E' (r / 2 pi)^1/2 [K_II, K_I]            (1)
 //
-// Interface crack (materials meet on x1 > 0): [s12, s22] = (2 pi r)^-1/2 (r/l)^G [K_II, K_I] with the reference length l; anisotropic_plane.hpp, eqs.
-// (4) to (7).
+// Interface crack (materials meet on x1 > 0): [s12, s22] = (2 pi r)^-1/2 (r/l)^G [K_II, K_I] with the reference length
+// l; anisotropic_plane.hpp, eqs. (4) to (7).
 //
 // T-stress: s11 that stays at the tip, from the strain of the faces in the modes of exponent 1,
 //
 //     e11 = -u_1 x1 / r at the mouth,   T = e11 / (D^-1)_11 in the crack frame, on either side                      (2)
 //
-// Energy release rate. G from K: 1/4 [K_II, K_I] D [K_II, K_I]' / cosh^2(pi epsilon) = 1/2 K'L^-1 K in one material. J independently, from the
-// whole field: the tip moves by da along x1 and the boundary stays,
+// Energy release rate. G from K: 1/4 [K_II, K_I] D [K_II, K_I]' / cosh^2(pi epsilon) = 1/2 K'L^-1 K in one material. J
+// independently, from the whole field: the tip moves by da along x1 and the boundary stays,
 //
 //     J = -dU/da = -1/2 c'X c,   T'X + X T = T'dE0_ T + dE1_ T + T'dE1_' + dE2_,   dEi_ = Phi' (dEi / da) Phi       (3)
 //
-// over all modes (u = Phi xi^T c). It is the domain J-integral with weight 1 - xi, integrated exactly; no exponent is picked out.
+// over all modes (u = Phi xi^T c). It is the domain J-integral with weight 1 - xi, integrated exactly; no exponent is
+// picked out.
 //
-// Loads inside (radial_load.hpp) add xi^j f to xi u,xi = S u. In a group, xi c,xi = T c + xi^j Q f, so what belongs to the modes alone is
+// Loads inside (radial_load.hpp) add xi^j f to xi u,xi = S u. In a group, xi c,xi = T c + xi^j Q f, so what belongs to
+// the modes alone is
 //
 //     c = Q u(1) - sum of (j - T)^-1 Q f                                                                            (5)
 //
@@ -30,9 +33,10 @@
 //
 //     [K_tt, K_rt](r) = (2 pi r)^1/2 [s_tt, s_rt](r)   of the singular part                                         (4)
 //
-// is a generalised pair of factors at the characteristic length r (Song, Tin-Loi, Gao 2010): force / length^(3/2), whatever the exponents are.
-// For a real exponent apart from the others also lim (2 pi)^1/2 r^(1 - lambda) [s_tt, s_rt] of its own mode (Gross, Mendelson 1972), which is r^(1/2 - lambda)
-// times (4) of that mode. Where exponents merge, those of single modes grow without bound and cancel, so close exponents stay together.
+// is a generalised pair of factors at the characteristic length r (Song, Tin-Loi, Gao 2010): force / length^(3/2),
+// whatever the exponents are. For a real exponent apart from the others also lim (2 pi)^1/2 r^(1 - lambda) [s_tt, s_rt]
+// of its own mode (Gross, Mendelson 1972), which is r^(1/2 - lambda) times (4) of that mode. Where exponents merge,
+// those of single modes grow without bound and cancel, so close exponents stay together.
 #pragma once
 
 #include <complex>
@@ -52,7 +56,7 @@ struct CornerTerm {
   Vec2 factors = Vec2::Zero();  ///< [K_tt, K_rt] of eq. (4) at the reference length, of this group alone
   /// lim sqrt(2 pi) r^(1 - lambda) [s_tt, s_rt]; only of a single real exponent. force / length^(1 + lambda)
   std::optional<Vec2> limit;
-  bool defective = false;       ///< power-logarithmic
+  bool defective = false;  ///< power-logarithmic
 };
 
 struct StressIntensity {
@@ -67,7 +71,8 @@ struct StressIntensity {
   std::vector<CornerTerm> terms;                ///< corners only
 };
 
-/// Holds what is found once for a super-element; `of` then costs one product for each increment. Keeps a reference to the solution.
+/// Holds what is found once for a super-element; `of` then costs one product for each increment. Keeps a reference to
+/// the solution.
 class CornerAnalysis {
  public:
   /// `reference_length`: nothing: distance of the mouth (cracks) or of the boundary
@@ -75,8 +80,9 @@ class CornerAnalysis {
   CornerAnalysis(const Ring& ring, const Elasticity& D, const SuperElementSolution& solution,
                  std::optional<double> reference_length = std::nullopt);
 
-  /// Factors of a displacement of the boundary under `loads` inside. J is not given when there are any (its path cuts through
-  /// them), T not when one has the power 1: tractions on the faces that do not vanish at the tip, constant temperature.
+  /// Factors of a displacement of the boundary under `loads` inside. J is not given when there are any (its path cuts
+  /// through them), T not when one has the power 1: tractions on the faces that do not vanish at the tip, constant
+  /// temperature.
   StressIntensity of(const Vector& u, const std::vector<RadialLoad>& loads = {}) const;
   CornerKind kind() const { return kind_; }
   const SingularModes& modes() const { return modes_; }

@@ -11,7 +11,8 @@ namespace {
 
 int order_of(const mesh::LineElement& element) { return static_cast<int>(element.nodes.size()) - 1; }
 
-/// Points and weights of the integral over xi from 0 to 1: two Gauss points in each of the intervals between 1 - ratio^k.
+/// Points and weights of the integral over xi from 0 to 1: two Gauss points in each of the intervals between 1 -
+/// ratio^k.
 struct RadialPoint {
   double xi, weight;
 };
@@ -59,17 +60,19 @@ double squared_difference(const TwoOrders& two) {
   const Vector Pu = prolonged(two.elements, two.u, two.wider_elements, two.U.size());
   const Vector e = two.U - Pu;
   double squared = std::max(0.0, e.dot(two.K * e));
-  if (two.relaxed) squared += std::max(0.0, two.u.dot(two.k * two.u) - Pu.dot(two.K * Pu));   // eq. (1)
+  if (two.relaxed) squared += std::max(0.0, two.u.dot(two.k * two.u) - Pu.dot(two.K * Pu));  // eq. (1)
   return squared;
 }
 
-std::vector<double> sector_differences(const SuperElementField& narrower, const SuperElementField& wider, const Elasticity& D) {
+std::vector<double> sector_differences(const SuperElementField& narrower, const SuperElementField& wider,
+                                       const Elasticity& D) {
   const RadialField u(narrower.solution, narrower.modal, narrower.u, {}), U(wider.solution, wider.modal, wider.u, {});
   const bool unbounded = wider.solution.domain.unbounded;
   std::vector<double> energies(wider.ring.elements.size(), 0.0);
   for (const RadialPoint& radial : radial_points()) {
     // Unbounded: xi = 1 / s, xi dxi = ds / s^3.
-    const double s = radial.xi, xi = unbounded ? 1.0 / s : s, measure = radial.weight * (unbounded ? 1.0 / (s * s * s) : s);
+    const double s = radial.xi, xi = unbounded ? 1.0 / s : s,
+                 measure = radial.weight * (unbounded ? 1.0 / (s * s * s) : s);
     const RadialField::Values of_u = u.at(xi);
     RadialField::Values difference = U.at(xi);
     const auto subtract = [&](Vector& from, const Vector& values) {

@@ -1,20 +1,21 @@
-// Error of a super-element's displacement by two orders: the solution u on edges of order p against U on the same edges with
-// order p + 1 (or some left at p), in the energy norm |u|^2 = u'K u.
+// Error of a super-element's displacement by two orders: the solution u on edges of order p against U on the same edges
+// with order p + 1 (or some left at p), in the energy norm |u|^2 = u'K u.
 //
 // Both are semi-discrete: functions N(eta) u(xi) in the whole body, the narrower space part of the wider. With P the
 // prolongation of boundary displacements, k and K the two stiffnesses and e = U - P u,
 //
 //     |U - u|^2 = e'K e + u'(k - P'K P) u                                                                    (1)
 //
-// exactly: U - u is the field of boundary values e, and, orthogonal to it, what the wider space relaxes inside with the boundary
-// held at P u. The second term cancels to about 1e-15 u'k u, and needs a body without loads inside; `relaxed` = false leaves it out.
+// exactly: U - u is the field of boundary values e, and, orthogonal to it, what the wider space relaxes inside with the
+// boundary held at P u. The second term cancels to about 1e-15 u'k u, and needs a body without loads inside; `relaxed`
+// = false leaves it out.
 //
-// The estimate is that of the saturation assumption: |U - u| for the distance of u from the exact solution. It falls short by
-// sqrt(1 - r^2), r the ratio of the errors of p + 1 and p.
+// The estimate is that of the saturation assumption: |U - u| for the distance of u from the exact solution. It falls
+// short by sqrt(1 - r^2), r the ratio of the errors of p + 1 and p.
 //
-// Where the error is: the field U(xi) - P u(xi) has an energy in the sector that every boundary element spans, the integral over
-// xi (1 / xi in an unbounded domain) by quadrature with points that crowd towards xi = 1, where short elements have their say. On a built-in edge the boundary itself
-// knows nothing of the error behind it.
+// Where the error is: the field U(xi) - P u(xi) has an energy in the sector that every boundary element spans, the
+// integral over xi (1 / xi in an unbounded domain) by quadrature with points that crowd towards xi = 1, where short
+// elements have their say. On a built-in edge the boundary itself knows nothing of the error behind it.
 #pragma once
 
 #include <vector>
@@ -47,7 +48,9 @@ struct SuperElementField {
   const ModalSolution& modal;
   const Vector& u;
 };
-/// Energy of the difference in the sector of every boundary element, up to a common factor and the error of the quadrature.
-std::vector<double> sector_differences(const SuperElementField& narrower, const SuperElementField& wider, const Elasticity& D);
+/// Energy of the difference in the sector of every boundary element, up to a common factor and the error of the
+/// quadrature.
+std::vector<double> sector_differences(const SuperElementField& narrower, const SuperElementField& wider,
+                                       const Elasticity& D);
 
 }  // namespace scabo::element

@@ -38,7 +38,9 @@ void invert_lower(const double* l, std::ptrdiff_t stride, int m, const double* o
 
 }  // namespace
 
-const double* CholeskyFactor::inverse(int block) const { return inverses_.data() + block * largest_block * largest_block; }
+const double* CholeskyFactor::inverse(int block) const {
+  return inverses_.data() + block * largest_block * largest_block;
+}
 
 bool CholeskyFactor::factorise() {
   ensure(A.rows() == A.cols(), "CholeskyFactor needs a square matrix");
@@ -50,7 +52,8 @@ bool CholeskyFactor::factorise() {
   }
   const int count = (n + largest_block - 1) / largest_block;
   starts_.resize(static_cast<std::size_t>(count) + 1);
-  for (int k = 0; k <= count; ++k) starts_[static_cast<std::size_t>(k)] = static_cast<int>(static_cast<long>(n) * k / count);
+  for (int k = 0; k <= count; ++k)
+    starts_[static_cast<std::size_t>(k)] = static_cast<int>(static_cast<long>(n) * k / count);
   inverses_.resize(static_cast<std::size_t>(count) * largest_block * largest_block);
   return factorise_blocks(0, count);
 }
@@ -67,33 +70,38 @@ bool CholeskyFactor::factorise_blocks(int first, int last) {
   const int middle = (first + last) / 2, half = start(middle);
   if (!factorise_blocks(first, middle)) return false;
   divide_by_blocks(first, middle, {&A(half, 0), end - half, n}, false);
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, end - half, half - at, -1.0, &A(half, at), n, 1.0, &A(half, half), n);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, end - half, half - at, -1.0, &A(half, at), n, 1.0,
+              &A(half, half), n);
   return factorise_blocks(middle, last);
 }
 
 void CholeskyFactor::multiply_by_inverse(int block, Rows B, bool transposed) const {
   const int at = start(block), m = start(block + 1) - at;
   double* const columns = B.at + static_cast<std::ptrdiff_t>(at) * B.stride;
-  const auto copy = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(B.count) * static_cast<std::size_t>(m));
+  const auto copy =
+      std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(B.count) * static_cast<std::size_t>(m));
   for (std::ptrdiff_t j = 0; j < m; ++j) std::copy_n(columns + j * B.stride, B.count, copy.get() + j * B.count);
-  cblas_dgemm(CblasColMajor, CblasNoTrans, transposed ? CblasNoTrans : CblasTrans, B.count, m, m, 1.0, copy.get(), B.count,
-              inverse(block), m, 0.0, columns, B.stride);
+  cblas_dgemm(CblasColMajor, CblasNoTrans, transposed ? CblasNoTrans : CblasTrans, B.count, m, m, 1.0, copy.get(),
+              B.count, inverse(block), m, 0.0, columns, B.stride);
 }
 
 /// Columns of B that belong to the blocks first to last - 1.
 void CholeskyFactor::divide_by_blocks(int first, int last, Rows B, bool transposed) const {
   if (last - first == 1) return multiply_by_inverse(first, B, transposed);
-  const int middle = (first + last) / 2, at = start(first), half = start(middle), end = start(last), n = static_cast<int>(A.rows());
-  double *const left = B.at + static_cast<std::ptrdiff_t>(at) * B.stride, *const right = B.at + static_cast<std::ptrdiff_t>(half) * B.stride;
+  const int middle = (first + last) / 2, at = start(first), half = start(middle), end = start(last),
+            n = static_cast<int>(A.rows());
+  double *const left = B.at + static_cast<std::ptrdiff_t>(at) * B.stride, *const right =
+                                                                              B.at + static_cast<std::ptrdiff_t>(half) *
+                                                                                         B.stride;
   if (transposed) {
     divide_by_blocks(middle, last, B, true);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, B.count, half - at, end - half, -1.0, right, B.stride, &A(half, at), n,
-                1.0, left, B.stride);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, B.count, half - at, end - half, -1.0, right, B.stride,
+                &A(half, at), n, 1.0, left, B.stride);
     divide_by_blocks(first, middle, B, true);
   } else {
     divide_by_blocks(first, middle, B, false);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, B.count, end - half, half - at, -1.0, left, B.stride, &A(half, at), n, 1.0,
-                right, B.stride);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, B.count, end - half, half - at, -1.0, left, B.stride,
+                &A(half, at), n, 1.0, right, B.stride);
     divide_by_blocks(middle, last, B, false);
   }
 }
@@ -102,16 +110,20 @@ void CholeskyFactor::divide(Matrix& B, bool transposed) const {
   ensure(B.cols() == A.rows(), "CholeskyFactor: sizes differ");
   if (B.size() == 0) return;
   const int n = static_cast<int>(A.rows()), rows = static_cast<int>(B.rows());
-  if (blocks() == 1) tiles().divide(A.data(), n, inverses_.data(), n, B.data(), rows, rows, transposed);
-  else divide_by_blocks(0, blocks(), {B.data(), rows, rows}, transposed);
+  if (blocks() == 1)
+    tiles().divide(A.data(), n, inverses_.data(), n, B.data(), rows, rows, transposed);
+  else
+    divide_by_blocks(0, blocks(), {B.data(), rows, rows}, transposed);
 }
 
 void subtract_square(const Matrix& A, Matrix& C) {
   ensure(C.rows() == A.rows() && C.cols() == A.rows(), "subtract_square: sizes differ");
   if (A.size() == 0) return;
   const int n = static_cast<int>(A.rows()), depth = static_cast<int>(A.cols());
-  if (n <= 2 * most_by_tiles) tiles().subtract_square(A.data(), n, n, depth, C.data(), n);
-  else cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, depth, -1.0, A.data(), n, 1.0, C.data(), n);
+  if (n <= 2 * most_by_tiles)
+    tiles().subtract_square(A.data(), n, n, depth, C.data(), n);
+  else
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, depth, -1.0, A.data(), n, 1.0, C.data(), n);
 }
 
 }  // namespace scabo::linalg

@@ -1,8 +1,9 @@
-// Cholesky factor A = L L' of a dense symmetric positive definite matrix, made for many right-hand sides, which are rows.
+// Cholesky factor A = L L' of a dense symmetric positive definite matrix, made for many right-hand sides, which are
+// rows.
 //
-// Up to some hundred rows by tiles (tile_kernel.hpp). Larger ones by products of BLAS: L is cut into blocks of at most 32 rows, the inverses
-// of those on the diagonal are kept, and halves of L are taken one after the other: BLAS's own triangular solve reaches half
-// of the speed of its product, with AVX-512 kernels a quarter.
+// Up to some hundred rows by tiles (tile_kernel.hpp). Larger ones by products of BLAS: L is cut into blocks of at most
+// 32 rows, the inverses of those on the diagonal are kept, and halves of L are taken one after the other: BLAS's own
+// triangular solve reaches half of the speed of its product, with AVX-512 kernels a quarter.
 #pragma once
 
 #include <vector>
@@ -13,7 +14,8 @@ namespace scabo::linalg {
 
 class CholeskyFactor {
  public:
-  /// A (n x n, lower triangle read) is to be put here; factorise() leaves L in the lower triangle and nothing of use above.
+  /// A (n x n, lower triangle read) is to be put here; factorise() leaves L in the lower triangle and nothing of use
+  /// above.
   Matrix A;
 
   /// False when A is not positive definite: nothing can be divided by it then.

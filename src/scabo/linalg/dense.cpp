@@ -33,8 +33,8 @@ Matrix multiply_transposed(const Matrix& A, const Matrix& B) {
   ensure(A.rows() == B.rows(), "multiply_transposed: sizes differ");
   Matrix C = Matrix::Zero(A.cols(), B.cols());
   if (C.size() == 0 || A.rows() == 0) return C;
-  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, rows(C), cols(C), rows(A), 1.0, A.data(), stride(A), B.data(), stride(B), 0.0,
-              C.data(), stride(C));
+  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, rows(C), cols(C), rows(A), 1.0, A.data(), stride(A), B.data(),
+              stride(B), 0.0, C.data(), stride(C));
   return C;
 }
 
@@ -42,8 +42,8 @@ Matrix multiply(const Matrix& A, const Matrix& B) {
   ensure(A.cols() == B.rows(), "multiply: sizes differ");
   Matrix C = Matrix::Zero(A.rows(), B.cols());
   if (C.size() == 0 || A.cols() == 0) return C;
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows(A), cols(B), cols(A), 1.0, A.data(), stride(A),
-              B.data(), stride(B), 0.0, C.data(), stride(C));
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows(A), cols(B), cols(A), 1.0, A.data(), stride(A), B.data(),
+              stride(B), 0.0, C.data(), stride(C));
   return C;
 }
 
@@ -63,8 +63,8 @@ RealSchur real_schur(Matrix A) {
   if (n == 0) return schur;
   Vector real(n), imaginary(n);
   lapack_int sorted = 0;
-  const int info = LAPACKE_dgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, n, schur.T.data(), n, &sorted,
-                                 real.data(), imaginary.data(), schur.U.data(), n);
+  const int info = LAPACKE_dgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, n, schur.T.data(), n, &sorted, real.data(),
+                                 imaginary.data(), schur.U.data(), n);
   ensure(info == 0, "the real Schur form did not converge");
   return schur;
 }

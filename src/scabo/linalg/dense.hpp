@@ -15,7 +15,8 @@ Matrix multiply_transposed(const Matrix& A, const Matrix& B);
 Matrix multiply(const Matrix& A, const Matrix& B);
 
 /// C <- C + alpha A B, on parts of matrices.
-void add_product(double alpha, const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B, Eigen::Ref<Matrix> C);
+void add_product(double alpha, const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B,
+                 Eigen::Ref<Matrix> C);
 
 /// A = U T U', U orthogonal, T upper quasi-triangular (2 x 2 blocks for complex pairs).
 struct RealSchur {

@@ -28,8 +28,10 @@ Vector nonnegative_least_squares(const Matrix& A, const Vector& b) {
       for (std::size_t k = 0; k < passive.size(); ++k) {
         double& value = x[passive[k]];
         value += step * (z[static_cast<Eigen::Index>(k)] - value);
-        if (step == 1.0 || value > 1e-15 * x.cwiseAbs().maxCoeff()) kept.push_back(passive[k]);
-        else value = 0.0;
+        if (step == 1.0 || value > 1e-15 * x.cwiseAbs().maxCoeff())
+          kept.push_back(passive[k]);
+        else
+          value = 0.0;
       }
       if (step == 1.0) break;
       passive = std::move(kept);

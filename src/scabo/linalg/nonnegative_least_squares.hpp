@@ -5,8 +5,8 @@
 
 namespace scabo::linalg {
 
-/// A: m x n with few rows. The residual b - A x of the result has A'(b - A x) <= 0: where it is not zero, it is the proof
-/// that A x = b has no solution x >= 0 (Farkas).
+/// A: m x n with few rows. The residual b - A x of the result has A'(b - A x) <= 0: where it is not zero, it is the
+/// proof that A x = b has no solution x >= 0 (Farkas).
 Vector nonnegative_least_squares(const Matrix& A, const Vector& b);
 
 }  // namespace scabo::linalg

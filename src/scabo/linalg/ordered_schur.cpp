@@ -19,7 +19,8 @@ std::vector<std::complex<double>> eigenvalues_of(const Matrix& T) {
   for (Eigen::Index i = 0; i < T.rows(); ++i) {
     const bool pair = pair_begins(T, i);
     // LAPACK's standard form: equal diagonal, off-diagonal entries of opposite sign.
-    const std::complex<double> value(T(i, i), pair ? std::sqrt(std::abs(T(i, i + 1))) * std::sqrt(std::abs(T(i + 1, i))) : 0.0);
+    const std::complex<double> value(T(i, i),
+                                     pair ? std::sqrt(std::abs(T(i, i + 1))) * std::sqrt(std::abs(T(i + 1, i))) : 0.0);
     values.push_back(value);
     if (pair) values.push_back(std::conj(value)), ++i;
   }
@@ -74,7 +75,8 @@ OrderedSchur::OrderedSchur(const Matrix& S, const GroupOf& group_of) : schur_(re
   Matrix& T = schur_.T;
   const int n = length(T.rows());
   const auto rank_at = [&](int row) {
-    return group_of(eigenvalues_of(T.block(row, row, pair_begins(T, row) ? 2 : 1, pair_begins(T, row) ? 2 : 1)).front());
+    return group_of(
+        eigenvalues_of(T.block(row, row, pair_begins(T, row) ? 2 : 1, pair_begins(T, row) ? 2 : 1)).front());
   };
   // Insertion sort of the diagonal blocks by neighbour swaps (dtrexc), stable within a group.
   for (int done = 0; done < n;) {
@@ -103,13 +105,16 @@ InvariantSubspace OrderedSchur::subspace(int first, int count) const {
   result.V = U.middleCols(first, count);
   result.Q = result.V.transpose();
   if (count == 0) return result;
-  const Matrix Y = sylvester('N', T.topLeftCorner(first, first), result.T, -T.block(0, first, first, count), -1);   // eq. (1)
-  const Matrix W = sylvester('N', result.T, T.bottomRightCorner(rest, rest), T.block(first, first + count, count, rest), -1);
-  result.V += multiply(U.leftCols(first), Y);                                                                        // eq. (2)
+  const Matrix Y =
+      sylvester('N', T.topLeftCorner(first, first), result.T, -T.block(0, first, first, count), -1);  // eq. (1)
+  const Matrix W =
+      sylvester('N', result.T, T.bottomRightCorner(rest, rest), T.block(first, first + count, count, rest), -1);
+  result.V += multiply(U.leftCols(first), Y);  // eq. (2)
   result.Q += multiply(W, U.rightCols(rest).transpose());
   // |V Q| from small matrices: V'V = 1 + Y'Y, Q Q' = 1 + W W'.
   const Matrix identity = Matrix::Identity(count, count);
-  const Matrix left = (identity + Y.transpose() * Y).llt().matrixU(), right = (identity + W * W.transpose()).llt().matrixL();
+  const Matrix left = (identity + Y.transpose() * Y).llt().matrixU(),
+               right = (identity + W * W.transpose()).llt().matrixL();
   result.projection_norm = Eigen::JacobiSVD<Matrix>(left * right).singularValues()[0];
   return result;
 }
@@ -128,7 +133,9 @@ std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, 
       if (cluster == b) cluster = a;
   };
   // The upper half plane stands for both: a pair is one.
-  const auto folded = [&](std::size_t i) { return std::complex<double>(eigenvalues[i].real(), std::abs(eigenvalues[i].imag())); };
+  const auto folded = [&](std::size_t i) {
+    return std::complex<double>(eigenvalues[i].real(), std::abs(eigenvalues[i].imag()));
+  };
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j)
       if (of[i] != of[j] && std::abs(folded(i) - folded(j)) <= gap) join(of[i], of[j]);
@@ -142,7 +149,8 @@ std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, 
   }
   std::sort(means.begin(), means.end());
   std::vector<int> number(n, 0);
-  for (std::size_t k = 0; k < means.size(); ++k) number[static_cast<std::size_t>(means[k].second)] = static_cast<int>(k);
+  for (std::size_t k = 0; k < means.size(); ++k)
+    number[static_cast<std::size_t>(means[k].second)] = static_cast<int>(k);
   for (int& cluster : of) cluster = number[static_cast<std::size_t>(cluster)];
   return of;
 }
@@ -150,7 +158,8 @@ std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, 
 bool is_defective(const Matrix& T, const std::vector<std::complex<double>>& eigenvalues, double spread) {
   for (Eigen::Index i = 0; i < T.rows(); ++i)
     for (Eigen::Index j = i + 1; j < T.rows(); ++j) {
-      const double apart = std::abs(eigenvalues[static_cast<std::size_t>(i)] - eigenvalues[static_cast<std::size_t>(j)]);
+      const double apart =
+          std::abs(eigenvalues[static_cast<std::size_t>(i)] - eigenvalues[static_cast<std::size_t>(j)]);
       if (apart > spread) continue;
       const double coupling = std::max(std::abs(T(i, j)), std::abs(T(j, i)));
       if (coupling > 1e-6 && coupling > 10.0 * apart) return true;

@@ -1,7 +1,7 @@
 // Invariant subspaces of a real matrix that belong to groups of its eigenvalues, from an ordered real Schur form.
 //
-// S = U T U' with the eigenvalues along T sorted by group. For one group, with what stands before it (A), the group itself
-// (B) and what stands after it (C),
+// S = U T U' with the eigenvalues along T sorted by group. For one group, with what stands before it (A), the group
+// itself (B) and what stands after it (C),
 //
 //         [ A  T_AB T_AC ]
 //     T = [    B    T_BC ],     A Y - Y B = -T_AB,     B W - W C = T_BC                                         (1)
@@ -10,8 +10,8 @@
 //     V = U [Y; 1; 0],   Q = [0, 1, W] U':      S V = V B,   Q S = B Q,   Q V = 1                               (2)
 //
 // so V Q is the spectral projection onto the group and Q takes the coordinates of a vector in it. (1) are Sylvester
-// equations of quasi-triangular matrices. No eigenvectors are found, let alone inverted: eigenvalues within a group may be
-// repeated, defective, or a rounding error from it. Only the gap between groups counts.
+// equations of quasi-triangular matrices. No eigenvectors are found, let alone inverted: eigenvalues within a group may
+// be repeated, defective, or a rounding error from it. Only the gap between groups counts.
 //
 // Source: Golub, Van Loan, Matrix Computations, 4th ed. 2013, section 7.6.
 #pragma once
@@ -25,9 +25,9 @@
 namespace scabo::linalg {
 
 struct InvariantSubspace {
-  Matrix V;  // n x m
-  Matrix T;  // m x m, quasi-triangular: S restricted to the subspace (B of eq. 1)
-  Matrix Q;  // m x n
+  Matrix V;                                       // n x m
+  Matrix T;                                       // m x m, quasi-triangular: S restricted to the subspace (B of eq. 1)
+  Matrix Q;                                       // m x n
   std::vector<std::complex<double>> eigenvalues;  ///< m, in the order of T
   double projection_norm = 1.0;  ///< |V Q|: 1 where the group is orthogonal to the rest; rounding grows by it
 };
@@ -58,10 +58,13 @@ class OrderedSchur {
 /// always: numbers from 0 in ascending real part of the group's mean.
 std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, double gap);
 
-/// Some eigenvalues of quasi-triangular T are equal within `spread` and still coupled: fewer eigenvectors than eigenvalues. (With all
-/// their eigenvectors T is diagonal there; defective ones have moved apart by a root of rounding only, and the coupling stays.)
+/// Some eigenvalues of quasi-triangular T are equal within `spread` and still coupled: fewer eigenvectors than
+/// eigenvalues. (With all their eigenvectors T is diagonal there; defective ones have moved apart by a root of rounding
+/// only, and the coupling stays.)
 bool is_defective(const Matrix& T, const std::vector<std::complex<double>>& eigenvalues, double spread);
-inline bool is_defective(const InvariantSubspace& part, double spread) { return is_defective(part.T, part.eigenvalues, spread); }
+inline bool is_defective(const InvariantSubspace& part, double spread) {
+  return is_defective(part.T, part.eigenvalues, spread);
+}
 
 /// exp(T s) for a small T, m x m.
 Matrix small_exponential(const Matrix& T, double s);

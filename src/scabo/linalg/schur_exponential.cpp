@@ -48,7 +48,8 @@ std::complex<double> inverse(std::complex<double> z) {
 
 /// Solves one diagonal block of z - s T, rows first to last of X, all contour points (columns: real parts, then
 /// imaginary parts), by back substitution.
-void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::Index size, const Contour& contour, Matrix& X) {
+void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::Index size, const Contour& contour,
+                          Matrix& X) {
   const auto count = static_cast<Eigen::Index>(contour.points.size());
   for (Eigen::Index point = 0; point < count; ++point) {
     const std::complex<double> z = contour.points[static_cast<std::size_t>(point)].z;
@@ -121,7 +122,8 @@ Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& 
   T.diagonal().array() -= shift;
   // Forcings are further rows of the system, [[T, w ...], [0, power ...]], with the value 1 at s = 0.
   const double angle = widest_angle(s, shift);
-  const auto contour = std::find_if(contours().begin(), contours().end(), [&](const Contour& one) { return angle <= one.sector; });
+  const auto contour =
+      std::find_if(contours().begin(), contours().end(), [&](const Contour& one) { return angle <= one.sector; });
   if (contour == contours().end()) {  // rare: the dense exponential
     const auto terms = static_cast<Eigen::Index>(forcings.size());
     Matrix augmented = Matrix::Zero(n + terms, n + terms);

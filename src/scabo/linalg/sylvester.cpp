@@ -19,10 +19,10 @@ Eigen::Index half(const Part& T) {
 
 void solve_small(const Part& T1, const Part& T2, Eigen::Ref<Matrix> C) {
   double scale = 1.0;  // less than 1 only where X would overflow
-  const int info = LAPACKE_dtrsyl_work(LAPACK_COL_MAJOR, 'T', 'N', 1, static_cast<int>(C.rows()),
-                                       static_cast<int>(C.cols()), T1.data(), static_cast<int>(T1.outerStride()),
-                                       T2.data(), static_cast<int>(T2.outerStride()), C.data(),
-                                       static_cast<int>(C.outerStride()), &scale);
+  const int info =
+      LAPACKE_dtrsyl_work(LAPACK_COL_MAJOR, 'T', 'N', 1, static_cast<int>(C.rows()), static_cast<int>(C.cols()),
+                          T1.data(), static_cast<int>(T1.outerStride()), T2.data(), static_cast<int>(T2.outerStride()),
+                          C.data(), static_cast<int>(C.outerStride()), &scale);
   ensure(info == 0 && scale == 1.0, "Sylvester's equation is singular");
 }
 

@@ -62,13 +62,15 @@ EigenPairs largest_eigenpairs(Matrix A, Matrix B, int count) {
   return {values.head(count).reverse(), vectors.rowwise().reverse()};
 }
 
-EigenPairs largest_by_lanczos(const Operator& inverse, const Eigen::SparseMatrix<double>& B, int count, unsigned start) {
+EigenPairs largest_by_lanczos(const Operator& inverse, const Eigen::SparseMatrix<double>& B, int count,
+                              unsigned start) {
   const auto n = static_cast<int>(B.rows());
   ensure(count > 0 && count < n, "largest_by_lanczos: needs fewer eigenvalues than there are");
   Inverse op(inverse, n);
   Product product(B);
   const int basis = std::min(n, std::max(2 * count + 1, count + 20));
-  Spectra::SymGEigsShiftSolver<Inverse, Product, Spectra::GEigsMode::ShiftInvert> solver(op, product, count, basis, 0.0);
+  Spectra::SymGEigsShiftSolver<Inverse, Product, Spectra::GEigsMode::ShiftInvert> solver(op, product, count, basis,
+                                                                                         0.0);
   std::mt19937 random(start + 1);
   Vector residual(n);
   for (double& value : residual) value = std::uniform_real_distribution<double>(-1.0, 1.0)(random);

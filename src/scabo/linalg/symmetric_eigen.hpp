@@ -21,14 +21,15 @@ EigenPairs largest_eigenpairs(Matrix A, Matrix B, int count);
 /// y = A x for a symmetric A.
 using Operator = std::function<Vector(const Vector&)>;
 
-/// The `count` largest nu of  inverse(B x) = nu x, by Lanczos with implicit restarts in the inner product of B (Spectra);
-/// `inverse` and B symmetric, n x n, B positive definite; count < n. With inverse = K^-1, B = M: nu = 1 / lambda of K x = lambda M x.
-/// Fewer than `count` where it does not converge. Equal eigenvalues may come out fewer times than they are there: count them
-/// by `eigenvalues_below`. `start` chooses the vector it starts with.
-EigenPairs largest_by_lanczos(const Operator& inverse, const Eigen::SparseMatrix<double>& B, int count, unsigned start = 0);
+/// The `count` largest nu of  inverse(B x) = nu x, by Lanczos with implicit restarts in the inner product of B
+/// (Spectra); `inverse` and B symmetric, n x n, B positive definite; count < n. With inverse = K^-1, B = M: nu = 1 /
+/// lambda of K x = lambda M x. Fewer than `count` where it does not converge. Equal eigenvalues may come out fewer
+/// times than they are there: count them by `eigenvalues_below`. `start` chooses the vector it starts with.
+EigenPairs largest_by_lanczos(const Operator& inverse, const Eigen::SparseMatrix<double>& B, int count,
+                              unsigned start = 0);
 
-/// How many eigenvalues of A x = lambda B x lie below `shift`: Sylvester's law of inertia, by the signs of the pivots of
-/// A - shift B = L D L'. -1 where a pivot vanishes.
+/// How many eigenvalues of A x = lambda B x lie below `shift`: Sylvester's law of inertia, by the signs of the pivots
+/// of A - shift B = L D L'. -1 where a pivot vanishes.
 int eigenvalues_below(const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatrix<double>& B, double shift);
 
 }  // namespace scabo::linalg

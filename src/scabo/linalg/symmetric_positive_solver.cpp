@@ -20,8 +20,8 @@ class SparseCholesky {
     cholmod_sparse view = lower_view(A);
     factor_ = cholmod_analyze(&view, &common_);
     if (factor_ != nullptr) cholmod_factorize(&view, factor_, &common_);
-    const bool definite = factor_ != nullptr && common_.status == CHOLMOD_OK &&
-                          factor_->minor == static_cast<std::size_t>(n_);
+    const bool definite =
+        factor_ != nullptr && common_.status == CHOLMOD_OK && factor_->minor == static_cast<std::size_t>(n_);
     if (!definite) {
       release();
       throw NotPositiveDefinite();

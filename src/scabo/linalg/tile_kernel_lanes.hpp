@@ -1,6 +1,6 @@
-// The source of tile_kernel.hpp, compiled for registers of SCABO_LANES doubles in namespace SCABO_KERNEL. It includes no other header
-// and has internal linkage throughout: an inline function compiled here for a newer processor must not be the one
-// that the linker keeps for the rest of the program.
+// The source of tile_kernel.hpp, compiled for registers of SCABO_LANES doubles in namespace SCABO_KERNEL. It includes
+// no other header and has internal linkage throughout: an inline function compiled here for a newer processor must not
+// be the one that the linker keeps for the rest of the program.
 
 #include "scabo/linalg/tile_kernel.hpp"
 
@@ -15,13 +15,21 @@ typedef double V2 __attribute__((vector_size(16)));
 template <int W>
 struct Vector;
 template <>
-struct Vector<8> { typedef V8 type; };
+struct Vector<8> {
+  typedef V8 type;
+};
 template <>
-struct Vector<4> { typedef V4 type; };
+struct Vector<4> {
+  typedef V4 type;
+};
 template <>
-struct Vector<2> { typedef V2 type; };
+struct Vector<2> {
+  typedef V2 type;
+};
 template <>
-struct Vector<1> { typedef double type; };
+struct Vector<1> {
+  typedef double type;
+};
 
 /// Vectors at any address: by copies, which compilers turn into one unaligned move.
 template <typename V>
@@ -44,8 +52,8 @@ struct Factor {
   long row, column;  ///< from one k, one c to the next
 };
 
-/// acc(r, c) <- C(r, c) - sum over k < depth of A(r, k) B(k, c); R vectors of W rows. The sum first: where it is small, as in the last
-/// steps of ring doubling, so is its rounding.
+/// acc(r, c) <- C(r, c) - sum over k < depth of A(r, k) B(k, c); R vectors of W rows. The sum first: where it is small,
+/// as in the last steps of ring doubling, so is its rounding.
 template <int W, int R, int C>
 inline void subtract(const double* A, long a_stride, Factor B, int depth, const double* from, long from_stride,
                      typename Vector<W>::type (&acc)[R][C]) {
@@ -83,7 +91,8 @@ inline void store(const typename Vector<W>::type (&acc)[R][C], double* out, long
 template <typename F>
 inline void over_rows(int rows, const F& f) {
   int row = 0;
-  for (; row + tile_vectors * lanes <= rows; row += tile_vectors * lanes) f.template operator()<lanes, tile_vectors>(row);
+  for (; row + tile_vectors * lanes <= rows; row += tile_vectors * lanes)
+    f.template operator()<lanes, tile_vectors>(row);
   if constexpr (tile_vectors > 2)
     if (row + 2 * lanes <= rows) f.template operator()<lanes, 2>(row), row += 2 * lanes;
   if (row + lanes <= rows) f.template operator()<lanes, 1>(row), row += lanes;
@@ -118,7 +127,8 @@ void subtract_square(const double* A, long a_stride, int n, int depth, double* C
 
 /// Columns `first` ... of B <- (B - B_before L') L_cc^-T, where B_before are the `first` columns before them.
 template <int C>
-inline void divide_columns(const double* L, long stride, const double* over, int first, double* B, long b_stride, int rows) {
+inline void divide_columns(const double* L, long stride, const double* over, int first, double* B, long b_stride,
+                           int rows) {
   const double* const corner = L + first * stride + first;
   over_rows(rows, [&]<int W, int R>(int row) {
     typename Vector<W>::type acc[R][C];
@@ -139,13 +149,14 @@ inline void divide_columns(const double* L, long stride, const double* over, int
 
 /// Columns `first` ... of B <- (B - B_after L) L_cc^-1, where B_after are the n - first - C columns after them.
 template <int C>
-inline void divide_columns_transposed(const double* L, long stride, const double* over, int first, int n, double* B, long b_stride,
-                                      int rows) {
+inline void divide_columns_transposed(const double* L, long stride, const double* over, int first, int n, double* B,
+                                      long b_stride, int rows) {
   const double* const corner = L + first * stride + first;
   over_rows(rows, [&]<int W, int R>(int row) {
     typename Vector<W>::type acc[R][C];
     double* const out = B + first * b_stride + row;
-    subtract<W, R, C>(B + (first + C) * b_stride + row, b_stride, {corner + C, 1, stride}, n - first - C, out, b_stride, acc);
+    subtract<W, R, C>(B + (first + C) * b_stride + row, b_stride, {corner + C, 1, stride}, n - first - C, out, b_stride,
+                      acc);
 #pragma GCC unroll 8
     for (int c = C - 1; c >= 0; --c) {
 #pragma GCC unroll 8
@@ -159,13 +170,15 @@ inline void divide_columns_transposed(const double* L, long stride, const double
   });
 }
 
-void divide(const double* L, long stride, const double* over, int n, double* B, long b_stride, int rows, bool transposed) {
+void divide(const double* L, long stride, const double* over, int n, double* B, long b_stride, int rows,
+            bool transposed) {
   if (!transposed) {
     for (int j = 0; j < n;)
       j += with_columns(n - j, [&]<int C>() { divide_columns<C>(L, stride, over, j, B, b_stride, rows); });
   } else {
     for (int end = n; end > 0;)
-      end -= with_columns(end, [&]<int C>() { divide_columns_transposed<C>(L, stride, over, end - C, n, B, b_stride, rows); });
+      end -= with_columns(
+          end, [&]<int C>() { divide_columns_transposed<C>(L, stride, over, end - C, n, B, b_stride, rows); });
   }
 }
 

@@ -8,8 +8,7 @@
 namespace scabo::mesh {
 
 struct ContactSide {
-  ContactSide(const model::Edge& edge, const std::vector<LineElement>& elements,
-              const std::vector<Vec2>& nodes);
+  ContactSide(const model::Edge& edge, const std::vector<LineElement>& elements, const std::vector<Vec2>& nodes);
 
   int size() const { return static_cast<int>(nodes.size()); }
 

@@ -21,8 +21,8 @@ constexpr double largest_turn = std::numbers::pi / 3;
 /// counts as seen edge-on.
 constexpr double smallest_sine = 1e-6;
 
-/// A part of an edge as the boundary of the super-element is run, counter-clockwise around the scaling centre: from and to
-/// count along the edge's own direction.
+/// A part of an edge as the boundary of the super-element is run, counter-clockwise around the scaling centre: from and
+/// to count along the edge's own direction.
 struct Run {
   int edge = -1;
   double from = 0.0, to = 1.0;
@@ -82,7 +82,8 @@ BodyDivision uniform_division(const model::Body& body) {
     const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
     EdgeDivision& divided = division[static_cast<std::size_t>(run.edge)];
     std::vector<double> breaks;
-    for (int k = 0; k <= elements; ++k) breaks.push_back(k == elements ? high : std::lerp(low, high, static_cast<double>(k) / elements));
+    for (int k = 0; k <= elements; ++k)
+      breaks.push_back(k == elements ? high : std::lerp(low, high, static_cast<double>(k) / elements));
     if (!divided.breaks.empty()) breaks.pop_back();  // a crack's last run ends where its first began
     divided.breaks.insert(divided.breaks.begin(), breaks.begin(), breaks.end());
     divided.orders.insert(divided.orders.end(), static_cast<std::size_t>(elements), body.mesh.order);
@@ -113,9 +114,10 @@ std::vector<LineElement> divide_run(const model::Edge& edge, const EdgeDivision&
     LineElement& element = line.emplace_back();
     for (int i = 0; i <= order; ++i) {
       element.nodes.push_back(static_cast<int>(nodes.size()) % total);  // closed: the last node is the first again
-      if (i == order) break;                                           // and belongs to the next element
+      if (i == order) break;                                            // and belongs to the next element
       const bool first = line.size() == 1 && i == 0;
-      nodes.push_back(edge.at(first ? run.from : std::lerp(from, to, 0.5 * (1.0 + points[static_cast<std::size_t>(i)]))));
+      nodes.push_back(
+          edge.at(first ? run.from : std::lerp(from, to, 0.5 * (1.0 + points[static_cast<std::size_t>(i)]))));
     }
   }
   return line;
@@ -204,15 +206,13 @@ std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& me
     mistakes.push_back(
         {body.mesh.source,
          body.outline.edges[e].arc
-             ? fmt::format(
-                   "the arc {} in {} {} of order {} is not wholly seen from the scaling centre {}: use a "
-                   "smaller 'size' or a higher 'order', or set 'centre'",
-                   name, mesh.edges[e].size(), mesh.edges[e].size() == 1 ? "element" : "elements",
-                   body.mesh.order, centre)
-             : fmt::format(
-                   "the edge {} is not seen from the scaling centre {}: set 'centre' to a point that sees "
-                   "the whole boundary, or cut the body in two",
-                   name, centre)});
+             ? fmt::format("the arc {} in {} {} of order {} is not wholly seen from the scaling centre {}: use a "
+                           "smaller 'size' or a higher 'order', or set 'centre'",
+                           name, mesh.edges[e].size(), mesh.edges[e].size() == 1 ? "element" : "elements",
+                           body.mesh.order, centre)
+             : fmt::format("the edge {} is not seen from the scaling centre {}: set 'centre' to a point that sees "
+                           "the whole boundary, or cut the body in two",
+                           name, centre)});
   }
   return mistakes;
 }

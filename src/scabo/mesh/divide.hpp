@@ -1,11 +1,11 @@
 // Division of an outline into line elements: the boundary of one super-element, closed, or open from side face to side
-// face. The boundary is run counter-clockwise around the scaling centre, also where the body lies outside it; the edges of a
-// BodyMesh keep the outline's direction.
+// face. The boundary is run counter-clockwise around the scaling centre, also where the body lies outside it; the edges
+// of a BodyMesh keep the outline's direction.
 //
-// Unless a division says otherwise (division.hpp), every edge is divided into n equal elements, none longer than `size` and none turning by more than 60
-// degrees, with nodes at the Gauss-Lobatto-Legendre points of the edge's arc length. Between the nodes of an
-// arc the boundary is the interpolating polynomial, so it must be checked anew that the scaling centre sees
-// all of it: |J| = x y,eta - y x,eta > 0, x and y relative to the centre.
+// Unless a division says otherwise (division.hpp), every edge is divided into n equal elements, none longer than `size`
+// and none turning by more than 60 degrees, with nodes at the Gauss-Lobatto-Legendre points of the edge's arc length.
+// Between the nodes of an arc the boundary is the interpolating polynomial, so it must be checked anew that the scaling
+// centre sees all of it: |J| = x y,eta - y x,eta > 0, x and y relative to the centre.
 #pragma once
 
 #include <string>

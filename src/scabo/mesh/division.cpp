@@ -67,7 +67,8 @@ BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
 }
 
 /// Pairs the elements of one contact.
-void pair_elements(const model::Contact& contact, const Interface& interface, const Mesh& mesh, PairedElements& paired) {
+void pair_elements(const model::Contact& contact, const Interface& interface, const Mesh& mesh,
+                   PairedElements& paired) {
   std::map<int, int> b_of, a_of;
   for (const ContactPair& pair : interface.pairs) {
     if (pair.node_a < 0 || pair.node_b < 0) return;  // one side is rigid and has no elements
@@ -83,14 +84,16 @@ void pair_elements(const model::Contact& contact, const Interface& interface, co
   std::vector<bool> met(elements(contact.b).size(), false);
   // One node alone is the end of the overlap; its element lies beyond.
   const auto lies_within = [](const LineElement& element, const std::map<int, int>& partners) {
-    return std::count_if(element.nodes.begin(), element.nodes.end(), [&](int node) { return partners.contains(node); }) > 1;
+    return std::count_if(element.nodes.begin(), element.nodes.end(),
+                         [&](int node) { return partners.contains(node); }) > 1;
   };
   for (std::size_t k = 0; k < elements(contact.a).size(); ++k) {
     const LineElement& element = elements(contact.a)[k];
     const EdgeElement on_a{contact.a.body, contact.a.index, static_cast<int>(k)};
     if (!lies_within(element, b_of)) continue;
     const auto first = b_of.find(element.nodes.front()), last = b_of.find(element.nodes.back());
-    const auto other = first == b_of.end() || last == b_of.end() ? of_b.end() : of_b.find({last->second, first->second});
+    const auto other =
+        first == b_of.end() || last == b_of.end() ? of_b.end() : of_b.find({last->second, first->second});
     if (other == of_b.end() ||
         elements(contact.b)[static_cast<std::size_t>(other->second)].nodes.size() != element.nodes.size()) {
       paired.alone.push_back(on_a);
@@ -146,7 +149,8 @@ int boundary_element(const BodyMesh& mesh, int edge, int element) {
   const Ends ends = ends_of(mesh.edges[static_cast<std::size_t>(edge)][static_cast<std::size_t>(element)]);
   const std::vector<LineElement>& boundary = mesh.super_elements.front().boundary;
   for (std::size_t e = 0; e < boundary.size(); ++e)
-    if (ends_of(boundary[e]) == ends || ends_of(boundary[e]) == Ends(ends.second, ends.first)) return static_cast<int>(e);
+    if (ends_of(boundary[e]) == ends || ends_of(boundary[e]) == Ends(ends.second, ends.first))
+      return static_cast<int>(e);
   return -1;
 }
 

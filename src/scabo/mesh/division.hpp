@@ -1,7 +1,7 @@
 // How boundaries are divided, as a value: what refinement changes from mesh to mesh.
 //
-// Elements of different length and order may follow each other: neighbours share only their end node, and every line element
-// brings its own order.
+// Elements of different length and order may follow each other: neighbours share only their end node, and every line
+// element brings its own order.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ Division uniform_division(const model::Model& model);
 /// make_mesh() (mesh.hpp) with super-elements divided as told.
 Mesh make_mesh(const model::Model& model, const Division& division);
 
-/// The same boundaries with elements of one order more, but for those `frozen` ([body][boundary element]; empty: none). Geometry
-/// is not changed: every displacement of the old elements is one of the new ones too.
+/// The same boundaries with elements of one order more, but for those `frozen` ([body][boundary element]; empty: none).
+/// Geometry is not changed: every displacement of the old elements is one of the new ones too.
 Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std::vector<bool>>& frozen);
 
 /// An element of an edge of a body.
@@ -39,7 +39,8 @@ struct EdgeElement {
 
 /// Elements of contact edges whose nodes are paired.
 struct PairedElements {
-  std::vector<std::array<EdgeElement, 2>> alike;  ///< elements that face each other node by node, run against each other
+  std::vector<std::array<EdgeElement, 2>>
+      alike;                       ///< elements that face each other node by node, run against each other
   std::vector<EdgeElement> alone;  ///< with paired nodes but no such element: division would part the pairs
 };
 PairedElements paired_elements(const model::Model& model, const Mesh& mesh);

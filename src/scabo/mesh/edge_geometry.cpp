@@ -53,8 +53,7 @@ bool encloses(const model::Outline& outline, const Vec2& point) {
       continue;
     }
     const model::Arc& arc = *edge.arc;
-    const int chords =
-        std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep) / (0.5 * std::numbers::pi))));
+    const int chords = std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep) / (0.5 * std::numbers::pi))));
     const bool in_circle = (point - arc.centre).norm() < arc.radius;
     const double side = std::copysign(1.0, arc.sweep);
     for (int k = 0; k < chords; ++k) {

@@ -64,8 +64,7 @@ class Matching {
     return encloses(body.outline, point) != body.outside;
   }
 
-  static ContactSide side_of(const model::Place& place, const model::Edge& edge,
-                             const std::vector<BodyMesh>& bodies) {
+  static ContactSide side_of(const model::Place& place, const model::Edge& edge, const std::vector<BodyMesh>& bodies) {
     const BodyMesh& mesh = bodies[place.body];
     return {edge, mesh.edges[place.index], mesh.nodes};
   }
@@ -73,14 +72,13 @@ class Matching {
   Diagnostic mistake(std::string message) const { return {contact_.source, std::move(message)}; }
 
   Diagnostic not_facing() const {
-    return mistake(fmt::format("{} and {} do not face each other: name the two edges that touch",
-                               contact_.a.text, contact_.b.text));
+    return mistake(fmt::format("{} and {} do not face each other: name the two edges that touch", contact_.a.text,
+                               contact_.b.text));
   }
 
   Diagnostic not_overlapping() const {
-    return mistake(
-        fmt::format("{} and {} do not lie over each other anywhere: move a body, or name other edges",
-                    contact_.a.text, contact_.b.text));
+    return mistake(fmt::format("{} and {} do not lie over each other anywhere: move a body, or name other edges",
+                               contact_.a.text, contact_.b.text));
   }
 
   std::optional<Diagnostic> pair_nodes() {
@@ -94,8 +92,7 @@ class Matching {
     };
     if (matching.lone) return not_matching(*matching.lone);
     // Bodies of one linear element each meet at the ends of their edges only; two corners alone are no edge.
-    const bool overlap =
-        matching.partners.size() > 1 || (some(Lie::face_to_face) && !matching.partners.empty());
+    const bool overlap = matching.partners.size() > 1 || (some(Lie::face_to_face) && !matching.partners.empty());
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
     partners_ = std::move(matching.partners);
@@ -142,8 +139,7 @@ class Matching {
       if (cosine <= pairing_cosine) feet[i] = foot;
     }
     if (!over) {
-      const auto& [elastic, rigid] =
-          a_is_rigid ? std::tie(contact_.b, contact_.a) : std::tie(contact_.a, contact_.b);
+      const auto& [elastic, rigid] = a_is_rigid ? std::tie(contact_.b, contact_.a) : std::tie(contact_.a, contact_.b);
       return mistake(
           fmt::format("no node of {} lies over the rigid {}: move a body, name other edges, or use "
                       "a smaller mesh size",
@@ -230,8 +226,7 @@ class Matching {
 
   void finish_gaps() {
     // Coordinates carry rounding errors: a touching interface gets gaps of exactly 0, also when it is turned.
-    const double rounding =
-        16.0 * std::numeric_limits<double>::epsilon() * largest_coordinate(interface_.pairs);
+    const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * largest_coordinate(interface_.pairs);
     for (ContactPair& pair : interface_.pairs) {
       const double gap = (pair.point_b - pair.point_a).dot(pair.normal);
       pair.gap = (std::abs(gap) <= rounding ? 0.0 : gap) + contact_.gap;

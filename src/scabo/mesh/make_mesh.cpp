@@ -29,16 +29,14 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
   if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {
-    return {{body.mesh.source,
-             fmt::format("with this body the model would have {:.3g} nodes, more than the {:.7g} "
-                         "allowed: use larger mesh sizes",
-                         nodes_before + nodes, most_nodes)}};
+    return {{body.mesh.source, fmt::format("with this body the model would have {:.3g} nodes, more than the {:.7g} "
+                                           "allowed: use larger mesh sizes",
+                                           nodes_before + nodes, most_nodes)}};
   }
   if (!(nodes <= most_nodes)) {
-    return {{body.mesh.source,
-             fmt::format("size {:.6g} would make {:.3g} nodes, more than the {:.7g} allowed: use "
-                         "a larger 'size'",
-                         body.mesh.size, nodes, most_nodes)}};
+    return {{body.mesh.source, fmt::format("size {:.6g} would make {:.3g} nodes, more than the {:.7g} allowed: use "
+                                           "a larger 'size'",
+                                           body.mesh.size, nodes, most_nodes)}};
   }
   return {};
 }
@@ -54,9 +52,11 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
     if (body.cracks.empty() || nodes.empty()) return;
     const int node = nodes_of(place, mesh).nodes.front();
     if (node != 0 && node + 1 != static_cast<int>(nodes.size())) return;
-    mistakes.push_back({source, fmt::format("the nearest node is the mouth of crack '{1}', where there are two: write {0}.{1}.mouth_left "
-                                            "or {0}.{1}.mouth_right",
-                                            body.name, body.cracks.front().name)});
+    mistakes.push_back(
+        {source,
+         fmt::format("the nearest node is the mouth of crack '{1}', where there are two: write {0}.{1}.mouth_left "
+                     "or {0}.{1}.mouth_right",
+                     body.name, body.cracks.front().name)});
   };
   for (const model::Support& support : model.supports) look(support.on, support.on.source);
   for (const model::Load& load : model.loads)
@@ -84,7 +84,7 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
     const model::Body& body = model.bodies[b];
     if (body.rigid || add(obstacles(body, nodes))) continue;
     const bool fem = body.mesh.kind == model::MeshKind::fem;
-    mesh.bodies[b] = fem                    ? divide_grid(body)
+    mesh.bodies[b] = fem                   ? divide_grid(body)
                      : division[b].empty() ? divide_boundary(body)
                                            : divide_boundary(body, division[b]);
     if (!fem) add(unseen_edges(body, mesh.bodies[b]));

@@ -16,8 +16,8 @@ struct LineElement {
   std::vector<int> nodes;
 };
 
-/// A super-element. Its boundary nodes are the body's nodes 0, 1, 2 ... counter-clockwise around the centre. Open, from side
-/// face to side face, where the last is not the first again; at a crack's mouth the two lie in the same place.
+/// A super-element. Its boundary nodes are the body's nodes 0, 1, 2 ... counter-clockwise around the centre. Open, from
+/// side face to side face, where the last is not the first again; at a crack's mouth the two lie in the same place.
 struct SuperElement {
   Vec2 centre = Vec2::Zero();         ///< scaling centre, sees the whole boundary
   std::vector<LineElement> boundary;  ///< counter-clockwise
@@ -29,12 +29,12 @@ using PlaneElement8 = std::array<int, 8>;
 /// The mesh of one elastic body; a rigid body has no nodes.
 struct BodyMesh {
   std::vector<Vec2> nodes;
-  std::vector<SuperElement> super_elements;     ///< one, or none for a FE mesh
-  std::vector<PlaneElement8> elements;          ///< of a FE mesh
-  /// For every edge of the outline, in its order and direction; none for a side face. Two elements beside a crack's mouth
-  /// have different nodes there.
+  std::vector<SuperElement> super_elements;  ///< one, or none for a FE mesh
+  std::vector<PlaneElement8> elements;       ///< of a FE mesh
+  /// For every edge of the outline, in its order and direction; none for a side face. Two elements beside a crack's
+  /// mouth have different nodes there.
   std::vector<std::vector<LineElement>> edges;
-  std::vector<int> corners;  ///< node of every corner of the outline; -1 at the scaling centre
+  std::vector<int> corners;    ///< node of every corner of the outline; -1 at the scaling centre
   std::vector<int> materials;  ///< of every boundary element, index into Model::materials; empty: the body's
 };
 

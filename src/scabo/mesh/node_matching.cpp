@@ -34,8 +34,7 @@ bool nodes_match(const ContactSide& a, int i, const ContactSide& b, int j) {
   // Between the normals of the two sides, as divided and as they were before?
   double low = 0.0;
   double high = 0.0;
-  for (const Vec2& normal :
-       {a.normals[i], a.true_normals[i], Vec2(-b.normals[j]), Vec2(-b.true_normals[j])}) {
+  for (const Vec2& normal : {a.normals[i], a.true_normals[i], Vec2(-b.normals[j]), Vec2(-b.true_normals[j])}) {
     const double slope = normal.dot(t) / normal.dot(n);
     low = std::min(low, slope);
     high = std::max(high, slope);
@@ -44,8 +43,8 @@ bool nodes_match(const ContactSide& a, int i, const ContactSide& b, int j) {
   if (least - tolerance <= along && along <= most + tolerance) return true;
 
   const bool curved = a.edge->arc || b.edge->arc;
-  return curved && std::abs(along) <= std::min(curved_tolerance * std::min(a.spacing, b.spacing),
-                                               curved_slope * std::abs(gap));
+  return curved &&
+         std::abs(along) <= std::min(curved_tolerance * std::min(a.spacing, b.spacing), curved_slope * std::abs(gap));
 }
 
 std::vector<Lie> lies_of(const ContactSide& side, const ContactSide& other) {
@@ -114,9 +113,9 @@ Partners partners_along(const ContactSide& a, const ContactSide& b, const std::a
 
 /// The first node of `side`, from its end or `backwards`, that should have a partner and has none, and of
 /// which it is so (`nearest_matches`) or not that it would match the nearest node.
-std::optional<int> first_alone(const ContactSide& side, const std::vector<Lie>& lies,
-                               const std::vector<bool>& paired, const ContactSide& other,
-                               const std::vector<int>& nearest, bool backwards, bool nearest_matches) {
+std::optional<int> first_alone(const ContactSide& side, const std::vector<Lie>& lies, const std::vector<bool>& paired,
+                               const ContactSide& other, const std::vector<int>& nearest, bool backwards,
+                               bool nearest_matches) {
   for (int k = 0; k < side.size(); ++k) {
     const int i = backwards ? side.size() - 1 - k : k;
     if (lies[i] != Lie::face_to_face || paired[i]) continue;

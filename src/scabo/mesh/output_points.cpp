@@ -63,17 +63,19 @@ bool between_side_faces(const model::Body& body, const Vec2& point, double slack
   const Vec2& centre = body.mesh.centre;
   const Vec2 x = point - centre,  // the ring is run from the face that arrives at the corner to the one that leaves it
       first = body.outline.edges[static_cast<std::size_t>((corner + count - 1) % count)].start - centre,
-      last = body.outline.edges[static_cast<std::size_t>(corner)].end - centre;
+             last = body.outline.edges[static_cast<std::size_t>(corner)].end - centre;
   const auto turn_to = [&](const Vec2& to) {
     const double turn = std::atan2(cross(first, to), first.dot(to));
     return turn < 0.0 ? turn + 2.0 * std::numbers::pi : turn;
   };
-  const auto on = [&](const Vec2& face) { return face.dot(x) >= 0.0 && std::abs(cross(face.normalized(), x)) <= slack; };
+  const auto on = [&](const Vec2& face) {
+    return face.dot(x) >= 0.0 && std::abs(cross(face.normalized(), x)) <= slack;
+  };
   return on(first) || on(last) || turn_to(x) <= turn_to(last);
 }
 
-/// Whether a point lies on the way from the scaling centre on a corner of an outside body to its hole's boundary: on the outline, but in
-/// the hole.
+/// Whether a point lies on the way from the scaling centre on a corner of an outside body to its hole's boundary: on
+/// the outline, but in the hole.
 bool before_side_faces(const model::Body& body, const Vec2& point, double slack) {
   const int corner = body.mesh.centre_corner;
   if (!body.outside || corner < 0) return false;
@@ -97,8 +99,8 @@ std::string coordinates_of(const Vec2& point) { return fmt::format("({:.9g}, {:.
 std::string lies_outside(const model::Model& model, const Vec2& point, int only) {
   if (only >= 0) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(only)];
-    return fmt::format("{} lies outside body '{}', {:.3g} away from it: move it, or leave out 'body'", coordinates_of(point),
-                       body.name, distance_to(body.outline, point));
+    return fmt::format("{} lies outside body '{}', {:.3g} away from it: move it, or leave out 'body'",
+                       coordinates_of(point), body.name, distance_to(body.outline, point));
   }
   const model::Body* nearest = nullptr;
   double least = std::numeric_limits<double>::max();
@@ -108,8 +110,8 @@ std::string lies_outside(const model::Model& model, const Vec2& point, int only)
     least = distance;
     nearest = &body;
   }
-  return fmt::format("{} lies outside every body; the nearest is '{}', {:.3g} away: move the point", coordinates_of(point),
-                     nearest->name, least);
+  return fmt::format("{} lies outside every body; the nearest is '{}', {:.3g} away: move the point",
+                     coordinates_of(point), nearest->name, least);
 }
 
 void add_line(const model::Model& model, const model::OutputLine& line, std::vector<OutputPoint>& points,
@@ -119,8 +121,8 @@ void add_line(const model::Model& model, const model::OutputLine& line, std::vec
     const Vec2 at = k + 1 == line.points ? line.to : Vec2(line.from + t * (line.to - line.from));
     const std::vector<int> bodies = bodies_at(model, at, line.body);
     if (bodies.empty()) {  // one message for a line
-      mistakes.push_back({line.source, fmt::format("point {} of '{}', {}", k + 1, line.name,
-                                                   lies_outside(model, at, line.body))});
+      mistakes.push_back(
+          {line.source, fmt::format("point {} of '{}', {}", k + 1, line.name, lies_outside(model, at, line.body))});
       return;
     }
     for (const int body : bodies) points.push_back({line.name, body, at, t * (line.to - line.from).norm()});
@@ -143,10 +145,13 @@ void add_grid(const model::Model& model, const model::OutputGrid& grid, std::vec
       if (grid.body < 0 ? !model.bodies[b].rigid : static_cast<int>(b) == grid.body) add(box, model.bodies[b].outline);
     std::array<double, 2> counts{};
     for (const int k : {0, 1})
-      counts[static_cast<std::size_t>(k)] = std::floor((box.high[k] - box.low[k]) / *grid.spacing * (1.0 + 1e-12)) + 1.0;
+      counts[static_cast<std::size_t>(k)] =
+          std::floor((box.high[k] - box.low[k]) / *grid.spacing * (1.0 + 1e-12)) + 1.0;
     if (!(counts[0] * counts[1] <= most_points)) {
-      mistakes.push_back({grid.source, fmt::format("a spacing of {:.6g} gives {:.3g} points, more than the {:.7g} allowed: "
-                                                   "use a larger one", *grid.spacing, counts[0] * counts[1], most_points)});
+      mistakes.push_back(
+          {grid.source, fmt::format("a spacing of {:.6g} gives {:.3g} points, more than the {:.7g} allowed: "
+                                    "use a larger one",
+                                    *grid.spacing, counts[0] * counts[1], most_points)});
       return;
     }
     for (const int k : {0, 1})
@@ -154,7 +159,8 @@ void add_grid(const model::Model& model, const model::OutputGrid& grid, std::vec
         axes[static_cast<std::size_t>(k)].push_back(box.low[k] + i * *grid.spacing);
   } else {
     for (const int k : {0, 1})
-      axes[static_cast<std::size_t>(k)] = coordinates(grid.low[k], grid.high[k], grid.counts[static_cast<std::size_t>(k)]);
+      axes[static_cast<std::size_t>(k)] =
+          coordinates(grid.low[k], grid.high[k], grid.counts[static_cast<std::size_t>(k)]);
   }
   for (const double y : axes[1])
     for (const double x : axes[0])

@@ -1,7 +1,7 @@
 // The points at which values are wanted (`output` of the model), each with a body that holds it.
 //
-// A body holds the points inside its outline and on it, arcs taken exactly, to 1e-9 of its size. A point on an edge where
-// two bodies touch belongs to both.
+// A body holds the points inside its outline and on it, arcs taken exactly, to 1e-9 of its size. A point on an edge
+// where two bodies touch belongs to both.
 #pragma once
 
 #include <string>

@@ -107,9 +107,7 @@ Vec2 direction_at(const Edge& edge, bool at_end) {
 }
 
 /// Curvature of an edge, positive where it turns left.
-double curvature(const Edge& edge) {
-  return edge.arc ? (edge.arc->sweep > 0.0 ? 1.0 : -1.0) / edge.arc->radius : 0.0;
-}
+double curvature(const Edge& edge) { return edge.arc ? (edge.arc->sweep > 0.0 ? 1.0 : -1.0) / edge.arc->radius : 0.0; }
 
 /// Whether `next`, which starts where `edge` ends, runs back over it. A cusp of two different curves does
 /// not.
@@ -138,8 +136,7 @@ std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double
     if (b_follows && (point - a.end).norm() <= near_corner) continue;
     if (a_follows && (point - b.end).norm() <= near_corner) continue;
     const double tolerance = 1e-9 * size;
-    if ((closest_on(a, point) - point).norm() <= tolerance &&
-        (closest_on(b, point) - point).norm() <= tolerance) {
+    if ((closest_on(a, point) - point).norm() <= tolerance && (closest_on(b, point) - point).norm() <= tolerance) {
       return Crossing{Crossing::Kind::cross, i, j, point};
     }
   }
@@ -182,8 +179,7 @@ std::optional<Crossing> find_crossing(const Outline& outline) {
     std::optional<Crossing> first;
     for (const int j : open) {
       const int other = 1 - axis;
-      if (box(j).low[other] > box(i).high[other] + margin ||
-          box(j).high[other] < box(i).low[other] - margin) {
+      if (box(j).low[other] > box(i).high[other] + margin || box(j).high[other] < box(i).low[other] - margin) {
         continue;
       }
       const auto crossing = crossing_of(outline, std::min(i, j), std::max(i, j), size);

@@ -22,7 +22,7 @@ enum class AnalysisType { static_, modal };
 
 struct Analysis {
   AnalysisType type = AnalysisType::static_;
-  int modes = 10;          ///< modal: how many of the lowest, rigid-body modes among them
+  int modes = 10;  ///< modal: how many of the lowest, rigid-body modes among them
   Plane plane = Plane::stress;
   double thickness = 1.0;  ///< length, > 0
 };
@@ -43,11 +43,12 @@ struct Anisotropic {
 /// Linear elastic: isotropic, or of a law of its own.
 struct Material {
   std::string name;
-  double young = 0.0;             ///< force / length^2, > 0
-  double poisson = 0.0;           ///< -1 < poisson < 0.5 (plane strain), <= 0.5 (plane stress)
+  double young = 0.0;    ///< force / length^2, > 0
+  double poisson = 0.0;  ///< -1 < poisson < 0.5 (plane strain), <= 0.5 (plane stress)
   std::optional<std::variant<Orthotropic, Anisotropic>> law;  ///< instead of young and poisson
   std::optional<double> density;  ///< mass / length^3, >= 0; needed for gravity and by a modal analysis
-  /// Free strain along axes 1, 2 and 3 (anisotropic: exx, eyy, gxy) per unit of temperature; only where a temperature acts.
+  /// Free strain along axes 1, 2 and 3 (anisotropic: exx, eyy, gxy) per unit of temperature; only where a temperature
+  /// acts.
   std::optional<std::array<double, 3>> expansion;
   Source source;
 };
@@ -97,8 +98,8 @@ struct MeshOptions {
   int order = 2;               ///< polynomial order of a boundary element, 1 to 16
   Vec2 centre = Vec2::Zero();  ///< scaling centre: given by the user, a crack's tip, or the centroid
   int centre_corner = -1;      ///< corner of the outline at the scaling centre, or -1: its two edges are side faces
-  /// Wanted of the estimated error in the energy norm, relative to the whole model's; `size` and `order` are then those to
-  /// begin with.
+  /// Wanted of the estimated error in the energy norm, relative to the whole model's; `size` and `order` are then those
+  /// to begin with.
   std::optional<double> tolerance;
   Source source;
 };
@@ -107,17 +108,17 @@ struct MeshOptions {
 struct Crack {
   std::string name;
   Vec2 tip = Vec2::Zero(), mouth = Vec2::Zero();
-  int edge = -1;   ///< of the mouth
-  double at = 0.0; ///< mouth = edge.at(at), 0 <= at < 1; 0: the corner where the edge begins
+  int edge = -1;    ///< of the mouth
+  double at = 0.0;  ///< mouth = edge.at(at), 0 <= at < 1; 0: the corner where the edge begins
   Source source;
 };
 
 struct Body {
   std::string name;
-  bool rigid = false;  ///< an obstacle or a punch: no material, no mesh
-  int material = -1;   ///< index into Model::materials; -1 for a rigid body
-  Outline outline;     ///< material on its left
-  MeshOptions mesh;    ///< unused for a rigid body
+  bool rigid = false;                 ///< an obstacle or a punch: no material, no mesh
+  int material = -1;                  ///< index into Model::materials; -1 for a rigid body
+  Outline outline;                    ///< material on its left
+  MeshOptions mesh;                   ///< unused for a rigid body
   std::vector<Crack> cracks;          ///< one at most
   std::vector<int> sector_materials;  ///< of the sector over every edge, index into Model::materials; empty: `material`
   bool outside = false;               ///< the material lies outside the shape, to infinity; the outline runs clockwise
@@ -169,7 +170,7 @@ struct Linear {
 /// Traction on a side face, in powers of xi: 0 at the scaling centre, 1 at the boundary.
 struct FaceTraction {
   struct Term {
-    double power = 0.0;  ///< > -1
+    double power = 0.0;         ///< > -1
     Vec2 value = Vec2::Zero();  ///< force / length^2; pressure: x against the outward normal, y unused
   };
   bool pressure = false;
@@ -194,20 +195,20 @@ struct FrictionPoint {
   double position = 0.0, friction = 0.0;
 };
 
-/// Unilateral contact between two edges; A is named first. Friction beside cohesion and tension, or one of bond and shear
-/// strength instead of all of them.
+/// Unilateral contact between two edges; A is named first. Friction beside cohesion and tension, or one of bond and
+/// shear strength instead of all of them.
 struct Contact {
   std::string name;
   Place a, b;
-  double friction = 0.0;  ///< coefficient, >= 0; static where there is a dynamic one
+  double friction = 0.0;                      ///< coefficient, >= 0; static where there is a dynamic one
   std::optional<double> dynamic_friction;     ///< coefficient, <= friction
   double slip_distance = 0.0;                 ///< length over which friction falls to the dynamic one; 0: at once
   std::vector<FrictionPoint> friction_along;  ///< instead of one coefficient; positions ascend
-  double cohesion = 0.0;                 ///< force / length^2, until first failure
-  double tension = 0.0;                  ///< tensile strength, force / length^2, until first failure
-  bool bond = false;                     ///< neither opens nor slips
-  std::optional<double> shear_strength;  ///< prescribed bound of friction (Tresca), force / length^2
-  double gap = 0.0;       ///< length, added to the geometric gap; negative: an interference fit
+  double cohesion = 0.0;                      ///< force / length^2, until first failure
+  double tension = 0.0;                       ///< tensile strength, force / length^2, until first failure
+  bool bond = false;                          ///< neither opens nor slips
+  std::optional<double> shear_strength;       ///< prescribed bound of friction (Tresca), force / length^2
+  double gap = 0.0;                           ///< length, added to the geometric gap; negative: an interference fit
   Source source;
 };
 
@@ -244,8 +245,8 @@ struct OutputLine {
   Source source;
 };
 
-/// The points of a rectangular grid that lie in bodies: `spacing` apart within the bodies' box, or counts[0] x counts[1]
-/// points from `low` to `high`.
+/// The points of a rectangular grid that lie in bodies: `spacing` apart within the bodies' box, or counts[0] x
+/// counts[1] points from `low` to `high`.
 struct OutputGrid {
   std::optional<double> spacing;  ///< > 0
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();
@@ -259,7 +260,7 @@ struct Output {
   std::vector<OutputPoint> points;
   std::vector<OutputLine> lines;
   std::optional<OutputGrid> grid;
-  bool error = false;  ///< estimate the error of every increment
+  bool error = false;              ///< estimate the error of every increment
   bool discrete_problems = false;  ///< the contact problem of every increment, as a file
 };
 

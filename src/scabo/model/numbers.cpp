@@ -49,21 +49,18 @@ std::string lower(std::string_view text) {
 /// What `text`, which is no number, was probably meant to be.
 std::string why_no_number(std::string_view text, std::size_t length) {
   std::string bare = lower(text);
-  bare.erase(
-      std::remove_if(bare.begin(), bare.end(), [](char c) { return c == '.' || c == '+' || c == '-'; }),
-      bare.end());
+  bare.erase(std::remove_if(bare.begin(), bare.end(), [](char c) { return c == '.' || c == '+' || c == '-'; }),
+             bare.end());
   if (bare == "nan" || bare == "inf" || bare == "infinity") {
     return fmt::format("must be a finite number, not '{}'", text);
   }
   const std::string_view rest = text.substr(length);
   if (length == 0 || rest.empty()) return fmt::format("must be a number, not '{}'", text);
-  const bool all_digits =
-      std::all_of(text.begin(), text.end(), [](char c) { return is_digit(c) || c == '_'; });
+  const bool all_digits = std::all_of(text.begin(), text.end(), [](char c) { return is_digit(c) || c == '_'; });
   if (rest[0] == '_' && all_digits) return fmt::format("'{}' is no number: write it without '_'", text);
   const auto after = rest.find_first_not_of(' ');
   if (after == std::string_view::npos) return fmt::format("must be a number, not '{}'", text);
-  if (rest.size() > 1 && rest[0] == ',' && number_length(rest.substr(1)) == rest.size() - 1 &&
-      is_digit(rest[1])) {
+  if (rest.size() > 1 && rest[0] == ',' && number_length(rest.substr(1)) == rest.size() - 1 && is_digit(rest[1])) {
     return fmt::format("'{}' is no number: write {}.{}, with a decimal point", text, text.substr(0, length),
                        rest.substr(1));
   }
@@ -75,8 +72,7 @@ std::string why_no_number(std::string_view text, std::size_t length) {
   if (std::isalpha(unit) != 0 || unit == '%' || unit >= 0x80) {
     return fmt::format("'{}' is no number: write the number without a unit, all in consistent units", text);
   }
-  if (rest[after] == '*' || rest[after] == '/' || rest[after] == '+' || rest[after] == '-' ||
-      rest[after] == '^') {
+  if (rest[after] == '*' || rest[after] == '/' || rest[after] == '+' || rest[after] == '-' || rest[after] == '^') {
     return fmt::format("'{}' is no number: write its result", text);
   }
   return fmt::format("must be a number, not '{}'", text);

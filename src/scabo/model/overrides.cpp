@@ -38,8 +38,7 @@ NodePtr mark_as_override(const NodePtr& node, const std::string& path) {
 /// Replaces one value; copies what lies on the way to it, since aliases share nodes.
 class Replacement {
  public:
-  Replacement(const Override& override, NodePtr value)
-      : keys_(split_path(override.path)), value_(std::move(value)) {}
+  Replacement(const Override& override, NodePtr value) : keys_(split_path(override.path)), value_(std::move(value)) {}
 
   /// The new tree; nothing, and why() says why, when the path does not lead anywhere.
   NodePtr in(const NodePtr& root) { return replace(root, 0, ""); }
@@ -79,8 +78,7 @@ class Replacement {
       copy->items[index] = inner;
       return copy;
     }
-    why_ =
-        path.empty() ? std::string("the model file is empty") : fmt::format("{} has nothing inside it", path);
+    why_ = path.empty() ? std::string("the model file is empty") : fmt::format("{} has nothing inside it", path);
     return nullptr;
   }
 
@@ -112,8 +110,8 @@ class Replacement {
 Override parse_override(std::string_view text) {
   const auto equals = text.find('=');
   const auto fail = [&](const std::string& why) {
-    refuse_file("--set", fmt::format("{} {}: write path=value, as in contacts.joint.friction=0.5",
-                                     quoted_name(text), why));
+    refuse_file("--set",
+                fmt::format("{} {}: write path=value, as in contacts.joint.friction=0.5", quoted_name(text), why));
   };
   if (equals == std::string_view::npos) fail("has no '='");
   Override result{std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};

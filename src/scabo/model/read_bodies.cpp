@@ -41,17 +41,18 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
 }
 
 /// Reports a scaling centre that does not see the whole boundary, with a better one where there is one.
-void check_centre(Reading& reading, const Source& at, const Outline& outline, const Vec2& centre,
-                  bool given, int corner, const Crack* crack) {
+void check_centre(Reading& reading, const Source& at, const Outline& outline, const Vec2& centre, bool given,
+                  int corner, const Crack* crack) {
   std::vector<int> unseen = unseen_edges(outline, centre);
   const int count = static_cast<int>(outline.edges.size());
   if (corner >= 0)  // side faces are not divided
     std::erase_if(unseen, [&](int e) { return e == corner || e == (corner + count - 1) % count; });
   if (unseen.empty()) return;
   if (crack != nullptr) {
-    reading.report.error(crack->source, fmt::format("the tip {} of crack '{}', the scaling centre, does not see {}: move the tip, or "
-                                                    "divide the body into several",
-                                                    point_text(centre), crack->name, edge_names(outline, unseen)));
+    reading.report.error(crack->source,
+                         fmt::format("the tip {} of crack '{}', the scaling centre, does not see {}: move the tip, or "
+                                     "divide the body into several",
+                                     point_text(centre), crack->name, edge_names(outline, unseen)));
     return;
   }
   const auto better = seeing_point(outline);
@@ -59,8 +60,7 @@ void check_centre(Reading& reading, const Source& at, const Outline& outline, co
       better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
                            given ? "use" : "give", better->x(), better->y())
              : "no point sees the whole boundary: divide the body into several bodies";
-  const std::string who =
-      fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
+  const std::string who = fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
   if (corner < 0 && !is_inside(outline, centre)) {
     reading.report.error(at, fmt::format("{} is not inside the body: {}", who, remedy));
   } else {
@@ -90,8 +90,7 @@ void check_side_faces(Reading& reading, const Value& at, const Outline& outline,
 std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance"},
-                      "{size: 0.1, order: 2}");
+  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance"}, "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
   if (const auto kind = map.get("kind")) {
@@ -127,7 +126,8 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   if (fem) map.refuse("centre", "a scaling centre belongs to a superelement: leave it out for fem");
   if (fem && crack != nullptr) report.error(crack->source, "a crack belongs to a superelement: leave it out for fem");
   if (outline != nullptr) mesh.centre = crack != nullptr ? crack->tip : outline->centroid();
-  if (crack != nullptr) map.refuse("centre", "the scaling centre of a body with a crack is the crack's tip: leave it out");
+  if (crack != nullptr)
+    map.refuse("centre", "the scaling centre of a body with a crack is the crack's tip: leave it out");
   const auto centre = fem ? std::nullopt : map.get("centre");
   if (centre) {
     const auto point = read_vector(report, *centre);
@@ -138,10 +138,10 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   const double dofs = estimated_dofs(*outline, mesh.kind, mesh.size, mesh.order);
   const double most = fem ? most_fem_dofs : most_superelement_dofs;
   if (dofs > most) {
-    report.error(size ? *size : value,
-                 fmt::format("gives {:.6g} degrees of freedom, {} take at most {:.6g}: use a larger size{}",
-                             dofs, fem ? "finite elements" : "one super-element can", most,
-                             fem ? "" : " or divide the body"));
+    report.error(
+        size ? *size : value,
+        fmt::format("gives {:.6g} degrees of freedom, {} take at most {:.6g}: use a larger size{}", dofs,
+                    fem ? "finite elements" : "one super-element can", most, fem ? "" : " or divide the body"));
     return {};
   }
   if (centre) {
@@ -160,17 +160,15 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   return mesh;
 }
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<int> read_material_name(Reading& reading, const Value& value) {
   const auto name = read_text(reading.report, value);
   if (!name || !reading.materials_known) return {};
   const auto found = std::find(reading.material_names.begin(), reading.material_names.end(), *name);
   if (found == reading.material_names.end()) {
-    reading.report.error(value, fmt::format("no material named {}{}", quoted_name(*name),
-                                            suggestion(*name, reading.material_names)));
+    reading.report.error(
+        value, fmt::format("no material named {}{}", quoted_name(*name), suggestion(*name, reading.material_names)));
     return {};
   }
   return reading.material_index[static_cast<std::size_t>(found - reading.material_names.begin())];
@@ -188,13 +186,15 @@ void read_outside(Reading& reading, const MapReader& map, Body& body, bool shape
   } else if (reference) {
     body.reference = read_vector(reading.report, *reference);
     if (body.reference && shape_known && is_inside(body.outline, *body.reference)) {
-      reading.report.error(*reference, fmt::format("{} lies in the hole, not in the body", point_text(*body.reference)));
+      reading.report.error(*reference,
+                           fmt::format("{} lies in the hole, not in the body", point_text(*body.reference)));
       body.reference.reset();
     }
   }
   if (!body.outside) return;
   map.refuse("cracks", "a body with outside: true has no cracks in this version");
-  if (body.mesh.kind == MeshKind::fem) map.refuse("outside", "finite elements do not reach to infinity: use superelement");
+  if (body.mesh.kind == MeshKind::fem)
+    map.refuse("outside", "finite elements do not reach to infinity: use superelement");
 }
 
 /// An outside body's outline runs the other way round: its material is on the left again.
@@ -208,9 +208,8 @@ void turn_outside(Body& body) {
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
-      report, entry.value,
-      {"material", "shape", "mesh", "rigid", "cracks", "sectors", "outside", "reference"}, body_example,
-      {{"file", "describe the body with shape"}, {"holes", "divide the body into bodies without holes"}});
+      report, entry.value, {"material", "shape", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
+      body_example, {{"file", "describe the body with shape"}, {"holes", "divide the body into bodies without holes"}});
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -231,23 +230,28 @@ void read_body(Reading& reading, const Entry& entry) {
       map.refuse(key, "a rigid body has neither material nor mesh: leave it out");
     }
   } else if (rigid) {  // otherwise nobody knows what it needs
-    if (const auto material = map.need("material"))
-      body.material = read_material_name(reading, *material).value_or(-1);
+    if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
     state.material = body.material >= 0;
     if (const auto cracks = map.get("cracks"); cracks && state.shape) {
       auto read = read_cracks(reading, *cracks, body);
-      if (read) body.cracks = std::move(*read);
-      else state.shape = false;
+      if (read)
+        body.cracks = std::move(*read);
+      else
+        state.shape = false;
     }
     if (const auto mesh = map.need("mesh")) {
       const auto options = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
                                      body.cracks.empty() ? nullptr : &body.cracks.front());
-      if (options) body.mesh = *options;
-      else if (mesh->node->kind == Node::Kind::map && mesh->node->find("centre")) state.shape = false;  // faces are not known
+      if (options)
+        body.mesh = *options;
+      else if (mesh->node->kind == Node::Kind::map && mesh->node->find("centre"))
+        state.shape = false;  // faces are not known
     }
     if (const auto sectors = map.get("sectors"); sectors && state.shape) {
-      if (body.mesh.kind == MeshKind::fem) map.refuse("sectors", "sectors belong to a superelement: leave them out for fem");
-      else body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
+      if (body.mesh.kind == MeshKind::fem)
+        map.refuse("sectors", "sectors belong to a superelement: leave them out for fem");
+      else
+        body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
     }
     read_outside(reading, map, body, state.shape);
     if (body.outside) {

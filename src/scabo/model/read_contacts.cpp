@@ -19,9 +19,10 @@ std::optional<Place> read_side(Reading& reading, const Value& value, int& body) 
   if (read.body >= 0) reading.state(read.body).touched = true;
   if (!read.place) return {};
   if (read.place->kind == Place::Kind::face) {
-    reading.report.error(value, fmt::format("'{}' is a side face, which is not divided: contact on it needs a body divided "
-                                            "into several, with the crack between them",
-                                            read.place->text));
+    reading.report.error(value,
+                         fmt::format("'{}' is a side face, which is not divided: contact on it needs a body divided "
+                                     "into several, with the crack between them",
+                                     read.place->text));
     return {};
   }
   for (const Crack& crack : reading.body(read.place->body).cracks)
@@ -31,10 +32,9 @@ std::optional<Place> read_side(Reading& reading, const Value& value, int& body) 
       return {};
     }
   if (read.place->kind != Place::Kind::edge) {
-    reading.report.error(
-        value, fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is "
-                           "none",
-                           read.place->text));
+    reading.report.error(value, fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is "
+                                            "none",
+                                            read.place->text));
     return {};
   }
   return read.place;
@@ -80,7 +80,8 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
   const auto between = between_value ? read_between(reading, *between_value) : std::nullopt;
   read_law(reading, map, contact);
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
-  if (contact.bond && map.has("gap")) map.refuse("gap", "a bonded contact holds its sides as they are at the start: leave it out");
+  if (contact.bond && map.has("gap"))
+    map.refuse("gap", "a bonded contact holds its sides as they are at the start: leave it out");
   if (report.count() > before || !between) return {};
   contact.a = between->first;
   contact.b = between->second;
@@ -91,8 +92,8 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
 
 void read_contacts(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
-  const auto entries = read_named(reading.report, value, "contacts",
-                                  "{joint: {between: [lower.top, upper.bottom], friction: 0.2}}");
+  const auto entries =
+      read_named(reading.report, value, "contacts", "{joint: {between: [lower.top, upper.bottom], friction: 0.2}}");
   if (reading.report.count() > before) reading.places_known = reading.conditions_known = false;
   std::map<std::array<int, 4>, std::string> pairs;
   for (const Entry& entry : entries) {
@@ -105,9 +106,8 @@ void read_contacts(Reading& reading, const Value& value) {
     if (pair[0] > pair[2]) pair = {pair[2], pair[3], pair[0], pair[1]};
     const auto [first, is_new] = pairs.emplace(pair, contact->name);
     if (!is_new) {
-      reading.report.error(
-          entry.key_source,
-          fmt::format("'{}' is between the same two edges already: remove one", first->second));
+      reading.report.error(entry.key_source,
+                           fmt::format("'{}' is between the same two edges already: remove one", first->second));
     }
     reading.model.contacts.push_back(std::move(*contact));
   }

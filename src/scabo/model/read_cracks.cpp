@@ -56,8 +56,8 @@ std::optional<int> edge_named(Reading& reading, const Value& value, const Body& 
     if (std::find(names.begin(), names.end(), name) != names.end()) return static_cast<int>(e);
     known.insert(known.end(), names.rbegin(), names.rend());
   }
-  reading.report.error(value, fmt::format("body '{}' has no edge named {}{}", body.name, quoted_name(name),
-                                          suggestion(name, known)));
+  reading.report.error(
+      value, fmt::format("body '{}' has no edge named {}{}", body.name, quoted_name(name), suggestion(name, known)));
   return {};
 }
 
@@ -78,12 +78,14 @@ std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Bod
   }
   const int count = static_cast<int>(body.outline.edges.size());
   const Edge& edge = body.outline.edges[static_cast<std::size_t>(found->edge)];
-  const double size = outline_size(body.outline), from_start = (edge.start - *point).norm(), from_end = (edge.end - *point).norm();
+  const double size = outline_size(body.outline), from_start = (edge.start - *point).norm(),
+               from_end = (edge.end - *point).norm();
   if (from_start <= 1e-9 * size) return OnEdge{found->edge, 0.0};
   if (from_end <= 1e-9 * size) return OnEdge{(found->edge + 1) % count, 0.0};
   if (std::min(from_start, from_end) < 1e-6 * size) {
-    reading.report.error(value, fmt::format("{} is not quite a corner of '{}': put the mouth on the corner, or farther from it",
-                                            point_text(*point), body.name));
+    reading.report.error(
+        value, fmt::format("{} is not quite a corner of '{}': put the mouth on the corner, or farther from it",
+                           point_text(*point), body.name));
     return {};
   }
   return found;
@@ -160,8 +162,9 @@ std::optional<std::vector<int>> read_sectors(Reading& reading, const Value& valu
       continue;
     }
     if (!told.insert(found).second) {
-      reading.report.error(entry.key_source, fmt::format("the sector over {} has a material already",
-                                                         shown_name(body.outline.edges[static_cast<std::size_t>(found)])));
+      reading.report.error(entry.key_source,
+                           fmt::format("the sector over {} has a material already",
+                                       shown_name(body.outline.edges[static_cast<std::size_t>(found)])));
       continue;
     }
     const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;

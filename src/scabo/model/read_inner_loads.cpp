@@ -1,11 +1,12 @@
 // Loads that act where nothing is divided: tractions on side faces, body forces, temperature.
+#include "scabo/model/read_inner_loads.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/model/numbers.hpp"
-#include "scabo/model/read_inner_loads.hpp"
 
 namespace scabo::model {
 
@@ -39,8 +40,10 @@ std::optional<std::vector<FaceTraction::Term>> read_powers(Reading& reading, con
     }
     FaceTraction::Term term{std::get<double>(power), Vec2::Zero()};
     if (!(term.power > -1.0 && term.power <= highest_power)) {
-      reading.report.error(key, fmt::format("a power of xi must be greater than -1 (its force is infinite otherwise) and at "
-                                            "most {}, not {}", highest_power, entry.key));
+      reading.report.error(key,
+                           fmt::format("a power of xi must be greater than -1 (its force is infinite otherwise) and at "
+                                       "most {}, not {}",
+                                       highest_power, entry.key));
       return {};
     }
     if (std::any_of(terms.begin(), terms.end(), [&](const auto& other) { return other.power == term.power; })) {
@@ -104,8 +107,9 @@ std::optional<std::vector<FaceTraction::Term>> read_points(Reading& reading, con
     Sample sample;
     const auto xi = read_number(reading.report, item.item(0));
     if (xi && !(*xi >= 0.0 && *xi <= 1.0))
-      reading.report.error(item.item(0), fmt::format("xi must be from 0 (the scaling centre) to 1 (the boundary), not {}",
-                                                     item.item(0).node->text));
+      reading.report.error(
+          item.item(0),
+          fmt::format("xi must be from 0 (the scaling centre) to 1 (the boundary), not {}", item.item(0).node->text));
     sample.xi = xi.value_or(0.0);
     for (std::size_t c = 1; c < size; ++c)
       sample.value[static_cast<Eigen::Index>(c - 1)] = read_number(reading.report, item.item(c)).value_or(0.0);

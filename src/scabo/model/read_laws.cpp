@@ -16,9 +16,10 @@ constexpr double largest_coefficient = 1e6;  // beyond, forces that balance drow
 double read_coefficient(Report& report, const Value& value) {
   const double friction = read_not_negative(report, value).value_or(0.0);
   if (friction <= largest_coefficient) return friction;
-  report.error(value, fmt::format("a coefficient of friction is at most 1e6, not {}: where nothing is to slip that is as good, "
-                                  "and 'bond: true' ties both sides",
-                                  number_text(friction)));
+  report.error(
+      value, fmt::format("a coefficient of friction is at most 1e6, not {}: where nothing is to slip that is as good, "
+                         "and 'bond: true' ties both sides",
+                         number_text(friction)));
   return 0.0;
 }
 
@@ -26,19 +27,16 @@ double read_coefficient(Report& report, const Value& value) {
 void read_along(Report& report, const Value& value, Contact& contact) {
   const auto items = read_list(report, value, "[[0, 0.3], [1, 0.5]]");
   if (!items) return;
-  if (items->empty())
-    report.error(value, "needs at least one [position, coefficient], as in [[0, 0.3], [1, 0.5]]");
+  if (items->empty()) report.error(value, "needs at least one [position, coefficient], as in [[0, 0.3], [1, 0.5]]");
   for (const Value& item : *items) {
     const auto point = read_vector(report, item);
     if (!point) continue;
     if (point->y() > largest_coefficient)
       report.error(item, fmt::format("a coefficient of friction is at most 1e6, not {}", number_text(point->y())));
     else if (point->x() < 0.0 || point->x() > 1.0)
-      report.error(
-          item, fmt::format("a position along the contact is from 0 to 1, not {}", number_text(point->x())));
+      report.error(item, fmt::format("a position along the contact is from 0 to 1, not {}", number_text(point->x())));
     else if (point->y() < 0.0)
-      report.error(
-          item, fmt::format("a coefficient of friction must be 0 or more, not {}", number_text(point->y())));
+      report.error(item, fmt::format("a coefficient of friction must be 0 or more, not {}", number_text(point->y())));
     else if (!contact.friction_along.empty() && point->x() <= contact.friction_along.back().position)
       report.error(item, "positions along the contact must ascend");
     else
@@ -81,13 +79,10 @@ void read_friction(Report& report, const Value& value, Contact& contact) {
 void read_law(Reading& reading, const MapReader& map, Contact& contact) {
   Report& report = reading.report;
   if (const auto friction = map.get("friction")) read_friction(report, *friction, contact);
-  if (const auto cohesion = map.get("cohesion"))
-    contact.cohesion = read_not_negative(report, *cohesion).value_or(0.0);
-  if (const auto tension = map.get("tension"))
-    contact.tension = read_not_negative(report, *tension).value_or(0.0);
+  if (const auto cohesion = map.get("cohesion")) contact.cohesion = read_not_negative(report, *cohesion).value_or(0.0);
+  if (const auto tension = map.get("tension")) contact.tension = read_not_negative(report, *tension).value_or(0.0);
   if (const auto bond = map.get("bond")) contact.bond = read_flag(report, *bond).value_or(false);
-  if (const auto strength = map.get("shear_strength"))
-    contact.shear_strength = read_not_negative(report, *strength);
+  if (const auto strength = map.get("shear_strength")) contact.shear_strength = read_not_negative(report, *strength);
 
   if (contact.bond)
     for (const char* other : {"friction", "cohesion", "tension", "shear_strength"})
@@ -95,8 +90,7 @@ void read_law(Reading& reading, const MapReader& map, Contact& contact) {
   if (!contact.bond && contact.shear_strength)
     for (const char* other : {"friction", "cohesion", "tension"})
       if (map.has(other))
-        map.refuse(other,
-                   "does not go with 'shear_strength', a bound without friction: leave one of them out");
+        map.refuse(other, "does not go with 'shear_strength', a bound without friction: leave one of them out");
   if (!contact.bond && contact.tension > 0.0 && contact.cohesion == 0.0)
     map.refuse("tension",
                "a joint that slips loses its tensile strength, and without 'cohesion' nothing keeps this one "

@@ -39,8 +39,9 @@ bool check_place(Reading& reading, const Value& on, const Place& place, const st
     if (place.kind != Place::Kind::body) {
       why = fmt::format("{} acts on a whole body: write on: {}", kind, body);
     } else if (rigid) {
-      why = fmt::format("'{}' is rigid: {}", body,
-                        kind == "temperature" ? "temperature does nothing to it" : "it has no weight, use a force on it");
+      why =
+          fmt::format("'{}' is rigid: {}", body,
+                      kind == "temperature" ? "temperature does nothing to it" : "it has no weight, use a force on it");
     } else if (outside) {
       why = fmt::format("'{}' reaches to infinity: loads act on its boundary only", body);
     } else if (kind != "gravity" && reading.body(place.body).mesh.kind == MeshKind::fem) {
@@ -73,7 +74,8 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
   if (kind == "temperature") return read_temperature(reading, value);
   if (on_face) return read_face_traction(reading, value, kind == "pressure");
   if ((kind == "traction" || kind == "pressure") && value.node->kind == Node::Kind::map) {
-    reading.report.error(value, fmt::format("powers and points of xi belong to side faces: on an edge, {} is constant", kind));
+    reading.report.error(value,
+                         fmt::format("powers and points of xi belong to side faces: on an edge, {} is constant", kind));
     return {};
   }
   if (kind == "pressure") {
@@ -91,9 +93,9 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
 std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(
-      report, entry.value, {"on", "force", "traction", "pressure", "gravity", "body_force", "temperature"}, load_example,
-      {{"moment", "use two opposite forces"}});
+  const MapReader map(report, entry.value,
+                      {"on", "force", "traction", "pressure", "gravity", "body_force", "temperature"}, load_example,
+                      {{"moment", "use two opposite forces"}});
   if (!map.is_map()) return {};
   Load load;
   load.name = entry.key;
@@ -103,9 +105,11 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
     if (map.has(kind)) kinds.emplace_back(kind);
   }
   if (kinds.size() > 1) {
-    report.error(entry.key_source,
-                 fmt::format("needs one of force, traction, pressure, gravity, body_force and temperature, not both {} and "
-                             "{}", kinds[0], kinds[1]));
+    report.error(
+        entry.key_source,
+        fmt::format("needs one of force, traction, pressure, gravity, body_force and temperature, not both {} and "
+                    "{}",
+                    kinds[0], kinds[1]));
     return {};
   }
   if (kinds.empty()) {
@@ -146,9 +150,8 @@ void read_loads(Reading& reading, const Value& value) {
        read_named(reading.report, value, "loads", "{tip: {on: upper.top_right, force: [0, -100e3]}}")) {
     reading.load_names.push_back(entry.key);
     if (reading.own_support_names.contains(entry.key)) {
-      reading.report.error(
-          entry.key_source,
-          fmt::format("a support is named '{}' as well: steps could mean either", entry.key));
+      reading.report.error(entry.key_source,
+                           fmt::format("a support is named '{}' as well: steps could mean either", entry.key));
     }
     if (auto load = read_load(reading, entry)) {
       reading.model.loads.push_back(std::move(*load));
@@ -168,13 +171,16 @@ void check_expansion(Reading& reading) {
       const Body& body = reading.model.bodies[i];
       if (body.material < 0 || body.outside || (load.on && load.on->body != static_cast<int>(i))) continue;
       if (!load.on && body.mesh.kind == MeshKind::fem)
-        reading.report.error(load.source, fmt::format("temperature is not available for finite elements, as in body '{}': name "
-                                                      "a body with 'on'", body.name));
+        reading.report.error(load.source,
+                             fmt::format("temperature is not available for finite elements, as in body '{}': name "
+                                         "a body with 'on'",
+                                         body.name));
       for (const int index : materials_of(body)) {
         const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
         if (material.expansion || !told.insert(index).second) continue;
-        reading.report.error(material.source, fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'",
-                                                          load.name, body.name));
+        reading.report.error(
+            material.source,
+            fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'", load.name, body.name));
       }
     }
   }
@@ -187,14 +193,15 @@ void check_density_of_modal_analysis(Reading& reading) {
   std::set<int> told;
   for (const Body& body : reading.model.bodies) {
     if (body.outside)
-      reading.report.error(body.source, "this body reaches to infinity and has no natural frequencies: leave it out of a modal analysis");
+      reading.report.error(
+          body.source,
+          "this body reaches to infinity and has no natural frequencies: leave it out of a modal analysis");
     if (body.material < 0 || body.outside) continue;
     for (const int index : materials_of(body)) {
       const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
       if (material.density.value_or(0.0) > 0.0 || !told.insert(index).second) continue;
-      reading.report.error(material.source,
-                           fmt::format("'density' {}: a modal analysis needs the mass of body '{}'",
-                                       material.density ? "is 0" : "is missing", body.name));
+      reading.report.error(material.source, fmt::format("'density' {}: a modal analysis needs the mass of body '{}'",
+                                                        material.density ? "is 0" : "is missing", body.name));
     }
   }
 }

@@ -17,8 +17,8 @@ std::optional<double> read_poisson(Reading& reading, const Value& value) {
   if (!poisson) return {};
   const bool strain = reading.model.analysis.plane == Plane::strain;
   if (*poisson > -1.0 && (*poisson < 0.5 || (!strain && *poisson == 0.5))) return poisson;
-  const char* range = strain ? "greater than -1 and less than 0.5 (plane strain)"
-                             : "greater than -1 and at most 0.5 (plane stress)";
+  const char* range =
+      strain ? "greater than -1 and less than 0.5 (plane strain)" : "greater than -1 and at most 0.5 (plane stress)";
   reading.report.error(value, fmt::format("must be {}, not {}{}", range, value.node->text,
                                           *poisson == 0.5 ? ": use 0.4999 for incompressible material" : ""));
   return {};
@@ -54,16 +54,19 @@ std::optional<Orthotropic> read_orthotropic(Reading& reading, const Value& value
   // The compliance is positive definite when its leading minors are.
   const double minor = 1.0 - o.nu12 * o.nu12 * o.E2 / o.E1;
   if (!(minor > 0.0)) {
-    reading.report.error(*map.get("nu12"), fmt::format("must be less than sqrt(E1 / E2) = {:.4g} in size, not {}: the elastic energy "
-                                                       "would be negative",
-                                                       std::sqrt(o.E1 / o.E2), map.get("nu12")->node->text));
+    reading.report.error(*map.get("nu12"),
+                         fmt::format("must be less than sqrt(E1 / E2) = {:.4g} in size, not {}: the elastic energy "
+                                     "would be negative",
+                                     std::sqrt(o.E1 / o.E2), map.get("nu12")->node->text));
     return {};
   }
   const double a = o.nu13 / o.E1, b = o.nu23 / o.E2, c = o.nu12 / o.E1;
-  const double determinant = (1.0 / o.E1) * (1.0 / (o.E2 * o.E3) - b * b) + c * (-c / o.E3 - a * b) - a * (c * b + a / o.E2);
+  const double determinant =
+      (1.0 / o.E1) * (1.0 / (o.E2 * o.E3) - b * b) + c * (-c / o.E3 - a * b) - a * (c * b + a / o.E2);
   if (!(determinant > 0.0) || !(o.nu13 * o.nu13 < o.E1 / o.E3) || !(o.nu23 * o.nu23 < o.E2 / o.E3)) {
-    reading.report.error(value, "E1, E2, E3, nu12, nu13 and nu23 do not belong together: the elastic energy would be negative "
-                                "for some strain; make Poisson's ratios smaller");
+    reading.report.error(value,
+                         "E1, E2, E3, nu12, nu13 and nu23 do not belong together: the elastic energy would be negative "
+                         "for some strain; make Poisson's ratios smaller");
     return {};
   }
   return o;
@@ -83,10 +86,13 @@ std::optional<Anisotropic> read_anisotropic(Reading& reading, const Value& value
   a.D26 = read_key(reading, map, "D26", false).value_or(0.0);
   if (reading.report.count() > before) return {};
   const double minor = a.D11 * a.D22 - a.D12 * a.D12;
-  const double determinant = a.D66 * minor - a.D16 * (a.D16 * a.D22 - a.D12 * a.D26) + a.D26 * (a.D16 * a.D12 - a.D11 * a.D26);
+  const double determinant =
+      a.D66 * minor - a.D16 * (a.D16 * a.D22 - a.D12 * a.D26) + a.D26 * (a.D16 * a.D12 - a.D11 * a.D26);
   if (!(minor > 1e-12 * a.D11 * a.D22) || !(determinant > 1e-12 * a.D66 * a.D11 * a.D22)) {
-    reading.report.error(value, "is not positive definite: the elastic energy would not be positive for some strain; make D12, D16 "
-                                "or D26 smaller");
+    reading.report.error(
+        value,
+        "is not positive definite: the elastic energy would not be positive for some strain; make D12, D16 "
+        "or D26 smaller");
     return {};
   }
   return a;
@@ -102,9 +108,10 @@ std::optional<std::array<double, 3>> read_expansion(Reading& reading, const Valu
   const auto items = read_list(reading.report, value, "[10e-6, 30e-6]");
   if (!items) return {};
   if (items->size() != 2 && items->size() != 3) {
-    reading.report.error(value, fmt::format("must be a number, or one for each axis of the material, [a1, a2] or [a1, a2, a3], not "
-                                            "a list of {}",
-                                            items->size()));
+    reading.report.error(
+        value, fmt::format("must be a number, or one for each axis of the material, [a1, a2] or [a1, a2, a3], not "
+                           "a list of {}",
+                           items->size()));
     return {};
   }
   std::array<double, 3> expansion{};
@@ -144,7 +151,8 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
   if (const auto value = map.get("expansion")) {
     material.expansion = read_expansion(reading, *value);
     // Of an anisotropic law the third is the shear strain.
-    if (anisotropic && material.expansion && (value->node->kind == Node::Kind::scalar || value->node->items.size() == 2))
+    if (anisotropic && material.expansion &&
+        (value->node->kind == Node::Kind::scalar || value->node->items.size() == 2))
       (*material.expansion)[2] = 0.0;
   }
   if (reading.report.count() > before) return {};
@@ -155,8 +163,7 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
 
 void read_materials(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
-  const auto entries =
-      read_named(reading.report, value, "materials", "{concrete: {young: 10e9, poisson: 0.3}}");
+  const auto entries = read_named(reading.report, value, "materials", "{concrete: {young: 10e9, poisson: 0.3}}");
   // A material whose name is no name is not in the list, but bodies may speak of it.
   if (reading.report.count() > before) reading.materials_known = false;
   for (const Entry& entry : entries) {

@@ -22,9 +22,9 @@ void read_analysis(Reading& reading, const Value& value) {
   bool type_known = true;
   if (const auto type = map.get("type")) {
     const std::string remedy = "write static";
-    const auto choice = read_choice(
-        reading.report, *type, {"static", "modal"},
-        {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}});
+    const auto choice =
+        read_choice(reading.report, *type, {"static", "modal"},
+                    {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}});
     if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
     type_known = choice.has_value();
   }
@@ -54,8 +54,7 @@ void read_solver(Reading& reading, const Value& value) {
     if (number && *number >= 1e-14 && *number <= 1e-3) {
       solver.tolerance = *number;
     } else if (number) {
-      reading.report.error(*tolerance,
-                           fmt::format("must be from 1e-14 to 1e-3, not {}", tolerance->node->text));
+      reading.report.error(*tolerance, fmt::format("must be from 1e-14 to 1e-3, not {}", tolerance->node->text));
     }
   }
   if (const auto iterations = map.get("iterations")) {
@@ -80,21 +79,20 @@ void check_version(Reading& reading, const MapReader& map) {
   if (!value) return;
   const auto version = read_number(reading.report, *value);
   if (version && *version != static_cast<double>(format_version)) {
-    reading.report.error(*value, fmt::format("this program reads format version {}, not {}", format_version,
-                                             value->node->text));
+    reading.report.error(
+        *value, fmt::format("this program reads format version {}, not {}", format_version, value->node->text));
   }
 }
 
 /// Reads all sections; each relies on those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts",
-                       "steps", "solver", "output"},
+                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "steps",
+                       "solver", "output"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) return;
   check_version(reading, map);
-  if (const auto title = map.get("title"))
-    reading.model.title = read_text(reading.report, *title).value_or("");
+  if (const auto title = map.get("title")) reading.model.title = read_text(reading.report, *title).value_or("");
   if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);
   if (const auto solver = map.get("solver")) read_solver(reading, *solver);
 
@@ -106,8 +104,7 @@ void read_sections(Reading& reading, const Value& root) {
     reading.bodies_known = false;
   }
   const auto& bodies = reading.model.bodies;
-  if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.rigid; }))
-    map.need("materials");
+  if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.rigid; })) map.need("materials");
 
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
@@ -131,7 +128,8 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   }
   if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.rigid; }))
     parts.emplace_back("rigid bodies");
-  if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.mesh.tolerance.has_value(); }))
+  if (std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.mesh.tolerance.has_value(); }))
     parts.emplace_back("tolerances of the mesh");
   if (!parts.empty()) {
     std::string list = parts.front();
@@ -192,11 +190,10 @@ void check_bodies_held(Reading& reading) {
     const Body& body = reading.model.bodies[i];
     const BodyState& state = reading.bodies[i];
     if (body.rigid && !state.touched) {
-      reading.report.error(body.source,
-                           fmt::format("rigid body '{}' is in no contact: it has no effect", body.name));
+      reading.report.error(body.source, fmt::format("rigid body '{}' is in no contact: it has no effect", body.name));
     } else if (!state.held && !state.touched) {
-      reading.report.error(
-          body.source, fmt::format("body '{}' has no support and no contact: nothing holds it", body.name));
+      reading.report.error(body.source,
+                           fmt::format("body '{}' has no support and no contact: nothing holds it", body.name));
     }
   }
 }

@@ -22,8 +22,7 @@ Override parse_override(std::string_view text);
 Model read_model(const std::string& file, const std::vector<Override>& overrides = {});
 
 /// The same from text; `file` is only used in messages.
-Model parse_model(std::string_view text, const std::string& file,
-                  const std::vector<Override>& overrides = {});
+Model parse_model(std::string_view text, const std::string& file, const std::vector<Override>& overrides = {});
 
 /// JSON Schema (draft 2020-12) of the model file, as printed by `scabo schema`.
 std::string_view model_schema();

@@ -116,8 +116,10 @@ void read_range(Reading& reading, const Value& value, double& first, double& las
   if (!low || !high || !points) return;
   first = *low, last = *high, count = static_cast<int>(*points);
   if (count > 1 && first == last)
-    reading.report.error(value, fmt::format("{} points in one place: give a last coordinate other than the first", count));
-  if (count == 1 && first != last) reading.report.error((*items)[2], "one point has no two ends: give 2 points or more");
+    reading.report.error(value,
+                         fmt::format("{} points in one place: give a last coordinate other than the first", count));
+  if (count == 1 && first != last)
+    reading.report.error((*items)[2], "one point has no two ends: give 2 points or more");
 }
 
 void read_grid(Reading& reading, const Value& value) {

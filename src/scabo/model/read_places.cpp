@@ -26,7 +26,8 @@ bool has_name(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Side face of a notch or corner that an edge is, 0 at the beginning of the boundary, 1 at its end; -1 for other edges.
+/// Side face of a notch or corner that an edge is, 0 at the beginning of the boundary, 1 at its end; -1 for other
+/// edges.
 int face_of_edge(const Body& body, int edge) {
   const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
   if (corner < 0) return -1;
@@ -48,8 +49,7 @@ void add_crack_places(const Crack& crack, std::vector<std::pair<std::string, Pla
   add(".mouth_right", Place::Kind::mouth, 0);
 }
 
-ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_view part,
-                    const std::string& text) {
+ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_view part, const std::string& text) {
   ReadPlace result{{}, body};
   if (!reading.state(body).shape) return result;
   const Outline& outline = reading.body(body).outline;
@@ -70,8 +70,12 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
   for (std::size_t i = 0; i < outline.edges.size(); ++i) {
     if (has_name(outline.edges[i].names, part)) {
       const int face = face_of_edge(reading.body(body), static_cast<int>(i));
-      result.place = Place{face >= 0 ? Place::Kind::face : Place::Kind::edge, body,
-                           face >= 0 ? face : static_cast<int>(i), Vec2::Zero(), text, value.source()};
+      result.place = Place{face >= 0 ? Place::Kind::face : Place::Kind::edge,
+                           body,
+                           face >= 0 ? face : static_cast<int>(i),
+                           Vec2::Zero(),
+                           text,
+                           value.source()};
       return result;
     }
     known.insert(known.end(), outline.edges[i].names.rbegin(), outline.edges[i].names.rend());
@@ -79,25 +83,26 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
   for (std::size_t i = 0; i < outline.corners.size(); ++i) {
     if (has_name(outline.corners[i].names, part)) {
       if (static_cast<int>(i) == reading.body(body).mesh.centre_corner) {
-        reading.report.error(value, fmt::format("'{}' is the scaling centre, which has no node: nothing can be put there", text));
+        reading.report.error(
+            value, fmt::format("'{}' is the scaling centre, which has no node: nothing can be put there", text));
         return result;
       }
       for (const Crack& crack : reading.body(body).cracks)
         if (crack.at == 0.0 && crack.edge == static_cast<int>(i)) {
-          reading.report.error(value, fmt::format("'{0}' is the mouth of crack '{1}', where there are two nodes: write {2}.{1}.mouth_left "
-                                                  "or {2}.{1}.mouth_right",
-                                                  text, crack.name, reading.body(body).name));
+          reading.report.error(
+              value,
+              fmt::format("'{0}' is the mouth of crack '{1}', where there are two nodes: write {2}.{1}.mouth_left "
+                          "or {2}.{1}.mouth_right",
+                          text, crack.name, reading.body(body).name));
           return result;
         }
-      result.place =
-          Place{Place::Kind::corner, body, static_cast<int>(i), Vec2::Zero(), text, value.source()};
+      result.place = Place{Place::Kind::corner, body, static_cast<int>(i), Vec2::Zero(), text, value.source()};
       return result;
     }
     known.insert(known.end(), outline.corners[i].names.rbegin(), outline.corners[i].names.rend());
   }
-  reading.report.error(value,
-                       fmt::format("body '{}' has no edge or corner named {}{}", reading.body(body).name,
-                                   quoted_name(part), suggestion(part, known)));
+  reading.report.error(value, fmt::format("body '{}' has no edge or corner named {}{}", reading.body(body).name,
+                                          quoted_name(part), suggestion(part, known)));
   return result;
 }
 
@@ -120,8 +125,8 @@ ReadPlace read_near(Reading& reading, const Value& value) {
   double distance = (outline.edges.front().start - *near).norm();
   for (const Edge& edge : outline.edges) distance = std::min(distance, (edge.at(0.5) - *near).norm());
   if (distance > 2.0 * outline_size(outline)) {
-    reading.report.error(*near_value, fmt::format("{} is not near '{}': farther away than its size",
-                                                  point_text(*near), *name));
+    reading.report.error(*near_value,
+                         fmt::format("{} is not near '{}': farther away than its size", point_text(*near), *name));
     return result;
   }
   const std::string text = fmt::format("{} near {}", *name, point_text(*near));
@@ -135,16 +140,14 @@ ReadPlace read_place(Reading& reading, const Value& value) {
   if (value.node->kind == Node::Kind::map) return read_near(reading, value);
   if (value.node->kind != Node::Kind::scalar) {
     reading.places_known = false;
-    reading.report.error(
-        value, fmt::format("must be a place, as in {}, not {}", place_example, describe(*value.node)));
+    reading.report.error(value, fmt::format("must be a place, as in {}, not {}", place_example, describe(*value.node)));
     return {};
   }
   const std::string& text = value.node->text;
   const auto dot = text.find('.');
   const auto body = read_body_name(reading, value, std::string_view(text).substr(0, dot));
   if (!body) return {};
-  if (dot != std::string::npos)
-    return read_part(reading, value, *body, std::string_view(text).substr(dot + 1), text);
+  if (dot != std::string::npos) return read_part(reading, value, *body, std::string_view(text).substr(dot + 1), text);
   return {Place{Place::Kind::body, *body, -1, Vec2::Zero(), text, value.source()}, *body};
 }
 

@@ -73,7 +73,9 @@ bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
     return false;
   }
   if (size < 1e-30 || size > 1e30) {
-    reading.report.error(at, fmt::format("is {:.2g} across, which no unit of length leads to: sizes from 1e-30 to 1e30 are known", size));
+    reading.report.error(
+        at,
+        fmt::format("is {:.2g} across, which no unit of length leads to: sizes from 1e-30 to 1e30 are known", size));
     return false;
   }
   if (farthest > 1e10 * size) {
@@ -84,8 +86,8 @@ bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
   }
   for (const Edge& edge : outline.edges) {
     if (edge.length() > 1e-9 * size) continue;
-    reading.report.error(edge.source, fmt::format("{} has no length: its ends are the same point {}",
-                                                  shown_name(edge), point_text(edge.start)));
+    reading.report.error(edge.source, fmt::format("{} has no length: its ends are the same point {}", shown_name(edge),
+                                                  point_text(edge.start)));
     return false;
   }
   return true;
@@ -104,10 +106,9 @@ bool finish_outline(Reading& reading, const Value& at, Outline& outline) {
     const Edge& first = outline.edges[static_cast<std::size_t>(crossing->first)];
     const Edge& second = outline.edges[static_cast<std::size_t>(crossing->second)];
     const bool folds = crossing->kind == Crossing::Kind::fold_back;
-    reading.report.error(
-        at, fmt::format("{} and {} {} {}: the outline must not {}", shown_name(first), shown_name(second),
-                        folds ? "run back over each other from" : "meet at", point_text(crossing->point),
-                        folds ? "fold" : "cross or touch itself"));
+    reading.report.error(at, fmt::format("{} and {} {} {}: the outline must not {}", shown_name(first),
+                                         shown_name(second), folds ? "run back over each other from" : "meet at",
+                                         point_text(crossing->point), folds ? "fold" : "cross or touch itself"));
     return false;
   }
   if (std::abs(area) <= 1e-12 * size * size) {
@@ -133,8 +134,8 @@ void read_names(Reading& reading, const Value& value, Outline& outline) {
     if (!text) continue;
     const auto owner = owners.find(*text);
     if (owner == owners.end()) {
-      reading.report.error(entry.value, fmt::format("no edge or corner named {}{}", quoted_name(*text),
-                                                    suggestion(*text, known)));
+      reading.report.error(entry.value,
+                           fmt::format("no edge or corner named {}{}", quoted_name(*text), suggestion(*text, known)));
     } else if (owners.contains(entry.key)) {
       reading.report.error(entry.key_source,
                            fmt::format("'{}' already names {}", entry.key, owners.at(entry.key)->front()));
@@ -184,10 +185,10 @@ std::optional<Outline> read_polygon(Reading& reading, const Value& value) {
   const auto items = read_list(reading.report, *vertices_value, "[[0, 0], [4, 0], [0, 3]]");
   if (!items) return {};
   if (items->size() < 3 || items->size() > most_edges) {
-    reading.report.error(
-        *vertices_value,
-        items->size() < 3 ? fmt::format("a polygon has three vertices or more, not {}", items->size())
-                          : fmt::format("{} vertices are too many: {} at most", items->size(), most_edges));
+    reading.report.error(*vertices_value,
+                         items->size() < 3
+                             ? fmt::format("a polygon has three vertices or more, not {}", items->size())
+                             : fmt::format("{} vertices are too many: {} at most", items->size(), most_edges));
     return {};
   }
   Outline outline;
@@ -235,9 +236,8 @@ std::optional<Piece> read_piece(Reading& reading, const Value& value) {
   Piece piece{value, {}, Vec2::Zero(), map.has("arc"), Vec2::Zero(), {}, true, {}};
   std::vector<std::string> keys{"from", "to"};
   if (piece.is_arc) keys.insert(keys.end(), {"centre", "direction"});
-  const MapReader ends(
-      report, *map.get(piece.is_arc ? "arc" : "line"), keys,
-      piece.is_arc ? "{from: [1, 0], to: [0, 1], centre: [0, 0]}" : "{from: [0, 0], to: [1, 0]}");
+  const MapReader ends(report, *map.get(piece.is_arc ? "arc" : "line"), keys,
+                       piece.is_arc ? "{from: [1, 0], to: [0, 1], centre: [0, 0]}" : "{from: [0, 0], to: [1, 0]}");
   if (const auto from = ends.get("from")) piece.from = read_vector(report, *from);
   if (const auto to = ends.need("to")) piece.to = read_vector(report, *to).value_or(Vec2::Zero());
   if (piece.is_arc) {
@@ -270,18 +270,16 @@ std::optional<Edge> make_edge(Reading& reading, const Piece& piece, const Vec2& 
   const double rb = (piece.to - piece.centre).norm();
   const double larger = std::max(ra, rb);
   if ((piece.to - start).norm() <= 1e-9 * larger) {
-    reading.report.error(piece.at,
-                         fmt::format("edge_{} is an arc that ends where it starts: write a full circle "
-                                     "as two arcs",
-                                     number));
+    reading.report.error(piece.at, fmt::format("edge_{} is an arc that ends where it starts: write a full circle "
+                                               "as two arcs",
+                                               number));
     return {};
   }
   if (std::abs(ra - rb) > 1e-6 * larger) {
-    reading.report.error(
-        piece.centre_source,
-        fmt::format("the ends of an arc must be equally far from its centre: from {} it is {:.9g}, "
-                    "to {} it is {:.9g}",
-                    point_text(start), ra, point_text(piece.to), rb));
+    reading.report.error(piece.centre_source,
+                         fmt::format("the ends of an arc must be equally far from its centre: from {} it is {:.9g}, "
+                                     "to {} it is {:.9g}",
+                                     point_text(start), ra, point_text(piece.to), rb));
     return {};
   }
   edge.arc = make_arc(start, piece.to, piece.centre, piece.counter_clockwise);
@@ -310,10 +308,9 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
   const auto items = read_list(reading.report, value, "[{line: {to: [1, 0]}}, ...]");
   if (!items) return {};
   if (items->size() < 2 || items->size() > most_edges) {
-    reading.report.error(value,
-                         items->size() < 2
-                             ? fmt::format("an outline has two pieces or more, not {}", items->size())
-                             : fmt::format("{} pieces are too many: {} at most", items->size(), most_edges));
+    reading.report.error(value, items->size() < 2
+                                    ? fmt::format("an outline has two pieces or more, not {}", items->size())
+                                    : fmt::format("{} pieces are too many: {} at most", items->size(), most_edges));
     return {};
   }
   std::vector<Piece> pieces;
@@ -347,31 +344,27 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
 
 }  // namespace
 
-const std::string& shown_name(const Edge& edge) {
-  return edge.names.size() > 1 ? edge.names[1] : edge.names[0];
-}
+const std::string& shown_name(const Edge& edge) { return edge.names.size() > 1 ? edge.names[1] : edge.names[0]; }
 
 std::string point_text(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
 
 std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"rectangle", "polygon", "outline", "names"}, shape_example,
-                      {{"holes", "divide the body into bodies without holes"},
-                       {"circle", "write it as an outline of two arcs"}});
+  const MapReader map(
+      reading.report, value, {"rectangle", "polygon", "outline", "names"}, shape_example,
+      {{"holes", "divide the body into bodies without holes"}, {"circle", "write it as an outline of two arcs"}});
   if (!map.is_map()) return {};
   const int kinds = int(map.has("rectangle")) + int(map.has("polygon")) + int(map.has("outline"));
   if (kinds != 1) {
     if (kinds > 1 || reading.report.count() == before) {
-      reading.report.error(value,
-                           fmt::format("exactly one of rectangle, polygon and outline is needed, not {}",
-                                       kinds == 0 ? "none" : std::to_string(kinds)));
+      reading.report.error(value, fmt::format("exactly one of rectangle, polygon and outline is needed, not {}",
+                                              kinds == 0 ? "none" : std::to_string(kinds)));
     }
     return {};
   }
   if (!map.has("outline")) {
-    map.refuse("names", map.has("polygon")
-                            ? "belongs inside polygon: {vertices: [...], names: {crest: edge_3}}"
-                            : "a rectangle has fixed names: use a polygon for others");
+    map.refuse("names", map.has("polygon") ? "belongs inside polygon: {vertices: [...], names: {crest: edge_3}}"
+                                           : "a rectangle has fixed names: use a polygon for others");
   }
   if (const auto rectangle = map.get("rectangle")) return read_rectangle(reading, *rectangle);
   if (const auto polygon = map.get("polygon")) return read_polygon(reading, *polygon);

@@ -39,8 +39,7 @@ void apply_everything(Step& step) {
 void set_factor(Reading& reading, Step& step, const MapEntry& entry, const Value& value, const Source& at) {
   const auto factor = read_number(reading.report, value);
   const auto& loads = reading.model.loads;
-  const auto load =
-      std::find_if(loads.begin(), loads.end(), [&](const Load& l) { return l.name == entry.key; });
+  const auto load = std::find_if(loads.begin(), loads.end(), [&](const Load& l) { return l.name == entry.key; });
   if (load != loads.end()) {
     if (factor) step.load_factors[static_cast<std::size_t>(load - loads.begin())] = *factor;
     return;
@@ -49,27 +48,26 @@ void set_factor(Reading& reading, Step& step, const MapEntry& entry, const Value
     const Support& support = reading.model.supports[i];
     if (!reading.support_is_named[i] || support.name != entry.key) continue;
     if (is_fixed(support)) {
-      reading.report.error(at,
-                           fmt::format("support '{}' stays where it is: a factor has no effect", entry.key));
+      reading.report.error(at, fmt::format("support '{}' stays where it is: a factor has no effect", entry.key));
     } else if (factor) {
       step.support_factors[i] = *factor;
     }
     return;
   }
   const auto& names = reading.load_names;
-  const bool broken = std::find(names.begin(), names.end(), entry.key) != names.end() ||
-                      reading.own_support_names.contains(entry.key);
+  const bool broken =
+      std::find(names.begin(), names.end(), entry.key) != names.end() || reading.own_support_names.contains(entry.key);
   if (broken) return;
   std::vector<std::string> known = names;
   known.insert(known.end(), reading.own_support_names.begin(), reading.own_support_names.end());
-  reading.report.error(at, fmt::format("no load or named support is called {}{}", quoted_name(entry.key),
-                                       suggestion(entry.key, known)));
+  reading.report.error(
+      at, fmt::format("no load or named support is called {}{}", quoted_name(entry.key), suggestion(entry.key, known)));
 }
 
 void read_factors(Reading& reading, Step& step, const Value& value) {
   if (value.node->kind != Node::Kind::map) {
-    reading.report.error(
-        value, fmt::format("must be a map of factors, as in {{tip: 1.0}}, not {}", describe(*value.node)));
+    reading.report.error(value,
+                         fmt::format("must be a map of factors, as in {{tip: 1.0}}, not {}", describe(*value.node)));
     return;
   }
   for (const MapEntry& entry : value.node->entries) {
@@ -93,8 +91,7 @@ Step read_step(Reading& reading, const Value& value, const Step& before, std::si
     if (text && check_name(reading.report, name->source(), *text)) step.name = *text;
   }
   if (const auto increments = map.get("increments")) {
-    step.increments =
-        static_cast<int>(read_integer(reading.report, *increments, 1, most_increments).value_or(1));
+    step.increments = static_cast<int>(read_integer(reading.report, *increments, 1, most_increments).value_or(1));
   }
   const auto loads = map.get("loads");
   if (!loads) {
@@ -140,20 +137,16 @@ void check_never_applied(Reading& reading) {
   const std::vector<Step>& steps = reading.model.steps;
   for (std::size_t i = 0; i < reading.model.loads.size(); ++i) {
     const Load& load = reading.model.loads[i];
-    if (std::all_of(steps.begin(), steps.end(),
-                    [&](const Step& step) { return step.load_factors[i] == 0.0; })) {
-      reading.report.error(load.source,
-                           fmt::format("load '{}' is never applied: name it in a step", load.name));
+    if (std::all_of(steps.begin(), steps.end(), [&](const Step& step) { return step.load_factors[i] == 0.0; })) {
+      reading.report.error(load.source, fmt::format("load '{}' is never applied: name it in a step", load.name));
     }
   }
   for (std::size_t i = 0; i < reading.model.supports.size(); ++i) {
     const Support& support = reading.model.supports[i];
-    if (std::all_of(steps.begin(), steps.end(),
-                    [&](const Step& step) { return step.support_factors[i] == 0.0; })) {
-      reading.report.error(support.source,
-                           fmt::format("the displacement of support '{}' is never applied: name it "
-                                       "in a step",
-                                       support.name));
+    if (std::all_of(steps.begin(), steps.end(), [&](const Step& step) { return step.support_factors[i] == 0.0; })) {
+      reading.report.error(support.source, fmt::format("the displacement of support '{}' is never applied: name it "
+                                                       "in a step",
+                                                       support.name));
     }
   }
 }

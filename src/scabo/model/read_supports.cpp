@@ -44,10 +44,10 @@ std::optional<Displacement> read_fix(Reading& reading, const Value& value) {
 std::optional<Displacement> read_displacement(Reading& reading, const Value& value) {
   const Node& node = *value.node;
   if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
-    reading.report.error(
-        value, fmt::format("must be [ux, uy], null where it is free, not {}",
-                           node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size())
-                                                             : describe(node)));
+    reading.report.error(value,
+                         fmt::format("must be [ux, uy], null where it is free, not {}",
+                                     node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size())
+                                                                       : describe(node)));
     return {};
   }
   Displacement displacement;
@@ -87,15 +87,15 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
   if (place.place && place.place->kind == Place::Kind::face) {
-    report.error(*on, fmt::format("'{}' is a side face, which is not divided: a support holds edges, corners and points",
-                                  place.place->text));
+    report.error(*on,
+                 fmt::format("'{}' is a side face, which is not divided: a support holds edges, corners and points",
+                             place.place->text));
     return {};
   }
   std::optional<Displacement> displacement;
   if (map.has("fix") == map.has("displacement")) {
     if (map.has("fix") || report.count() == before) {
-      report.error(value, map.has("fix") ? "needs one of fix and displacement, not both"
-                                         : "needs fix or displacement");
+      report.error(value, map.has("fix") ? "needs one of fix and displacement, not both" : "needs fix or displacement");
     }
   } else if (const auto fix = map.get("fix")) {
     displacement = read_fix(reading, *fix);
@@ -175,9 +175,7 @@ bool share_a_point(const Place& a, const Place& b, const Body& body) {
   return shared(smaller.index) || (smaller.kind == Place::Kind::edge && shared((smaller.index + 1) % corners));
 }
 
-std::string where(const Source& source) {
-  return source.line > 0 ? fmt::format("line {}", source.line) : source.path;
-}
+std::string where(const Source& source) { return source.line > 0 ? fmt::format("line {}", source.line) : source.path; }
 
 /// Reports two supports that move the same point differently in some step.
 void check_pair(Reading& reading, std::size_t first, std::size_t second) {
@@ -186,16 +184,13 @@ void check_pair(Reading& reading, std::size_t first, std::size_t second) {
   if (!share_a_point(a.on, b.on, reading.body(a.on.body))) return;
   for (std::size_t c = 0; c < 2; ++c) {
     if (!a.displacement[c] || !b.displacement[c]) continue;
-    const bool differ =
-        std::any_of(reading.model.steps.begin(), reading.model.steps.end(), [&](const Step& step) {
-          return *a.displacement[c] * step.support_factors[first] !=
-                 *b.displacement[c] * step.support_factors[second];
-        });
+    const bool differ = std::any_of(reading.model.steps.begin(), reading.model.steps.end(), [&](const Step& step) {
+      return *a.displacement[c] * step.support_factors[first] != *b.displacement[c] * step.support_factors[second];
+    });
     if (!differ) continue;
-    reading.report.error(b.source,
-                         fmt::format("prescribes another {} of {} than the support of {} in {}: they share "
-                                     "a point; remove one, or free the component there",
-                                     c == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
+    reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}: they share "
+                                               "a point; remove one, or free the component there",
+                                               c == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
     return;
   }
 }

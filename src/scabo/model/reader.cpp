@@ -33,9 +33,7 @@ Source source_of(const Node& node, const std::string& path) {
 
 Source Value::source() const { return source_of(*node, path); }
 
-Value Value::item(std::size_t index) const {
-  return {node->items[index], join_path(path, std::to_string(index))};
-}
+Value Value::item(std::size_t index) const { return {node->items[index], join_path(path, std::to_string(index))}; }
 
 void Report::error(const Source& at, std::string message) {
   ++count_;
@@ -107,10 +105,8 @@ std::optional<double> read_not_negative(Report& report, const Value& value) {
 std::optional<long> read_integer(Report& report, const Value& value, long least, long most) {
   const auto number = read_number(report, value);
   if (!number) return {};
-  if (std::floor(*number) != *number || *number < static_cast<double>(least) ||
-      *number > static_cast<double>(most)) {
-    report.error(value,
-                 fmt::format("must be a whole number from {} to {}, not {}", least, most, value.node->text));
+  if (std::floor(*number) != *number || *number < static_cast<double>(least) || *number > static_cast<double>(most)) {
+    report.error(value, fmt::format("must be a whole number from {} to {}, not {}", least, most, value.node->text));
     return {};
   }
   return static_cast<long>(*number);
@@ -146,8 +142,8 @@ std::optional<Vec2> read_vector(Report& report, const Value& value) {
   return Vec2(*x, *y);
 }
 
-std::optional<std::string> read_choice(Report& report, const Value& value,
-                                       const std::vector<std::string>& known, const Later& later) {
+std::optional<std::string> read_choice(Report& report, const Value& value, const std::vector<std::string>& known,
+                                       const Later& later) {
   auto text = read_text(report, value);
   if (!text) return {};
   if (std::find(known.begin(), known.end(), *text) != known.end()) return text;
@@ -190,14 +186,12 @@ Source source_of_key(const Value& map, const MapEntry& entry) {
 
 }  // namespace
 
-std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what,
-                              std::string_view example) {
+std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what, std::string_view example) {
   const Node& node = *value.node;
   std::vector<Entry> entries;
   if (node.kind == Node::Kind::null) return entries;
   if (node.kind != Node::Kind::map) {
-    report.error(value,
-                 fmt::format("must be a map of named {}, as in {}, not {}", what, example, describe(node)));
+    report.error(value, fmt::format("must be a map of named {}, as in {}, not {}", what, example, describe(node)));
     return entries;
   }
   for (const MapEntry& entry : node.entries) {
@@ -250,13 +244,11 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
     const auto colon = entry.key.find(':');
     if (entry.value->kind == Node::Kind::null && colon != std::string::npos) {
       broken_ = true;
-      report_.error(at,
-                    fmt::format("unknown key {}: a space belongs after the colon", quoted_name(entry.key)));
+      report_.error(at, fmt::format("unknown key {}: a space belongs after the colon", quoted_name(entry.key)));
       continue;
     }
     const std::string nearest = nearest_name(entry.key, absent);
-    const std::string hint =
-        nearest.empty() ? suggestion("", known) : fmt::format(" (did you mean '{}'?)", nearest);
+    const std::string hint = nearest.empty() ? suggestion("", known) : fmt::format(" (did you mean '{}'?)", nearest);
     if (nearest.empty()) broken_ = true;
     misspelt_.push_back(nearest);
     report_.error(at, fmt::format("unknown key {}{}", quoted_name(entry.key), hint));

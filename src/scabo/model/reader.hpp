@@ -64,14 +64,13 @@ std::optional<std::string> read_text(Report& report, const Value& value);
 std::optional<Vec2> read_vector(Report& report, const Value& value);
 /// One of `known`; those of `later` are not available in this version: their remedy is told.
 using Later = std::vector<std::pair<std::string, std::string>>;  // name, remedy
-std::optional<std::string> read_choice(Report& report, const Value& value,
-                                       const std::vector<std::string>& known, const Later& later = {});
+std::optional<std::string> read_choice(Report& report, const Value& value, const std::vector<std::string>& known,
+                                       const Later& later = {});
 /// Items of a list; nothing (with an error that shows `example`) when it is none.
 std::optional<std::vector<Value>> read_list(Report& report, const Value& value, std::string_view example);
 /// Entries of a map whose keys are names chosen by the user; those that are no names are reported and left
 /// out.
-std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what,
-                              std::string_view example);
+std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what, std::string_view example);
 
 /// Letters, digits, _ and -, no digit first. Places and paths separate names by dots.
 bool is_name(std::string_view text);

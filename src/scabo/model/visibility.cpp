@@ -69,8 +69,8 @@ std::vector<Vec2> kernel(const Outline& outline, double size) {
   constexpr int tangents = 32;
   const Vec2 origin = outline.edges.front().start;
   const double reach = 2.0 * size;
-  std::vector<Vec2> region{origin + Vec2(-reach, -reach), origin + Vec2(reach, -reach),
-                           origin + Vec2(reach, reach), origin + Vec2(-reach, reach)};
+  std::vector<Vec2> region{origin + Vec2(-reach, -reach), origin + Vec2(reach, -reach), origin + Vec2(reach, reach),
+                           origin + Vec2(-reach, reach)};
   for (const Edge& edge : outline.edges) {
     for (int k = 0; k <= (edge.arc ? tangents : 0) && !region.empty(); ++k) {
       Vec2 along = (edge.end - edge.start).normalized();

@@ -80,8 +80,7 @@ std::string clean_text(std::string_view text) {
 /// yaml-cpp's sentences, said for someone who writes a model.
 std::string explain(const std::string& message) {
   static const std::array<std::pair<const char*, const char*>, 13> known{{
-      {YAML::ErrorMsg::MAP_VALUE,
-       "a ':' cannot stand here: check the indentation, or quote a text with ': ' in it"},
+      {YAML::ErrorMsg::MAP_VALUE, "a ':' cannot stand here: check the indentation, or quote a text with ': ' in it"},
       {YAML::ErrorMsg::END_OF_MAP, "this line fits to no key above: check the indentation"},
       {YAML::ErrorMsg::END_OF_SEQ, "this line fits to no list above: check the indentation and the '- '"},
       {YAML::ErrorMsg::END_OF_MAP_FLOW, "the '{' before this is not closed, or a ',' is missing"},
@@ -128,8 +127,7 @@ class TreeBuilder : public YAML::EventHandler {
   /// The white space at the start of the line.
   std::string_view indentation(const YAML::Mark& mark) const {
     if (mark.line < 0 || mark.line >= static_cast<int>(line_starts_.size())) return {};
-    const std::string_view rest =
-        std::string_view(text_).substr(line_starts_[static_cast<std::size_t>(mark.line)]);
+    const std::string_view rest = std::string_view(text_).substr(line_starts_[static_cast<std::size_t>(mark.line)]);
     return rest.substr(0, rest.find_first_not_of(" \t"));
   }
 
@@ -198,8 +196,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
-    if (!tag.empty() && tag != "?" && tag != "!")
-      fail(mark, "tags ('!...') have no meaning here: leave it out");
+    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags ('!...') have no meaning here: leave it out");
   }
 
   void check_depth(const YAML::Mark& mark) const {
@@ -364,8 +361,7 @@ NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics, 
     const Position at = builder.position(error.mark);
     // What a tab breaks is reported further on, as a fault of the indentation.
     const bool tab = builder.indentation(error.mark).find('\t') != std::string_view::npos;
-    diagnostics.push_back(
-        {{at.line, at.column, ""}, explain(tab ? YAML::ErrorMsg::TAB_IN_INDENTATION : error.msg)});
+    diagnostics.push_back({{at.line, at.column, ""}, explain(tab ? YAML::ErrorMsg::TAB_IN_INDENTATION : error.msg)});
     return nullptr;
   }
   if (builder.root()) return builder.root();

@@ -49,8 +49,7 @@ struct YamlLimits {
 
 /// The tree of `text`; null node when it is empty. Mistakes are added to `diagnostics`; returns nothing when
 /// there is no tree to go on with.
-NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics,
-                   const YamlLimits& limits = {});
+NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics, const YamlLimits& limits = {});
 
 /// Throws the InputError of a file that is wrong as a whole.
 [[noreturn]] void refuse_file(const std::string& file, std::string message);

@@ -38,12 +38,11 @@ std::string contact_table_rows(const analysis::IncrementResult& increment) {
   for (const analysis::ContactResult& contact : increment.contacts) {
     const std::string name = csv_quoted(contact.name);
     for (const analysis::PairResult& pair : contact.pairs)
-      fmt::format_to(std::back_inserter(rows),
-                     FMT_COMPILE("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n"), increment.step,
-                     increment.increment, name, pair.pair, pair.position.x(), pair.position.y(), pair.gap,
-                     pair.slip, pair.normal_force, pair.tangential_force, pair.pressure, pair.shear,
-                     name_of(pair.state), pair.displacement_a.x(), pair.displacement_a.y(),
-                     pair.displacement_b.x(), pair.displacement_b.y());
+      fmt::format_to(std::back_inserter(rows), FMT_COMPILE("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n"),
+                     increment.step, increment.increment, name, pair.pair, pair.position.x(), pair.position.y(),
+                     pair.gap, pair.slip, pair.normal_force, pair.tangential_force, pair.pressure, pair.shear,
+                     name_of(pair.state), pair.displacement_a.x(), pair.displacement_a.y(), pair.displacement_b.x(),
+                     pair.displacement_b.y());
   }
   return fmt::to_string(rows);
 }

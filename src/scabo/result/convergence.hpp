@@ -27,8 +27,7 @@ struct ConvergenceCurve {
 /// An SVG picture that needs nothing else: residual (logarithmic) over iterations, the colours from the first
 /// curve to the last; red: not converged. Of more than 60 curves every n-th is drawn, and those that did not
 /// converge unless they are more than 60 themselves. Where there is a single curve, its stages are named.
-std::string convergence_plot(const std::vector<ConvergenceCurve>& curves, const std::string& title,
-                             double tolerance);
+std::string convergence_plot(const std::vector<ConvergenceCurve>& curves, const std::string& title, double tolerance);
 
 /// The same for a run.
 std::string convergence_plot(const analysis::StaticSolution& solution);

@@ -65,8 +65,7 @@ void replace_file(const std::filesystem::path& path, std::string_view content) {
   fail_to_write(path, error);
 }
 
-GrowingFile::GrowingFile(std::filesystem::path path)
-    : path_(std::move(path)), descriptor_(open_empty(path_)) {}
+GrowingFile::GrowingFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_empty(path_)) {}
 
 GrowingFile::~GrowingFile() { ::close(descriptor_); }
 

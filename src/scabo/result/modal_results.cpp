@@ -24,13 +24,19 @@ const std::string& body_name(const analysis::ModalResult& result, const analysis
   return result.structure.model.bodies[static_cast<std::size_t>(mode.body)].name;
 }
 
-std::string mass_cell(double mass, double total) { return fmt::format("{:.4g} ({:.1f} %)", mass, 100.0 * mass / total); }
+std::string mass_cell(double mass, double total) {
+  return fmt::format("{:.4g} ({:.1f} %)", mass, 100.0 * mass / total);
+}
 
 std::vector<std::pair<const char*, double>> stages(const analysis::ModalTiming& timing) {
-  return {{"read", timing.read},   {"mesh", timing.mesh},
-          {"super_elements", timing.super_elements}, {"mass", timing.mass},
-          {"eigenvalues", timing.eigenvalues},       {"recover", timing.recover},
-          {"write", timing.write}, {"total", timing.total}};
+  return {{"read", timing.read},
+          {"mesh", timing.mesh},
+          {"super_elements", timing.super_elements},
+          {"mass", timing.mass},
+          {"eigenvalues", timing.eigenvalues},
+          {"recover", timing.recover},
+          {"write", timing.write},
+          {"total", timing.total}};
 }
 
 std::string report_warnings(const analysis::ModalResult& result) {
@@ -64,7 +70,9 @@ std::string modal_summary_content(const analysis::ModalResult& result) {
   json["status"] = "solved";
   json["reason"] = nullptr;
   json["warnings"] = result.warnings;
-  json["model"] = {{"nodes", sizes.nodes}, {"dofs", sizes.dofs}, {"super_elements", sizes.super_elements},
+  json["model"] = {{"nodes", sizes.nodes},
+                   {"dofs", sizes.dofs},
+                   {"super_elements", sizes.super_elements},
                    {"contact_pairs", sizes.contact_pairs}};
   json["total_mass"] = result.total_mass;
   json["frequencies"] = Json::array();
@@ -88,7 +96,9 @@ std::string modal_summary_content(const analysis::ModalResult& result) {
 }
 
 void write_shapes(const std::filesystem::path& directory, analysis::ModalResult& result) {
-  const auto seconds_since = [](Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const auto seconds_since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
   FieldCollection collection(directory / "fields.pvd");
   Clock::time_point start = Clock::now();
   const Recovery recovery(result.structure);

@@ -14,8 +14,8 @@ std::string report_modes(const analysis::ModalResult& result);
 /// Content of summary.json.
 std::string modal_summary_content(const analysis::ModalResult& result);
 
-/// Writes the shapes into a directory that `prepare_directory` has made; adds the seconds it took to `result.timing`. Throws
-/// WriteError.
+/// Writes the shapes into a directory that `prepare_directory` has made; adds the seconds it took to `result.timing`.
+/// Throws WriteError.
 void write_shapes(const std::filesystem::path& directory, analysis::ModalResult& result);
 
 /// Writes log.txt and summary.json. Throws WriteError.

@@ -51,10 +51,10 @@ void append(fmt::memory_buffer& to, double value) { fmt::format_to(std::back_ins
 
 struct PointEvaluation::Body {
   int body = -1;
-  std::vector<std::size_t> rows;                       // in the list of all points
-  std::vector<element::ScaledPoint> places;            // of a super-element
-  std::vector<bool> infinite;                          // stress at the scaling centre
-  std::vector<element::PointOperator> operators;       // empty: not condensed
+  std::vector<std::size_t> rows;                  // in the list of all points
+  std::vector<element::ScaledPoint> places;       // of a super-element
+  std::vector<bool> infinite;                     // stress at the scaling centre
+  std::vector<element::PointOperator> operators;  // empty: not condensed
 };
 
 PointEvaluation::~PointEvaluation() = default;
@@ -82,13 +82,15 @@ PointEvaluation::PointEvaluation(const analysis::StaticSolution& solution, std::
         const bool infinite = x.norm() <= on_centre * size && singular_at_centre(super_element->modes());
         body.infinite.push_back(infinite);
         if (infinite)
-          warnings_.push_back(fmt::format("stress of body '{}' is infinite at ({:.6g}, {:.6g}), its scaling centre: '{}' has "
-                                          "no stress there",
-                                          solution.model.bodies[index].name, points_[row].at.x(), points_[row].at.y(),
-                                          points_[row].name));
+          warnings_.push_back(fmt::format(
+              "stress of body '{}' is infinite at ({:.6g}, {:.6g}), its scaling centre: '{}' has "
+              "no stress there",
+              solution.model.bodies[index].name, points_[row].at.x(), points_[row].at.y(), points_[row].name));
       }
-      const double bytes = 40.0 * static_cast<double>(super_element->solution.K.rows()) * static_cast<double>(body.rows.size());
-      if (!super_element->domain.unbounded && worth_condensing(body.rows.size(), increments) && bytes <= most_condensed_bytes)
+      const double bytes =
+          40.0 * static_cast<double>(super_element->solution.K.rows()) * static_cast<double>(body.rows.size());
+      if (!super_element->domain.unbounded && worth_condensing(body.rows.size(), increments) &&
+          bytes <= most_condensed_bytes)
         body.operators = element::PointCondensation(super_element->ring, super_element->solution)
                              .at(body.places, super_element->threads);
     }
@@ -131,8 +133,9 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
         material = super_element->sectors.material_of(element);
         elastic -= super_element->sectors.unit_strain_of(element) * temperature;
       }
-      result.stress_zz = element::stress_zz(result.values.stress, solution.model.materials[static_cast<std::size_t>(material)],
-                                            solution.model.analysis.plane, temperature);
+      result.stress_zz =
+          element::stress_zz(result.values.stress, solution.model.materials[static_cast<std::size_t>(material)],
+                             solution.model.analysis.plane, temperature);
       result.energy_density = 0.5 * result.values.stress.dot(elastic);
     }
   }
@@ -152,7 +155,7 @@ std::string_view file_of(PointTable table) {
 }
 
 std::string_view header_of(PointTable table) {
-#define SCABO_COLUMNS                                                                                              \
+#define SCABO_COLUMNS                                                                                               \
   "step,increment,name,body,x,y,ux,uy,stress_xx,stress_yy,stress_xy,stress_zz,principal_1,principal_2,principal_3," \
   "principal_angle,von_mises,energy_density"
   return table == PointTable::lines ? SCABO_COLUMNS ",distance\n" : SCABO_COLUMNS "\n";
@@ -165,8 +168,8 @@ bool wanted(const model::Output& output, PointTable table) {
                                       : output.grid.has_value();
 }
 
-std::string point_table_rows(PointTable table, const PointEvaluation& evaluation, const analysis::StaticSolution& solution,
-                             const analysis::IncrementResult& increment) {
+std::string point_table_rows(PointTable table, const PointEvaluation& evaluation,
+                             const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
   const std::vector<PointResult> results = evaluation.at(solution, increment);
   fmt::memory_buffer rows;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -174,14 +177,15 @@ std::string point_table_rows(PointTable table, const PointEvaluation& evaluation
     const PointResult& result = results[i];
     fmt::format_to(std::back_inserter(rows), "{},{},{},{}", increment.step, increment.increment, point.name,
                    solution.model.bodies[static_cast<std::size_t>(point.body)].name);
-    for (const double value : {point.at.x(), point.at.y(), result.values.displacement.x(), result.values.displacement.y()})
+    for (const double value :
+         {point.at.x(), point.at.y(), result.values.displacement.x(), result.values.displacement.y()})
       append(rows, value);
     if (result.has_stress) {
       const element::Vec3& stress = result.values.stress;
       const StressMeasures measures = stress_measures(stress, result.stress_zz);
-      for (const double value : {stress[0], stress[1], stress[2], result.stress_zz, measures.principal[0],
-                                 measures.principal[1], measures.principal[2], measures.angle, measures.von_mises,
-                                 result.energy_density})
+      for (const double value :
+           {stress[0], stress[1], stress[2], result.stress_zz, measures.principal[0], measures.principal[1],
+            measures.principal[2], measures.angle, measures.von_mises, result.energy_density})
         append(rows, value);
     } else {
       rows.append(std::string_view(",,,,,,,,,,"));

@@ -1,7 +1,7 @@
 // points.csv, lines.csv and grid.csv: values at points inside bodies after every increment (docs/results.md).
 //
-// Values are those of the semi-analytical solution (finite elements: of their shape functions). Where many increments are to come,
-// the points of a super-element are condensed to its boundary first (element/point_operator.hpp).
+// Values are those of the semi-analytical solution (finite elements: of their shape functions). Where many increments
+// are to come, the points of a super-element are condensed to its boundary first (element/point_operator.hpp).
 #pragma once
 
 #include <memory>
@@ -39,7 +39,8 @@ class PointEvaluation {
   PointEvaluation(PointEvaluation&&) noexcept;
 
   const std::vector<mesh::OutputPoint>& points() const { return points_; }
-  std::vector<PointResult> at(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) const;
+  std::vector<PointResult> at(const analysis::StaticSolution& solution,
+                              const analysis::IncrementResult& increment) const;
   /// Sentences about points that have no stress because it is infinite there.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -51,7 +52,7 @@ class PointEvaluation {
 };
 
 /// Lines of a table; numbers as short as they can be read back exactly, nothing where there is no value.
-std::string point_table_rows(PointTable table, const PointEvaluation& evaluation, const analysis::StaticSolution& solution,
-                             const analysis::IncrementResult& increment);
+std::string point_table_rows(PointTable table, const PointEvaluation& evaluation,
+                             const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
 
 }  // namespace scabo::result

@@ -16,8 +16,7 @@ bool inside(const model::Outline& outline, const Vec2& x) {
     Vec2 from = edge.start - x;
     for (int i = 1; i <= pieces; ++i) {
       const Vec2 to = edge.at(static_cast<double>(i) / pieces) - x;
-      if (from.dot(to) <= 0.0 && std::abs(cross(from, to)) <= 1e-12 * (to - from).squaredNorm())
-        return true;  // on it
+      if (from.dot(to) <= 0.0 && std::abs(cross(from, to)) <= 1e-12 * (to - from).squaredNorm()) return true;  // on it
       turn += std::atan2(cross(from, to), from.dot(to));
       from = to;
     }
@@ -56,8 +55,7 @@ std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const 
   element::Vector16 nodal;
   for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(static_cast<Eigen::Index>(2 * i)) = corners[i];
   const auto position = [&](const Vec2& at) {
-    return element::plane_element8_values(element::plane_element8_nodes, nodal, element::Mat3::Zero(), at.x(),
-                                          at.y())
+    return element::plane_element8_values(element::plane_element8_nodes, nodal, element::Mat3::Zero(), at.x(), at.y())
         .displacement;
   };
   Vec2 natural = Vec2::Zero();
@@ -76,7 +74,9 @@ std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const 
 }
 
 Probe::Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body)
-    : solution_(solution), body_(static_cast<std::size_t>(body)), u_(increment.displacements[body_]),
+    : solution_(solution),
+      body_(static_cast<std::size_t>(body)),
+      u_(increment.displacements[body_]),
       interior_(increment.interior[body_]) {
   const auto& super_element = solution.super_elements[body_];
   if (!super_element) return;
@@ -108,8 +108,8 @@ element::PointValues Probe::at(const Vec2& x, const element::ScaledPoint& place)
   const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
   const element::Vec3 free =
       super_element.sectors.unit_strain_of(static_cast<std::size_t>(place.element)) * interior_.temperature.at(x);
-  return element::point_values(super_element.ring, table_ ? table_->at(place.xi) : field_->at(place.xi), super_element.sectors.D,
-                               place.element, place.eta, free);
+  return element::point_values(super_element.ring, table_ ? table_->at(place.xi) : field_->at(place.xi),
+                               super_element.sectors.D, place.element, place.eta, free);
 }
 
 std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {
@@ -120,15 +120,14 @@ std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) con
     if (const auto natural = natural_coordinates(state.x, x))
       return element::plane_element8_values(
           state.x, state.u,
-          element::elasticity_matrix(solution_.model.materials[material], solution_.model.analysis.plane),
-          natural->x(), natural->y());
+          element::elasticity_matrix(solution_.model.materials[material], solution_.model.analysis.plane), natural->x(),
+          natural->y());
   }
   return std::nullopt;
 }
 
 std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
-                                             const analysis::IncrementResult& increment, int body,
-                                             const Vec2& x) {
+                                             const analysis::IncrementResult& increment, int body, const Vec2& x) {
   return Probe(solution, increment, body).at(x);
 }
 

@@ -42,8 +42,7 @@ class Probe {
 
 /// The same for a single point.
 std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
-                                             const analysis::IncrementResult& increment, int body,
-                                             const Vec2& x);
+                                             const analysis::IncrementResult& increment, int body, const Vec2& x);
 
 /// Corners and displacements of a finite element.
 struct FiniteElementState {

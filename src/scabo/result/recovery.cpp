@@ -15,8 +15,7 @@ namespace {
 
 constexpr int ring_count = 10, inner_rings = 6;
 
-double zz_of(const analysis::StaticSolution& solution, int material, const element::Vec3& stress,
-             double temperature) {
+double zz_of(const analysis::StaticSolution& solution, int material, const element::Vec3& stress, double temperature) {
   return element::stress_zz(stress, solution.model.materials[static_cast<std::size_t>(material)],
                             solution.model.analysis.plane, temperature);
 }
@@ -112,8 +111,7 @@ Eigen::Matrix3Xd ring_stresses(const analysis::SolvedSuperElement& super_element
 }
 
 void recover_super_element(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
-                           const analysis::IncrementResult& increment, std::size_t body,
-                           const RingSampling& sampling) {
+                           const analysis::IncrementResult& increment, std::size_t body, const RingSampling& sampling) {
   const analysis::SolvedSuperElement& super_element = *solution.super_elements[body];
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   const Vector& boundary = increment.displacements[body];
@@ -163,15 +161,15 @@ void recover_finite_elements(Fields& fields, std::size_t point, const analysis::
     const FiniteElementState state = finite_element_state(mesh, element, u);
     for (std::size_t i = 0; i < element.size(); ++i) {
       const Vec2& natural = element::plane_element8_nodes[i];
-      stresses.col(element[i]) +=
-          element::plane_element8_values(state.x, state.u, D, natural.x(), natural.y()).stress;
+      stresses.col(element[i]) += element::plane_element8_values(state.x, state.u, D, natural.x(), natural.y()).stress;
       ++elements_at[static_cast<std::size_t>(element[i])];
     }
   }
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
     const auto i = static_cast<Eigen::Index>(node);
     const element::Vec3 stress = stresses.col(i) / elements_at[node];
-    fields.set(point++, u.segment<2>(2 * i), stress, zz_of(solution, solution.model.bodies[body].material, stress, 0.0));
+    fields.set(point++, u.segment<2>(2 * i), stress,
+               zz_of(solution, solution.model.bodies[body].material, stress, 0.0));
   }
 }
 
@@ -255,8 +253,8 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
       element::StrainMatrices strain =
           element::strain_matrices(ring, element, basis.values(lobatto[i]), basis.derivatives(lobatto[i]));
       const int point = sampling.points[e][i];
-      sampling.samples.push_back({point, 1.0 / elements_at[static_cast<std::size_t>(point)], e,
-                                  std::move(strain.B1), std::move(strain.B2)});
+      sampling.samples.push_back(
+          {point, 1.0 / elements_at[static_cast<std::size_t>(point)], e, std::move(strain.B1), std::move(strain.B2)});
     }
   }
   sampling.levels = unbounded ? outer_ring_levels() : ring_levels(ring);
@@ -291,8 +289,7 @@ Recovery::Recovery(const analysis::StaticSolution& solution) {
   grid_.first_point.push_back(grid_.point_count());
 }
 
-Fields Recovery::fields(const analysis::StaticSolution& solution,
-                        const analysis::IncrementResult& increment) const {
+Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) const {
   ensure(increment.converged, "only converged increments have fields");
   ensure(increment.displacements.size() == bodies_.size() && increment.interior.size() == bodies_.size(),
          "an increment has displacements and interior loads of every body");
@@ -303,8 +300,8 @@ Fields Recovery::fields(const analysis::StaticSolution& solution,
       recover_super_element(fields, point, solution, increment, b, *super_element->sampling);
     } else if (const auto* rigid = std::get_if<RigidBody>(&bodies_[b])) {
       for (std::size_t i = 0; i < rigid->arms.size(); ++i)
-        fields.set(point + i, rigid_displacement(increment.displacements[b], rigid->arms[i]),
-                   element::Vec3::Zero(), 0.0);
+        fields.set(point + i, rigid_displacement(increment.displacements[b], rigid->arms[i]), element::Vec3::Zero(),
+                   0.0);
     } else {
       recover_finite_elements(fields, point, solution, increment, b);
     }

@@ -2,10 +2,10 @@
 //
 // A super-element is sampled on rings xi = const, at the boundary nodes of every ring, closer towards the
 // boundary. Both displacement and stress come from its semi-analytical solution u(xi) = xi^S u(1), strain =
-// B1 u,xi + 1/xi B2 u; where two boundary elements meet, the mean of both, and two points where their materials differ. At
-// a scaling centre where strains are infinite (a crack's tip), stress is not a number. An unbounded body is shown as far as
-// `farthest` radii. A FE body is given at its nodes,
-// stress as the mean over the elements of a node. A rigid body is its outline, moved, without stress.
+// B1 u,xi + 1/xi B2 u; where two boundary elements meet, the mean of both, and two points where their materials differ.
+// At a scaling centre where strains are infinite (a crack's tip), stress is not a number. An unbounded body is shown as
+// far as `farthest` radii. A FE body is given at its nodes, stress as the mean over the elements of a node. A rigid
+// body is its outline, moved, without stress.
 #pragma once
 
 #include <memory>
@@ -17,21 +17,21 @@
 
 namespace scabo::result {
 
-/// Strain matrices of a super-element at the points of a ring. They hold on every ring, and for all bodies that share the
-/// super-element.
+/// Strain matrices of a super-element at the points of a ring. They hold on every ring, and for all bodies that share
+/// the super-element.
 struct RingSampling {
   struct Sample {
-    int point = 0;         // of the ring, to which the strain belongs
-    double weight = 1.0;   // 1 / number of boundary elements that meet there
+    int point = 0;        // of the ring, to which the strain belongs
+    double weight = 1.0;  // 1 / number of boundary elements that meet there
     std::size_t element = 0;
     Eigen::Matrix<double, 3, Eigen::Dynamic> B1, B2;
   };
   std::vector<int> nodes;            ///< boundary node of every point: all in order, then again where materials meet
   std::vector<std::size_t> sectors;  ///< an element at every point, for its material
   std::vector<std::vector<int>> points;  ///< of every element, one for each of its nodes
-  std::vector<int> centre;           ///< of every element: which centre point, one for each run of elements of one material
+  std::vector<int> centre;  ///< of every element: which centre point, one for each run of elements of one material
   std::vector<Sample> samples;
-  std::vector<double> levels;        ///< xi of the rings, from the boundary (1) inwards; the centres come after them
+  std::vector<double> levels;  ///< xi of the rings, from the boundary (1) inwards; the centres come after them
 };
 RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded);
 

@@ -19,15 +19,13 @@ std::string count(int number, std::string_view noun) {
 
 const analysis::IncrementResult* last_converged(const analysis::StaticSolution& solution) {
   const auto& increments = solution.increments;
-  const auto found =
-      std::find_if(increments.rbegin(), increments.rend(), [](const auto& i) { return i.converged; });
+  const auto found = std::find_if(increments.rbegin(), increments.rend(), [](const auto& i) { return i.converged; });
   return found == increments.rend() ? nullptr : &*found;
 }
 
 std::string pairs_in_contact(const analysis::ContactResult& contact) {
   if (!contact.first_in_contact || !contact.last_in_contact) return "none";
-  if (*contact.first_in_contact == *contact.last_in_contact)
-    return fmt::format("P{}", *contact.first_in_contact);
+  if (*contact.first_in_contact == *contact.last_in_contact) return fmt::format("P{}", *contact.first_in_contact);
   return fmt::format("P{} to P{}", *contact.first_in_contact, *contact.last_in_contact);
 }
 
@@ -62,7 +60,8 @@ std::string report_header(const analysis::StaticSolution& solution) {
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
   text += ", " + count(sizes.contact_pairs, "contact pair") + '\n';
   for (const model::Contact& contact : model.contacts)
-    text += fmt::format("contact {}: {} on {}; {}\n", contact.name, contact.b.text, contact.a.text, describe_law(contact));
+    text +=
+        fmt::format("contact {}: {} on {}; {}\n", contact.name, contact.b.text, contact.a.text, describe_law(contact));
   return text + '\n' + report_passes(solution);
 }
 
@@ -128,15 +127,14 @@ std::string report_contacts(const analysis::IncrementResult& increment) {
   if (increment.contacts.empty()) return {};
   const bool breaks = std::any_of(increment.contacts.begin(), increment.contacts.end(),
                                   [](const auto& contact) { return contact.broken.has_value(); });
-  std::vector<std::vector<std::string>> rows = {{"contact", "normal force", "tangential force", "open",
-                                                 "stick", "slip", "in contact", "max pressure", "max gap"}};
+  std::vector<std::vector<std::string>> rows = {{"contact", "normal force", "tangential force", "open", "stick", "slip",
+                                                 "in contact", "max pressure", "max gap"}};
   if (breaks) rows.front().emplace_back("broken");
   for (const analysis::ContactResult& contact : increment.contacts) {
     rows.push_back({contact.name, fmt::format("{:.6g}", contact.normal_force),
                     fmt::format("{:.6g}", contact.tangential_force), fmt::format("{}", contact.open),
-                    fmt::format("{}", contact.stick), fmt::format("{}", contact.slip),
-                    pairs_in_contact(contact), fmt::format("{:.4g}", contact.max_pressure),
-                    fmt::format("{:.4g}", contact.max_gap)});
+                    fmt::format("{}", contact.stick), fmt::format("{}", contact.slip), pairs_in_contact(contact),
+                    fmt::format("{:.4g}", contact.max_pressure), fmt::format("{:.4g}", contact.max_gap)});
     if (breaks) rows.back().push_back(contact.broken ? fmt::format("{}", *contact.broken) : "-");
   }
   return table(rows);
@@ -153,8 +151,11 @@ std::string report_reactions(const model::Model& model, const analysis::Incremen
 
 std::string report_cracks(const analysis::IncrementResult& increment) {
   if (increment.cracks.empty()) return {};
-  const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string("-"); };
-  std::vector<std::vector<std::string>> rows = {{"crack", "kind", "K_I", "K_II", "T", "G", "J", "epsilon", "at length"}};
+  const auto number = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.6g}", *value) : std::string("-");
+  };
+  std::vector<std::vector<std::string>> rows = {
+      {"crack", "kind", "K_I", "K_II", "T", "G", "J", "epsilon", "at length"}};
   std::vector<std::vector<std::string>> corners = {{"corner", "K_tt", "K_rt", "at distance", "singular exponents"}};
   for (const analysis::CrackResult& crack : increment.cracks) {
     const element::StressIntensity& f = crack.factors;
@@ -163,7 +164,8 @@ std::string report_cracks(const analysis::IncrementResult& increment) {
       for (const element::CornerTerm& term : f.terms) {
         for (const auto& value : term.exponents)
           exponents += (exponents.empty() ? "" : ", ") +
-                       (value.imag() == 0.0 ? fmt::format("{:.6g}", value.real()) : fmt::format("{:.6g}{:+.6g}i", value.real(), value.imag()));
+                       (value.imag() == 0.0 ? fmt::format("{:.6g}", value.real())
+                                            : fmt::format("{:.6g}{:+.6g}i", value.real(), value.imag()));
         if (term.defective) exponents += " (power-logarithmic)";
       }
       corners.push_back({crack.name, fmt::format("{:.6g}", f.K_I), fmt::format("{:.6g}", f.K_II),
@@ -171,9 +173,10 @@ std::string report_cracks(const analysis::IncrementResult& increment) {
       continue;
     }
     const bool interface = f.kind == element::CornerKind::interface_crack;
-    rows.push_back({crack.name, interface ? "interface" : "crack", fmt::format("{:.6g}", f.K_I), fmt::format("{:.6g}", f.K_II),
-                    interface ? number(f.T_left) + ", " + number(f.T_right) : number(f.T_left), number(f.G), number(f.J),
-                    interface ? fmt::format("{:.6g}", f.epsilon) : "-",
+    rows.push_back({crack.name, interface ? "interface" : "crack", fmt::format("{:.6g}", f.K_I),
+                    fmt::format("{:.6g}", f.K_II),
+                    interface ? number(f.T_left) + ", " + number(f.T_right) : number(f.T_left), number(f.G),
+                    number(f.J), interface ? fmt::format("{:.6g}", f.epsilon) : "-",
                     interface ? fmt::format("{:.6g}", f.reference_length) : "-"});
   }
   return (rows.size() > 1 ? table(rows) : "") + (corners.size() > 1 ? table(corners) : "");
@@ -186,16 +189,11 @@ std::string report_warnings(const analysis::StaticSolution& solution) {
 }
 
 std::string report_timing(const analysis::Timing& timing) {
-  const std::pair<const char*, double> stages[] = {{"read", timing.read},
-                                                   {"mesh", timing.mesh},
-                                                   {"super-elements", timing.super_elements},
-                                                   {"assemble", timing.assemble},
-                                                   {"factorise", timing.factorise},
-                                                   {"condense", timing.condense},
-                                                   {"newton", timing.newton},
-                                                   {"recover", timing.recover},
-                                                   {"write", timing.write},
-                                                   {"total", timing.total}};
+  const std::pair<const char*, double> stages[] = {
+      {"read", timing.read},         {"mesh", timing.mesh},           {"super-elements", timing.super_elements},
+      {"assemble", timing.assemble}, {"factorise", timing.factorise}, {"condense", timing.condense},
+      {"newton", timing.newton},     {"recover", timing.recover},     {"write", timing.write},
+      {"total", timing.total}};
   std::vector<std::vector<std::string>> rows = {{"stage", "seconds"}};
   for (const auto& [name, seconds] : stages) rows.push_back({name, fmt::format("{:.4f}", seconds)});
   std::string text = table(rows);

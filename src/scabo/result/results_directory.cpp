@@ -67,15 +67,17 @@ void create(const fs::path& path) {
 void add_old_problems(const fs::path& path, std::vector<fs::path>& old) {
   std::error_code error;
   const auto refuse = [&](const std::string& name) {
-    throw WriteError("cannot write results to", path.parent_path(),
-                     fmt::format("Scabo did not write the problems/{} there: move it, or choose another directory", name));
+    throw WriteError(
+        "cannot write results to", path.parent_path(),
+        fmt::format("Scabo did not write the problems/{} there: move it, or choose another directory", name));
   };
   if (!fs::exists(path, error)) return;
   if (!fs::is_directory(path, error)) refuse("");
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     if (entry->path().extension() != ".hdf5") continue;
     std::string beginning(4096, '\0');
-    std::ifstream(entry->path(), std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    std::ifstream(entry->path(), std::ios::binary)
+        .read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
     if (entry->is_directory(error) || !beginning.starts_with("\x89HDF") || beginning.find("scabo") == std::string::npos)
       refuse(entry->path().filename().string());
     old.push_back(entry->path());
@@ -139,8 +141,7 @@ ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model) : p
   next_summary_ = Clock::now() + between_summaries;
 }
 
-void ResultsDirectory::add(const analysis::StaticSolution& solution,
-                           const analysis::IncrementResult& increment) {
+void ResultsDirectory::add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
   if (increment.converged) {
     std::optional<Fields> fields;
     {
@@ -164,7 +165,8 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution,
   if (Clock::now() >= next_summary_) write_running_summary(solution);
 }
 
-std::filesystem::path ResultsDirectory::problem_file(const analysis::IncrementResult& increment, std::size_t attempt) const {
+std::filesystem::path ResultsDirectory::problem_file(const analysis::IncrementResult& increment,
+                                                     std::size_t attempt) const {
   const fs::path folder = path_ / problems_name;
   std::error_code error;
   fs::create_directories(folder, error);

@@ -37,13 +37,14 @@ class ResultsDirectory {
   /// only the caller knows: read and total. Throws WriteError.
   void finish(const analysis::StaticSolution& solution);
 
-  /// Where the discrete problem of attempt `attempt` (from 0) of an increment goes: problems/STEP_INCREMENT.hdf5 for the last
-  /// attempt, problems/STEP_INCREMENT.attempt_1.hdf5 and so on for those before it. Creates the directory. Throws WriteError.
+  /// Where the discrete problem of attempt `attempt` (from 0) of an increment goes: problems/STEP_INCREMENT.hdf5 for
+  /// the last attempt, problems/STEP_INCREMENT.attempt_1.hdf5 and so on for those before it. Creates the directory.
+  /// Throws WriteError.
   std::filesystem::path problem_file(const analysis::IncrementResult& increment, std::size_t attempt) const;
 
   const std::vector<std::string>& warnings() const { return warnings_; }  ///< about what was written
-  double recover_seconds() const { return recover_seconds_; }  ///< for interior fields
-  double write_seconds() const { return write_seconds_; }      ///< for files
+  double recover_seconds() const { return recover_seconds_; }             ///< for interior fields
+  double write_seconds() const { return write_seconds_; }                 ///< for files
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -15,8 +15,7 @@ StressMeasures stress_measures(const element::Vec3& stress, double zz) {
   const double s2 = std::max(std::min(larger, zz), smaller);
   measures.principal = {s1, s2, s3};
   measures.angle = 0.5 * std::atan2(stress[2] + 0.0, half_difference + 0.0);  // + 0.0: no direction of -0
-  measures.von_mises =
-      std::sqrt(0.5 * ((s1 - s2) * (s1 - s2) + (s2 - s3) * (s2 - s3) + (s3 - s1) * (s3 - s1)));
+  measures.von_mises = std::sqrt(0.5 * ((s1 - s2) * (s1 - s2) + (s2 - s3) * (s2 - s3) + (s3 - s1) * (s3 - s1)));
   return measures;
 }
 

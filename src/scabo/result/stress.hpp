@@ -10,10 +10,8 @@ namespace scabo::result {
 
 /// Measures of the stress [xx, yy, xy] with the out-of-plane stress zz.
 struct StressMeasures {
-  std::array<double, 3>
-      principal{};  ///< of all three dimensions, descending: the first is the largest tension
-  double angle =
-      0.0;  ///< radians from x, -pi/2 to pi/2: direction of the larger principal stress in the plane
+  std::array<double, 3> principal{};  ///< of all three dimensions, descending: the first is the largest tension
+  double angle = 0.0;      ///< radians from x, -pi/2 to pi/2: direction of the larger principal stress in the plane
   double von_mises = 0.0;  ///< sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2) / 2)
 };
 

@@ -23,14 +23,14 @@ Json value_or_null(const std::optional<Value>& value) {
 
 Json json_of(const analysis::ContactResult& contact) {
   Json json = {{"normal_force", number_or_null(contact.normal_force)},
-          {"tangential_force", number_or_null(contact.tangential_force)},
-          {"open", contact.open},
-          {"stick", contact.stick},
-          {"slip", contact.slip},
-          {"max_gap", number_or_null(contact.max_gap)},
-          {"max_pressure", number_or_null(contact.max_pressure)},
-          {"first_pair_in_contact", value_or_null(contact.first_in_contact)},
-          {"last_pair_in_contact", value_or_null(contact.last_in_contact)}};
+               {"tangential_force", number_or_null(contact.tangential_force)},
+               {"open", contact.open},
+               {"stick", contact.stick},
+               {"slip", contact.slip},
+               {"max_gap", number_or_null(contact.max_gap)},
+               {"max_pressure", number_or_null(contact.max_pressure)},
+               {"first_pair_in_contact", value_or_null(contact.first_in_contact)},
+               {"last_pair_in_contact", value_or_null(contact.last_in_contact)}};
   if (contact.broken) json["broken"] = *contact.broken;
   return json;
 }
@@ -61,7 +61,8 @@ Json json_of(const analysis::Energy& energy) {
 
 Json json_of(const std::vector<std::complex<double>>& exponents) {
   Json list = Json::array();
-  for (const std::complex<double>& value : exponents) list.push_back({number_or_null(value.real()), number_or_null(value.imag())});
+  for (const std::complex<double>& value : exponents)
+    list.push_back({number_or_null(value.real()), number_or_null(value.imag())});
   return list;
 }
 
@@ -77,7 +78,8 @@ Json json_of(const element::CornerTerm& term) {
 
 Json json_of(const element::StressIntensity& crack) {
   Json json = {{"kind", name_of(crack.kind)}};
-  const bool corner = crack.kind == element::CornerKind::corner, interface = crack.kind == element::CornerKind::interface_crack;
+  const bool corner = crack.kind == element::CornerKind::corner,
+             interface = crack.kind == element::CornerKind::interface_crack;
   json[corner ? "K_tt" : "K_I"] = number_or_null(crack.K_I);
   json[corner ? "K_rt" : "K_II"] = number_or_null(crack.K_II);
   if (interface) {
@@ -127,8 +129,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   json["energy"] = nullptr;
   json["error"] = nullptr;
   if (!increment.converged) return json;
-  for (const analysis::ContactResult& contact : increment.contacts)
-    json["contacts"][contact.name] = json_of(contact);
+  for (const analysis::ContactResult& contact : increment.contacts) json["contacts"][contact.name] = json_of(contact);
   for (std::size_t i = 0; i < increment.reactions.size(); ++i)
     json["reactions"][model.supports[i].name] = {number_or_null(increment.reactions[i].x()),
                                                  number_or_null(increment.reactions[i].y())};
@@ -210,8 +211,7 @@ std::optional<long long> peak_memory() {
   return static_cast<long long>(usage.ru_maxrss) * 1024;
 }
 
-std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing,
-                            bool running) {
+std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running) {
   const ModelSizes sizes = sizes_of(solution);
   Json json;
   json["scabo"] = version();

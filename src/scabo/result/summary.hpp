@@ -23,8 +23,7 @@ std::optional<long long> peak_memory();
 
 /// Content of summary.json. `running`: not at its end yet, so without the figures of the whole run. `timing`
 /// instead of the solution's. Values that do not exist are null.
-std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing,
-                            bool running);
+std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running);
 
 /// `solved`, `not_converged`, `mechanism` or `interrupted`.
 std::string_view name_of(analysis::Outcome outcome);

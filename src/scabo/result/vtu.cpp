@@ -14,14 +14,12 @@ namespace scabo::result {
 
 namespace {
 
-constexpr std::string_view byte_order =
-    std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+constexpr std::string_view byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 constexpr std::string_view collection_footer = "  </Collection>\n</VTKFile>\n";
 
 std::string opening(std::string_view type, std::string_view attributes) {
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"{}\" byte_order=\"{}\"{}>\n{} {} -->\n", type,
-      attributes.empty() ? "0.1" : "1.0", byte_order, attributes, vtk_mark, version());
+  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"{}\" byte_order=\"{}\"{}>\n{} {} -->\n",
+                     type, attributes.empty() ? "0.1" : "1.0", byte_order, attributes, vtk_mark, version());
 }
 
 template <typename Value>
@@ -43,11 +41,10 @@ class Document {
   template <typename Value>
   void add_array(std::string_view name, int components, const std::vector<Value>& values,
                  std::string_view attributes = "") {
-    fmt::format_to(
-        std::back_inserter(text_),
-        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" "
-        "offset=\"{}\"/>\n",
-        name_of<Value>(), name, components, attributes, data_size_);
+    fmt::format_to(std::back_inserter(text_),
+                   "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" "
+                   "offset=\"{}\"/>\n",
+                   name_of<Value>(), name, components, attributes, data_size_);
     blocks_.push_back({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
     data_size_ += sizeof(std::uint64_t) + values.size() * sizeof(Value);
   }
@@ -74,10 +71,9 @@ class Document {
 
 void add_fields(Document& document, const Fields& fields) {
   document.add_array("displacement", 3, fields.displacement);
-  document.add_array(
-      "stress", 6, fields.stress,
-      " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\""
-      " ComponentName4=\"YZ\" ComponentName5=\"XZ\"");
+  document.add_array("stress", 6, fields.stress,
+                     " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\""
+                     " ComponentName4=\"YZ\" ComponentName5=\"XZ\"");
   document.add_array("stress_xx", 1, fields.stress_xx);
   document.add_array("stress_yy", 1, fields.stress_yy);
   document.add_array("stress_xy", 1, fields.stress_xy);
@@ -115,8 +111,8 @@ FieldCollection::FieldCollection(const std::filesystem::path& path) : file_(path
 }
 
 void FieldCollection::add(double time, std::string_view file) {
-  file_.append_before_footer(
-      fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file), collection_footer);
+  file_.append_before_footer(fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file),
+                             collection_footer);
 }
 
 }  // namespace scabo::result

@@ -26,7 +26,12 @@ class Applied {
  public:
   Applied(const model::Model& model, const mesh::Mesh& mesh, const BodySystem& system, std::size_t body,
           const model::Place* place)
-      : model_(model), mesh_(mesh), system_(system), body_(model.bodies[body]), body_mesh_(mesh.bodies[body]), place_(place) {}
+      : model_(model),
+        mesh_(mesh),
+        system_(system),
+        body_(model.bodies[body]),
+        body_mesh_(mesh.bodies[body]),
+        place_(place) {}
 
   Vector nodal = Vector();
   element::InteriorLoads interior;
@@ -55,7 +60,8 @@ class Applied {
   }
 
   void operator()(const model::Pressure& pressure) {
-    apply_traction(mesh::nodes_of(*place_, mesh_), [&](const Vec2&, const Vec2& n) { return Vec2(-pressure.value * n); });
+    apply_traction(mesh::nodes_of(*place_, mesh_),
+                   [&](const Vec2&, const Vec2& n) { return Vec2(-pressure.value * n); });
   }
 
   void operator()(const model::Gravity& gravity) {
@@ -69,8 +75,7 @@ class Applied {
     std::vector<double> density;
     for (const int material : element::sectors_of(model_, body_, body_mesh_).materials)
       density.push_back(density_of(material));
-    interior.loads =
-        element::body_force_loads(ring(), {gravity.value.x()}, {gravity.value.y()}, thickness(), density);
+    interior.loads = element::body_force_loads(ring(), {gravity.value.x()}, {gravity.value.y()}, thickness(), density);
   }
 
   void operator()(const model::FaceTraction& traction) {
@@ -90,8 +95,7 @@ class Applied {
     const element::Sectors sectors = element::sectors_of(model_, body_, body_mesh_);
     const model::Linear& change = temperature.change;
     interior.temperature = {change.constant, change.per_x, change.per_y};
-    interior.loads =
-        element::thermal_loads(ring(), sectors.D, sectors.unit_strain, about_centre(change), thickness());
+    interior.loads = element::thermal_loads(ring(), sectors.D, sectors.unit_strain, about_centre(change), thickness());
   }
 
  private:

@@ -63,7 +63,8 @@ Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint
   Matrix held(static_cast<Eigen::Index>(constraints.size()), 3);
   for (std::size_t c = 0; c < constraints.size(); ++c)
     held.row(static_cast<Eigen::Index>(c)) =
-        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever).row(constraints[c].dof % 2);
+        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever)
+            .row(constraints[c].dof % 2);
   return null_space(held);
 }
 
@@ -125,7 +126,9 @@ class ElasticBody final : public BodySystem {
   }
 
   double elastic_energy(const Vector& u) const override { return 0.5 * u.dot(internal_forces(u)); }
-  double stiff_force(const Vector& u) const override { return stiffness_.largest_diagonal() * u.lpNorm<Eigen::Infinity>(); }
+  double stiff_force(const Vector& u) const override {
+    return stiffness_.largest_diagonal() * u.lpNorm<Eigen::Infinity>();
+  }
 
  private:
   /// K u, without the part that a translation of the whole body would add by rounding.
@@ -192,8 +195,9 @@ class RigidBody final : public BodySystem {
     for (std::size_t c = 0; c < constraints_.size(); ++c) {
       const Constraint& constraint = constraints_[c];
       held_.row(static_cast<Eigen::Index>(c)) =
-          constraint.rotation ? Eigen::RowVector3d(0.0, 0.0, 1.0)
-                              : Eigen::RowVector3d(rigid_point(constraint.point, reference_, lever_).row(constraint.component));
+          constraint.rotation
+              ? Eigen::RowVector3d(0.0, 0.0, 1.0)
+              : Eigen::RowVector3d(rigid_point(constraint.point, reference_, lever_).row(constraint.component));
     }
     rigid_motions_ = rigid_coordinates_ = null_space(held_);
     constrained_.compute(held_);

@@ -32,21 +32,21 @@ struct Stiffness {
 
 /// A linear combination of degrees of freedom held at a value by a support.
 struct Constraint {
-  int dof = -1;       ///< elastic body: the degree of freedom
+  int dof = -1;               ///< elastic body: the degree of freedom
   Vec2 point = Vec2::Zero();  ///< rigid body: the point (absolute)
-  int component = 0;  ///< rigid body: 0 x, 1 y
+  int component = 0;          ///< rigid body: 0 x, 1 y
   bool rotation = false;      ///< rigid body: the rotation itself, held by a support on the whole body
-  int support = -1;   ///< index into Model::supports
-  double value = 0.0; ///< length, at factor 1
+  int support = -1;           ///< index into Model::supports
+  double value = 0.0;         ///< length, at factor 1
 };
 
 class BodySystem {
  public:
   virtual ~BodySystem() = default;
-  virtual Eigen::Index size() const = 0;                      ///< of u
+  virtual Eigen::Index size() const = 0;                          ///< of u
   const Matrix& rigid_motions() const { return rigid_motions_; }  ///< Nn, size x m
-  const Vec2& reference() const { return reference_; }        ///< centre of rotation
-  double lever() const { return lever_; }                     ///< L
+  const Vec2& reference() const { return reference_; }            ///< centre of rotation
+  double lever() const { return lever_; }                         ///< L
   /// Columns of Nn as [u_x, u_y, L rotation] at the reference point, 3 x m.
   const Matrix& rigid_coordinates() const { return rigid_coordinates_; }
 
@@ -81,8 +81,8 @@ std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
                                        std::string& contradiction);
 
-/// Rigid motions that constraints leave an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the centre of rotation and
-/// L.
+/// Rigid motions that constraints leave an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the centre of rotation
+/// and L.
 Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints, Vec2& reference,
                     double& lever);
 

@@ -27,10 +27,8 @@ double coefficient_at(const std::vector<model::FrictionPoint>& along, double s) 
 
 LawPointer friction_law(const model::Contact& contact, double s) {
   if (contact.dynamic_friction)
-    return std::make_shared<contact::SlipWeakening>(contact.friction, *contact.dynamic_friction,
-                                                    contact.slip_distance);
-  const double mu =
-      contact.friction_along.empty() ? contact.friction : coefficient_at(contact.friction_along, s);
+    return std::make_shared<contact::SlipWeakening>(contact.friction, *contact.dynamic_friction, contact.slip_distance);
+  const double mu = contact.friction_along.empty() ? contact.friction : coefficient_at(contact.friction_along, s);
   if (mu == 0.0) return std::make_shared<contact::Frictionless>();
   return std::make_shared<contact::Coulomb>(mu);
 }
@@ -46,8 +44,8 @@ LawPointer law_of(const model::Contact& contact, double s) {
 /// int N_i ds of every node of the edge of a contact that its areas are taken from.
 Vector tributary_lengths(const model::Contact& contact, bool on_b, const mesh::Mesh& mesh) {
   const model::Place& place = on_b ? contact.b : contact.a;
-  const auto mass = line_mass(mesh::nodes_of(place, mesh).elements,
-                              mesh.bodies[static_cast<std::size_t>(place.body)].nodes);
+  const auto mass =
+      line_mass(mesh::nodes_of(place, mesh).elements, mesh.bodies[static_cast<std::size_t>(place.body)].nodes);
   return mass * Vector::Ones(mass.cols());
 }
 
@@ -87,8 +85,7 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
     const mesh::ContactPair& pair = interface.pairs[index];
     const double area = lengths[on_b ? pair.node_b : pair.node_a] * model.analysis.thickness;
     laws.area[static_cast<Eigen::Index>(k)] = area;
-    if (area > 0.0 || (contact.cohesion == 0.0 && contact.tension == 0.0 && !contact.shear_strength))
-      continue;
+    if (area > 0.0 || (contact.cohesion == 0.0 && contact.tension == 0.0 && !contact.shear_strength)) continue;
     throw InputError(model.file, {{contact.source,
                                    "a node of this contact has no length of its own to carry strength: use "
                                    "another order of mesh"}});

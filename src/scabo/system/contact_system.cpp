@@ -51,7 +51,8 @@ std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSyst
 void add_flexibility(Matrix& W, const Eigen::SparseMatrix<double>& motion, const BodySystem& body) {
   std::vector<int> touched;
   for (Eigen::Index column = 0; column < motion.cols(); ++column)
-    if (motion.outerIndexPtr()[column + 1] > motion.outerIndexPtr()[column]) touched.push_back(static_cast<int>(column));
+    if (motion.outerIndexPtr()[column + 1] > motion.outerIndexPtr()[column])
+      touched.push_back(static_cast<int>(column));
   if (touched.empty()) return;
   Eigen::SparseMatrix<double> narrow(motion.rows(), static_cast<Eigen::Index>(touched.size()));
   for (std::size_t k = 0; k < touched.size(); ++k) narrow.col(static_cast<Eigen::Index>(k)) = motion.col(touched[k]);
@@ -104,8 +105,8 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   system.held = selected(all, held);
   std::vector<int> numbers(model.contacts.size(), 0);
   for (ContactSystem::Pair& pair : system.pairs) pair.number = ++numbers[static_cast<std::size_t>(pair.contact)];
-  system.held_motion = held.empty() ? std::vector<Eigen::SparseMatrix<double>>{}
-                                    : motion_of(system.held, structure, model, mesh);
+  system.held_motion =
+      held.empty() ? std::vector<Eigen::SparseMatrix<double>>{} : motion_of(system.held, structure, model, mesh);
   system.motion = held.empty() ? motion : motion_of(system.pairs, structure, model, mesh);
   system.W = held.empty() ? std::move(W) : Matrix(W(moving_rows, moving_rows));
   system.G = held.empty() ? std::move(G) : Matrix(G(moving_rows, Eigen::all));
@@ -114,7 +115,10 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   system.laws = contact_laws(system.pairs, model, mesh);
   for (Eigen::Index i = 0; i < N; ++i) {
     const ContactSystem::Pair& at = system.pairs[static_cast<std::size_t>(i)];
-    system.gap[i] = system.laws.of_pair[static_cast<std::size_t>(i)]->keeps_gap() ? 0.0 : mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].gap;
+    system.gap[i] =
+        system.laws.of_pair[static_cast<std::size_t>(i)]->keeps_gap()
+            ? 0.0
+            : mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].gap;
   }
   return system;
 }

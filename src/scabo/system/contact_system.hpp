@@ -15,15 +15,15 @@ struct ContactSystem {
   struct Pair {
     int contact = -1, index = -1, number = 0;
   };
-  std::vector<Pair> pairs;                           // N
-  std::vector<Eigen::SparseMatrix<double>> motion;   // per body, 2N x size of u: B side positive, A side negative
-  std::vector<Pair> held;                            // pairs whose supports fix the gap: they take no part
+  std::vector<Pair> pairs;                               // N
+  std::vector<Eigen::SparseMatrix<double>> motion;       // per body, 2N x size of u: B side positive, A side negative
+  std::vector<Pair> held;                                // pairs whose supports fix the gap: they take no part
   std::vector<Eigen::SparseMatrix<double>> held_motion;  // per body, rows [n, t] as above
-  Vector gap;       // N, initial; 0 where the pair is bonded as it is
-  contact::JointLaws laws;  // what each pair carries
-  contact::Delassus W;  // 2N x 2N
-  Matrix G;         // 2N x m
-  std::vector<int> first_rigid;  // per body: its first column in G
+  Vector gap;                                            // N, initial; 0 where the pair is bonded as it is
+  contact::JointLaws laws;                               // what each pair carries
+  contact::Delassus W;                                   // 2N x 2N
+  Matrix G;                                              // 2N x m
+  std::vector<int> first_rigid;                          // per body: its first column in G
 
   int rigid_motions() const { return static_cast<int>(G.cols()); }
 };

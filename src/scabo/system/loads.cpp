@@ -1,6 +1,5 @@
 #include "scabo/system/loads.hpp"
 
-
 #include "scabo/element/line_basis.hpp"
 
 namespace scabo::system {
@@ -28,8 +27,8 @@ void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes,
 
 }  // namespace
 
-Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
-                       double thickness, const TractionField& traction) {
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
+                       const TractionField& traction) {
   Vector f = Vector::Zero(static_cast<Eigen::Index>(2 * nodes.size()));
   for (const mesh::LineElement& element : elements)
     integrate(element, nodes, [&](const auto& N, const Vec2& x, const Vec2& n, double ds) {

@@ -12,8 +12,8 @@ namespace scabo::system {
 using TractionField = std::function<Vec2(const Vec2& x, const Vec2& n)>;
 
 /// Nodal forces (two per node) of a traction on line elements, by the elements' shape functions.
-Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
-                       double thickness, const TractionField& traction);
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
+                       const TractionField& traction);
 
 /// Length of the elements, as they were divided.
 double length_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes);

@@ -101,8 +101,8 @@ linalg::EigenPairs elastic_modes(const Sparse& K, const Sparse& M, const Matrix&
 }
 
 template <typename Symmetric>
-NaturalModes finish(const Symmetric& K, const Symmetric& M, const Matrix& N, const linalg::EigenPairs& elastic, int count,
-                    const std::vector<int>& dofs, Eigen::Index size) {
+NaturalModes finish(const Symmetric& K, const Symmetric& M, const Matrix& N, const linalg::EigenPairs& elastic,
+                    int count, const std::vector<int>& dofs, Eigen::Index size) {
   NaturalModes modes;
   modes.rigid = std::min<int>(count, static_cast<int>(N.cols()));
   const Eigen::Index found = modes.rigid + elastic.values.size();

@@ -1,7 +1,8 @@
 // Natural modes of one body, K phi = omega^2 M phi on the degrees of freedom that supports leave free.
 //
-// Rigid motions N that supports leave are known exactly (body_system.hpp) and K N = 0, so they are taken out, not searched
-// for: the other modes are M-orthogonal to them. With Q = an orthonormal basis of what is orthogonal to M N (Householder),
+// Rigid motions N that supports leave are known exactly (body_system.hpp) and K N = 0, so they are taken out, not
+// searched for: the other modes are M-orthogonal to them. With Q = an orthonormal basis of what is orthogonal to M N
+// (Householder),
 //
 //     Q'K Q y = omega^2 Q'M Q y,   phi = Q y         K dense: LAPACK, as M y = 1/omega^2 K y                  (1)
 //
@@ -25,9 +26,9 @@ struct NaturalModes {
   Vector residuals;    // |K phi - omega^2 M phi| / ((|K| + omega^2 |M|) |phi|), largest norms
 };
 
-/// The lowest `count` modes, fewer where there are not as many degrees of freedom. `M`: mass, stored as the stiffness is,
-/// positive definite. The rigid motions of a free body are both translations and the rotation about its centre of mass.
-/// Throws BrokenInvariant where modes were missed.
+/// The lowest `count` modes, fewer where there are not as many degrees of freedom. `M`: mass, stored as the stiffness
+/// is, positive definite. The rigid motions of a free body are both translations and the rotation about its centre of
+/// mass. Throws BrokenInvariant where modes were missed.
 NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::vector<Vec2>& nodes,
                            const std::vector<Constraint>& constraints, int count);
 

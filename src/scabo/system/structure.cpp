@@ -103,10 +103,11 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   const int last_support = constraints.empty() ? -1 : constraints.back().support;
   auto system = rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), contradiction);
   if (!contradiction.empty())
-    throw InputError(model.file, {{model.supports[static_cast<std::size_t>(last_support)].source,
-                                   fmt::format("the supports of rigid body '{}' contradict each other: a rigid body can "
-                                               "only move and turn as a whole",
-                                               body.name)}});
+    throw InputError(model.file,
+                     {{model.supports[static_cast<std::size_t>(last_support)].source,
+                       fmt::format("the supports of rigid body '{}' contradict each other: a rigid body can "
+                                   "only move and turn as a whole",
+                                   body.name)}});
   return system;
 }
 
@@ -122,12 +123,17 @@ bool has_contact(const model::Model& model, const mesh::Mesh& mesh, int body) {
 std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body) {
   const auto index = static_cast<std::size_t>(place.index);
   switch (place.kind) {
-    case model::Place::Kind::body: return {body.outline.centroid()};
-    case model::Place::Kind::edge: return {body.outline.edges[index].start, body.outline.edges[index].end};
-    case model::Place::Kind::corner: return {body.outline.corners[index].position};
-    case model::Place::Kind::near: return {place.near};
+    case model::Place::Kind::body:
+      return {body.outline.centroid()};
+    case model::Place::Kind::edge:
+      return {body.outline.edges[index].start, body.outline.edges[index].end};
+    case model::Place::Kind::corner:
+      return {body.outline.corners[index].position};
+    case model::Place::Kind::near:
+      return {place.near};
     case model::Place::Kind::face:
-    case model::Place::Kind::mouth: break;  // of elastic bodies
+    case model::Place::Kind::mouth:
+      break;  // of elastic bodies
   }
   return {};
 }
@@ -195,17 +201,20 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     Stiffness stiffness;
     stiffness.unbounded = body.outside;
     if (super_elements[b]) {
-      stiffness.dense = std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
+      stiffness.dense =
+          std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
     } else {
-      const auto D = element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)],
-                                                model.analysis.plane);
+      const auto D =
+          element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)], model.analysis.plane);
       stiffness.sparse = fem_stiffness(mesh.bodies[b], D, model.analysis.thickness);
     }
     try {
       structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
     } catch (const linalg::NotPositiveDefinite&) {
-      throw InputError(model.file, {{body.source, "its stiffness matrix is not positive definite to working precision: the constants of "
-                                                  "its materials are too far apart (by a factor of 1e12 or so), or its elements are"}});
+      throw InputError(model.file,
+                       {{body.source,
+                         "its stiffness matrix is not positive definite to working precision: the constants of "
+                         "its materials are too far apart (by a factor of 1e12 or so), or its elements are"}});
     }
   }
   return structure;

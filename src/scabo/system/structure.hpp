@@ -18,7 +18,8 @@ struct Structure {
   std::vector<std::vector<element::InteriorLoads>> interior;
 };
 
-/// Constraints of every body, from the supports of the model. Throws InputError for supports that contradict each other.
+/// Constraints of every body, from the supports of the model. Throws InputError for supports that contradict each
+/// other.
 std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh);
 
 /// Throws InputError for bodies that neither supports nor contact pairs hold.

@@ -153,9 +153,7 @@ TEST_P(BDifferentiable, HaveOneSidedDerivativesInEveryDirection) {
       if (direction == 1) d = -d.cwiseAbs();
       if (direction == 2) d = d.cwiseProduct(random_vector(random, d.size()).cwiseSign().cwiseMax(0.0));
       const Vector slope = equations.derivative(here, d);
-      const auto error = [&](double t) {
-        return ((plain.value(at.z + t * d) - H) / t - slope).cwiseAbs().maxCoeff();
-      };
+      const auto error = [&](double t) { return ((plain.value(at.z + t * d) - H) / t - slope).cwiseAbs().maxCoeff(); };
       const double size = 1.0 + slope.cwiseAbs().maxCoeff();
       EXPECT_LT(error(1e-8), 3e-5 * size) << "problem " << k;
     }
@@ -243,11 +241,11 @@ TEST(BDifferentiableInSpace, OnePairIsSolvedByHand) {
     EXPECT_TRUE(end.converged);
     return Eigen::Vector3d(end.p);
   };
-  EXPECT_LT((forces({1.0, 2.0, -1.0}) - Eigen::Vector3d::Zero()).norm(), 1e-12);                    // open
-  EXPECT_LT((forces({-2.0, 0.3, -0.4}) - Eigen::Vector3d(2.0, -0.3, 0.4)).norm(), 1e-12);           // sticks
-  EXPECT_LT((forces({-2.0, 0.6, -0.8}) - Eigen::Vector3d(2.0, -0.6, 0.8)).norm(), 1e-12);           // on the edge
-  EXPECT_LT((forces({-2.0, 3.0, -4.0}) - Eigen::Vector3d(2.0, -0.6, 0.8)).norm(), 1e-12);           // slips
-  EXPECT_LT((forces({0.0, 3.0, -4.0}) - Eigen::Vector3d::Zero()).norm(), 1e-12);                    // at the tip
+  EXPECT_LT((forces({1.0, 2.0, -1.0}) - Eigen::Vector3d::Zero()).norm(), 1e-12);           // open
+  EXPECT_LT((forces({-2.0, 0.3, -0.4}) - Eigen::Vector3d(2.0, -0.3, 0.4)).norm(), 1e-12);  // sticks
+  EXPECT_LT((forces({-2.0, 0.6, -0.8}) - Eigen::Vector3d(2.0, -0.6, 0.8)).norm(), 1e-12);  // on the edge
+  EXPECT_LT((forces({-2.0, 3.0, -4.0}) - Eigen::Vector3d(2.0, -0.6, 0.8)).norm(), 1e-12);  // slips
+  EXPECT_LT((forces({0.0, 3.0, -4.0}) - Eigen::Vector3d::Zero()).norm(), 1e-12);           // at the tip
 }
 
 }  // namespace

@@ -50,11 +50,13 @@ TEST(OnePair, WithMoreFrictionThanItsStiffnessCouplesHasThreeSolutions) {
   // Below the limit there is one.
   Problem weaker = problem;
   weaker.mu[0] = 0.9;
-  for (double p_n : {0.0, 0.5, 2.0}) EXPECT_LT(solve(weaker, {Eigen::Vector2d(p_n, -0.9 * p_n), Vector()}).p.norm(), 1e-12);
+  for (double p_n : {0.0, 0.5, 2.0})
+    EXPECT_LT(solve(weaker, {Eigen::Vector2d(p_n, -0.9 * p_n), Vector()}).p.norm(), 1e-12);
 }
 
-// A wedge of half angle alpha pressed with F between two walls, each a spring of flexibility w in every direction: it sinks by
-// delta; where mu >= cot(alpha) it sticks, p_t = p_n cot(alpha), otherwise it slips, and 2 p_n (sin + mu cos) = F.
+// A wedge of half angle alpha pressed with F between two walls, each a spring of flexibility w in every direction: it
+// sinks by delta; where mu >= cot(alpha) it sticks, p_t = p_n cot(alpha), otherwise it slips, and 2 p_n (sin + mu cos)
+// = F.
 TEST(Wedge, SticksOrSlipsBetweenItsWalls) {
   const double F = 12.0, w = 0.01;
   for (double alpha : {0.3, 0.6, 1.0})
@@ -93,13 +95,13 @@ TEST(TwoBlocks, TheWeakerJointDecides) {
   const Solution upper = blocks(0.2, 0.5, 5.1);
   ASSERT_EQ(upper.status, Status::mechanism);
   EXPECT_GT(upper.motion[2], 10.0 * std::abs(upper.motion[0]));  // the upper block alone
-  const Solution both = blocks(0.1, 0.5, 4.5);  // limits: 4 below, 5 above
+  const Solution both = blocks(0.1, 0.5, 4.5);                   // limits: 4 below, 5 above
   ASSERT_EQ(both.status, Status::mechanism);
   EXPECT_NEAR(both.motion[0], both.motion[2], 1e-6);
 }
 
-// A pair pressed with p_n, driven to and fro by A along a direction: it sticks for 2 w mu p_n after each turn, then slips. Loop
-// 4 mu p_n (A - w mu p_n); at every increment work of the drive = elastic energy + what friction took.
+// A pair pressed with p_n, driven to and fro by A along a direction: it sticks for 2 w mu p_n after each turn, then
+// slips. Loop 4 mu p_n (A - w mu p_n); at every increment work of the drive = elastic energy + what friction took.
 TEST(CyclicLoad, HysteresisLoopAndEnergyBalance) {
   for (int d : {2, 3}) {
     const double w = 0.02, mu = 0.5, p_n = 100.0, yield = w * mu * p_n, A = 4.0 * yield;

@@ -20,8 +20,7 @@ Matrix joint_flexibility(int pairs, double reach = 6.0) {
   Matrix W(2 * pairs, 2 * pairs);
   const Matrix of_pair = (Matrix(2, 2) << 1.0, 0.2, 0.2, 0.9).finished();
   for (int i = 0; i < pairs; ++i)
-    for (int j = 0; j < pairs; ++j)
-      W.block(2 * i, 2 * j, 2, 2) = std::exp(-std::abs(i - j) / reach) * of_pair;
+    for (int j = 0; j < pairs; ++j) W.block(2 * i, 2 * j, 2, 2) = std::exp(-std::abs(i - j) / reach) * of_pair;
   return W;
 }
 
@@ -102,8 +101,7 @@ TEST(CoarseProblem, IsExactWhereForcesAndMotionsAreThoseOfGroups) {
     problem.q -= problem.W * p;
     const CoarseProblem coarse = coarse_problem(problem);
     EXPECT_LT((coarse.problem.q - before.problem.q).norm(), 1e-13);
-    EXPECT_LT(violation(problem, coarse.prolong(solve(coarse.problem).p), Vector()), 1e-9)
-        << "mu " << friction;
+    EXPECT_LT(violation(problem, coarse.prolong(solve(coarse.problem).p), Vector()), 1e-9) << "mu " << friction;
   }
 }
 
@@ -177,8 +175,7 @@ TEST(ColdStart, IterationsOnFewerPairsAreCountedApartAndStandInTheTrace) {
   std::vector<std::string> stages;
   for (const Iteration& at : solution.trace)
     if (stages.empty() || stages.back() != at.stage) stages.push_back(at.stage);
-  EXPECT_EQ(stages, (std::vector<std::string>{"newton, 25 pairs", "newton, 50 pairs", "newton, 100 pairs",
-                                              "newton"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"newton, 25 pairs", "newton, 50 pairs", "newton, 100 pairs", "newton"}));
   EXPECT_EQ(solution.trace.front().iteration, 0);
   EXPECT_EQ(solution.trace.back().iteration, solution.iterations + solution.coarse_iterations);
   const Solution again = solve(problem, {solution.p, {}});  // with history there are none

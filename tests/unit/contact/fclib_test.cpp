@@ -102,9 +102,9 @@ TEST(Fclib, TheSameProblemTheSameBytes) {
 TEST(Fclib, WhatCannotBeWrittenIsSaid) {
   SavedProblem saved;
   saved.problem = random_problem(2, 1, 1);
-  EXPECT_THAT([&] { write_fclib("/no/such/directory/p.hdf5", saved); },
-              testing::ThrowsMessage<std::runtime_error>(
-                  testing::StartsWith("cannot write /no/such/directory/p.hdf5: ")));
+  EXPECT_THAT(
+      [&] { write_fclib("/no/such/directory/p.hdf5", saved); },
+      testing::ThrowsMessage<std::runtime_error>(testing::StartsWith("cannot write /no/such/directory/p.hdf5: ")));
 }
 
 // The chain v1 - v2 on springs, pressed at v1: M v = f + H r, u = H' v + w.

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-
 #include <cmath>
 
 #include "scabo/contact/solve.hpp"
@@ -56,7 +55,8 @@ TEST(LargeProblem, TenThousandPairsWithSparseW) {
 
 // The same operator in its three kinds.
 TEST(Delassus, DenseSparseAndCondensedAgree) {
-  const Triplets entries = {{0, 0, 4.0}, {1, 1, 5.0}, {2, 2, 6.0}, {3, 3, 7.0}, {0, 1, -1.0}, {1, 0, -1.0}, {2, 3, 2.0}, {3, 2, 2.0}};
+  const Triplets entries = {{0, 0, 4.0},  {1, 1, 5.0},  {2, 2, 6.0}, {3, 3, 7.0},
+                            {0, 1, -1.0}, {1, 0, -1.0}, {2, 3, 2.0}, {3, 2, 2.0}};
   linalg::SparseMatrix K(4, 4);
   K.setFromTriplets(entries.begin(), entries.end());
   Matrix B_dense(4, 4);

@@ -35,8 +35,7 @@ Problem pair_on_springs(double w, double u_n, double u_t) {
   return problem;
 }
 
-Evolution one(const LawPointer& law, const Problem& problem, const PairHistory& history = {},
-              double area = 1.0) {
+Evolution one(const LawPointer& law, const Problem& problem, const PairHistory& history = {}, double area = 1.0) {
   return evolve(problem, all(law, 1, area), {history}, {}, {});
 }
 
@@ -181,8 +180,7 @@ TEST(Incline, WithCohesionSlipsAtItsClosedFormAngle) {
         ASSERT_EQ(evolution.solution.status, Status::solved) << degrees << ": " << evolution.solution.reason;
         EXPECT_NEAR(evolution.solution.p[1], -weight * std::sin(angle) / N, 1e-8);
       } else {
-        ASSERT_EQ(evolution.solution.status, Status::mechanism)
-            << degrees << ": " << evolution.solution.reason;
+        ASSERT_EQ(evolution.solution.status, Status::mechanism) << degrees << ": " << evolution.solution.reason;
         EXPECT_GT(evolution.solution.motion[0], 0.9);
         EXPECT_EQ(evolution.history, History(N));  // what did not converge leaves no history
       }
@@ -253,8 +251,8 @@ TEST(Tresca, BoundDoesNotDependOnPressure) {
   for (double p_n : {1.0, 1000.0}) {
     EXPECT_NEAR(one(law, pair_on_springs(w, -w * p_n, w * 19.0), {}, area).solution.p[1], -19.0, 1e-9);
     for (int repeat = 0; repeat < 2; ++repeat)  // slip does not use it up
-      EXPECT_NEAR(one(law, pair_on_springs(w, -w * p_n, w * 500.0), {3.0, false, false}, area).solution.p[1],
-                  -20.0, 1e-9);
+      EXPECT_NEAR(one(law, pair_on_springs(w, -w * p_n, w * 500.0), {3.0, false, false}, area).solution.p[1], -20.0,
+                  1e-9);
   }
 }
 
@@ -290,9 +288,9 @@ TEST(RandomJoints, EndCertifiedWithoutOverload) {
   for (int trial = 0; trial < 200; ++trial) {
     const int N = test::whole(random, 1, 12);
     const Problem problem = test::held_problem(random, N, 0.8);
-    const JointLaws laws = all(cohesive(test::uniform(random, 0.0, 0.8), test::uniform(random, 0.05, 1.0),
-                                        test::uniform(random, 0.0, 0.5)),
-                               N);
+    const JointLaws laws = all(
+        cohesive(test::uniform(random, 0.0, 0.8), test::uniform(random, 0.05, 1.0), test::uniform(random, 0.0, 0.5)),
+        N);
     const Evolution evolution = evolve(problem, laws, History(static_cast<std::size_t>(N)), {}, {});
     ASSERT_EQ(evolution.solution.status, Status::solved) << trial << ": " << evolution.solution.reason;
     EXPECT_LE(evolution.solution.certificate.worst(), 1e-10);

@@ -1,5 +1,5 @@
-// An elastic layer as a truss, held at its base, whose free surface lies under a rigid plane: a contact problem of any size
-// with W = B' K^-1 B known by its products alone.
+// An elastic layer as a truss, held at its base, whose free surface lies under a rigid plane: a contact problem of any
+// size with W = B' K^-1 B known by its products alone.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@
 
 namespace scabo::test {
 
-/// `pairs` nodes along the surface, `depth` rows of nodes above the base; unit spacing, bars of unit stiffness along the
-/// lines of the grid, of a half across its cells. [normal, tangent] = [vertical, along].
+/// `pairs` nodes along the surface, `depth` rows of nodes above the base; unit spacing, bars of unit stiffness along
+/// the lines of the grid, of a half across its cells. [normal, tangent] = [vertical, along].
 inline contact::Delassus layer_flexibility(int pairs, int depth) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto node = [&](int i, int j) { return i * depth + j; };  // j = depth: the base

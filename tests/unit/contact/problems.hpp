@@ -88,8 +88,8 @@ inline contact::Problem floating_problem(std::mt19937& random, int pairs, double
 inline double violation(const contact::Problem& problem, const Vector& p, const Vector& a) {
   Vector motion = problem.q + problem.W * p;
   if (a.size() > 0) motion += problem.G * a;
-  const double scale = std::max(p.size() > 0 ? p.cwiseAbs().maxCoeff() : 0.0,
-                                std::max(problem.q.cwiseAbs().maxCoeff(), 1e-300));
+  const double scale =
+      std::max(p.size() > 0 ? p.cwiseAbs().maxCoeff() : 0.0, std::max(problem.q.cwiseAbs().maxCoeff(), 1e-300));
   double worst = 0.0;
   const Eigen::Index d = problem.dimension;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {

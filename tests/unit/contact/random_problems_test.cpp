@@ -27,8 +27,8 @@ struct Tally {
     testing::Test::RecordProperty("problems", problems);
     testing::Test::RecordProperty("solved", solved);
     testing::Test::RecordProperty("mechanisms", mechanisms);
-    testing::Test::RecordProperty(
-        "iterations, mean", testing::PrintToString(static_cast<double>(iterations) / std::max(1, solved)));
+    testing::Test::RecordProperty("iterations, mean",
+                                  testing::PrintToString(static_cast<double>(iterations) / std::max(1, solved)));
     testing::Test::RecordProperty("iterations, worst", worst);
   }
 };
@@ -43,8 +43,7 @@ bool cannot_be_balanced(const Problem& problem) {
     rays.col(2 * i + 1) = (problem.G.row(2 * i) - problem.mu[i] * problem.G.row(2 * i + 1)).transpose();
   }
   const Vector v = problem.f + rays * linalg::nonnegative_least_squares(rays, -problem.f);
-  return problem.f.dot(v) > 1e-12 * problem.f.squaredNorm() &&
-         (rays.transpose() * v).minCoeff() >= -1e-10 * v.norm();
+  return problem.f.dot(v) > 1e-12 * problem.f.squaredNorm() && (rays.transpose() * v).minCoeff() >= -1e-10 * v.norm();
 }
 
 void expect_solved_or_mechanism(const Problem& problem, Tally& tally, int k) {
@@ -63,8 +62,7 @@ void expect_solved_or_mechanism(const Problem& problem, Tally& tally, int k) {
       break;
     case Status::not_converged:
       ADD_FAILURE() << "problem " << k << ", " << problem.pairs() << " pairs, mu " << problem.mu[0] << ", "
-                    << problem.G.cols() << " rigid motions: " << solution.reason << " after "
-                    << solution.iterations;
+                    << problem.G.cols() << " rigid motions: " << solution.reason << " after " << solution.iterations;
       break;
   }
   EXPECT_LE(solution.trace.size(), 5000u) << "problem " << k;
@@ -73,8 +71,7 @@ void expect_solved_or_mechanism(const Problem& problem, Tally& tally, int k) {
 TEST(RandomProblems, HeldBodies) {
   std::mt19937 random(51);
   Tally tally;
-  for (int k = 0; k < 1000; ++k)
-    expect_solved_or_mechanism(held_problem(random, whole(random, 4, 40), 1.0), tally, k);
+  for (int k = 0; k < 1000; ++k) expect_solved_or_mechanism(held_problem(random, whole(random, 4, 40), 1.0), tally, k);
 }
 
 TEST(RandomProblems, FloatingBodies) {

@@ -29,11 +29,9 @@ TEST(BlockOnAnIncline, SlidesExactlyWhenItsAngleExceedsThatOfFriction) {
     for (double factor : {0.5, 0.9, 0.999, 1.0 - 1e-6, 1.0 + 1e-6, 1.001, 1.5}) {
       const double angle = std::atan(friction * factor), weight = 30.0;
       for (double sense : {-1.0, 1.0}) {
-        const Problem problem =
-            block(5, friction, {sense * weight * std::sin(angle), -weight * std::cos(angle), 0.0});
+        const Problem problem = block(5, friction, {sense * weight * std::sin(angle), -weight * std::cos(angle), 0.0});
         const Solution solution = solve(problem);
-        SCOPED_TRACE(testing::Message()
-                     << "mu " << friction << ", tan(angle) / mu " << factor << ", sense " << sense);
+        SCOPED_TRACE(testing::Message() << "mu " << friction << ", tan(angle) / mu " << factor << ", sense " << sense);
         if (factor < 1.0) {
           ASSERT_EQ(solution.status, Status::solved) << solution.reason;
           EXPECT_LT(solution.certificate.worst(), 1e-10);

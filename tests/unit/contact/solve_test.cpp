@@ -21,8 +21,7 @@ std::vector<Vector> trial_and_error(const Problem& problem) {
     Matrix A = Matrix::Identity(2 * N, 2 * N);  // rows: force zero, motion zero or slip at the bound
     Vector b = Vector::Zero(2 * N);
     for (int i = 0; i < N; ++i) {
-      const int state =
-          combination >> (2 * i) & 3;  // 0 open, 1 stick, 2 slip with p_t = mu p_n, 3 with - mu p_n
+      const int state = combination >> (2 * i) & 3;  // 0 open, 1 stick, 2 slip with p_t = mu p_n, 3 with - mu p_n
       if (state == 0) continue;
       A.row(2 * i) = problem.W.dense().row(2 * i);
       b[2 * i] = -problem.q[2 * i];
@@ -121,8 +120,7 @@ TEST(Solve, TheAnswerDoesNotDependOnR) {
       options.r_factor = factor;
       const Solution solution = solve(problem, {}, options);
       EXPECT_EQ(solution.status, Status::solved) << "problem " << k << ", r times " << factor;
-      EXPECT_LT((solution.p - reference.p).cwiseAbs().maxCoeff(),
-                1e-8 * (1.0 + reference.p.cwiseAbs().maxCoeff()))
+      EXPECT_LT((solution.p - reference.p).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + reference.p.cwiseAbs().maxCoeff()))
           << "problem " << k << ", r times " << factor;
     }
   }
@@ -141,8 +139,7 @@ TEST(Solve, UnitsChangeNeitherTheAnswerNorTheIterations) {
       other.f *= force;
       const Solution solution = solve(other);
       EXPECT_EQ(solution.status, reference.status);
-      EXPECT_EQ(solution.iterations, reference.iterations)
-          << "problem " << k << ", " << flexibility << ", " << force;
+      EXPECT_EQ(solution.iterations, reference.iterations) << "problem " << k << ", " << flexibility << ", " << force;
       EXPECT_LT((solution.p / force - reference.p).cwiseAbs().maxCoeff(),
                 1e-9 * (1.0 + reference.p.cwiseAbs().maxCoeff()));
     }
@@ -224,7 +221,8 @@ TEST(Solve, NeverCertifiesWhatIsNotANumber) {
   EXPECT_GT(certify(problem, Vector::Constant(2, nan), Vector(), {}).worst(), 1.0);
 }
 
-// A pair that a support holds along the joint: its row and column of W are zero, and no force along the joint is needed.
+// A pair that a support holds along the joint: its row and column of W are zero, and no force along the joint is
+// needed.
 TEST(Solve, APairHeldAlongTheJointTakesNoFrictionAndNoExtraIterations) {
   std::mt19937 random(5);
   for (int k = 0; k < 20; ++k) {

@@ -62,8 +62,7 @@ TEST(AcceleratedSweeps, NeedFewerThanPlainOnes) {
     Vector p = Vector::Zero(d * 30);
     plain.start(p);
     int sweeps = 0;
-    while (sweeps < 5000 && natural_map_residual_at(problem, p, plain.motion()) > 1e-9)
-      plain.sweep(p), ++sweeps;
+    while (sweeps < 5000 && natural_map_residual_at(problem, p, plain.motion()) > 1e-9) plain.sweep(p), ++sweeps;
     const SweepsEnd end = accelerated_sweeps(problem, Vector::Zero(d * 30), 1e-9);
     EXPECT_TRUE(end.content);
     EXPECT_LE(natural_map_residual(problem, end.p, Vector(0)), 1e-9);

@@ -41,8 +41,7 @@ TEST(TextProblem, ReadInEveryStorage) {
     EXPECT_EQ(saved.problem.dimension, 2);
     EXPECT_EQ(saved.problem.pairs(), 2);
     EXPECT_EQ(saved.problem.W.is_dense(), matrix == dense);
-    EXPECT_EQ(saved.problem.W.is_sparse() ? Matrix(saved.problem.W.sparse()) : saved.problem.W.dense(),
-              expected_W())
+    EXPECT_EQ(saved.problem.W.is_sparse() ? Matrix(saved.problem.W.sparse()) : saved.problem.W.dense(), expected_W())
         << matrix;
     EXPECT_EQ(saved.problem.q, Vector((Vector(4) << -1.0, 0.5, 0.1, -0.3).finished()));
     EXPECT_EQ(saved.problem.mu, Vector((Vector(2) << 0.3, 0.7).finished()));
@@ -107,21 +106,16 @@ TEST(TextProblem, EveryMistakeHasItsPlace) {
   expect(dense + vectors + "1", "p.dat:13:1: end: the problem ends with mu");
   expect(dense + "-1 0.5", "p.dat:11:7: q: the file ends here");
   expect(replaced(columns + vectors, "col 1", "col 2"), "p.dat:13:9: column of W: must be 1, not 2");
-  expect(replaced(columns + vectors, "9 to 11", "9 to 12"),
-         "p.dat:21:28: last location: must be from 8 to 11, not 12");
-  expect(replaced(columns + vectors, "9 to 11", "9 to 10"),
-         "p.dat:23:11: W: the columns hold 11 entries, nnz is 12");
-  expect(replaced(columns + vectors, "      2 : 5", "      4 : 5"),
-         "p.dat:19:7: row: must be from 0 to 3, not 4");
+  expect(replaced(columns + vectors, "9 to 11", "9 to 12"), "p.dat:21:28: last location: must be from 8 to 11, not 12");
+  expect(replaced(columns + vectors, "9 to 11", "9 to 10"), "p.dat:23:11: W: the columns hold 11 entries, nnz is 12");
+  expect(replaced(columns + vectors, "      2 : 5", "      4 : 5"), "p.dat:19:7: row: must be from 0 to 3, not 4");
   expect(replaced(columns + vectors, "4-by-4", "4 by 4"), "p.dat:8:1: sizes of W: must be like '4-by-4,'");
   expect(replaced(triplets + vectors, "nnz: 12", "nnz: 1200"), "p.dat:8:33: nnz: 1200 values must follow");
   expect(replaced(triplets + vectors, "0 3 :", "0 3"), "p.dat:11:9: W: must be ':', not '0.5'");
-  expect(replaced(blocks + vectors, "2\t4\t\n2", "2\t3\t\n2"),
-         "p.dat:9:3: ends of block rows: the last must be 4");
+  expect(replaced(blocks + vectors, "2\t4\t\n2", "2\t3\t\n2"), "p.dat:9:3: ends of block rows: the last must be 4");
   expect(replaced(blocks + vectors, "0\t1\t0\t1", "0\t1\t0\t2"),
          "p.dat:14:7: block columns: must be from 0 to 1, not 2");
-  expect(replaced(blocks + vectors, "0\t2\t4", "0\t3\t2"),
-         "p.dat:13:5: row pointers: must be from 3 to 4, not 2");
+  expect(replaced(blocks + vectors, "0\t2\t4", "0\t3\t2"), "p.dat:13:5: row pointers: must be from 3 to 4, not 2");
 }
 
 }  // namespace

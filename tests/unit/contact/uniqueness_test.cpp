@@ -64,8 +64,7 @@ TEST(OnePair, BelowTheLimitThereIsOneWhateverTheMotion) {
 // The condition is sufficient: here W = [1 1; 1 2], (W^-1)_nn = 2, W_tt = 2, so mu^2 2 2 < 1 means mu < 1/2
 // (the limit is 1).
 TEST(OnePair, TheConditionHasItsClosedForm) {
-  for (double mu : {0.1, 0.5, 1.0})
-    EXPECT_NEAR(uniqueness_bound(one_pair(mu, Vector::Zero(2))), 4.0 * mu * mu, 1e-12);
+  for (double mu : {0.1, 0.5, 1.0}) EXPECT_NEAR(uniqueness_bound(one_pair(mu, Vector::Zero(2))), 4.0 * mu * mu, 1e-12);
 }
 
 // Pressed and stuck, then lifted little by little: where three solutions exist the pair stays stuck although
@@ -104,8 +103,7 @@ TEST(OnePair, TheSolutionNearestToTheHistoryIsNamed) {
   const UniquenessReport report =
       examine_uniqueness(problem, {Eigen::Vector2d(0.82, -0.91), Vector()}, solve(problem), {});
   ASSERT_GE(report.nearest, 0);
-  EXPECT_LT((report.others[static_cast<std::size_t>(report.nearest)] - Eigen::Vector2d(0.8, -0.9)).norm(),
-            1e-12);
+  EXPECT_LT((report.others[static_cast<std::size_t>(report.nearest)] - Eigen::Vector2d(0.8, -0.9)).norm(), 1e-12);
 }
 
 // A slider on a rail of slope k, W = [1 k]'[1 k], that friction jams (mu k > 1) while the motion asks it to
@@ -174,8 +172,7 @@ TEST(FewPairs, IndicesOfAllSolutionsSumToOne) {
   for (int trial = 0; trial < 200; ++trial) {
     Problem problem = test::held_problem(random, test::whole(random, 1, 3), 0.0);
     problem.mu = Vector::Constant(problem.mu.size(), 10.0);
-    for (Eigen::Index i = 0; i < problem.q.size(); ++i)
-      problem.q[i] = test::uniform(random, -1, 1);  // no ties
+    for (Eigen::Index i = 0; i < problem.q.size(); ++i) problem.q[i] = test::uniform(random, -1, 1);  // no ties
     const auto all = all_solutions(problem, 1e-10);
     ASSERT_TRUE(all.has_value());
     ASSERT_FALSE(all->empty());
@@ -217,7 +214,8 @@ TEST(FewPairs, IndexOfABodyThatOnlyContactHolds) {
   }
 }
 
-// A pair that a support holds along the joint carries any force within the cone there, which moves nothing: no second solution.
+// A pair that a support holds along the joint carries any force within the cone there, which moves nothing: no second
+// solution.
 TEST(ManyPairs, ForcesThatMoveNothingAreNoSecondSolution) {
   const int N = 7;
   Matrix W = 0.01 * Matrix::Identity(2 * N, 2 * N);
@@ -264,8 +262,7 @@ TEST(ManyPairs, SecondSolutionIsFoundFromOtherStarts) {
   const UniquenessReport report = examined(problem);
   EXPECT_EQ(report.unique, Uniqueness::several);
   EXPECT_FALSE(report.complete);
-  for (const Vector& other : report.others)
-    EXPECT_LE(certify(problem, other, Vector(), {1.0, 1.0}).worst(), 1e-10);
+  for (const Vector& other : report.others) EXPECT_LE(certify(problem, other, Vector(), {1.0, 1.0}).worst(), 1e-10);
 }
 
 }  // namespace

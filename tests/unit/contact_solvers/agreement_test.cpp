@@ -36,8 +36,7 @@ void expect_agreement(int dimension, double mu, int cases) {
   }
   for (const auto& [method, count] : failures) {
     const auto allowed = may_fail.find(method);
-    EXPECT_LE(count, allowed == may_fail.end() ? 0 : allowed->second * cases / 60)
-        << contact::method_name(method);
+    EXPECT_LE(count, allowed == may_fail.end() ? 0 : allowed->second * cases / 60) << contact::method_name(method);
   }
 }
 

@@ -55,8 +55,7 @@ TEST(Roads, RefuseWhatTheyDoNotHandle) {
   };
   const Problem space = elastic_problem(random, 3, 3, 0.3);
   EXPECT_EQ(reason(Method::lemke, space), "lemke does not handle problems in space");
-  EXPECT_EQ(reason(Method::quadratic_programme, space),
-            "quadratic_programme does not handle friction: mu must be 0");
+  EXPECT_EQ(reason(Method::quadratic_programme, space), "quadratic_programme does not handle friction: mu must be 0");
   Problem strong = elastic_problem(random, 2, 3, 0.3);
   strong.cohesion = Vector::Ones(3);
   EXPECT_EQ(reason(Method::gauss_seidel, strong), "gauss_seidel does not handle cohesion and tension");

@@ -6,8 +6,7 @@
 namespace scabo::test {
 namespace {
 
-const Method with_both[] = {Method::newton_only, Method::alart_curnier, Method::tresca,
-                            Method::proximal_point};
+const Method with_both[] = {Method::newton_only, Method::alart_curnier, Method::tresca, Method::proximal_point};
 
 TEST(FloatingBody, RestsOnItsPairs) {
   // Pressed down by 3 on three pairs, pulled along by 0.5 < mu 3: forces balance the loads.
@@ -23,8 +22,7 @@ TEST(FloatingBody, RestsOnItsPairs) {
     for (Method method : methods) {
       const Solution solution = contact::solve_with(method, problem);
       EXPECT_EQ(solution.status, Status::solved) << contact::method_name(method) << ": " << solution.reason;
-      EXPECT_LT((problem.G.transpose() * solution.p + problem.f).norm(), 1e-9)
-          << contact::method_name(method);
+      EXPECT_LT((problem.G.transpose() * solution.p + problem.f).norm(), 1e-9) << contact::method_name(method);
     }
   }
 }

@@ -1,4 +1,5 @@
-// Barnett-Lothe tensors and interface cracks: closed forms of isotropic material, and the integral formalism as a slow oracle.
+// Barnett-Lothe tensors and interface cracks: closed forms of isotropic material, and the integral formalism as a slow
+// oracle.
 #include "scabo/element/anisotropic_plane.hpp"
 
 #include <gtest/gtest.h>
@@ -30,12 +31,15 @@ void expect_tensors(const Mat3& D, double tolerance) {
   EXPECT_LT((tensors.H - mean.topRightCorner<2, 2>()).norm(), tolerance * tensors.H.norm());
   EXPECT_LT((tensors.L + mean.bottomLeftCorner<2, 2>()).norm(), tolerance * tensors.L.norm());
   // H L - S S = 1
-  EXPECT_LT((tensors.H * tensors.L - tensors.S * tensors.S - Mat2::Identity()).norm(), 1e-12 * tensors.H.norm() * tensors.L.norm());
+  EXPECT_LT((tensors.H * tensors.L - tensors.S * tensors.S - Mat2::Identity()).norm(),
+            1e-12 * tensors.H.norm() * tensors.L.norm());
 }
 
 TEST(BarnettLothe, IsotropicInClosedForm) {
   const double E = 210e9, nu = 0.3;
-  EXPECT_LT((barnett_lothe(elasticity(E, nu, model::Plane::strain)).L / E - Mat2::Identity() / (2 * (1 - nu * nu))).norm(), 1e-12);
+  EXPECT_LT(
+      (barnett_lothe(elasticity(E, nu, model::Plane::strain)).L / E - Mat2::Identity() / (2 * (1 - nu * nu))).norm(),
+      1e-12);
   EXPECT_LT((barnett_lothe(elasticity(E, nu, model::Plane::stress)).L / E - Mat2::Identity() / 2).norm(), 1e-12);
   const Mat2 S = barnett_lothe(elasticity(E, nu, model::Plane::strain)).S;
   EXPECT_NEAR(std::abs(S(0, 1)), (1 - 2 * nu) / (2 * (1 - nu)), 1e-12);
@@ -66,12 +70,14 @@ TEST(RotatedElasticity, ThereAndBackAndIsotropicStays) {
 
 TEST(CrackedBimaterial, IsotropicEpsilon) {
   for (const double ratio : {2.0, 10.0, 1000.0, 0.5}) {
-    const auto pair = cracked_bimaterial(elasticity(ratio, 0.3, model::Plane::strain), elasticity(1.0, 0.3, model::Plane::strain));
-    EXPECT_NEAR(pair.epsilon,
-                interface_epsilon({ratio, 0.3, model::Plane::strain}, {1.0, 0.3, model::Plane::strain}), 1e-14);
+    const auto pair =
+        cracked_bimaterial(elasticity(ratio, 0.3, model::Plane::strain), elasticity(1.0, 0.3, model::Plane::strain));
+    EXPECT_NEAR(pair.epsilon, interface_epsilon({ratio, 0.3, model::Plane::strain}, {1.0, 0.3, model::Plane::strain}),
+                1e-14);
     const Vec2 k(0.3, 1.0);
     EXPECT_LT((pair.intensity(pair.opening(k, 0.2, 3.0), 0.2, 3.0) - k).norm(), 1e-13);
-    EXPECT_NEAR(pair.energy_release_rate(pair.oscillation(0.01) * k), pair.energy_release_rate(k), 1e-13 * pair.energy_release_rate(k));
+    EXPECT_NEAR(pair.energy_release_rate(pair.oscillation(0.01) * k), pair.energy_release_rate(k),
+                1e-13 * pair.energy_release_rate(k));
   }
 }
 

@@ -76,8 +76,7 @@ TEST(SymmetryBlocks, AreAnOrthonormalBasisThatSplitsTheMatrices) {
 
 // A mirror line of the nodes that is not one of the elements is none of the body.
 TEST(SymmetryBlocks, LookAtElementsToo) {
-  Ring ring =
-      polygon_ring(rectangle(2, 2), 4, 1);  // 16 nodes; elements of order 2 and 1 on them, not mirrored
+  Ring ring = polygon_ring(rectangle(2, 2), 4, 1);  // 16 nodes; elements of order 2 and 1 on them, not mirrored
   ring.elements.clear();
   for (int at = 0; at < 16;) {
     const int order = at == 0 ? 2 : 1;

@@ -13,8 +13,7 @@ TEST(GaussRule, IsExactToTwiceItsPoints) {
     double worst = 0.0;
     for (int degree = 0; degree < 2 * count; ++degree) {
       double sum = 0.0;
-      for (std::size_t q = 0; q < rule.points.size(); ++q)
-        sum += rule.weights[q] * std::pow(rule.points[q], degree);
+      for (std::size_t q = 0; q < rule.points.size(); ++q) sum += rule.weights[q] * std::pow(rule.points[q], degree);
       worst = std::max(worst, std::abs(sum - (degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0)));
     }
     EXPECT_LT(worst, 2e-15) << count << " points";

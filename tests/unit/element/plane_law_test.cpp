@@ -19,15 +19,16 @@ struct Law {
   Vec4 expansion;
 };
 
-Law law(const std::array<double, 3>& E, double nu12, double nu13, double nu23, double G12, const std::array<double, 3>& alpha,
-        double angle) {
+Law law(const std::array<double, 3>& E, double nu12, double nu13, double nu23, double G12,
+        const std::array<double, 3>& alpha, double angle) {
   Mat4 S = Mat4::Zero();
   S(0, 0) = 1 / E[0], S(1, 1) = 1 / E[1], S(2, 2) = 1 / E[2], S(3, 3) = 1 / G12;
   S(0, 1) = S(1, 0) = -nu12 / E[0];
   S(0, 2) = S(2, 0) = -nu13 / E[0];
   S(1, 2) = S(2, 1) = -nu23 / E[1];
   const double c = std::cos(angle), s = std::sin(angle);
-  Mat4 T = Mat4::Identity();  // stress along the axes from that in x and y; strain in x and y = T' strain along the axes
+  Mat4 T =
+      Mat4::Identity();  // stress along the axes from that in x and y; strain in x and y = T' strain along the axes
   T << c * c, s * s, 0, 2 * c * s, s * s, c * c, 0, -2 * c * s, 0, 0, 1, 0, -c * s, c * s, 0, c * c - s * s;
   return {T.transpose() * S * T, T.transpose() * Vec4(alpha[0], alpha[1], alpha[2], 0)};
 }
@@ -41,7 +42,8 @@ void expect_alike(const model::Material& material, const Law& in_space) {
       stress = in_space.S.inverse() * (Vec4(strain[0], strain[1], 0, strain[2]) - in_space.expansion * T);
     } else {  // zz free: take it out of the compliance
       const std::array<int, 3> in{0, 1, 3};
-      const Vec3 expansion = in_space.expansion(in), found = Mat3(in_space.S(in, in)).inverse() * (strain - expansion * T);
+      const Vec3 expansion = in_space.expansion(in),
+                 found = Mat3(in_space.S(in, in)).inverse() * (strain - expansion * T);
       stress = Vec4(found[0], found[1], 0, found[2]);
     }
     const Vec3 found = elasticity_matrix(material, plane) * (strain - thermal_strain(material, plane) * T);
@@ -72,7 +74,8 @@ TEST(PlaneLaw, OfOrthotropicMaterialIsThatOfSpace) {
     constants.angle = degrees * std::numbers::pi / 180;
     material.law = constants;
     material.expansion = {0.5e-6, 30e-6, 25e-6};
-    expect_alike(material, law({140e9, 10e9, 12e9}, 0.3, 0.28, 0.4, 5e9, {0.5e-6, 30e-6, 25e-6}, degrees * std::numbers::pi / 180));
+    expect_alike(material, law({140e9, 10e9, 12e9}, 0.3, 0.28, 0.4, 5e9, {0.5e-6, 30e-6, 25e-6},
+                               degrees * std::numbers::pi / 180));
   }
 }
 

@@ -28,7 +28,8 @@ TEST(TileKernel, EveryInstructionSetDividesByTheFactor) {
   for (int rank = 0; const TileKernel* kernel = tile_kernel(rank); ++rank)
     for (int n : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 23, 31, 38, 65})
       for (int rows : {1, 2, 3, 5, 8, 13, 24, 25, 31, 77}) {
-        SCOPED_TRACE(kernel->instructions + std::string(", n = ") + std::to_string(n) + ", rows = " + std::to_string(rows));
+        SCOPED_TRACE(kernel->instructions + std::string(", n = ") + std::to_string(n) +
+                     ", rows = " + std::to_string(rows));
         const Matrix A = positive_definite(n), B = random(rows, n);
         Matrix L = A, X = B, Y = B;
         Vector over(n);
@@ -47,7 +48,8 @@ TEST(TileKernel, EveryInstructionSetSubtractsASquare) {
   for (int rank = 0; const TileKernel* kernel = tile_kernel(rank); ++rank)
     for (int n : {1, 2, 3, 6, 8, 11, 16, 24, 25, 50, 76})
       for (int depth : {0, 1, 5, 38}) {
-        SCOPED_TRACE(kernel->instructions + std::string(", n = ") + std::to_string(n) + ", depth = " + std::to_string(depth));
+        SCOPED_TRACE(kernel->instructions + std::string(", n = ") + std::to_string(n) +
+                     ", depth = " + std::to_string(depth));
         const Matrix A = random(n, depth), C = random(n, n);
         Matrix result = C;
         kernel->subtract_square(A.data(), n, n, depth, result.data(), n);

@@ -1,5 +1,5 @@
-// Ordered Schur form and spectral projections. Oracle: the resolvent integrated around the group, which knows nothing of
-// Schur forms: P = 1 / (2 pi i) int (z - S)^-1 dz.
+// Ordered Schur form and spectral projections. Oracle: the resolvent integrated around the group, which knows nothing
+// of Schur forms: P = 1 / (2 pi i) int (z - S)^-1 dz.
 #include "scabo/linalg/ordered_schur.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,8 @@ void expect_subspace(const Matrix& S, const InvariantSubspace& part, double tole
   const double size = S.norm() * part.projection_norm;
   EXPECT_LT((S * part.V - part.V * part.T).norm(), tolerance * size * part.V.norm());
   EXPECT_LT((part.Q * S - part.T * part.Q).norm(), tolerance * size * part.Q.norm());
-  EXPECT_LT((part.Q * part.V - Matrix::Identity(part.T.rows(), part.T.rows())).norm(), tolerance * part.projection_norm);
+  EXPECT_LT((part.Q * part.V - Matrix::Identity(part.T.rows(), part.T.rows())).norm(),
+            tolerance * part.projection_norm);
 }
 
 int below_two(std::complex<double> value) { return value.real() < 2.0 ? 0 : 1; }
@@ -83,7 +84,8 @@ TEST(SpectralProjection, KeepsComplexPairsWhole) {
   J.diagonal() << 3.0, 0.5, 0.5, 5.0, 2.0, 2.0;
   J(1, 2) = 0.08, J(2, 1) = -0.08, J(4, 5) = 1.0, J(5, 4) = -1.0;
   const Matrix X = random_basis(6, 9), S = X * J * X.inverse();
-  const InvariantSubspace part = OrderedSchur(S, [](std::complex<double> z) { return z.real() < 1.0 ? 0 : 1; }).group(0);
+  const InvariantSubspace part =
+      OrderedSchur(S, [](std::complex<double> z) { return z.real() < 1.0 ? 0 : 1; }).group(0);
   ASSERT_EQ(part.V.cols(), 2);
   expect_subspace(S, part, 1e-12);
   EXPECT_NEAR(std::abs(part.eigenvalues[0].imag()), 0.08, 1e-12);

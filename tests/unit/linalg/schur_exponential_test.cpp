@@ -19,8 +19,7 @@ Vector oracle(const Matrix& T, const Vector& c, const Vector& w, double s) {
   augmented.topRightCorner(n, 1) = -w.cast<long double>();
   augmented(n, n) = 2.0L;
   const LongMatrix exponential = (augmented * static_cast<long double>(s)).exp();
-  return (exponential.topLeftCorner(n, n) * c.cast<long double>() + exponential.topRightCorner(n, 1))
-      .cast<double>();
+  return (exponential.topLeftCorner(n, n) * c.cast<long double>() + exponential.topRightCorner(n, 1)).cast<double>();
 }
 
 void expect_agrees(const Matrix& S, double tolerance) {
@@ -48,8 +47,7 @@ TEST(SchurExponential, DefectiveEigenvalue) {
   expect_agrees(S, 1e-13);
   const SchurExponential schur(S);
   const double s = -1.5;
-  const Vector psi =
-      schur.U() * schur.propagate(schur.U().transpose() * Vector(Eigen::Vector2d(0, 1)), {}, s);
+  const Vector psi = schur.U() * schur.propagate(schur.U().transpose() * Vector(Eigen::Vector2d(0, 1)), {}, s);
   EXPECT_NEAR(psi[0], std::exp(s) * s, 1e-14);
   EXPECT_NEAR(psi[1], std::exp(s), 1e-14);
 }
@@ -108,9 +106,7 @@ TEST(SchurExponential, ResonanceWithTheBodyForce) {
     EXPECT_NEAR(schur.propagate(c, {{2.0, -w}}, s)[0], std::exp(2 * s) * (0.3 - s * 0.7), 1e-14);
 }
 
-TEST(SchurExponential, OfNothing) {
-  EXPECT_EQ(SchurExponential(Matrix(0, 0)).propagate(Vector(), {}, -1.0).size(), 0);
-}
+TEST(SchurExponential, OfNothing) { EXPECT_EQ(SchurExponential(Matrix(0, 0)).propagate(Vector(), {}, -1.0).size(), 0); }
 
 }  // namespace
 }  // namespace scabo::linalg

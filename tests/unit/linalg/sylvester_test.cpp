@@ -14,7 +14,8 @@ Matrix quasi_triangular(int n) {
 
 TEST(Sylvester, SolvesItsEquationForAllSizes) {
   std::srand(1);
-  for (const auto& [n, m] : {std::pair(1, 1), {2, 1}, {1, 2}, {7, 5}, {48, 48}, {49, 48}, {130, 3}, {3, 130}, {200, 150}}) {
+  for (const auto& [n, m] :
+       {std::pair(1, 1), {2, 1}, {1, 2}, {7, 5}, {48, 48}, {49, 48}, {130, 3}, {3, 130}, {200, 150}}) {
     const Matrix T1 = quasi_triangular(n), T2 = quasi_triangular(m), C = Matrix::Random(n, m);
     const Matrix X = solve_sylvester(T1, T2, C);
     EXPECT_LT((T1.transpose() * X + X * T2 - C).cwiseAbs().maxCoeff(), 1e-12) << n << " x " << m;

@@ -48,8 +48,7 @@ void expect_solves(const SymmetricPositiveSolver& solver, const Matrix& A) {
   EXPECT_EQ(solver.solve(Matrix(n, 0)).cols(), 0);
 
   std::vector<int> indices;
-  for (int i = n - 1; i >= 0; i -= 3)
-    indices.push_back(i);  // not in order, more than one batch of sparse columns
+  for (int i = n - 1; i >= 0; i -= 3) indices.push_back(i);  // not in order, more than one batch of sparse columns
   const Matrix inverse = oracle.solve(Matrix::Identity(n, n)), block = solver.inverse_block(indices);
   EXPECT_LT((block - inverse(indices, indices)).norm(), 1e-12 * inverse.norm());
   EXPECT_EQ(block, block.transpose());
@@ -96,17 +95,14 @@ TEST(SymmetricPositiveSolver, SaysWhatIsNotPositiveDefinite) {
 
 TEST(SymmetricPositiveSolver, KeepsItsDigitsOverSixteenDecades) {
   SparseMatrix A = grid(12);
-  const Vector scale =
-      Vector::NullaryExpr(144, [](Eigen::Index i) { return std::pow(10.0, (i % 17 - 8) * 0.5); });
+  const Vector scale = Vector::NullaryExpr(144, [](Eigen::Index i) { return std::pow(10.0, (i % 17 - 8) * 0.5); });
   const Matrix scaled = scale.asDiagonal() * Matrix(A) * scale.asDiagonal();
   SparseMatrix sparse = scaled.sparseView();
   sparse.makeCompressed();
   const Vector x = Vector::LinSpaced(144, 1.0, 2.0);
   const Vector b = scaled * scale.cwiseInverse().asDiagonal() * x;
-  EXPECT_LT((Vector(scale.asDiagonal() * SymmetricPositiveSolver(sparse).solve(b)) - x).norm(),
-            1e-12 * x.norm());
-  EXPECT_LT((Vector(scale.asDiagonal() * SymmetricPositiveSolver(scaled).solve(b)) - x).norm(),
-            1e-12 * x.norm());
+  EXPECT_LT((Vector(scale.asDiagonal() * SymmetricPositiveSolver(sparse).solve(b)) - x).norm(), 1e-12 * x.norm());
+  EXPECT_LT((Vector(scale.asDiagonal() * SymmetricPositiveSolver(scaled).solve(b)) - x).norm(), 1e-12 * x.norm());
 }
 
 }  // namespace

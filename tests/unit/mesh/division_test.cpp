@@ -107,14 +107,13 @@ TEST(BoundaryDivision, NamesAnArcThatItsElementsHide) {
   const Vec2 start = test::polar({0, 0}, 1.0, -pi / 6);
   const Vec2 end = test::polar({0, 0}, 1.0, pi / 6);
   model::Body cap = elastic("cap",
-                            test::outline({arc("rim", {0, 0}, 1.0, -pi / 6, pi / 3),
-                                           line("upper", end, {0, 0}), line("lower", {0, 0}, start)}),
+                            test::outline({arc("rim", {0, 0}, 1.0, -pi / 6, pi / 3), line("upper", end, {0, 0}),
+                                           line("lower", {0, 0}, start)}),
                             100.0, 1);
   cap.mesh.centre = {0.9, 0.0};
   const std::string message = message_of(with({cap}));
-  EXPECT_THAT(message,
-              HasSubstr("model.yaml:7:11: bodies.cap.mesh: the arc cap.rim in 1 element of order 1 is not "
-                        "wholly seen from the scaling centre (0.9, 0)"));
+  EXPECT_THAT(message, HasSubstr("model.yaml:7:11: bodies.cap.mesh: the arc cap.rim in 1 element of order 1 is not "
+                                 "wholly seen from the scaling centre (0.9, 0)"));
   EXPECT_THAT(message, HasSubstr("use a smaller 'size' or a higher 'order', or set 'centre'"));
   cap.mesh.size = 0.1;
   EXPECT_EQ(message_of(with({cap})), "no error");
@@ -123,24 +122,20 @@ TEST(BoundaryDivision, NamesAnArcThatItsElementsHide) {
 TEST(BoundaryDivision, NamesAnEdgeThatTheCentreDoesNotSee) {
   model::Body block = elastic("block", test::rectangle({0, 0}, {1, 1}), 0.5);
   block.mesh.centre = {1.5, 0.5};
-  EXPECT_THAT(message_of(with({block})),
-              HasSubstr("the edge block.right is not seen from the scaling centre"));
+  EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not seen from the scaling centre"));
   block.mesh.centre = {1.0, 0.5};  // on the edge itself
   EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not seen"));
 }
 
 TEST(BoundaryDivision, RefusesMeshesTooLargeToBeMeant) {
   const model::Body block = elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-9);
-  EXPECT_EQ(
-      message_of(with({block})),
-      "model.yaml:7:11: bodies.block.mesh: size 1e-09 would make 8e+09 nodes, more than the 1000000 allowed: "
-      "use a larger 'size'");
+  EXPECT_EQ(message_of(with({block})),
+            "model.yaml:7:11: bodies.block.mesh: size 1e-09 would make 8e+09 nodes, more than the 1000000 allowed: "
+            "use a larger 'size'");
   EXPECT_THAT(message_of(with({fem(block)})), HasSubstr("3e+18 nodes"));
-  EXPECT_THAT(message_of(with({elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-300)})),
-              HasSubstr("8e+300"));
+  EXPECT_THAT(message_of(with({elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-300)})), HasSubstr("8e+300"));
   const model::Body large = elastic("large", test::rectangle({0, 0}, {1, 1}), 1e-5);
-  EXPECT_THAT(message_of(with({large, large})),
-              HasSubstr("with this body the model would have 1.6e+06 nodes"));
+  EXPECT_THAT(message_of(with({large, large})), HasSubstr("with this body the model would have 1.6e+06 nodes"));
 }
 
 TEST(BoundaryDivision, ReportsEveryBodysMistakesAtOnce) {
@@ -200,24 +195,22 @@ TEST(Grid, HasTheEdgeNodesOfASuperElementOfOrderTwo) {
     ASSERT_EQ(grid.edges[e].size(), boundary.edges[e].size());
     for (std::size_t k = 0; k < grid.edges[e].size(); ++k) {
       for (int i = 0; i < 3; ++i) {
-        EXPECT_LT(
-            (grid.nodes[grid.edges[e][k].nodes[i]] - boundary.nodes[boundary.edges[e][k].nodes[i]]).norm(),
-            2e-15);
+        EXPECT_LT((grid.nodes[grid.edges[e][k].nodes[i]] - boundary.nodes[boundary.edges[e][k].nodes[i]]).norm(),
+                  2e-15);
       }
     }
   }
 }
 
 TEST(Grid, NeedsARectangleAndOrderTwo) {
-  EXPECT_THAT(message_of(with({fem(elastic("disc", quarter_disc(), 0.1))})),
-              HasSubstr("divides rectangles only"));
+  EXPECT_THAT(message_of(with({fem(elastic("disc", quarter_disc(), 0.1))})), HasSubstr("divides rectangles only"));
   EXPECT_THAT(message_of(with({fem(elastic("plate", test::rectangle({0, 0}, {1, 1}), 0.1, 3))})),
               HasSubstr("elements of order 2, not 3"));
 }
 
 TEST(Places, NameNodes) {
-  const model::Model model = with({elastic("block", test::rectangle({0, 0}, {2, 1}), 1.0),
-                                   test::rigid("floor", test::rectangle({0, -1}, {2, 1}))});
+  const model::Model model = with(
+      {elastic("block", test::rectangle({0, 0}, {2, 1}), 1.0), test::rigid("floor", test::rectangle({0, -1}, {2, 1}))});
   const Mesh mesh = make_mesh(model);
   EXPECT_EQ(mesh.nodes(), 12);
 

@@ -47,10 +47,9 @@ TEST(Foot, IsNothingAtTheCentreOfAnArc) {
 
 TEST(Encloses, TakesArcsExactly) {
   // A unit square with a round bulge on the right and a round bite in the top.
-  const model::Outline shape =
-      test::outline({line("bottom", {0, 0}, {1, 0}), arc("bulge", {1, 0.5}, 0.5, -pi / 2, pi),
-                     line("top right", {1, 1}, {0.75, 1}), arc("bite", {0.5, 1}, 0.25, 0.0, -pi),
-                     line("top left", {0.25, 1}, {0, 1}), line("left", {0, 1}, {0, 0})});
+  const model::Outline shape = test::outline(
+      {line("bottom", {0, 0}, {1, 0}), arc("bulge", {1, 0.5}, 0.5, -pi / 2, pi), line("top right", {1, 1}, {0.75, 1}),
+       arc("bite", {0.5, 1}, 0.25, 0.0, -pi), line("top left", {0.25, 1}, {0, 1}), line("left", {0, 1}, {0, 0})});
   const auto inside = [](const Vec2& x) {
     const bool square = x.x() > 0 && x.x() < 1 && x.y() > 0 && x.y() < 1;
     const bool bulge = x.x() >= 1 && (x - Vec2(1, 0.5)).norm() < 0.5;
@@ -70,8 +69,7 @@ TEST(NearestPoint, IsTheNearestOfAll) {
     for (const bool curved : {false, true}) {
       std::vector<Vec2> points;
       for (int i = 0; i < count; ++i) {
-        points.push_back(curved ? polar({0, 0}, 1.0, 6.0 * i / count)
-                                : Vec2(Vec2(1, 2) + Vec2(0.7, -0.4) * i / count));
+        points.push_back(curved ? polar({0, 0}, 1.0, 6.0 * i / count) : Vec2(Vec2(1, 2) + Vec2(0.7, -0.4) * i / count));
       }
       const NearestPoint nearest(points);
       for (int k = 0; k < 200; ++k) {

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "models.hpp"
 #include "scabo/mesh/divide.hpp"
 
@@ -68,9 +67,8 @@ model::Body ring(double radius, double middle, double angle, double size, int or
   const double bottom = middle - 2 * radius;
   model::Body body = elastic(
       "ring",
-      test::outline(
-          {line("bottom", {left.x(), bottom}, {right.x(), bottom}), line("right", {right.x(), bottom}, right),
-           arc("inner", centre, radius, low + angle, -2 * angle), line("left", left, {left.x(), bottom})}),
+      test::outline({line("bottom", {left.x(), bottom}, {right.x(), bottom}), line("right", {right.x(), bottom}, right),
+                     arc("inner", centre, radius, low + angle, -2 * angle), line("left", left, {left.x(), bottom})}),
       size, order);
   body.mesh.centre = {0, middle - 1.6 * radius};
   return body;
@@ -140,10 +138,9 @@ TEST(MatchingInterface, IsExactlyReversedWhenSidesAreSwapped) {
 }
 
 TEST(MatchingInterface, DoesNotDependOnPlaceDirectionOrUnits) {
-  const std::vector<model::Model> models{
-      blocks(), blocks(0.01), blocks(-0.01),
-      pair_of(lower_disc(8, 0.5, 0.3), "rim", disc(8, 0.5, 0.3), "rim"),
-      pair_of(ring(1.01, 1.0, 0.5, 0.0505), "inner", disc(1.0, 0.5, 0.05), "rim")};
+  const std::vector<model::Model> models{blocks(), blocks(0.01), blocks(-0.01),
+                                         pair_of(lower_disc(8, 0.5, 0.3), "rim", disc(8, 0.5, 0.3), "rim"),
+                                         pair_of(ring(1.01, 1.0, 0.5, 0.0505), "inner", disc(1.0, 0.5, 0.05), "rim")};
   for (const model::Model& model : models) {
     const Interface joint = match(model);
     for (const double scale : {1e-9, 1e-3, 1.0, 1e3, 1e9}) {
@@ -239,8 +236,7 @@ TEST(MatchingInterface, ThousandsOfNodes) {
 
 TEST(CurvedInterface, PairsMirroredDiscsAlongTheVertical) {
   for (const int order : {1, 2, 4}) {
-    const model::Model model =
-        pair_of(lower_disc(8, 0.6, 0.25, order), "rim", disc(8, 0.6, 0.25, order), "rim");
+    const model::Model model = pair_of(lower_disc(8, 0.6, 0.25, order), "rim", disc(8, 0.6, 0.25, order), "rim");
     const Interface joint = match(model);
     ASSERT_EQ(joint.pairs.size(), 39u * order + 1u);
     for (const ContactPair& pair : joint.pairs) {
@@ -271,8 +267,8 @@ TEST(CurvedInterface, PairsADiscAndAPlaneDividedEqually) {
   // Arc length on the disc, x on the plane: 20 elements of 0.1 either way from the middle.
   const double radius = 50.0;
   for (const double apart : {0.0, 0.3}) {
-    model::Model model = pair_of(elastic("floor", rectangle({-2, -3}, {4, 3}), 0.1), "top",
-                                 disc(radius, 2 / radius, 0.1), "rim");
+    model::Model model =
+        pair_of(elastic("floor", rectangle({-2, -3}, {4, 3}), 0.1), "top", disc(radius, 2 / radius, 0.1), "rim");
     model.bodies[1] = Similarity{0.0, 1.0, {0, apart}}(model).bodies[1];
     const Interface joint = match(model);
     ASSERT_EQ(joint.pairs.size(), 81u);
@@ -303,8 +299,7 @@ TEST(CurvedInterface, PairsConcentricRingAndCylinderRadially) {
           pair_of(ring(outer, 1.0, 0.7, 0.07 * outer, order), "inner", disc(1.0, 0.7, 0.07, order), "rim");
       const Interface joint = match(model);
       ASSERT_EQ(joint.pairs.size(), 20u * order + 1u) << order << ' ' << clearance;
-      for (const ContactPair& pair : joint.pairs)
-        EXPECT_NEAR(pair.gap, clearance, 3e-3 * std::abs(clearance) + 1e-15);
+      for (const ContactPair& pair : joint.pairs) EXPECT_NEAR(pair.gap, clearance, 3e-3 * std::abs(clearance) + 1e-15);
       expect_exactly_swapped(joint, match(swapped(model)));
     }
   }
@@ -315,8 +310,7 @@ TEST(CurvedInterface, PairsACylinderThatTouchesItsRingBelow) {
   // c s^3 / (6 R^3).
   const double clearance = 1e-3;
   const double outer = 1.0 + clearance;
-  const model::Model model =
-      pair_of(ring(outer, outer, 0.6 / outer, 0.03), "inner", disc(1.0, 0.6, 0.03), "rim");
+  const model::Model model = pair_of(ring(outer, outer, 0.6 / outer, 0.03), "inner", disc(1.0, 0.6, 0.03), "rim");
   const Interface joint = match(model);
   ASSERT_EQ(joint.pairs.size(), 81u);
   EXPECT_EQ(joint.pairs[40].gap, 0.0);
@@ -345,9 +339,9 @@ TEST(CurvedInterface, ClosesAroundAWholeCylinder) {
   // is no super-element of its own, it is divided by hand.
   for (const double clearance : {0.0, 0.01}) {
     const double outer = 1.0 + clearance;
-    const model::Model model = pair_of(
-        elastic("cylinder", test::outline({arc("rim", {0, 0}, 1.0, 0.5, 2 * pi)}), 0.3), "rim",
-        elastic("plate", test::outline({arc("hole", {0, 0}, outer, 0.5, -2 * pi)}), 0.3 * outer), "hole");
+    const model::Model model =
+        pair_of(elastic("cylinder", test::outline({arc("rim", {0, 0}, 1.0, 0.5, 2 * pi)}), 0.3), "rim",
+                elastic("plate", test::outline({arc("hole", {0, 0}, outer, 0.5, -2 * pi)}), 0.3 * outer), "hole");
     const std::vector<BodyMesh> bodies{divide_boundary(model.bodies[0]), divide_boundary(model.bodies[1])};
     const Interface joint = std::get<Interface>(match_interface(model, 0, bodies));
     ASSERT_EQ(joint.pairs.size(), 42u);
@@ -375,8 +369,7 @@ TEST(MatchingMistake, NamesTheFirstPairThatDoesNotMatch) {
             "edge; give "
             "both bodies the same mesh size and order along the contact");
   model.bodies[1].mesh.size = 0.1875;  // every node of `lower` has a partner, but not every one of `upper`
-  EXPECT_THAT(message_of(model),
-              HasSubstr("first at (0.09375, 1.5) on upper.bottom, whose nearest node on lower.top"));
+  EXPECT_THAT(message_of(model), HasSubstr("first at (0.09375, 1.5) on upper.bottom, whose nearest node on lower.top"));
   model.bodies[1].mesh.size = 0.375;
   model.bodies[1].mesh.order = 3;
   EXPECT_THAT(message_of(model), HasSubstr("do not match: first at (0.1875, 1.5) on lower.top"));
@@ -394,17 +387,16 @@ TEST(MatchingMistake, IsFoundAlsoAtTheFarEndAndWhenTurned) {
 TEST(MatchingMistake, TellsToAlignTheShorterEdge) {
   const model::Model model = pair_of(elastic("floor", rectangle({0, 0}, {6, 1}), 0.5), "top",
                                      elastic("block", rectangle({2.1, 1}, {1.5, 1}), 0.5), "bottom");
-  EXPECT_THAT(message_of(model),
-              AllOf(HasSubstr("first at (2.25, 1) on floor.top"),
-                    HasSubstr("let the ends of the shorter edge fall on nodes of the longer one")));
+  EXPECT_THAT(message_of(model), AllOf(HasSubstr("first at (2.25, 1) on floor.top"),
+                                       HasSubstr("let the ends of the shorter edge fall on nodes of the longer one")));
 }
 
 TEST(MatchingMistake, OfArcsWithUnlikeDivision) {
   EXPECT_THAT(message_of(pair_of(ring(1.0, 1.0, 0.7, 0.07), "inner", disc(1.0, 0.7, 0.08), "rim")),
               HasSubstr("ring.inner and disc.rim do not match: first at"));
-  EXPECT_THAT(message_of(pair_of(elastic("floor", rectangle({-1, -1}, {2, 1}), 0.05), "top",
-                                 disc(5.0, 0.2, 0.06), "rim")),
-              HasSubstr("do not match"));
+  EXPECT_THAT(
+      message_of(pair_of(elastic("floor", rectangle({-1, -1}, {2, 1}), 0.05), "top", disc(5.0, 0.2, 0.06), "rim")),
+      HasSubstr("do not match"));
 }
 
 TEST(MatchingMistake, EdgesThatLookAway) {

@@ -36,13 +36,15 @@ TEST(MixedDivision, GivesEveryElementItsLengthAndOrder) {
 }
 
 TEST(MixedDivision, IsTheOldOneWhereItIsUniform) {
-  const model::Model model = one(elastic("disc", outline({arc("a", {0, 0}, 1, 0, pi), arc("b", {0, 0}, 1, pi, pi)}), 0.3, 3));
+  const model::Model model =
+      one(elastic("disc", outline({arc("a", {0, 0}, 1, 0, pi), arc("b", {0, 0}, 1, pi, pi)}), 0.3, 3));
   const Mesh plain = make_mesh(model), divided = make_mesh(model, uniform_division(model));
   EXPECT_EQ(plain.bodies[0].nodes, divided.bodies[0].nodes);
 }
 
 TEST(Enriched, HoldsEveryFieldOfTheOldElementsOnTheSameCurve) {
-  const model::Model model = one(elastic("disc", outline({arc("a", {0, 0}, 1, 0, pi), arc("b", {0, 0}, 1, pi, pi)}), 0.9, 2));
+  const model::Model model =
+      one(elastic("disc", outline({arc("a", {0, 0}, 1, 0, pi), arc("b", {0, 0}, 1, pi, pi)}), 0.9, 2));
   const Mesh mesh = make_mesh(model);
   std::vector<std::vector<bool>> frozen(1, std::vector<bool>(mesh.bodies[0].super_elements[0].boundary.size(), false));
   frozen[0][1] = true;

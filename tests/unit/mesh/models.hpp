@@ -25,8 +25,7 @@ inline model::Edge line(const std::string& name, const Vec2& start, const Vec2& 
   return edge;
 }
 
-inline model::Edge arc(const std::string& name, const Vec2& centre, double radius, double from,
-                       double sweep) {
+inline model::Edge arc(const std::string& name, const Vec2& centre, double radius, double from, double sweep) {
   model::Edge edge = line(name, polar(centre, radius, from), polar(centre, radius, from + sweep));
   edge.arc = model::Arc{centre, radius, from, sweep};
   return edge;
@@ -53,8 +52,7 @@ inline model::Outline polygon(const std::vector<Vec2>& vertices, const std::vect
 inline model::Outline rectangle(const Vec2& corner, const Vec2& size) {
   const Vec2 x(size.x(), 0.0);
   const Vec2 y(0.0, size.y());
-  model::Outline made =
-      polygon({corner, corner + x, corner + size, corner + y}, {"bottom", "right", "top", "left"});
+  model::Outline made = polygon({corner, corner + x, corner + size, corner + y}, {"bottom", "right", "top", "left"});
   made.rectangle = true;
   return made;
 }
@@ -98,8 +96,7 @@ inline model::Place edge_of(const model::Model& model, const std::string& body, 
 }
 
 /// Two bodies and the contact `joint` between an edge of the first (A) and one of the second.
-inline model::Model pair_of(model::Body a, const std::string& edge_a, model::Body b,
-                            const std::string& edge_b) {
+inline model::Model pair_of(model::Body a, const std::string& edge_a, model::Body b, const std::string& edge_b) {
   model::Model model;
   model.file = "model.yaml";
   const std::string name_a = a.name;
@@ -126,8 +123,7 @@ struct Similarity {
   Vec2 move = Vec2::Zero();
 
   Vec2 turn(const Vec2& x) const {
-    return {std::cos(angle) * x.x() - std::sin(angle) * x.y(),
-            std::sin(angle) * x.x() + std::cos(angle) * x.y()};
+    return {std::cos(angle) * x.x() - std::sin(angle) * x.y(), std::sin(angle) * x.x() + std::cos(angle) * x.y()};
   }
   Vec2 operator()(const Vec2& x) const { return scale * turn(x) + move; }
 

@@ -31,10 +31,10 @@ model::Model punch(double gap = 0.0) {
 /// A whole rigid cylinder (two arcs) above the block, lowest at (0, gap).
 model::Model cylinder(double radius, double gap) {
   const Vec2 centre(0, radius + gap);
-  return pair_of(elastic("block", rectangle({-2, -2}, {4, 2}), 0.25), "top",
-                 rigid("roll", test::outline({arc("lower", centre, radius, pi, pi),
-                                              arc("upper", centre, radius, 0, pi)})),
-                 "lower");
+  return pair_of(
+      elastic("block", rectangle({-2, -2}, {4, 2}), 0.25), "top",
+      rigid("roll", test::outline({arc("lower", centre, radius, pi, pi), arc("upper", centre, radius, 0, pi)})),
+      "lower");
 }
 
 TEST(RigidInterface, PairsOnlyNodesUnderAFlatPunch) {
@@ -91,8 +91,7 @@ TEST(RigidInterface, MeasuresTheGapToACylinderRadially) {
 }
 
 TEST(RigidInterface, IsTheSameTurnedAndInOtherUnits) {
-  for (const model::Model& model :
-       {punch(0.0), punch(0.1), punch(-0.1), cylinder(5, 0.0), cylinder(1, -0.1)}) {
+  for (const model::Model& model : {punch(0.0), punch(0.1), punch(-0.1), cylinder(5, 0.0), cylinder(1, -0.1)}) {
     const Interface a = match_rigid(model);
     for (const double scale : {1e-6, 1.0, 1e3}) {
       const Similarity turn{37 * pi / 180, scale, scale * Vec2(100, -20)};
@@ -111,8 +110,7 @@ TEST(RigidInterface, TakesAHalfDiscOnAFloor) {
   const Vec2 centre(0, 5);
   const model::Model model = pair_of(
       rigid("floor", rectangle({-10, -1}, {20, 1})), "top",
-      elastic("disc", test::outline({arc("rim", centre, 5, pi, pi), line("diameter", {5, 5}, {-5, 5})}), 0.2),
-      "rim");
+      elastic("disc", test::outline({arc("rim", centre, 5, pi, pi), line("diameter", {5, 5}, {-5, 5})}), 0.2), "rim");
   model::Model lifted = model;
   lifted.bodies[1].mesh.centre = {0, 3};
   const Interface joint = match_rigid(lifted);
@@ -125,9 +123,8 @@ TEST(RigidInterface, TakesAHalfDiscOnAFloor) {
 }
 
 TEST(RigidInterface, PairsTheLowerPartOfAWholeCircleInOneRun) {
-  model::Model model =
-      pair_of(rigid("floor", rectangle({-10, -1}, {20, 1})), "top",
-              elastic("disc", test::outline({arc("rim", {0, 5}, 5, -1.7, 2 * pi)}), 0.2), "rim");
+  model::Model model = pair_of(rigid("floor", rectangle({-10, -1}, {20, 1})), "top",
+                               elastic("disc", test::outline({arc("rim", {0, 5}, 5, -1.7, 2 * pi)}), 0.2), "rim");
   model.bodies[1].mesh.centre = {0, 5};
   const Interface joint = match_rigid(model);
   for (std::size_t k = 1; k < joint.pairs.size(); ++k) {
@@ -143,12 +140,11 @@ TEST(RigidInterface, HoldsInAConcaveRigidSeat) {
   const Vec2 left = polar(centre, seat, -pi / 2 - half);
   const Vec2 right = polar(centre, seat, -pi / 2 + half);
   const model::Model model = pair_of(
-      rigid("seat", test::outline({line("bottom", {-1, -1}, {1, -1}), line("right", {1, -1}, right),
-                                   arc("round", centre, seat, -pi / 2 + half, -2 * half),
-                                   line("left", left, {-1, -1})})),
+      rigid("seat",
+            test::outline({line("bottom", {-1, -1}, {1, -1}), line("right", {1, -1}, right),
+                           arc("round", centre, seat, -pi / 2 + half, -2 * half), line("left", left, {-1, -1})})),
       "round",
-      elastic("disc", test::outline({arc("rim", centre, 1.0, -pi, pi), line("diameter", {1, 1}, {-1, 1})}),
-              0.1),
+      elastic("disc", test::outline({arc("rim", centre, 1.0, -pi, pi), line("diameter", {1, 1}, {-1, 1})}), 0.1),
       "rim");
   model::Model lowered = model;
   lowered.bodies[1].mesh.centre = {0, 0.6};

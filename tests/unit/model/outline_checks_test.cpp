@@ -95,14 +95,12 @@ TEST(Crossing, NoneAmongTenThousandEdges) {
 
 TEST(Crossing, RoundedCornersTouchTheirTangentsByRight) {
   // Coordinates rounded to four digits, so that the arc meets its tangent again close to the corner.
-  EXPECT_THAT(
-      mistakes_in(shaped("{outline: [{line: {from: [0, 0], to: [3, 0]}}, {line: {to: [3, 1.2929]}},"
-                         " {arc: {to: [2.7071, 2], centre: [2.0000357, 1.2929357]}}, {line: {to: [0, 2]}},"
-                         " {line: {to: [0, 0]}}]}")),
-      testing::Not(HasSubstr("meet at")));
-  EXPECT_THAT(mistakes_in(shaped(
-                  "{outline: [{line: {from: [0, 0], to: [3, 0]}}, {line: {to: [3, 1]}},"
-                  " {arc: {to: [2, 2], centre: [2, 1]}}, {line: {to: [0, 2]}}, {line: {to: [0, 0]}}]}")),
+  EXPECT_THAT(mistakes_in(shaped("{outline: [{line: {from: [0, 0], to: [3, 0]}}, {line: {to: [3, 1.2929]}},"
+                                 " {arc: {to: [2.7071, 2], centre: [2.0000357, 1.2929357]}}, {line: {to: [0, 2]}},"
+                                 " {line: {to: [0, 0]}}]}")),
+              testing::Not(HasSubstr("meet at")));
+  EXPECT_THAT(mistakes_in(shaped("{outline: [{line: {from: [0, 0], to: [3, 0]}}, {line: {to: [3, 1]}},"
+                                 " {arc: {to: [2, 2], centre: [2, 1]}}, {line: {to: [0, 2]}}, {line: {to: [0, 0]}}]}")),
               IsEmpty());
 }
 

@@ -62,8 +62,8 @@ TEST(Outline, EveryEdgeStartsWhereTheOneBeforeEnds) {
 }
 
 TEST(Outline, ClockwisePolygonIsTurnedAndKeepsItsNames) {
-  const Outline outline = outline_of(
-      "{polygon: {vertices: [[0, 0], [0, 3], [4, 3], [5, 0]], names: {crest: edge_2, toe: vertex_4}}}");
+  const Outline outline =
+      outline_of("{polygon: {vertices: [[0, 0], [0, 3], [4, 3], [5, 0]], names: {crest: edge_2, toe: vertex_4}}}");
   EXPECT_GT(outline.area(), 0.0);
   for (const Edge& edge : outline.edges) {
     if (edge.names.front() == "edge_1") {
@@ -86,8 +86,8 @@ TEST(Outline, ClockwisePolygonIsTurnedAndKeepsItsNames) {
 }
 
 TEST(Outline, HalfDiscHasItsExactAreaAndCentroid) {
-  const Outline outline = outline_of(
-      "{outline: [{line: {from: [-2, 1], to: [2, 1]}, name: base}, {arc: {to: [-2, 1], centre: [0, 1]}}]}");
+  const Outline outline =
+      outline_of("{outline: [{line: {from: [-2, 1], to: [2, 1]}, name: base}, {arc: {to: [-2, 1], centre: [0, 1]}}]}");
   EXPECT_NEAR(outline.area(), 2.0 * pi, 1e-14);
   EXPECT_NEAR(outline.centroid().x(), 0.0, 1e-14);
   EXPECT_NEAR(outline.centroid().y(), 1.0 + 8.0 / (3.0 * pi), 1e-14);  // 4 R / (3 pi)
@@ -95,8 +95,8 @@ TEST(Outline, HalfDiscHasItsExactAreaAndCentroid) {
 }
 
 TEST(Outline, CircleOfTwoArcs) {
-  const Outline outline = outline_of(
-      "{outline: [{arc: {from: [4, 2], to: [2, 2], centre: [3, 2]}}, {arc: {to: [4, 2], centre: [3, 2]}}]}");
+  const Outline outline =
+      outline_of("{outline: [{arc: {from: [4, 2], to: [2, 2], centre: [3, 2]}}, {arc: {to: [4, 2], centre: [3, 2]}}]}");
   EXPECT_NEAR(outline.area(), pi, 1e-14);
   EXPECT_TRUE(outline.centroid().isApprox(Vec2(3.0, 2.0), 1e-14));
 }

@@ -108,8 +108,7 @@ TEST(ReadModel, InterferenceAloneLoadsAModel) {
 }
 
 TEST(ReadModel, NumbersAtTheEdgeOfTheirRange) {
-  EXPECT_THAT(mistakes_in(block(
-                  "analysis: {thickness: 1e-3}\nsolver: {halvings: 0}\nsteps: [{increments: 100000}]\n")),
+  EXPECT_THAT(mistakes_in(block("analysis: {thickness: 1e-3}\nsolver: {halvings: 0}\nsteps: [{increments: 100000}]\n")),
               IsEmpty());
   EXPECT_THAT(mistakes_in(block("solver: {halvings: -1}\n")), HasSubstr("from 0 to 30"));
 }
@@ -119,8 +118,7 @@ TEST(ReadModel, ManyMistakesAreCountedNotAllTold) {
   for (int i = 0; i < 1000; ++i) text += "  b" + std::to_string(i) + ": 1\n";
   const std::string mistakes = mistakes_in(text);
   EXPECT_EQ(std::count(mistakes.begin(), mistakes.end(), '\n'), 200);
-  EXPECT_TRUE(mistakes.ends_with("model.yaml: and 802 more mistakes"))
-      << mistakes.substr(mistakes.size() - 100);
+  EXPECT_TRUE(mistakes.ends_with("model.yaml: and 802 more mistakes")) << mistakes.substr(mistakes.size() - 100);
 }
 
 TEST(ReadModel, SupportsThatAgreeMayShareACorner) {
@@ -133,8 +131,7 @@ TEST(ReadModel, SupportsThatAgreeMayShareACorner) {
   };
   EXPECT_THAT(mistakes_in(with("{on: block.left, fix: x}")), IsEmpty());
   EXPECT_THAT(mistakes_in(with("{on: block.top, displacement: [null, -1]}")), IsEmpty());
-  EXPECT_THAT(mistakes_in(with("{on: block.left, displacement: [1, null]}")),
-              HasSubstr("they share a point"));
+  EXPECT_THAT(mistakes_in(with("{on: block.left, displacement: [1, null]}")), HasSubstr("they share a point"));
   EXPECT_THAT(mistakes_in(with("{on: block, displacement: [1, null]}")), HasSubstr("they share a point"));
 }
 

@@ -52,8 +52,7 @@ TEST(Steps, NamedFactorsChangeAndOthersStay) {
 }
 
 TEST(Steps, WhatIsNeverAppliedIsAMistake) {
-  const std::string mistakes =
-      mistakes_in(std::string(pressed) + "steps: [{loads: {first: 1, second: 0}}]\n");
+  const std::string mistakes = mistakes_in(std::string(pressed) + "steps: [{loads: {first: 1, second: 0}}]\n");
   EXPECT_THAT(mistakes, HasSubstr("load 'second' is never applied"));
   EXPECT_THAT(mistakes, HasSubstr("the displacement of support 'stroke' is never applied"));
   EXPECT_THAT(mistakes, testing::Not(HasSubstr("'first'")));

@@ -106,10 +106,9 @@ TEST(YamlDocument, DepthHasALimitAlsoThroughAliases) {
 }
 
 TEST(YamlDocument, BrokenTextEndsInOneMessage) {
-  for (const char* text :
-       {"a: [1, 2", "a: {b: 1", "a: \"b", "a: 'b", "a: b: c", "a:\n  b: 1\n c: 2\n", "}", "a: *b",
-        "a: &a [*a]", "a: 1\n---\nb: 2\n", "- 1\nb\n", "a: @b", "!!int 3", "%YAML 9.9\n---\na: 1\n",
-        "a: \"\\q\"", "\x01", "a: \xff", "a: \xc3", "a\tb:\n\t- c\n\td: 1\n"}) {
+  for (const char* text : {"a: [1, 2", "a: {b: 1", "a: \"b", "a: 'b", "a: b: c", "a:\n  b: 1\n c: 2\n", "}", "a: *b",
+                           "a: &a [*a]", "a: 1\n---\nb: 2\n", "- 1\nb\n", "a: @b", "!!int 3", "%YAML 9.9\n---\na: 1\n",
+                           "a: \"\\q\"", "\x01", "a: \xff", "a: \xc3", "a\tb:\n\t- c\n\td: 1\n"}) {
     EXPECT_THAT(mistake_in(text), HasSubstr("text:")) << text;
   }
 }

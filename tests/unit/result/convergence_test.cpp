@@ -27,8 +27,8 @@ std::size_t number_of(const std::string& text, const std::string& word) {
 }
 
 TEST(ConvergencePlot, OneCurveForEachAttemptWithItsName) {
-  const std::string plot = convergence_plot({{"press 1", falling(4), true}, {"press 2", falling(6), true}},
-                                            "Beam <& \"joint\">", 1e-10);
+  const std::string plot =
+      convergence_plot({{"press 1", falling(4), true}, {"press 2", falling(6), true}}, "Beam <& \"joint\">", 1e-10);
   EXPECT_EQ(number_of(plot, "<polyline"), 2u);
   EXPECT_EQ(number_of(plot, "<circle"), 12u);
   for (const char* word : {"press 1", "press 2", "tolerance", "Beam &lt;&amp; &quot;joint&quot;&gt;"})
@@ -48,7 +48,8 @@ TEST(ConvergencePlot, StagesOfASingleCurveAreNamed) {
 
 /// Stages that begin at the same point, as problems of fewer pairs do: one name above the other.
 TEST(ConvergencePlot, NamesOfStagesDoNotCoverEachOther) {
-  std::vector<contact::Iteration> iterations = {{0, 1e-2, 0.0, 0.0, 0, "first"}, {0, 1.1e-2, 0.0, 0.0, 0, "second"}, {0, 0.9e-2, 0.0, 0.0, 0, "third"}};
+  std::vector<contact::Iteration> iterations = {
+      {0, 1e-2, 0.0, 0.0, 0, "first"}, {0, 1.1e-2, 0.0, 0.0, 0, "second"}, {0, 0.9e-2, 0.0, 0.0, 0, "third"}};
   const std::string plot = convergence_plot({{"", iterations, true}}, "", 1e-10);
   std::vector<double> heights;
   for (const char* name : {">first<", ">second<", ">third<"}) {

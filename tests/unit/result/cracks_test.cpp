@@ -1,11 +1,11 @@
 // From an open super-element to the summary and the log: names, keys, null where nothing is known.
+#include "scabo/analysis/cracks.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
 #include <nlohmann/json.hpp>
 
-#include "scabo/analysis/cracks.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/summary.hpp"
 #include "theory/open_rings.hpp"
@@ -16,7 +16,8 @@ namespace {
 using namespace test;
 
 /// One body, `plate`, that is the ring given, moved by u.
-analysis::StaticSolution solution_of(const element::Ring& ring, const std::vector<element::Mat3>& laws, const Vector& u) {
+analysis::StaticSolution solution_of(const element::Ring& ring, const std::vector<element::Mat3>& laws,
+                                     const Vector& u) {
   analysis::StaticSolution solution;
   model::Body body;
   body.name = "plate";
@@ -42,7 +43,8 @@ nlohmann::json cracks_in_summary(const analysis::StaticSolution& solution) {
 TEST(CrackResults, OfACrackByItsName) {
   const element::Ring ring = cracked_square(1, 8);
   const Kolosov m(1.0, 0.3, model::Plane::stress);
-  auto solution = solution_of(ring, {elasticity(1.0, 0.3)}, around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
+  auto solution = solution_of(ring, {elasticity(1.0, 0.3)},
+                              around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
   solution.model.bodies[0].cracks.push_back({"flaw", {0, 0}, {-1, 0}, {}});
   solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
   const nlohmann::json flaw = cracks_in_summary(solution)["plate.flaw"];
@@ -71,7 +73,8 @@ TEST(CrackResults, OfACrackByItsName) {
 TEST(CrackResults, HaveNoFactorsWhereALoadIsInResonance) {
   const element::Ring ring = cracked_square(1, 8);
   const Kolosov m(1.0, 0.3, model::Plane::stress);
-  auto solution = solution_of(ring, {elasticity(1.0, 0.3)}, around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
+  auto solution = solution_of(ring, {elasticity(1.0, 0.3)},
+                              around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
   const auto loaded = [&](double power) {
     solution.increments[0].interior[0].loads.clear();
     element::add_radial_loads(solution.increments[0].interior[0].loads,
@@ -115,7 +118,8 @@ TEST(CrackResults, OfAnInterfaceCrackAndACorner) {
     EXPECT_TRUE(interface[key].is_number()) << key;
 
   const element::Ring notch = sector_ring(0.0, 1.5 * std::numbers::pi, {}, 0.8, 6);
-  solution = solution_of(notch, {elasticity(1.0, 0.3)}, at_nodes(notch.nodes, [](const Vec2& x) { return Vec2(x.y() * x.y(), x.x()); }));
+  solution = solution_of(notch, {elasticity(1.0, 0.3)},
+                         at_nodes(notch.nodes, [](const Vec2& x) { return Vec2(x.y() * x.y(), x.x()); }));
   solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
   const nlohmann::json corner = cracks_in_summary(solution)["plate"];
   EXPECT_EQ(corner["kind"], "corner");

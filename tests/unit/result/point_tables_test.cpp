@@ -44,14 +44,18 @@ model::Model blocks() {
   floor.name = "floor";
   floor.rigid = true;
   floor.outline = rectangle({-1, -1}, {4, 1});
-  return model_of({elastic("lower", rectangle({0, 0}, {2, 1}), 0.5), elastic("upper", rectangle({0, 1}, {2, 1}), 0.5), floor},
-                  model::Plane::strain);
+  return model_of(
+      {elastic("lower", rectangle({0, 0}, {2, 1}), 0.5), elastic("upper", rectangle({0, 1}, {2, 1}), 0.5), floor},
+      model::Plane::strain);
 }
 
 TEST(PointTables, OfALinearFieldAreExactAndEveryBodyHasItsRow) {
   model::Model model = blocks();
-  model.output.points = {{"inside", {0.3, 0.4}, -1, {}}, {"joint", {1.1, 1.0}, -1, {}}, {"only", {1.1, 1.0}, 1, {}},
-                         {"edge", {2.0, 0.25}, -1, {}}, {"floor", {-0.5, -0.5}, -1, {}}};
+  model.output.points = {{"inside", {0.3, 0.4}, -1, {}},
+                         {"joint", {1.1, 1.0}, -1, {}},
+                         {"only", {1.1, 1.0}, 1, {}},
+                         {"edge", {2.0, 0.25}, -1, {}},
+                         {"floor", {-0.5, -0.5}, -1, {}}};
   const auto solution = solution_of(model);
   const auto increment = increment_of(solution, linear_field(table_gradient), {0.1, 0.2, 0.0});
   for (const int increments : {1, 100}) {  // directly and condensed
@@ -81,7 +85,8 @@ TEST(PointTables, OfALinearFieldAreExactAndEveryBodyHasItsRow) {
 }
 
 TEST(PointTables, LinesRunFromEndToEndAndTheGridKeepsWhatLiesInside) {
-  model::Model model = model_of({elastic("body", polygon({{0, 0}, {2, 0}, {0, 2}}, {"a", "b", "c"}), 0.5)}, model::Plane::stress);
+  model::Model model =
+      model_of({elastic("body", polygon({{0, 0}, {2, 0}, {0, 2}}, {"a", "b", "c"}), 0.5)}, model::Plane::stress);
   model.output.lines = {{"axis", {0, 0}, {1, 1}, 5, -1, {}}};
   model.output.grid = model::OutputGrid{0.5, {}, {}, {}, -1, {}};
   const mesh::OutputPoints points = mesh::output_points(model);
@@ -99,8 +104,9 @@ TEST(PointTables, LinesRunFromEndToEndAndTheGridKeepsWhatLiesInside) {
 }
 
 TEST(PointTables, HoldPointsOnAnArcThatItsElementsDoNotReach) {
-  model::Model model = model_of({elastic("disc", outline({arc("a", {5, 0}, 1, 0, pi), arc("b", {5, 0}, 1, pi, pi)}), 0.9, 2)},
-                                model::Plane::stress);
+  model::Model model =
+      model_of({elastic("disc", outline({arc("a", {5, 0}, 1, 0, pi), arc("b", {5, 0}, 1, pi, pi)}), 0.9, 2)},
+               model::Plane::stress);
   const Vec2 on_arc(5 + std::cos(0.2), std::sin(0.2));
   model.output.points = {{"rim", on_arc, -1, {}}};
   const auto solution = solution_of(model);
@@ -110,7 +116,8 @@ TEST(PointTables, HoldPointsOnAnArcThatItsElementsDoNotReach) {
     const PointEvaluation evaluation(solution, mesh::output_points(model).points, increments);
     const PointResult result = evaluation.at(solution, increment).front();
     EXPECT_LT((result.values.displacement - linear_field(table_gradient)(on_arc)).norm(), 1e-6);
-    EXPECT_LT((result.values.stress - stress_of(table_gradient, model::Plane::stress).in_plane).norm(), 1e-3 * young * 1e-3);
+    EXPECT_LT((result.values.stress - stress_of(table_gradient, model::Plane::stress).in_plane).norm(),
+              1e-3 * young * 1e-3);
   }
 }
 
@@ -121,14 +128,16 @@ TEST(PointTables, OutsideEveryBodyIsAMistakeThatNamesTheNearest) {
     mesh::output_points(model);
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.diagnostics().front().message, HasSubstr("(2.5, 1.5) lies outside every body; the nearest is 'upper', 0.5 away"));
+    EXPECT_THAT(error.diagnostics().front().message,
+                HasSubstr("(2.5, 1.5) lies outside every body; the nearest is 'upper', 0.5 away"));
   }
 }
 
 TEST(PointTables, ATipWhereStressIsInfiniteHasNone) {
   // A crack along y = 0 from (-1, 0) to its tip, the scaling centre: first and last node lie at its mouth.
-  model::Model model = model_of({elastic("plate", polygon({{-1, 0}, {-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {"a", "b", "c", "d", "e"}),
-                                         0.5)}, model::Plane::stress);
+  model::Model model = model_of(
+      {elastic("plate", polygon({{-1, 0}, {-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {"a", "b", "c", "d", "e"}), 0.5)},
+      model::Plane::stress);
   model.bodies[0].mesh.centre = Vec2::Zero();
   model.output.points = {{"tip", {0, 0}, -1, {}}, {"beside", {0.1, 0}, -1, {}}};
   auto solution = solution_of(model);

@@ -18,8 +18,7 @@ void expect_linear_field(const Probe& probe, const Vec2& x, model::Plane plane, 
   ASSERT_TRUE(values) << x.transpose();
   const UniformStress expected = stress_of(probe_gradient, plane);
   EXPECT_LT((values->displacement - linear_field(probe_gradient)(x)).norm(), 1e-12) << x.transpose();
-  EXPECT_LT((values->stress - expected.in_plane).norm(), tolerance * expected.in_plane.norm())
-      << x.transpose();
+  EXPECT_LT((values->stress - expected.in_plane).norm(), tolerance * expected.in_plane.norm()) << x.transpose();
 }
 
 TEST(Probe, LinearFieldIsExactInASuperElement) {
@@ -48,11 +47,10 @@ TEST(Probe, LinearFieldIsExactInFiniteElements) {
 }
 
 TEST(Probe, OutsideIsNothing) {
-  const model::Outline disc =
-      outline({arc("lower", {9.0, 0.0}, 0.5, pi, pi), arc("upper", {9.0, 0.0}, 0.5, 0.0, pi)});
-  const auto solution = solution_of(model_of(
-      {elastic("a", pentagon(), 0.7), finite_elements("b", {5.0, 0.0}, {1.0, 1.0}, 0.5), rigid("c", disc)},
-      model::Plane::stress));
+  const model::Outline disc = outline({arc("lower", {9.0, 0.0}, 0.5, pi, pi), arc("upper", {9.0, 0.0}, 0.5, 0.0, pi)});
+  const auto solution = solution_of(
+      model_of({elastic("a", pentagon(), 0.7), finite_elements("b", {5.0, 0.0}, {1.0, 1.0}, 0.5), rigid("c", disc)},
+               model::Plane::stress));
   const auto increment = increment_of(solution, linear_field(probe_gradient), {1.0, 2.0, 0.1});
   EXPECT_FALSE(value_at(solution, increment, 0, {3.0, 1.7}));
   EXPECT_FALSE(value_at(solution, increment, 0, {0.0, 0.0}));
@@ -72,8 +70,8 @@ TEST(NaturalCoordinates, CurvedElement) {
   for (const Vec2& natural : {Vec2(0.3, -0.8), Vec2(-1.0, 1.0), Vec2(0.99, 0.2)}) {
     element::Vector16 nodal;
     for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(static_cast<Eigen::Index>(2 * i)) = x[i];
-    const Vec2 at = element::plane_element8_values(x, nodal, element::Mat3::Zero(), natural.x(), natural.y())
-                        .displacement;
+    const Vec2 at =
+        element::plane_element8_values(x, nodal, element::Mat3::Zero(), natural.x(), natural.y()).displacement;
     const auto found = natural_coordinates(x, at);
     ASSERT_TRUE(found);
     EXPECT_LT((*found - natural).norm(), 1e-12);

@@ -29,8 +29,7 @@ void expect_linear_field(const analysis::StaticSolution& solution, double tolera
     EXPECT_NEAR(fields.stress_yy[i], expected.in_plane[1], tolerance * scale) << "point " << i;
     EXPECT_NEAR(fields.stress_xy[i], expected.in_plane[2], tolerance * scale) << "point " << i;
     EXPECT_NEAR(fields.stress_zz[i], expected.zz, tolerance * scale) << "point " << i;
-    const float tensor[] = {
-        fields.stress_xx[i], fields.stress_yy[i], fields.stress_zz[i], fields.stress_xy[i], 0, 0};
+    const float tensor[] = {fields.stress_xx[i], fields.stress_yy[i], fields.stress_zz[i], fields.stress_xy[i], 0, 0};
     for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(fields.stress[6 * i + c], tensor[c]);
   }
 }
@@ -40,8 +39,7 @@ constexpr double single_precision = 2e-7;
 TEST(Recovery, LinearFieldIsExactInADistortedPolygon) {
   for (const model::Plane plane : {model::Plane::stress, model::Plane::strain})
     for (const int order : {1, 2, 3, 5})
-      expect_linear_field(solution_of(model_of({elastic("body", pentagon(), 0.7, order)}, plane)),
-                          single_precision);
+      expect_linear_field(solution_of(model_of({elastic("body", pentagon(), 0.7, order)}, plane)), single_precision);
 }
 
 TEST(Recovery, LinearFieldIsExactInFiniteElements) {
@@ -51,9 +49,8 @@ TEST(Recovery, LinearFieldIsExactInFiniteElements) {
 }
 
 TEST(Recovery, RigidMotionCarriesNoStress) {
-  const auto solution =
-      solution_of(model_of({elastic("a", pentagon(), 0.5), finite_elements("b", {5.0, 0.0}, {1.0, 1.0}, 0.5)},
-                           model::Plane::strain));
+  const auto solution = solution_of(model_of(
+      {elastic("a", pentagon(), 0.5), finite_elements("b", {5.0, 0.0}, {1.0, 1.0}, 0.5)}, model::Plane::strain));
   const Field turn = [](const Vec2& x) { return Vec2(0.3 - 0.01 * x.y(), -0.2 + 0.01 * x.x()); };
   const Recovery recovery(solution);
   const Fields fields = recovery.fields(solution, increment_of(solution, turn));
@@ -64,8 +61,8 @@ TEST(Recovery, RigidMotionCarriesNoStress) {
 TEST(Recovery, BodyForceIsPartOfTheInterior) {
   const double weight = 9.81 * density;
   auto solution = solution_of(model_of({elastic("a", pentagon(), 0.7, 2)}, model::Plane::stress, 0.0));
-  auto increment = increment_of(
-      solution, [&](const Vec2& x) { return Vec2(0.0, weight * x.y() * x.y() / (2.0 * young)); });
+  auto increment =
+      increment_of(solution, [&](const Vec2& x) { return Vec2(0.0, weight * x.y() * x.y() / (2.0 * young)); });
   increment.interior[0].loads = element::body_force_loads(solution.super_elements[0]->ring, {0.0}, {-weight}, 0.5);
   const Recovery recovery(solution);
   const Fields fields = recovery.fields(solution, increment);
@@ -78,9 +75,8 @@ TEST(Recovery, BodyForceIsPartOfTheInterior) {
 }
 
 TEST(Recovery, FirstPointsAreTheNodesAndTheLastIsTheCentre) {
-  const auto solution =
-      solution_of(model_of({finite_elements("a", {0.0, 0.0}, {1.0, 1.0}, 0.5), elastic("b", pentagon(), 0.7)},
-                           model::Plane::stress));
+  const auto solution = solution_of(model_of(
+      {finite_elements("a", {0.0, 0.0}, {1.0, 1.0}, 0.5), elastic("b", pentagon(), 0.7)}, model::Plane::stress));
   const Recovery recovery(solution);
   const Grid& grid = recovery.grid();
   for (std::size_t b = 0; b < 2; ++b)
@@ -116,8 +112,7 @@ TEST(Recovery, CellsCoverTheBodyOnce) {
 
 TEST(Recovery, RingsAreNarrowAtTheBoundary) {
   for (const double size : {2.0, 0.3, 0.02}) {
-    const mesh::Mesh mesh =
-        mesh::make_mesh(model_of({elastic("body", pentagon(), size, 1)}, model::Plane::stress));
+    const mesh::Mesh mesh = mesh::make_mesh(model_of({elastic("body", pentagon(), size, 1)}, model::Plane::stress));
     const std::vector<double> levels =
         ring_levels(element::ring_of(mesh.bodies[0].super_elements[0], mesh.bodies[0].nodes));
     EXPECT_EQ(levels.front(), 1.0);
@@ -131,13 +126,11 @@ TEST(Recovery, RingsAreNarrowAtTheBoundary) {
 }
 
 TEST(Recovery, RigidBodyIsItsMovedOutline) {
-  const model::Outline disc =
-      outline({arc("lower", {1.0, 2.0}, 0.5, pi, pi), arc("upper", {1.0, 2.0}, 0.5, 0.0, pi)});
+  const model::Outline disc = outline({arc("lower", {1.0, 2.0}, 0.5, pi, pi), arc("upper", {1.0, 2.0}, 0.5, 0.0, pi)});
   const auto solution = solution_of(model_of({rigid("punch", disc)}, model::Plane::strain));
   const Recovery recovery(solution);
   const Grid& grid = recovery.grid();
-  const Fields fields =
-      recovery.fields(solution, increment_of(solution, linear_field(gradient), {0.01, -0.02, 0.003}));
+  const Fields fields = recovery.fields(solution, increment_of(solution, linear_field(gradient), {0.01, -0.02, 0.003}));
   EXPECT_EQ(grid.cell_count(), 1U);
   EXPECT_EQ(grid.point_count(), 120U);
   for (std::size_t i = 0; i < grid.point_count(); ++i) {

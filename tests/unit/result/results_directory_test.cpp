@@ -52,9 +52,9 @@ analysis::ContactResult contact_result() {
 }
 
 analysis::StaticSolution two_bodies() {
-  auto model = model_of({elastic("upper", rectangle({0.0, 1.0}, {1.0, 1.0}), 0.5),
-                         finite_elements("lower", {0.0, 0.0}, {1.0, 1.0}, 0.5)},
-                        model::Plane::stress);
+  auto model = model_of(
+      {elastic("upper", rectangle({0.0, 1.0}, {1.0, 1.0}), 0.5), finite_elements("lower", {0.0, 0.0}, {1.0, 1.0}, 0.5)},
+      model::Plane::stress);
   model.supports.resize(2);
   model.supports[0].name = "lower.bottom";
   model.supports[1].name = "upper.top";
@@ -76,8 +76,7 @@ analysis::IncrementResult increment_number(const analysis::StaticSolution& solut
 
 std::vector<std::string> names_in(const std::filesystem::path& path) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path))
-    names.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(path)) names.push_back(entry.path().filename().string());
   return names;
 }
 
@@ -90,8 +89,7 @@ std::vector<std::string> keys_of(const Json& json) {
 /// A run of two converged increments and one that is not.
 class FinishedRun {
  public:
-  explicit FinishedRun(const std::filesystem::path& path)
-      : solution(two_bodies()), directory(path, solution.model) {
+  explicit FinishedRun(const std::filesystem::path& path) : solution(two_bodies()), directory(path, solution.model) {
     for (const int number : {1, 2}) add(increment_number(solution, number));
     analysis::IncrementResult failed;
     failed.step = 1;
@@ -126,8 +124,8 @@ class Results : public testing::Test {
 
 TEST_F(Results, FilesOfARun) {
   const FinishedRun run(path_);
-  EXPECT_THAT(names_in(path_), UnorderedElementsAre("summary.json", "contact.csv", "fields.pvd",
-                                                    "fields_0001.vtu", "fields_0002.vtu", "convergence.csv", "log.txt"));
+  EXPECT_THAT(names_in(path_), UnorderedElementsAre("summary.json", "contact.csv", "fields.pvd", "fields_0001.vtu",
+                                                    "fields_0002.vtu", "convergence.csv", "log.txt"));
   EXPECT_GT(run.directory.recover_seconds(), 0.0);
   EXPECT_GT(run.directory.write_seconds(), 0.0);
 }
@@ -139,32 +137,29 @@ TEST_F(Results, ContactTable) {
       "1,1,\"joint, left\",2,0.2,1,0,-0.3,100,0.3333333333333333,400000,-2.5,slip,1.5,2.5,3.5,4.5\n";
   std::string second = rows;
   for (std::size_t at = 0; (at = second.find("1,1,\"", at)) != std::string::npos; ++at) second[at + 2] = '2';
-  EXPECT_EQ(
-      content_of(path_ / "contact.csv"),
-      "step,increment,contact,pair,x,y,gap,slip,normal_force,tangential_force,pressure,shear,state,"
-      "normal_displacement_a,tangential_displacement_a,normal_displacement_b,tangential_displacement_b\n" +
-          rows + second);
+  EXPECT_EQ(content_of(path_ / "contact.csv"),
+            "step,increment,contact,pair,x,y,gap,slip,normal_force,tangential_force,pressure,shear,state,"
+            "normal_displacement_a,tangential_displacement_a,normal_displacement_b,tangential_displacement_b\n" +
+                rows + second);
 }
 
 TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const FinishedRun run(path_);
   const Json summary = Json::parse(content_of(path_ / "summary.json"));
-  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "model",
-                                            "passes", "increments", "timing", "peak_memory_bytes"));
+  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "model", "passes",
+                                            "increments", "timing", "peak_memory_bytes"));
   EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs"));
-  EXPECT_THAT(keys_of(summary["timing"]),
-              ElementsAre("read", "mesh", "super_elements", "assemble", "factorise", "condense", "newton",
-                          "recover", "write", "total"));
+  EXPECT_THAT(keys_of(summary["timing"]), ElementsAre("read", "mesh", "super_elements", "assemble", "factorise",
+                                                      "condense", "newton", "recover", "write", "total"));
   const Json& increment = summary["increments"][0];
   EXPECT_THAT(keys_of(increment),
-              ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "coarse_iterations", "residual",
-                          "contacts", "reactions", "cracks", "certificate", "energy", "error"));
+              ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "coarse_iterations",
+                          "residual", "contacts", "reactions", "cracks", "certificate", "energy", "error"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
-              ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap",
-                          "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));
-  EXPECT_THAT(keys_of(increment["certificate"]),
-              ElementsAre("equilibrium", "penetration", "tension", "friction_excess", "complementarity",
-                          "slip_direction", "rigid_balance"));
+              ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure",
+                          "first_pair_in_contact", "last_pair_in_contact"));
+  EXPECT_THAT(keys_of(increment["certificate"]), ElementsAre("equilibrium", "penetration", "tension", "friction_excess",
+                                                             "complementarity", "slip_direction", "rigid_balance"));
   EXPECT_THAT(keys_of(increment["energy"]), ElementsAre("external", "elastic", "friction"));
 }
 
@@ -245,8 +240,7 @@ TEST_F(Results, FinishedIncrementsAreReadableWithoutTheEndOfTheRun) {
   EXPECT_TRUE(content_of(path_ / "fields.pvd").ends_with("</VTKFile>\n"));
   EXPECT_TRUE(content_of(path_ / "fields_0001.vtu").ends_with("</VTKFile>\n"));
   EXPECT_TRUE(content_of(path_ / "contact.csv").ends_with("4.5\n"));
-  EXPECT_THAT(content_of(path_ / "log.txt"),
-              HasSubstr("step press, increment 1 of 4: tip = 0.25; 3 iterations"));
+  EXPECT_THAT(content_of(path_ / "log.txt"), HasSubstr("step press, increment 1 of 4: tip = 0.25; 3 iterations"));
 }
 
 TEST_F(Results, LogTellsTheRun) {
@@ -263,13 +257,14 @@ TEST_F(Results, AnEarlierRunLeavesNothingBehind) {
   write_text(path_ / "fields_mine.vtu", "mine");
   auto solution = two_bodies();
   const ResultsDirectory directory(path_, solution.model);
-  EXPECT_THAT(names_in(path_),
-              UnorderedElementsAre("contact.csv", "fields.pvd", "convergence.csv", "log.txt", "notes.txt", "fields_mine.vtu"));
+  EXPECT_THAT(names_in(path_), UnorderedElementsAre("contact.csv", "fields.pvd", "convergence.csv", "log.txt",
+                                                    "notes.txt", "fields_mine.vtu"));
   EXPECT_EQ(content_of(path_ / "contact.csv"), contact_table_header);
 }
 
 TEST_F(Results, FilesOfOthersAreNeverOverwritten) {
-  for (const char* name : {"fields_0001.vtu", "summary.json", "contact.csv", "convergence.csv", "convergence.svg", "log.txt", "fields.pvd"}) {
+  for (const char* name : {"fields_0001.vtu", "summary.json", "contact.csv", "convergence.csv", "convergence.svg",
+                           "log.txt", "fields.pvd"}) {
     const TemporaryDirectory directory;
     { const FinishedRun run(directory.path()); }
     write_text(directory.path() / name, "of somebody else");

@@ -13,17 +13,15 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: %s DIRECTORY\n", argv[0]);
     return 1;
   }
-  const model::Outline disc =
-      outline({arc("lower", {9.0, 0.0}, 0.5, pi, pi), arc("upper", {9.0, 0.0}, 0.5, 0.0, pi)});
-  analysis::StaticSolution solution =
-      solution_of(model_of({elastic("a", pentagon(), 0.7, 2),
-                            finite_elements("b", {5.0, 0.0}, {1.0, 0.5}, 0.25), rigid("c", disc)},
-                           model::Plane::strain));
+  const model::Outline disc = outline({arc("lower", {9.0, 0.0}, 0.5, pi, pi), arc("upper", {9.0, 0.0}, 0.5, 0.0, pi)});
+  analysis::StaticSolution solution = solution_of(
+      model_of({elastic("a", pentagon(), 0.7, 2), finite_elements("b", {5.0, 0.0}, {1.0, 0.5}, 0.25), rigid("c", disc)},
+               model::Plane::strain));
   const Mat2 gradient = (Mat2() << 1.1e-3, -0.4e-3, 0.7e-3, -0.9e-3).finished();
   result::ResultsDirectory directory(argv[1], solution.model);
   for (const int number : {1, 2}) {
-    analysis::IncrementResult increment = increment_of(solution, linear_field(number * gradient),
-                                                       {0.01 * number, -0.02 * number, 0.003 * number});
+    analysis::IncrementResult increment =
+        increment_of(solution, linear_field(number * gradient), {0.01 * number, -0.02 * number, 0.003 * number});
     increment.increment = number;
     solution.increments.push_back(increment);
     directory.add(solution, solution.increments.back());

@@ -36,8 +36,7 @@ inline UniformStress stress_of(const Mat2& G, model::Plane plane, double nu = po
   const double in_plane = G(0, 0) + G(1, 1);
   const double e_zz = plane == model::Plane::strain ? 0.0 : -nu / (1.0 - nu) * in_plane;
   const double volume = in_plane + e_zz;
-  return {{lame * volume + 2.0 * shear * G(0, 0), lame * volume + 2.0 * shear * G(1, 1),
-           shear * (G(0, 1) + G(1, 0))},
+  return {{lame * volume + 2.0 * shear * G(0, 0), lame * volume + 2.0 * shear * G(1, 1), shear * (G(0, 1) + G(1, 0))},
           lame * volume + 2.0 * shear * e_zz};
 }
 
@@ -88,8 +87,7 @@ inline analysis::IncrementResult increment_of(const analysis::StaticSolution& so
   for (std::size_t b = 0; b < solution.model.bodies.size(); ++b) {
     const std::vector<Vec2>& nodes = solution.mesh.bodies[b].nodes;
     Vector u(static_cast<Eigen::Index>(2 * nodes.size()));
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
+    for (std::size_t i = 0; i < nodes.size(); ++i) u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
     increment.displacements.push_back(solution.model.bodies[b].rigid ? Vector(rigid) : u);
     increment.interior.emplace_back();
   }
@@ -130,8 +128,6 @@ inline std::string content_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-inline void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-}
+inline void write_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
 
 }  // namespace scabo::test

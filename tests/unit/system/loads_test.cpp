@@ -52,9 +52,8 @@ TEST(TractionForces, OfPressureOnAnArcIsThatOnItsChord) {
     body.mesh.centre = {0.0, 0.8};
     const auto mesh = mesh_of(body);
     const auto press = [](const Vec2&, const Vec2& n) { return Vec2(-7.0 * n); };
-    EXPECT_LT(
-        (total(traction_forces(mesh.edges[1], mesh.nodes, 0.5, press)) - Vec2(0.0, -7.0 * 4.0 * 0.5)).norm(),
-        1e-13);
+    EXPECT_LT((total(traction_forces(mesh.edges[1], mesh.nodes, 0.5, press)) - Vec2(0.0, -7.0 * 4.0 * 0.5)).norm(),
+              1e-13);
     EXPECT_LT(total(traction_forces(mesh.super_elements[0].boundary, mesh.nodes, 0.5, press)).norm(), 1e-13);
   }
 }
@@ -63,8 +62,7 @@ TEST(TractionForces, LengthOfAnArcConverges) {
   double before = 1.0;
   for (int order : {1, 2, 3, 4}) {
     model::Body body = test::elastic(
-        "disc",
-        test::outline({test::line("bottom", {-2, 0}, {2, 0}), test::arc("rim", {0, 0}, 2.0, 0.0, test::pi)}),
+        "disc", test::outline({test::line("bottom", {-2, 0}, {2, 0}), test::arc("rim", {0, 0}, 2.0, 0.0, test::pi)}),
         0.9, order);
     body.mesh.centre = {0.0, 0.8};
     const auto mesh = mesh_of(body);

@@ -64,8 +64,11 @@ std::vector<Constraint> held(const mesh::BodyMesh& mesh, bool both) {
 // A free square has pairs of equal frequencies, which Lanczos might find once only.
 TEST(NaturalModes, LanczosFindsWhatTheDenseSolverFinds) {
   const mesh::BodyMesh square = grid(8, 8), strip = grid(20, 4);
-  const std::vector<std::pair<const mesh::BodyMesh*, std::vector<Constraint>>> cases = {
-      {&square, {}}, {&square, held(square, false)}, {&square, held(square, true)}, {&strip, {}}, {&strip, held(strip, true)}};
+  const std::vector<std::pair<const mesh::BodyMesh*, std::vector<Constraint>>> cases = {{&square, {}},
+                                                                                        {&square, held(square, false)},
+                                                                                        {&square, held(square, true)},
+                                                                                        {&strip, {}},
+                                                                                        {&strip, held(strip, true)}};
   for (const auto& [mesh, constraints] : cases) {
     const Pair matrices = sparse(*mesh), full = dense(matrices);
     const NaturalModes lanczos = natural_modes(matrices.K, matrices.M, mesh->nodes, constraints, 25);
@@ -91,7 +94,8 @@ TEST(NaturalModes, RigidMotionsHaveNoStiffnessToRounding) {
       element::mass_matrix(ring, solution, element::modal_solution(solution), {1.0}, 1.0));
   const NaturalModes modes = natural_modes(pair.K, pair.M, ring.nodes, {}, 6);
   ASSERT_EQ(modes.rigid, 3);
-  // The entries of K are exact to 4e-15 (page 2); the first bending mode of a slender beam is much softer than they are.
+  // The entries of K are exact to 4e-15 (page 2); the first bending mode of a slender beam is much softer than they
+  // are.
   const double rounding = 1e-14 * solution.K.cwiseAbs().rowwise().sum().maxCoeff();
   for (Eigen::Index k = 0; k < 3; ++k) {
     const Vector phi = modes.shapes.col(k);

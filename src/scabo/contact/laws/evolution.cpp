@@ -32,16 +32,14 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
     const double opening = force(std::max(solution.gap[i], 0.0), diagonal[d * i]);
     const double sliding = force(slip, diagonal.segment(d * i + 1, d - 1).mean());
     if (std::isinf(strength)) continue;
-    const double rounding =
-        noticeable * (largest > 0.0 ? std::clamp(strength, 1e-3 * largest, largest) : strength);
+    const double rounding = noticeable * (largest > 0.0 ? std::clamp(strength, 1e-3 * largest, largest) : strength);
     PairEnd& end = ends.of_pair[static_cast<std::size_t>(i)];
     end.opened = state == ContactState::open && opening > rounding;
     end.slid = state == ContactState::slip && sliding > rounding;
     // An open pair without tension still slides where it has cohesion.
     if (state == ContactState::open && problem.cohesion_of(i) > 0.0 && sliding > rounding) end.slid = true;
     end.slip = end.slid && state == ContactState::slip ? slip : 0.0;
-    ends.overload[i] =
-        ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
+    ends.overload[i] = ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
   }
   return ends;
 }
@@ -78,11 +76,9 @@ class Following {
     for (std::size_t i = 0; i < trial.size(); ++i) {
       PairHistory reached = trial[i];
       reached.slip = from[i].slip + ends.of_pair[i].slip;
-      const double mu = laws.of_pair[i]->limits(trial[i]).mu,
-                   mu_reached = laws.of_pair[i]->limits(reached).mu;
+      const double mu = laws.of_pair[i]->limits(trial[i]).mu, mu_reached = laws.of_pair[i]->limits(reached).mu;
       settled = settled && std::abs(mu_reached - mu) <= tolerance * std::max(mu, mu_reached);
-      const double change = reached.slip - trial[i].slip,
-                   ratio = before_[i] != 0.0 ? change / before_[i] : 0.0;
+      const double change = reached.slip - trial[i].slip, ratio = before_[i] != 0.0 ? change / before_[i] : 0.0;
       before_[i] = change;
       trial[i].slip = extrapolate && std::abs(ratio) < 0.95
                           ? std::max(from[i].slip, trial[i].slip + change / (1.0 - ratio))
@@ -101,15 +97,17 @@ class Following {
 };
 
 /// The force that motions and loads of the problem stand for.
-double reference_force(const Problem& problem, const Vector& diagonal, const Start& start, const SolverOptions& options) {
+double reference_force(const Problem& problem, const Vector& diagonal, const Start& start,
+                       const SolverOptions& options) {
   const auto largest = [](const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; };
   const double mean = diagonal.size() > 0 ? diagonal.mean() : 0.0;
-  return std::max({options.force_scale, largest(problem.f), largest(start.p), mean > 0.0 ? largest(problem.q) / mean : 0.0});
+  return std::max(
+      {options.force_scale, largest(problem.f), largest(start.p), mean > 0.0 ? largest(problem.q) / mean : 0.0});
 }
 
-/// Solves with strengths cut to a multiple of the forces at work, which they would drown in rounding (p_n + c_t), and again with a
-/// larger multiple where a pair comes near what was cut: as long as none does, nothing depends on it. `problem` keeps the strengths
-/// of the last solve.
+/// Solves with strengths cut to a multiple of the forces at work, which they would drown in rounding (p_n + c_t), and
+/// again with a larger multiple where a pair comes near what was cut: as long as none does, nothing depends on it.
+/// `problem` keeps the strengths of the last solve.
 Solution solve_within(Problem& problem, const Start& start, const SolverOptions& options, double force) {
   const Vector cohesion = problem.cohesion, tension = problem.tension;
   const Eigen::Index d = problem.dimension;
@@ -132,8 +130,7 @@ Solution solve_within(Problem& problem, const Start& start, const SolverOptions&
 }
 
 bool remembers(const JointLaws& laws) {
-  return std::any_of(laws.of_pair.begin(), laws.of_pair.end(),
-                     [](const auto& law) { return law->remembers(); });
+  return std::any_of(laws.of_pair.begin(), laws.of_pair.end(), [](const auto& law) { return law->remembers(); });
 }
 
 History after(const History& from, const History& trial, const Ends& ends) {
@@ -206,8 +203,7 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   result.problem = std::move(problem);
   result.solution.trace = std::move(total.trace);
   result.solution.status = Status::not_converged;
-  result.solution.reason = "the strengths of the joints did not settle within " +
-                           std::to_string(result.rounds) +
+  result.solution.reason = "the strengths of the joints did not settle within " + std::to_string(result.rounds) +
                            " rounds; the increment may be too large, or failure runs away";
   return result;
 }

@@ -45,8 +45,8 @@ struct Evolution {
 Evolution evolve(Problem problem, const JointLaws& laws, const History& from, const Start& start,
                  const SolverOptions& options);
 
-/// Of a problem for which no forces were found: the motion that nothing holds once every joint that can break is broken.
-/// Nothing where the loads are held without those strengths.
+/// Of a problem for which no forces were found: the motion that nothing holds once every joint that can break is
+/// broken. Nothing where the loads are held without those strengths.
 std::optional<Vector> mechanism_once_broken(Problem problem, const JointLaws& laws, History history);
 
 }  // namespace scabo::contact

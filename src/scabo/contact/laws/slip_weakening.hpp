@@ -14,8 +14,7 @@ namespace scabo::contact {
 
 class SlipWeakening : public Law {
  public:
-  SlipWeakening(double mu_s, double mu_d, double distance)
-      : static_(mu_s), dynamic_(mu_d), distance_(distance) {}
+  SlipWeakening(double mu_s, double mu_d, double distance) : static_(mu_s), dynamic_(mu_d), distance_(distance) {}
 
   Limits limits(const PairHistory& history) const override {
     if (distance_ == 0.0) return {history.slipped ? dynamic_ : static_, 0.0, 0.0};

@@ -55,8 +55,7 @@ class AlartCurnier {
       const Eigen::Index i = held[static_cast<std::size_t>(k)];
       const LocalMatrix A = at.A.middleCols(d * i, d), B = at.B.middleCols(d * i, d);
       for (Eigen::Index l = 0; l < n / d; ++l)
-        J.block(d * k, d * l, d, d).noalias() =
-            A * W_.block(d * i, d * held[static_cast<std::size_t>(l)], d, d);
+        J.block(d * k, d * l, d, d).noalias() = A * W_.block(d * i, d * held[static_cast<std::size_t>(l)], d, d);
       J.block(d * k, d * k, d, d) += B + alpha * A;
       right.segment(d * k, d) = -at.F.segment(d * i, d) - A * moved.segment(d * i, d);
       if (m == 0) continue;

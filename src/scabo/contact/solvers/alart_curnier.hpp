@@ -27,7 +27,6 @@
 namespace scabo::contact::solvers {
 
 /// With `bound` (N): the friction bounds are given (Tresca), mu and cohesion are not looked at.
-End alart_curnier(const Problem& problem, Vector p, Vector a, const Control& control,
-                  const Vector* bound = nullptr);
+End alart_curnier(const Problem& problem, Vector p, Vector a, const Control& control, const Vector* bound = nullptr);
 
 }  // namespace scabo::contact::solvers

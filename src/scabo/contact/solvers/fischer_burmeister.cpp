@@ -19,8 +19,7 @@ LocalMatrix product_matrix(const Local& x) {
 /// z in the cone with z o z = w: spectral values w_0 +- |w_t|.
 Local root(const Local& w) {
   const double length = w.tail(w.size() - 1).norm();
-  const double upper = std::sqrt(std::max(w[0] + length, 0.0)),
-               lower = std::sqrt(std::max(w[0] - length, 0.0));
+  const double upper = std::sqrt(std::max(w[0] + length, 0.0)), lower = std::sqrt(std::max(w[0] - length, 0.0));
   Local z = Local::Zero(w.size());
   z[0] = 0.5 * (upper + lower);
   if (length > 0.0) z.tail(w.size() - 1) = 0.5 * (upper - lower) / length * w.tail(w.size() - 1);

@@ -17,8 +17,7 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
       const Vector H = residual_of(problem, r, p, Vector());
       best.offer(p, Vector(), largest(H));
       const std::vector<int> states = states_at(problem, r, p, iteration.motion());
-      end.trace.push_back(
-          {sweep, largest(H), 0.5 * H.squaredNorm(), 1.0, changes(before, states), "gauss_seidel"});
+      end.trace.push_back({sweep, largest(H), 0.5 * H.squaredNorm(), 1.0, changes(before, states), "gauss_seidel"});
       before = states;
       end.iterations = sweep;
       end.converged = largest(H) <= control.small;
@@ -27,8 +26,7 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
     }
     iteration.sweep(p);
   }
-  end.reason =
-      p.allFinite() ? "the sweeps did not reach the tolerance in their limit" : "the sweeps went to infinity";
+  end.reason = p.allFinite() ? "the sweeps did not reach the tolerance in their limit" : "the sweeps went to infinity";
   return end;
 }
 

@@ -17,8 +17,7 @@ namespace scabo::contact::solvers {
 
 /// At most 4 problems for each of control.iterations, each with at most control.iterations Newton steps.
 /// `bound` as in alart_curnier.
-End proximal_point(const Problem& problem, Vector p, Vector a, const Control& control,
-                   const Vector* bound = nullptr);
+End proximal_point(const Problem& problem, Vector p, Vector a, const Control& control, const Vector* bound = nullptr);
 
 /// Where rigid motions are free and there are no forces to start from, nothing holds the bodies yet: (p, a)
 /// becomes the solution with the bodies held softly where they are. Returns the iterations it took.

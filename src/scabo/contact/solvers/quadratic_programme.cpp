@@ -67,8 +67,7 @@ End quadratic_programme(const Problem& problem, const Control& control) {
     end.residual = largest(H);
     end.converged = end.residual <= control.small;
     if (!end.converged)
-      end.reason =
-          reason.empty() ? "rounding: the set is right, its equations are not solved well enough" : reason;
+      end.reason = reason.empty() ? "rounding: the set is right, its equations are not solved well enough" : reason;
     return end;
   };
   while (true) {

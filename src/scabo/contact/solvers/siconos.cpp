@@ -57,8 +57,7 @@ constexpr int gave_up = -1000;
 /// object lives here.
 int drive(int dimension, FrictionContactProblem* problem, double* p, double* u, SolverOptions* options) {
   if (setjmp(*sn_get_jmp_buf()) != 0) return gave_up;
-  const int status =
-      dimension == 2 ? fc2d_driver(problem, p, u, options) : fc3d_driver(problem, p, u, options);
+  const int status = dimension == 2 ? fc2d_driver(problem, p, u, options) : fc3d_driver(problem, p, u, options);
   sn_release_jmp_buf();
   return status;
 }
@@ -85,10 +84,10 @@ End siconos(const std::string& name, const Problem& problem, const Vector& p, co
   options->dparam[SICONOS_DPARAM_TOL] = control.small / (q_size > 0.0 ? q_size : 1.0);
   if (solver == SICONOS_FRICTION_3D_NSGS)
     solver_options_update_internal(options.get(), 0, SICONOS_FRICTION_3D_ONECONTACT_NSN_GP);
-  const Value value(frictionContactProblem_new_with_data(problem.dimension, problem.pairs(),
-                                                         matrix_of(problem), copied(problem.q.data(), size),
-                                                         copied(problem.mu.data(), problem.pairs())),
-                    &frictionContactProblem_free);
+  const Value value(
+      frictionContactProblem_new_with_data(problem.dimension, problem.pairs(), matrix_of(problem),
+                                           copied(problem.q.data(), size), copied(problem.mu.data(), problem.pairs())),
+      &frictionContactProblem_free);
   Vector u = motion_of(problem, p, Vector());
   Vector found = p;
   const int status = drive(problem.dimension, value.get(), found.data(), u.data(), options.get());

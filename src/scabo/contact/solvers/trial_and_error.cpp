@@ -91,16 +91,14 @@ std::optional<Vector> solve(const Problem& problem, const Trials& trials) {
     const Eigen::Index row = rows[static_cast<std::size_t>(k)], i = row / d;
     const Trial& trial = trials[static_cast<std::size_t>(i)];
     solved[row] = y[k];
-    if (trial.state == ContactState::slip)
-      solved.segment(row + 1, t) += problem.mu[i] * y[k] * trial.direction;
+    if (trial.state == ContactState::slip) solved.segment(row + 1, t) += problem.mu[i] * y[k] * trial.direction;
   }
   solved.tail(m) = y.tail(m);
   return solved;
 }
 
 /// What the solution contradicts, changed.
-Trials corrected(const Problem& problem, const Matrix& r, const Trials& trials, const Vector& p,
-                 const Vector& motion) {
+Trials corrected(const Problem& problem, const Matrix& r, const Trials& trials, const Vector& p, const Vector& motion) {
   const Eigen::Index d = problem.dimension, t = d - 1;
   const double rounding = 1e-14 * (largest(p) + largest(problem.q));
   Trials next = trials;
@@ -177,8 +175,8 @@ End trial_and_error(const Problem& problem, Vector p_start, Vector a_start, cons
     const Vector p = solved->head(size), a = solved->tail(m);
     const Vector H = residual_of(problem, r, p, a);
     best.offer(p, a, largest(H));
-    end.trace.push_back({end.iterations, largest(H), 0.5 * H.squaredNorm(), 1.0,
-                         changes(before, states_of(trials)), "trial_and_error"});
+    end.trace.push_back({end.iterations, largest(H), 0.5 * H.squaredNorm(), 1.0, changes(before, states_of(trials)),
+                         "trial_and_error"});
     before = states_of(trials);
     end.converged = largest(H) <= control.small;
     if (end.converged) return end;
