@@ -2,8 +2,6 @@
 import argparse
 import json
 import pathlib
-import subprocess
-import sys
 
 import matplotlib
 
@@ -11,6 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import meshio
 import numpy as np
+import running
 from matplotlib.tri import Triangulation
 
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8.5,
@@ -31,16 +30,8 @@ def options_of(description, example, results):
 
 
 def run(scabo, model, directory, *settings):
-    """The summary; ends the program when scabo fails, which has said why."""
-    command = [str(scabo), "run", str(model), "-o", str(directory), "--quiet"]
-    for setting in settings:
-        command += ["--set", setting]
-    try:
-        status = subprocess.run(command).returncode
-    except OSError as error:
-        sys.exit(f"cannot run {scabo}: {error.strerror} (name the program with --scabo)")
-    if status != 0:
-        sys.exit(f"scabo ended with exit status {status}: {' '.join(command)}")
+    """The summary."""
+    running.run(scabo, model, directory, settings)
     return json.loads((directory / "summary.json").read_text(encoding="utf-8"))
 
 

@@ -2,8 +2,10 @@
 import csv
 import json
 import pathlib
-import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import running
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODEL = HERE / "model.yaml"
@@ -43,16 +45,8 @@ def number(text):
 def run(scabo, directory, **settings):
     """Runs the model with settings such as friction=0.5 (the joint's) and size=0.1 or kind="fem" (both
     bodies' mesh). Ends the program when scabo fails; scabo has said why."""
-    command = [str(scabo), "run", str(MODEL), "-o", str(directory), "--quiet"]
-    for key, value in settings.items():
-        paths = ([f"contacts.{CHECK['contact']}.friction"] if key == "friction"
-                 else [f"bodies.{body}.mesh.{key}" for body in ("lower", "upper")])
-        for path in paths:
-            command += ["--set", f"{path}={value}"]
-    try:
-        status = subprocess.run(command).returncode
-    except OSError as error:
-        sys.exit(f"cannot run {scabo}: {error.strerror} (name the program with --scabo)")
-    if status != 0:
-        sys.exit(f"scabo ended with exit status {status}: {' '.join(command)}")
+    paths = {"friction": [f"contacts.{CHECK['contact']}.friction"]}
+    running.run(scabo, MODEL, directory,
+                [f"{path}={value}" for key, value in settings.items()
+                 for path in paths.get(key, [f"bodies.{body}.mesh.{key}" for body in ("lower", "upper")])])
     return Run(directory)

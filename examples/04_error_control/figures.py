@@ -1,20 +1,18 @@
 #!/usr/bin/env python3
 """Draws the pictures of this page from runs of Cook's membrane: the mesh and the stress that a tolerance leads to, stress along
 a section, and error against degrees of freedom beside equal elements."""
-import argparse
 import csv
 import json
 import pathlib
-import subprocess
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import matplotlib.ticker
 import meshio
-import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import pictures
+import running
+from pictures import np, plt
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODEL = HERE / "model.yaml"
@@ -24,20 +22,9 @@ EDGES = ", ".join(f"{{from: {CORNERS[k]}, to: {CORNERS[(k + 1) % 4]}, name: side
 EQUAL = {1: [16, 8, 4, 2, 1], 2: [16, 8, 4, 2, 1], 4: [32, 16, 8, 4, 2]}  # order: sizes
 BLUE, RED, GREY = "#2b5c8a", "#c1442e", "0.55"
 
-plt.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8.5,
-                     "axes.linewidth": 0.7, "figure.dpi": 130, "savefig.dpi": 130})
-
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--scabo", default="scabo", help="the program (default: scabo on the PATH)")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=HERE / "figures", metavar="DIR",
-                        help="where the pictures go (default: %(default)s)")
-    parser.add_argument("--results", type=pathlib.Path, default=pathlib.Path("error_control.results"), metavar="DIR",
-                        help="where the results of the runs go (default: %(default)s)")
-    options = parser.parse_args()
-    options.output.mkdir(parents=True, exist_ok=True)
-
+    options = pictures.options_of(__doc__, HERE, "error_control.results")
     refined = {}
     for tolerance in TOLERANCES:
         refined[tolerance] = run(options.scabo, options.results / f"tolerance_{tolerance}",
@@ -68,15 +55,7 @@ class Run:
 
 
 def run(scabo, directory, *settings):
-    command = [str(scabo), "run", str(MODEL), "-o", str(directory), "--quiet"]
-    for setting in settings:
-        command += ["--set", setting]
-    try:
-        status = subprocess.run(command).returncode
-    except OSError as error:
-        sys.exit(f"cannot run {scabo}: {error.strerror} (name the program with --scabo)")
-    if status != 0:
-        sys.exit(f"scabo ended with exit status {status}: {' '.join(command)}")
+    running.run(scabo, MODEL, directory, settings)
     return Run(directory)
 
 

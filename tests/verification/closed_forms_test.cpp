@@ -137,16 +137,9 @@ TEST(TwoBlocks, TheWeakerJointDecides) {
   EXPECT_EQ(run(two_blocks(0.1, 0.5, 3e3 * (1.0 - 1e-6))).outcome, analysis::Outcome::solved);
 }
 
-/// A block of 2 x 1 m, thickness 1, E = 1 GPa, nu = 0 that slides as one: its top is held at pressure p by a prescribed
-/// displacement and moved to and fro by `amplitude`; uniform shear, so that it yields at gamma G = mu p.
-std::string cyclic(double p, double mu, double amplitude, int parts) {
-  std::string steps = "[{name: press, loads: {down: 1}}";
-  double factor = 0.0;
-  for (double to : {1.0, -1.0, 1.0, -1.0, 1.0}) {
-    steps += fmt::format(", {{name: to_{:.0f}_{}, increments: {}, loads: {{down: 1, drive: {}}}}}", to, steps.size(),
-                         parts * (factor == 0.0 ? 1 : 2), to);
-    factor = to;
-  }
+/// A block of 2 x 1 m, thickness 1, E = 1 GPa, nu = 0 on a rigid floor. Its top is held at pressure p by the prescribed
+/// displacement `down` and moved to and fro by `drive`, `amplitude`.
+std::string driven_block(double p, double mu, double amplitude, const std::string& loads, const std::string& steps) {
   return fmt::format(R"(
 scabo: 1
 materials: {{m: {{young: 1e9, poisson: 0}}}}
@@ -157,11 +150,24 @@ supports:
   - {{on: floor, fix: [x, y]}}
   - {{on: block.top, displacement: [null, {}], name: down}}
   - {{on: block.top, displacement: [{}, null], name: drive}}
+{}
 contacts:
   joint: {{between: [floor.top, block.bottom], friction: {}}}
-steps: {}]
+steps: {}
 )",
-                     -p / 1e9, amplitude, mu, steps);
+                     -p / 1e9, amplitude, loads, mu, steps);
+}
+
+/// It slides as one: uniform shear, so that it yields at gamma G = mu p.
+std::string cyclic(double p, double mu, double amplitude, int parts) {
+  std::string steps = "[{name: press, loads: {down: 1}}";
+  double factor = 0.0;
+  for (double to : {1.0, -1.0, 1.0, -1.0, 1.0}) {
+    steps += fmt::format(", {{name: to_{:.0f}_{}, increments: {}, loads: {{down: 1, drive: {}}}}}", to, steps.size(),
+                         parts * (factor == 0.0 ? 1 : 2), to);
+    factor = to;
+  }
+  return driven_block(p, mu, amplitude, "", steps + "]");
 }
 
 /// The same with the shear of the block on its sides as well: one uniform state, which slides as a whole at tau = mu p,
@@ -176,24 +182,11 @@ std::string uniform_cycle(double p, double mu, double amplitude, int parts) {
   go(yield, 1.0), go(1.0, 1.0);
   for (int cycle = 0; cycle < 2; ++cycle)
     go(1.0 - 2.0 * yield, -1.0), go(-1.0, -1.0), go(2.0 * yield - 1.0, 1.0), go(1.0, 1.0);
-  return fmt::format(R"(
-scabo: 1
-materials: {{m: {{young: 1e9, poisson: 0}}}}
-bodies:
-  block: {{material: m, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{size: 0.5}}}}
-  floor: {{rigid: true, shape: {{rectangle: {{corner: [-2, -1], size: [6, 1]}}}}}}
-supports:
-  - {{on: floor, fix: [x, y]}}
-  - {{on: block.top, displacement: [null, {}], name: down}}
-  - {{on: block.top, displacement: [{}, null], name: drive}}
-loads:
-  left: {{on: block.left, traction: [0, {}]}}
-  right: {{on: block.right, traction: [0, {}]}}
-contacts:
-  joint: {{between: [floor.top, block.bottom], friction: {}}}
-steps: {}]
-)",
-                     -p / 1e9, amplitude, -tau, tau, mu, steps);
+  return driven_block(p, mu, amplitude,
+                      fmt::format("loads: {{left: {{on: block.left, traction: [0, {}]}}, right: {{on: block.right, "
+                                  "traction: [0, {}]}}}}",
+                                  -tau, tau),
+                      steps + "]");
 }
 
 // Work of the loads, stored energy and dissipation at every corner of the loop and between, to 1e-10 of the work; the

@@ -3,26 +3,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "cook.hpp"
 #include "run.hpp"
 #include "scabo/analysis/adaptive.hpp"
 
 namespace scabo::verification {
 namespace {
-
-/// Cook's membrane: a tapered panel, built in at the left, sheared by a total of 1 on the right; E = 1, nu = 1/3.
-const char* const cook = R"(
-scabo: 1
-analysis: {plane: stress}
-materials: {panel: {young: 1, poisson: 0.3333333333333333}}
-bodies:
-  panel:
-    material: panel
-    shape: {polygon: {vertices: [[0, 0], [48, 44], [48, 60], [0, 44]]}}
-    mesh: {size: 11, order: 2}
-supports: [{on: panel.edge_4, fix: [x, y]}]
-loads: {shear: {on: panel.edge_2, traction: [0, 0.0625]}}
-output: {error: true}
-)";
 
 std::string fmt_setting(const std::string& path, double value) {
   std::ostringstream text;
@@ -50,8 +36,8 @@ TEST(ErrorEstimate, IsBetweenHalfAndTwiceTheTrueErrorOfCooksMembrane) {
   EXPECT_NEAR(2 * exact, 23.966, 0.1);
   for (const int order : {1, 2, 3, 4, 6})
     for (const char* size : {"22", "11", "5.5"}) {
-      const auto solution = run(
-          cook, {"bodies.panel.mesh.order=" + std::to_string(order), std::string("bodies.panel.mesh.size=") + size});
+      const auto solution = run(cooks_membrane, {"bodies.panel.mesh.order=" + std::to_string(order),
+                                                 std::string("bodies.panel.mesh.size=") + size});
       const double effectivity = estimated(solution) / true_error(solution, exact);
       EXPECT_GT(effectivity, 0.5) << "order " << order << ", size " << size;
       EXPECT_LT(effectivity, 2.0) << "order " << order << ", size " << size;
@@ -61,7 +47,7 @@ TEST(ErrorEstimate, IsBetweenHalfAndTwiceTheTrueErrorOfCooksMembrane) {
 TEST(Refinement, MeetsTheToleranceOfCooksMembrane) {
   const double exact = exact_energy_of_cook;
   for (const double tolerance : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4}) {
-    const auto solution = run(cook, {fmt_setting("bodies.panel.mesh.tolerance", tolerance)});
+    const auto solution = run(cooks_membrane, {fmt_setting("bodies.panel.mesh.tolerance", tolerance)});
     EXPECT_LE(estimated(solution), tolerance);
     EXPECT_LE(true_error(solution, exact), tolerance);
     const double effectivity = estimated(solution) / true_error(solution, exact);
@@ -150,8 +136,8 @@ loads: {pull: {on: plate.top, traction: [0, 1e-3]}, hold: {on: plate.bottom, tra
 
 TEST(Refinement, TakesFewerDegreesOfFreedomThanEqualElements) {
   const double exact = exact_energy_of_cook;
-  const auto refined = run(cook, {"bodies.panel.mesh.tolerance=1e-3"});
-  const auto equal = run(cook, {"bodies.panel.mesh.size=1"});
+  const auto refined = run(cooks_membrane, {"bodies.panel.mesh.tolerance=1e-3"});
+  const auto equal = run(cooks_membrane, {"bodies.panel.mesh.size=1"});
   std::cout << "refined " << 2 * refined.mesh.nodes() << " dofs, true " << true_error(refined, exact)
             << "; equal quadratic " << 2 * equal.mesh.nodes() << " dofs, true " << true_error(equal, exact) << "\n";
   EXPECT_LT(2 * refined.mesh.nodes(), equal.mesh.nodes());
@@ -160,7 +146,7 @@ TEST(Refinement, TakesFewerDegreesOfFreedomThanEqualElements) {
 
 TEST(Refinement, SaysWhyAToleranceIsNotReachedAndKeepsTheLastMesh) {
   const model::Model model =
-      model::parse_model(cook, "test.yaml", {model::parse_override("bodies.panel.mesh.tolerance=1e-3")});
+      model::parse_model(cooks_membrane, "test.yaml", {model::parse_override("bodies.panel.mesh.tolerance=1e-3")});
   analysis::RefinementLimits limits;
   limits.dofs = 150;
   int reported = 0;
