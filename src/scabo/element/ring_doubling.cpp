@@ -143,8 +143,9 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
   L.A = E0;
   if (!L.factorise()) throw IllPosed("E0 is not positive definite");
   RiccatiResidual residual = riccati_residual(L, E1, E2, result.K);
+  // What rounding leaves: 1e-13 at n = 640, 3e-13 at 1280, 3e-12 at 2560, 3e-11 at 5000.
   const auto n = static_cast<double>(E0.rows());
-  const double enough = std::max(1e-13, 1e-15 * n * std::max(1.0, n / 1000.0));  // what rounding leaves
+  const double enough = std::max(1e-13, 1e-15 * n * std::max(1.0, 1e-6 * n * n));
   constexpr int most = 3;
   for (int corrections = 0; residual.size > enough && corrections < most; ++corrections) {
     const Matrix corrected = result.K + newton_step(residual, E0.diagonal().cwiseSqrt());

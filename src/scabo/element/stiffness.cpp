@@ -79,7 +79,8 @@ Matrix in_block(const Eigen::SparseMatrix<double>& T_transposed, const Eigen::Sp
 void find_translations(const Matrix& translations, Block& block) {
   const Matrix projected = block.T.transpose() * translations;
   // A direction lies in the block by all of its length or not at all.
-  const Eigen::SelfAdjointEigenSolver<Mat2> directions(Mat2(projected.transpose() * projected));
+  Eigen::SelfAdjointEigenSolver<Mat2> directions;
+  directions.computeDirect(Mat2(projected.transpose() * projected));
   const auto m = (directions.eigenvalues().array() > 1e-10 * static_cast<double>(translations.rows())).count();
   block.R = projected * directions.eigenvectors().rightCols(m);
   block.J = rows_taken_out(block.R, block.E0.diagonal());
