@@ -8,7 +8,7 @@ namespace scabo::contact {
 using Index = Eigen::Index;
 
 template <int d>
-[[gnu::hot]] PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {
+PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {
   if (problem.W.is_sparse()) {
     const Eigen::SparseMatrix<double>& W = problem.W.sparse();
     columns_ = W.outerIndexPtr();
@@ -26,7 +26,7 @@ template <int d>
 }
 
 template <int d>
-[[gnu::hot]] void PairSweeps<d>::read_block(Index i, double* block) const {
+void PairSweeps<d>::read_block(Index i, double* block) const {
   const Index size = problem_->q.size(), first = d * i;
   for (int k = 0; k < d; ++k) {
     double* const column = block + d * k;
@@ -44,7 +44,7 @@ template <int d>
 
 /// motion += W (columns of pair i) change.
 template <int d>
-[[gnu::hot]] void PairSweeps<d>::add(Index i, const double* change, double* motion) const {
+void PairSweeps<d>::add(Index i, const double* change, double* motion) const {
   const Index size = problem_->q.size(), first = d * i;
   if (columns_ == nullptr) {
     const double *W_n = values_ + first * size, *W_t = W_n + size, *W_s = W_n + (d - 1) * size;
@@ -60,13 +60,13 @@ template <int d>
 }
 
 template <int d>
-[[gnu::hot]] void PairSweeps<d>::start(const Vector& p, Vector& motion) const {
+void PairSweeps<d>::start(const Vector& p, Vector& motion) const {
   motion = problem_->q;
   for (Index i = 0; i < problem_->pairs(); ++i) add(i, p.data() + d * i, motion.data());
 }
 
 template <int d>
-[[gnu::hot]] double PairSweeps<d>::sweep(Vector& p, Vector& motion) {
+double PairSweeps<d>::sweep(Vector& p, Vector& motion) {
   double largest = 0.0;
   for (Index i = 0; i < problem_->pairs(); ++i) {
     PairProblem<d>& pair = pairs_[static_cast<std::size_t>(i)];

@@ -16,16 +16,16 @@ namespace scabo::contact {
 template <int d>
 class PairSweeps {
  public:
-  explicit PairSweeps(const Problem& problem);
+  [[gnu::hot]] explicit PairSweeps(const Problem& problem);
   /// motion = q + W p from scratch; for a start, and where rounding has piled up.
-  void start(const Vector& p, Vector& motion) const;
+  [[gnu::hot]] void start(const Vector& p, Vector& motion) const;
   /// One sweep on forces and motions: the largest change of a force component.
-  double sweep(Vector& p, Vector& motion);
+  [[gnu::hot]] double sweep(Vector& p, Vector& motion);
   const std::vector<PairProblem<d>>& pairs() const { return pairs_; }
 
  private:
-  void read_block(Eigen::Index i, double* block) const;
-  void add(Eigen::Index i, const double* change, double* motion) const;
+  [[gnu::hot]] void read_block(Eigen::Index i, double* block) const;
+  [[gnu::hot]] void add(Eigen::Index i, const double* change, double* motion) const;
 
   const Problem* problem_;
   std::vector<PairProblem<d>> pairs_;

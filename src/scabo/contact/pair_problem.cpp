@@ -6,7 +6,7 @@
 namespace scabo::contact {
 
 template <int d>
-[[gnu::hot]] PairProblem<d>::PairProblem(const double* W, double mu, double cohesion, double tension)
+PairProblem<d>::PairProblem(const double* W, double mu, double cohesion, double tension)
     : mu_(mu), cohesion_(cohesion), tension_(tension) {
   std::copy_n(W, d * d, W_);
   inverse_ = W[0] > 0.0 ? 1.0 / W[0] : 0.0;
@@ -25,7 +25,7 @@ template <int d>
 }
 
 template <int d>
-[[gnu::hot]] void PairProblem<d>::solve(const double* free, double* force) {
+void PairProblem<d>::solve(const double* free, double* force) {
   const double a_n = free[0];
   std::fill_n(force, d, 0.0);
   if (inverse_ == 0.0) return;
@@ -42,7 +42,7 @@ template <int d>
 
 /// At full tension, cohesion holds the tangents. False where that presses it together.
 template <int d>
-[[gnu::hot]] bool PairProblem<d>::open(const double* free, double* force) {
+bool PairProblem<d>::open(const double* free, double* force) {
   const double u_n = free[0] - W_[0] * tension_;
   force[0] = 0.0 - tension_;  // no -0
   if (cohesion_ == 0.0) return !(u_n < 0.0);
@@ -65,12 +65,12 @@ template <int d>
 }
 
 template <int d>
-[[gnu::hot]] double PairProblem<d>::normal(double a_n, const double* p_t) const {
+double PairProblem<d>::normal(double a_n, const double* p_t) const {
   return -(a_n + nt_[0] * p_t[0] + (d == 3 ? nt_[1] * p_t[1] : 0.0)) * inverse_;
 }
 
 template <int d>
-[[gnu::hot]] bool PairProblem<d>::stick(double a_n, const double* c, double* force) const {
+bool PairProblem<d>::stick(double a_n, const double* c, double* force) const {
   if (determinant_ == 0.0) return false;
   const double part = 1.0 / determinant_;
   double p_t[2] = {0.0, 0.0};
@@ -85,7 +85,7 @@ template <int d>
 
 /// The force at the bound C + mu p_n; p_n >= 0 unless mu is 0. Where there is none, `force` stays.
 template <int d>
-[[gnu::hot]] bool PairProblem<d>::slip(double a_n, const double* c, double mu, double* force) {
+bool PairProblem<d>::slip(double a_n, const double* c, double mu, double* force) {
   double p_t[2] = {0.0, 0.0}, p_n;
   if constexpr (d == 2) {
     const double along = c[0] > 0.0 ? -1.0 : 1.0, resistance = W_[0] + along * mu * nt_[0];
@@ -106,7 +106,7 @@ template <int d>
 
 /// Slip in space: p_t from g(s) = 0, m = mu / W_nn; c is not 0.
 template <int d>
-[[gnu::hot]] void PairProblem<d>::slide(const Tangential& A, double a_n, const double* c, double m, double* p_t) {
+void PairProblem<d>::slide(const Tangential& A, double a_n, const double* c, double m, double* p_t) {
   const double reach = cohesion_ - m * a_n, mean = 0.5 * (A[0][0] + A[1][1]);
   double low = 0.0, high = HUGE_VAL, s = s_;
   // Without history: exact where normal and tangents are not coupled and both tangents are alike.

@@ -23,10 +23,10 @@ class PairProblem {
  public:
   PairProblem() = default;
   /// `W`: d x d by columns, [normal, tangents]; kept.
-  PairProblem(const double* W, double mu, double cohesion, double tension);
+  [[gnu::hot]] PairProblem(const double* W, double mu, double cohesion, double tension);
 
   /// `free`, `force`: d.
-  void solve(const double* free, double* force);
+  [[gnu::hot]] void solve(const double* free, double* force);
 
   const double* W() const { return W_; }
   double inverse() const { return inverse_; }  ///< 1 / W_nn; 0 where no force moves the pair along its normal
@@ -34,11 +34,11 @@ class PairProblem {
  private:
   using Tangential = double[2][2];
 
-  bool open(const double* free, double* force);
-  bool stick(double a_n, const double* c, double* force) const;
-  bool slip(double a_n, const double* c, double mu, double* force);
-  void slide(const Tangential& A, double a_n, const double* c, double m, double* p_t);
-  double normal(double a_n, const double* p_t) const;
+  [[gnu::hot]] bool open(const double* free, double* force);
+  [[gnu::hot]] bool stick(double a_n, const double* c, double* force) const;
+  [[gnu::hot]] bool slip(double a_n, const double* c, double mu, double* force);
+  [[gnu::hot]] void slide(const Tangential& A, double a_n, const double* c, double m, double* p_t);
+  [[gnu::hot]] double normal(double a_n, const double* p_t) const;
 
   double W_[d * d];
   double inverse_, mu_, cohesion_, tension_;
