@@ -210,6 +210,21 @@ steps:
                          [(1, 1), (1, 2), (2, 1)])
         self.assertEqual(len(list(results.glob("fields_*.vtu"))), 3)
 
+    def test_rounding_beside_very_stiff_parts_is_told_with_its_remedy(self):
+        (self.directory / "model.yaml").write_text("""
+scabo: 1
+materials: {stiff: {young: 1e14, poisson: 0.3}, soft: {young: 1e6, poisson: 0.2}}
+bodies:
+  plate: {material: soft, sectors: {bottom: stiff, top: stiff}, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.1}}
+supports: [{on: plate.left, fix: [x, y]}]
+loads: {pull: {on: plate.right, traction: [1e3, 0]}}
+""")
+        run = scabo("run", "model.yaml", cwd=self.directory)
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+        self.assertRegex(run.stderr, r"above the tolerance 1e-10; rounding of the displacements alone can be as much .* raise solver\.tolerance")
+        run = scabo("run", "model.yaml", "--set", "solver.tolerance=1e-4", cwd=self.directory)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+
     def test_quiet_prints_the_reason_only(self):
         (self.directory / "model.yaml").write_text(self.MODEL)
         run = scabo("run", "model.yaml", "--quiet", cwd=self.directory)

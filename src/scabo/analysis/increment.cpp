@@ -100,16 +100,24 @@ double largest_force(const State& state) {
   return largest;
 }
 
+/// Of K u, against resistance().
+constexpr double rounding = 1e3 * std::numeric_limits<double>::epsilon();
+
+/// The forces by which K would resist displacements as large.
+double resistance(const Prepared& prepared, const State& state) {
+  double largest = 0.0;
+  for (std::size_t b = 0; b < state.u.size(); ++b)
+    largest = std::max(largest, prepared.structure.bodies[b]->stiff_force(state.u[b]));
+  return largest;
+}
+
 /// What forces of a state are judged against: the largest at work so far. Without any load, and where nothing but the
 /// rounding of K u is at work (supports that move a body without stress), the forces by which K would resist
 /// displacements as large.
 double scale_of(const Prepared& prepared, const State& state, double largest_at_work) {
   if (prepared.force_scale > 0.0) return largest_at_work;
-  double resistance = 0.0;
-  for (std::size_t b = 0; b < state.u.size(); ++b)
-    resistance = std::max(resistance, prepared.structure.bodies[b]->stiff_force(state.u[b]));
-  constexpr double rounding = 1e3 * std::numeric_limits<double>::epsilon();
-  return largest_at_work <= rounding * resistance ? resistance : largest_at_work;
+  const double resisting = resistance(prepared, state);
+  return largest_at_work <= rounding * resisting ? resisting : largest_at_work;
 }
 
 /// Completes the certificate with what only the whole structure can tell: equilibrium of every node and of every body.
@@ -331,8 +339,9 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
   to.largest_force = std::max(from.largest_force, largest_force(to));
-  certify_structure(prepared, to, scale_of(prepared, to, std::max(options.force_scale, to.largest_force)),
-                    result.certificate);
+  const double scale = scale_of(prepared, to, std::max(options.force_scale, to.largest_force));
+  certify_structure(prepared, to, scale, result.certificate);
+  if (scale > 0.0) result.rounding = rounding * resistance(prepared, to) / scale;
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;

@@ -45,6 +45,7 @@ struct Attempt {
   State state;
   contact::Solution solution;
   contact::Certificate certificate;
+  double rounding = 0.0;  ///< what of equilibrium and rigid balance rounding of the displacements alone can be
   bool accepted = false;
   contact::Problem problem;  ///< what was solved, from `start`; W is shared, not copied
   contact::Start start;

@@ -41,6 +41,19 @@ bool breaks(const Prepared& prepared) {
                      [](const model::Contact& contact) { return contact.cohesion > 0.0; });
 }
 
+/// Why an increment whose contact was solved is not accepted.
+std::string above_tolerance(const Attempt& tried, double tolerance) {
+  const double worst = tried.certificate.worst();
+  std::string reason =
+      fmt::format("the certificate's worst figure, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
+  if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
+    reason +=
+        "; rounding of the displacements alone can be as much beside parts this stiff: make them less stiff or rigid, "
+        "or "
+        "raise solver.tolerance";
+  return reason;
+}
+
 /// From `from` to `target`, halving the way where an attempt is not accepted; every part starts from the last accepted
 /// state.
 Reached reach(const Prepared& prepared, const State& from, const Factors& target, const Options& options) {
@@ -73,8 +86,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
         reached.reason =
             fmt::format("mechanism: {}; {}", describe_motions(prepared, tried.solution.motion), tried.solution.reason);
       else if (tried.solution.status == contact::Status::solved)
-        reached.reason = fmt::format("the certificate's worst figure, {:.3g}, is above the tolerance {:.3g}",
-                                     tried.certificate.worst(), prepared.model.solver.tolerance);
+        reached.reason = above_tolerance(tried, prepared.model.solver.tolerance);
       else
         reached.reason =
             fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
