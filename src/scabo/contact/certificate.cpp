@@ -100,16 +100,6 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
   return std::sqrt(sum) / (scale > 0.0 ? scale : 1.0);
 }
 
-Vector project_on_cone(const Vector& x, double mu) {
-  const double x_t = x.tail(x.size() - 1).norm();
-  if (x_t <= mu * x[0]) return x;
-  if (mu * x_t <= -x[0]) return Vector::Zero(x.size());
-  Vector projected = x;  // on the nearest ray of the cone
-  projected[0] = (x[0] + mu * x_t) / (1.0 + mu * mu);
-  projected.tail(x.size() - 1) *= mu * projected[0] / x_t;
-  return projected;
-}
-
 double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a) {
   return natural_map_residual_at(problem, p, motion_of(problem, p, a));
 }

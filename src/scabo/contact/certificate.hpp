@@ -42,7 +42,4 @@ double natural_map_residual(const Problem& problem, const Vector& p, const Vecto
 /// The same where the motions u are known.
 double natural_map_residual_at(const Problem& problem, const Vector& p, const Vector& motion);
 
-/// The nearest point of the cone |x_t| <= mu x_n to x (2 or 3 components).
-Vector project_on_cone(const Vector& x, double mu);
-
 }  // namespace scabo::contact

@@ -1,8 +1,8 @@
 // One pair's own problem: its force under Coulomb's law with cohesion and tensile strength, every other force held.
 // Sweeps (gauss_seidel.hpp) solve it pair by pair.
 //
-// Its motion is free + W p, W its own block. Open, p_n = -T, where free_n >= W_nn T. Otherwise u_n = 0, and what the
-// normal leaves for the tangents is u_t = A p_t + c,
+// Its motion is free + W p, W its own block. Open, p_n = -T, |p_t| <= C, where that leaves u_n >= 0. Otherwise u_n = 0,
+// and what the normal leaves for the tangents is u_t = A p_t + c,
 //
 //     A = W_tt - W_tn W_nt / W_nn,   c = free_t - W_tn free_n / W_nn
 //
@@ -21,7 +21,6 @@ namespace scabo::contact {
 template <int d>
 class PairProblem {
  public:
-  PairProblem() = default;
   /// `W`: d x d by columns, [normal, tangents]; kept.
   [[gnu::hot]] PairProblem(const double* W, double mu, double cohesion, double tension);
 
