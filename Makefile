@@ -1,6 +1,6 @@
 # Two commands do everything on Debian and Ubuntu, packages included: make demo, make test.
 #   make demo        build, run the double cantilever beam, compare with the paper
-#   make test        every test: release, sanitizers, fuzzers
+#   make test        every test: release, sanitizers, fuzzers; all of them run, then those that failed are named
 #   make build       the program, build/bin/scabo
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
@@ -35,9 +35,8 @@ build:
 
 test:
 	@cmake/install_packages.sh build test
-	@cmake/timed.sh "Release build and tests" $(MAKE) --no-print-directory test-release
-	@cmake/timed.sh "Sanitizer build and tests" $(MAKE) --no-print-directory test-asan
-	@cmake/timed.sh "Fuzzers" $(MAKE) --no-print-directory fuzz
+	@MAKE="$(MAKE)" cmake/run_stages.sh "Release build and tests" test-release \
+	  "Sanitizer build and tests" test-asan "Fuzzers" fuzz
 
 test-release:
 	@$(configure) release

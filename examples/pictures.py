@@ -1,4 +1,7 @@
-"""What the examples' pictures have in common: running scabo, reading its fields, drawing them."""
+"""What the examples' pictures have in common: running scabo, reading its fields, and one style.
+
+Signed quantities have colours that diverge from white at zero (red: tension, blue: compression), and lines that are dashed below
+zero; others go from light to dark. Axes name their quantity and unit; a map of a deformed body says how much it is magnified."""
 import argparse
 import json
 import pathlib
@@ -12,8 +15,13 @@ import numpy as np
 import running
 from matplotlib.tri import Triangulation
 
-plt.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8.5,
-                     "axes.linewidth": 0.7, "figure.dpi": 130, "savefig.dpi": 130})
+plt.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.labelsize": 9,
+                     "legend.fontsize": 8.5, "legend.frameon": False, "axes.linewidth": 0.7, "axes.grid": False,
+                     "axes.axisbelow": True, "figure.constrained_layout.wspace": 0.05, "grid.color": "0.88", "grid.linewidth": 0.6, "lines.linewidth": 1.3,
+                     "figure.dpi": 130, "savefig.dpi": 130})
+
+BLUE, RED, GREEN, GREY = "#2b5c8a", "#c1442e", "#3f9c6b", "0.55"
+SIGNED, MAGNITUDE = "RdBu_r", "YlOrRd"
 
 
 def options_of(description, example, results):
@@ -39,6 +47,11 @@ def fields(directory, number=1):
     return meshio.read(directory / f"fields_{number:04d}.vtu")
 
 
+def values_of(mesh, name, factor=1.0):
+    """A scalar at the points."""
+    return factor * np.asarray(mesh.point_data[name], dtype=float).reshape(-1)
+
+
 def triangles_of(mesh):
     """Quadrilaterals are halved."""
     triangles = []
@@ -56,14 +69,44 @@ def outline(triangles):
     return sides[times == 1]
 
 
-def draw(axis, mesh, values, levels, magnification=0.0, cmap="viridis"):
-    """Filled contours of `values` at the points on the deformed body; where they are not a number, nothing."""
+def moved_points(mesh, magnification):
+    return mesh.points[:, :2] + magnification * mesh.point_data["displacement"][:, :2]
+
+
+def signed_levels(largest, bands=10):
+    """From -largest to largest; the band in the middle, around zero, is white."""
+    return np.linspace(-largest, largest, 2 * bands + 2)
+
+
+def draw(axis, mesh, values, levels, magnification=0.0):
+    """Filled contours of `values` at the points on the deformed body; where they are not a number, nothing. Levels on both sides of
+    zero: a signed quantity."""
+    signed = levels[0] < 0 < levels[-1]
     triangles = triangles_of(mesh)
-    moved = mesh.points[:, :2] + magnification * mesh.point_data["displacement"][:, :2]
+    moved = moved_points(mesh, magnification)
     values = np.asarray(values, dtype=float).reshape(-1)
-    shown = triangles[np.isfinite(values[triangles]).all(axis=1)]
-    drawn = axis.tricontourf(Triangulation(*moved.T, shown), np.nan_to_num(values), levels=levels, cmap=cmap, extend="both")
+    shown = Triangulation(*moved.T, triangles[np.isfinite(values[triangles]).all(axis=1)])
+    drawn = axis.tricontourf(shown, np.nan_to_num(values), levels=levels, cmap=SIGNED if signed else MAGNITUDE,
+                             extend="both" if signed else "max")
+    if signed:  # which side of zero a dark colour is on, told without colour too
+        axis.tricontour(shown, np.nan_to_num(values), levels=levels[1:-1:2], colors="black", linewidths=0.3, alpha=0.7)
     for side in outline(triangles):
         axis.plot(*moved[side].T, color="black", linewidth=0.6)
-    axis.set_aspect("equal")
+    label_map(axis, magnification)
     return drawn
+
+
+def label_map(axis, magnification=0.0, unit="m"):
+    """Axes of a map: coordinates with their unit, and by how much displacements are magnified."""
+    moved = f"; displacements × {magnification:g}" if magnification else ""
+    axis.set(xlabel=f"x ({unit}){moved}", ylabel=f"y ({unit})", aspect="equal")
+    axis.use_sticky_edges = False
+    axis.margins(0.03)
+    for side in ("top", "right"):
+        axis.spines[side].set_visible(False)
+
+
+def colour_bar(figure, drawn, axis, label, count=5, **options):
+    """With `count` ticks, the first and the last level among them."""
+    ticks = np.linspace(drawn.levels[0], drawn.levels[-1], count)
+    return figure.colorbar(drawn, ax=axis, label=label, ticks=ticks, **options)

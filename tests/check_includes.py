@@ -25,7 +25,7 @@ ALLOWED = {
 
 # Headers of plain values that `result` reads although it never includes a solver. They include only base/ and
 # each other.
-PLAIN_VALUES = ["contact/delassus.hpp", "contact/problem.hpp", "contact/solution.hpp", "contact/certificate.hpp"]
+PLAIN_VALUES = ["contact/delassus.hpp", "contact/rigid_map.hpp", "contact/problem.hpp", "contact/solution.hpp", "contact/certificate.hpp"]
 
 SUFFIXES = {".hpp", ".cpp", ".h", ".cc"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')

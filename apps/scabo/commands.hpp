@@ -37,6 +37,7 @@ struct ContactOptions {
   std::string solver = "b_differentiable";  ///< one of contact::method_names()
   double tolerance = 1e-10;                 ///< of natural-map residual and certificate, > 0
   int iterations = 0;                       ///< of one attempt, > 0; 0: the solver's own
+  double time_limit = 0.0;                  ///< seconds of the solve, > 0; 0: none
   bool json = false;
   bool uniqueness = false;  ///< looks for other solutions
   bool write_trace = false;

@@ -1,11 +1,9 @@
 // `scabo contact`: a discrete problem that somebody saved, solved alone.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
 #include "commands.hpp"
 #include "contact_report.hpp"
@@ -35,37 +33,6 @@ contact::Method method_of(const std::string& name) {
                                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
 }
 
-double rounding_of(const contact::Problem& problem, const contact::Solution& solution) {
-  const double q = problem.q.norm();
-  return 16.0 * std::numeric_limits<double>::epsilon() * solution.p.norm() / (q > 0.0 ? q : 1.0);
-}
-
-/// See Judged.
-bool is_solved(const contact::Solution& solution, double tolerance, double rounding) {
-  return solution.status != contact::Status::mechanism && solution.certificate.rigid_balance <= tolerance &&
-         (solution.natural_map_residual <= tolerance ||
-          (solution.certificate.worst() <= tolerance && solution.natural_map_residual <= rounding));
-}
-
-/// Solves; where the certificate is met and the natural map is not, goes on with a sharper certificate.
-contact::Solution sharpened(const contact::SavedProblem& saved, contact::Method method,
-                            contact::SolverOptions options) {
-  const double tolerance = options.tolerance;
-  contact::Solution best = contact::solve_with(method, saved.problem, saved.start, options);
-  while (best.status != contact::Status::mechanism && best.certificate.worst() <= tolerance &&
-         options.tolerance > 1e-14 && !is_solved(best, tolerance, rounding_of(saved.problem, best))) {
-    options.tolerance = std::max(1e-14, 1e-2 * options.tolerance);
-    contact::Solution next = contact::solve_with(method, saved.problem, {best.p, best.a}, options);
-    if (!(next.natural_map_residual < best.natural_map_residual)) break;
-    for (contact::Iteration& iteration : next.trace) iteration.iteration += best.iterations + best.coarse_iterations;
-    next.trace.insert(next.trace.begin(), best.trace.begin(), best.trace.end());
-    next.iterations += best.iterations;
-    next.coarse_iterations += best.coarse_iterations;
-    best = std::move(next);
-  }
-  return best;
-}
-
 Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) {
   Judged judged;
   judged.solver = options.solver;
@@ -73,28 +40,16 @@ Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) 
   contact::SolverOptions solver;
   solver.tolerance = options.tolerance;
   solver.force_scale = saved.force_scale;
-  // Units of a run of ours may hide the natural map behind rounding, and it does not know the balance of
-  // rigid motions. Other problems are judged as they are among others.
+  // Increments of ours are judged as in their run. Other problems are judged as they are among others.
   const bool by_certificate = saved.force_scale > 0.0 || saved.problem.G.cols() > 0;
   solver.judge = by_certificate ? contact::Judge::certificate : contact::Judge::natural_map;
+  judged.by_certificate = by_certificate;
   if (options.iterations > 0) solver.iterations = options.iterations;
+  if (options.time_limit > 0.0) solver.deadline = contact::Deadline::in(options.time_limit);
 
   const Clock::time_point start = Clock::now();
-  judged.solution = sharpened(saved, method_of(options.solver), solver);
+  judged.solution = contact::solve_with(method_of(options.solver), saved.problem, saved.start, solver);
   judged.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-
-  const contact::Solution& solution = judged.solution;
-  judged.rounding = rounding_of(saved.problem, solution);
-  if (is_solved(solution, options.tolerance, judged.rounding)) {
-    judged.status = contact::Status::solved;
-    return judged;
-  }
-  judged.status =
-      solution.status == contact::Status::mechanism ? contact::Status::mechanism : contact::Status::not_converged;
-  judged.reason = solution.reason;
-  if (judged.reason.empty())
-    judged.reason = fmt::format("the natural-map residual, {:.2g}, is above the tolerance {:.2g}",
-                                solution.natural_map_residual, options.tolerance);
   return judged;
 }
 
@@ -103,9 +58,7 @@ contact::UniquenessReport uniqueness_of(const contact::SavedProblem& saved, cons
   contact::SolverOptions solver;
   solver.tolerance = judged.tolerance;
   solver.force_scale = saved.force_scale;
-  contact::Solution solution = judged.solution;
-  solution.status = contact::Status::solved;
-  return contact::examine_uniqueness(saved.problem, saved.start, solution, solver);
+  return contact::examine_uniqueness(saved.problem, saved.start, judged.solution, solver);
 }
 
 /// Throws InputError where `file` is there and does not begin as `mark`: it is not ours to replace.
@@ -140,7 +93,7 @@ void write_trace(const TraceFiles& files, const contact::SavedProblem& saved, co
                  const Judged& judged) {
   result::write_file(files.table, report_trace(judged.solution));
   const std::string title = saved.title.empty() ? options.file : saved.title;
-  const result::ConvergenceCurve curve{judged.solver, judged.solution.trace, judged.status == contact::Status::solved};
+  const result::ConvergenceCurve curve{judged.solver, judged.solution.trace, is_solved(judged)};
   result::write_file(files.picture, result::convergence_plot({curve}, title, options.tolerance));
 }
 
@@ -160,8 +113,10 @@ void save(const std::string& file, contact::SavedProblem saved, const Judged& ju
     }
     return;
   }
-  saved.r = judged.status == contact::Status::solved ? judged.solution.p : Vector();
-  saved.a = judged.status == contact::Status::solved ? judged.solution.a : Vector();
+  saved.r = is_solved(judged) ? judged.solution.p : Vector();
+  saved.a = is_solved(judged) ? judged.solution.a : Vector();
+  // What is no solution is where a later solve may go on.
+  if (judged.solution.status == contact::Status::not_converged) saved.start = {judged.solution.p, judged.solution.a};
   contact::write_fclib(file, saved);
 }
 
@@ -173,14 +128,12 @@ ExitStatus solve_contact(const ContactOptions& options) {
   const contact::SavedProblem saved = contact::read_problem_file(options.file);
   const TraceFiles trace = options.write_trace ? trace_files(options) : TraceFiles();
   Judged judged = judge(saved, options);
-  if (options.uniqueness && judged.status == contact::Status::solved) judged.uniqueness = uniqueness_of(saved, judged);
+  if (options.uniqueness && is_solved(judged)) judged.uniqueness = uniqueness_of(saved, judged);
   if (options.write_trace) write_trace(trace, saved, options, judged);
   if (!options.save.empty()) save(options.save, saved, judged);
   print_output(options.json ? report_json(options.file, saved, judged) : report_table(options.file, saved, judged));
-  if (judged.status == contact::Status::solved) return ExitStatus::solved;
-  print_error(fmt::format("{}: {}: {}", options.file,
-                          judged.status == contact::Status::mechanism ? "mechanism" : "did not converge",
-                          judged.reason));
+  if (is_solved(judged)) return ExitStatus::solved;
+  print_error(fmt::format("{}: {}: {}", options.file, spoken_name_of(judged.solution.status), judged.solution.reason));
   return ExitStatus::not_converged;
 }
 

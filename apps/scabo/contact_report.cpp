@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,8 @@ std::string_view name_of(contact::Status status) {
       return "not_converged";
     case contact::Status::mechanism:
       return "mechanism";
+    case contact::Status::infeasible:
+      return "infeasible";
   }
   throw BrokenInvariant("a status without a name");
 }
@@ -103,6 +106,10 @@ Json json_of(const contact::UniquenessReport& report) {
 
 }  // namespace
 
+std::string_view spoken_name_of(contact::Status status) {
+  return status == contact::Status::not_converged ? "did not converge" : name_of(status);
+}
+
 std::string report_table(const std::string& file, const contact::SavedProblem& saved, const Judged& judged) {
   const contact::Problem& problem = saved.problem;
   const contact::Solution& solution = judged.solution;
@@ -112,9 +119,9 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
   if (problem.G.cols() > 0) text += ", " + count(problem.G.cols(), "rigid motion");
   if (saved.start.p.size() > 0) text += ", with a start";
 
-  const char* outcome = judged.status == contact::Status::solved      ? "Solved"
-                        : judged.status == contact::Status::mechanism ? "Mechanism"
-                                                                      : "Not converged";
+  std::string outcome(name_of(solution.status));
+  outcome[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(outcome[0])));
+  std::replace(outcome.begin(), outcome.end(), '_', ' ');
   text += fmt::format(
       "\n\n{} by {}: {}{}, {:.3g} s\n\n", outcome, judged.solver, count(solution.iterations, "iteration"),
       solution.coarse_iterations > 0 ? fmt::format(" and {} on fewer pairs", solution.coarse_iterations) : "",
@@ -124,18 +131,18 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
   std::vector<std::vector<std::string>> rows = {{"certificate", fmt::format("tolerance {:.0e}", judged.tolerance), ""}};
   for (const auto& [name, value] : figures(solution.certificate))
     rows.push_back({name, fmt::format("{:.1e}", value), value <= judged.tolerance ? "" : "above the tolerance"});
-  const double natural = solution.natural_map_residual;
+  const double natural = solution.natural_map_residual, rounding = solution.rounding;
   rows.push_back({"natural_map_residual", fmt::format("{:.1e}", natural),
-                  natural <= judged.tolerance  ? ""
-                  : natural <= judged.rounding ? "rounding of r"
-                                               : "above the tolerance"});
+                  judged.by_certificate || natural <= judged.tolerance ? "" : "above the tolerance"});
+  rows.push_back(
+      {"rounding of W r", fmt::format("{:.1e}", rounding), rounding <= judged.tolerance ? "" : "above the tolerance"});
   return text + result::table(rows) + "\n" + forces_table(saved, solution);
 }
 
 std::string report_json(const std::string& file, const contact::SavedProblem& saved, const Judged& judged) {
   const contact::Problem& problem = saved.problem;
   const contact::Solution& solution = judged.solution;
-  Json json = {{"status", name_of(judged.status)},
+  Json json = {{"status", name_of(solution.status)},
                {"natural_map_residual", number_or_null(solution.natural_map_residual)},
                {"iterations", solution.iterations},
                {"coarse_iterations", solution.coarse_iterations},
@@ -156,8 +163,10 @@ std::string report_json(const std::string& file, const contact::SavedProblem& sa
   for (const auto& [name, value] : figures(solution.certificate)) json["certificate"][name] = number_or_null(value);
   if (judged.uniqueness) json["uniqueness"] = json_of(*judged.uniqueness);
   json["tolerance"] = judged.tolerance;
-  json["rounding"] = number_or_null(judged.rounding);
-  json["reason"] = judged.reason;
+  json["rounding"] = number_or_null(solution.rounding);
+  json["judge"] = judged.by_certificate ? "certificate" : "natural_map";
+  json["reason"] = solution.reason;
+  if (solution.status == contact::Status::infeasible) json["proof"] = list(solution.proof);
   json["dimension"] = problem.dimension;
   json["pairs"] = problem.pairs();
   if (!saved.contact_of_pair.empty()) {

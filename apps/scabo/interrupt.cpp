@@ -17,12 +17,15 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 void restore_default_handlers() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGHUP, SIG_DFL);
 }
 
 extern "C" void request_stop(int signal) {
   received = signal;
   stop_requested = true;
   restore_default_handlers();  // the second signal ends the program at once
+  // but for SIGHUP, of which the shell and the system send one each when a terminal is closed
+  std::signal(SIGHUP, SIG_IGN);
   constexpr std::string_view message =
       "\nInterrupted: ending after the increment at work (Ctrl-C again ends at once)\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
@@ -33,7 +36,7 @@ extern "C" void request_stop(int signal) {
 Interrupt::Interrupt() {
   stop_requested = false;
   received = 0;
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction current {};
     sigaction(signal, nullptr, &current);
     if (current.sa_handler == SIG_IGN) continue;  // nohup and background jobs of a shell ask for that

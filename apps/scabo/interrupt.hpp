@@ -1,5 +1,5 @@
-// Ctrl-C (SIGINT) and SIGTERM. The first asks the run to end after the increment at work, so that everything
-// finished lies on disk whole; the second ends the program at once.
+// Ctrl-C (SIGINT), SIGTERM and SIGHUP (the terminal was closed). The first asks the run to end after the increment at
+// work, so that everything finished lies on disk whole; a second SIGINT or SIGTERM ends the program at once.
 #pragma once
 
 #include <atomic>

@@ -15,6 +15,7 @@
 #include "commands.hpp"
 #include "scabo/contact/solvers.hpp"
 #include "scabo/result/version.hpp"
+#include "startup.hpp"
 #include "terminal.hpp"
 
 namespace scabo::app {
@@ -24,16 +25,19 @@ namespace {
 constexpr const char* exit_statuses = R"(Exit status:
   0    solved and certified
   1    the command line, the model file or a file it names is wrong
-  2    the solve did not converge, or the loads are more than supports and contact can hold (status `mechanism`);
-       the results of the converged increments are kept
-  3    anything else: results cannot be written, not enough memory, a bug
-  130  interrupted by Ctrl-C after an increment (143: by SIGTERM); the finished increments are kept)";
+  2    the solve did not converge, the loads exceed what supports and contact can carry (status `mechanism`), or a
+       problem file has no solution (`infeasible`); the results of the converged increments are kept
+  3    any other failure: results cannot be written, another run writes into the same directory, memory is
+       insufficient, or the program has a bug
+  130  interrupted by Ctrl-C after an increment (143: by SIGTERM, 129: by SIGHUP); the finished increments are kept
+If standard output cannot be written (it is closed, or a pipe without a reader), the status of `run` does not change;
+the other commands, whose result is the text they print, end with status 3.)";
 
 constexpr const char* run_example = R"(Example:
   scabo run model.yaml -o friction_0.5 --set contacts.joint.friction=0.5
 
 Results: summary.json, contact.csv, fields.pvd (ParaView) and log.txt in DIR.
-Ctrl-C ends the run after the increment at work, a second one at once.)";
+Ctrl-C ends the run after the current increment; a second Ctrl-C ends it immediately.)";
 
 constexpr const char* check_example = R"(Example:
   scabo check model.yaml --set bodies.upper.mesh.size=0.1)";
@@ -41,13 +45,13 @@ constexpr const char* check_example = R"(Example:
 constexpr const char* exponents_example = R"(Example:
   scabo exponents notch.yaml --set bodies.plate.mesh.order=8
 
-Displacements grow as xi^exponent from the scaling centre: below 1 stress is infinite there.)";
+Displacements grow as xi^exponent from the scaling centre; exponents below 1 mean infinite stress there.)";
 
 constexpr const char* contact_example = R"(Example:
   scabo contact model.results/problems/press_3.hdf5 --json > solution.json
 
-FILE is HDF5 in FCLIB's layout, local or global form, or Siconos's text. Exit status 0: solved, which is natural-map residual
-and certificate below the tolerance; 2: not converged, or a mechanism.)";
+FILE is HDF5 in FCLIB's layout, in local or global form, or text in the layout of Siconos. Exit status 0: solved, that
+is, the natural-map residual or the certificate is below the tolerance; 2: not converged, a mechanism, or infeasible.)";
 
 constexpr const char* schema_example = R"(Example:
   scabo schema > model.schema.json
@@ -81,19 +85,19 @@ class CommandLine {
  public:
   CommandLine() {
     app_.set_version_flag("--version", fmt::format("scabo {}", result::version()), "Prints the version");
-    app_.set_help_flag("-h,--help", "Prints help; `scabo run --help` that of `run`");
+    app_.set_help_flag("-h,--help", "Prints help; `scabo run --help` prints the help of `run`");
     app_.require_subcommand(1);
     app_.footer(exit_statuses);
     app_.get_formatter()->column_width(24);
 
     run_->add_option("MODEL", run_options_.model, model_help)->required()->option_text(" ");
-    run_->add_option("-o,--output", run_options_.output,
-                     "Results directory; without it model.results, beside model.yaml")
-        ->type_name("DIR")
-        ->option_text("DIR");
+    output_ = run_->add_option("-o,--output", run_options_.output,
+                               "Results directory; default: model.results, beside model.yaml")
+                  ->type_name("DIR")
+                  ->option_text("DIR");
     add_settings(*run_, run_options_.settings);
     run_->add_option("--threads", run_options_.threads,
-                     "Number of threads, 1 or more; without it one for each processor")
+                     "Largest number of threads, 1 or more; default: one for each processor. Small models use one")
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
@@ -112,24 +116,28 @@ class CommandLine {
     contact_->add_option("--solver", contact_options_.solver, solver_help())->option_text("NAME");
     contact_
         ->add_option("--tolerance", contact_options_.tolerance,
-                     "Of natural-map residual and certificate; default 1e-10")
+                     "Limit of the natural-map residual or the certificate; default 1e-10")
         ->option_text("X")
         ->check(CLI::Range(1e-15, 0.1));
-    contact_->add_option("--iterations", contact_options_.iterations, "Of one attempt at most")
+    contact_->add_option("--iterations", contact_options_.iterations, "Largest number of iterations of one attempt")
         ->option_text("N")
         ->check(CLI::Range(1, 100'000'000));
+    contact_
+        ->add_option("--time-limit", contact_options_.time_limit,
+                     "Ends the solve after this time with the best point so far")
+        ->option_text("SECONDS")
+        ->check(CLI::PositiveNumber);
     contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
-    contact_->add_flag("--uniqueness", contact_options_.uniqueness,
-                       "Looks for other solutions, and says whether there are any");
+    contact_->add_flag("--uniqueness", contact_options_.uniqueness, "Looks for other solutions and reports them");
     trace_ = contact_
                  ->add_option("--trace", contact_options_.trace,
-                              "Writes every iteration as CSV, and a plot of them (.svg) beside it; without a name to "
+                              "Writes every iteration as CSV, and a plot (.svg) beside it; default: "
                               "FILE.trace.csv")
                  ->option_text("[=CSV]")
                  ->expected(0, 1);
     contact_
         ->add_option("--save", contact_options_.save,
-                     "Writes the problem and its solution as HDF5; to a name that ends in .dat the problem as text")
+                     "Writes the problem and its solution as HDF5; if the name ends in .dat, the problem as text")
         ->option_text("NEW");
     contact_->footer(contact_example);
 
@@ -139,6 +147,8 @@ class CommandLine {
   void parse(std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());  // as CLI11 wants them
     app_.parse(std::move(words));
+    if (*run_ && output_->count() > 0 && run_options_.output.empty())
+      throw CLI::ValidationError("--output: the name of the directory is empty: name one, or leave the option out");
     if (!*contact_) return;
     contact_options_.write_trace = trace_->count() > 0;
     // `--trace problem.hdf5` names the problem, not where its trace goes.
@@ -188,11 +198,11 @@ class CommandLine {
 
   CLI::App app_{"Scabo: frictional contact by the scaled boundary finite element method", "scabo"};
   CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
-  CLI::App* check_ = app_.add_subcommand("check", "Reads and meshes a model, reports its sizes; solves nothing");
+  CLI::App* check_ = app_.add_subcommand("check", "Reads and meshes a model and reports its size, without solving it");
   CLI::App* exponents_ = app_.add_subcommand("exponents", "Prints the exponents of every super-element");
-  CLI::App* contact_ =
-      app_.add_subcommand("contact", "Solves a discrete contact problem from a file, and certifies it");
+  CLI::App* contact_ = app_.add_subcommand("contact", "Solves and certifies a discrete contact problem from a file");
   CLI::Option* trace_ = nullptr;
+  CLI::Option* output_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   RunOptions run_options_;
   CheckOptions check_options_;
@@ -201,19 +211,19 @@ class CommandLine {
 };
 
 ExitStatus main_program(const std::vector<std::string>& words) {
-  CommandLine command_line;
   try {
-    command_line.parse(spread_settings(words));
-  } catch (const CLI::ParseError& error) {
-    return command_line.explain(error, words);
-  }
-  try {
+    CommandLine command_line;
+    try {
+      command_line.parse(spread_settings(words));
+    } catch (const CLI::ParseError& error) {
+      return command_line.explain(error, words);
+    }
     return command_line.execute();
   } catch (const InputError& error) {
     print_mistakes(error);
     return ExitStatus::wrong_input;
   } catch (const std::bad_alloc&) {
-    print_error("not enough memory for this model or problem: make its mesh coarser (`scabo check` prints the sizes)");
+    print_error(not_enough_memory);
   } catch (const std::exception& error) {
     print_error(error.what());
   }
@@ -225,6 +235,7 @@ ExitStatus main_program(const std::vector<std::string>& words) {
 }  // namespace scabo::app
 
 int main(int argc, char** argv) {
+  scabo::app::prepare_process();
 #if defined(__GLIBC__)
   // Matrices come and go by the hundred. Handing each back to the system and having it cleared again took a third of
   // the time of a small super-element (17 ms against 12 ms at 320 degrees of freedom).

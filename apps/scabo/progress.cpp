@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "sizes.hpp"
 #include "terminal.hpp"
@@ -20,7 +19,7 @@ std::string outcome_of(const analysis::IncrementResult& result) {
   std::string text = count(result.newton_iterations, "iteration");
   if (result.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", result.coarse_iterations);
   if (result.halvings > 0) text += fmt::format(", halved {}", count(result.halvings, "time"));
-  if (!result.converged) return text + (result.reason.starts_with("mechanism") ? ", not held" : ", not converged");
+  if (!result.converged) return text + (result.reason.starts_with("mechanism") ? ", mechanism" : ", not converged");
   if (result.contacts.empty()) return text;
   int open = 0, stick = 0, slip = 0;
   for (const analysis::ContactResult& contact : result.contacts) {
@@ -70,18 +69,17 @@ std::string Progress::increment_at_work() const { return fmt::format("increment 
 
 void Progress::clear() {
   if (!line_shown_) return;
-  fmt::print(stderr, "\r\033[K");
+  print_to_stderr("\r\033[K");
   line_shown_ = false;
 }
 
 void Progress::show(const std::string& line) {
   if (style_ == Style::lines) {
-    fmt::print(stderr, "{}\n", line);
+    print_to_stderr(line + "\n");
     return;
   }
   const size_t room = static_cast<size_t>(std::max(terminal_width() - 1, 1));
-  fmt::print(stderr, "\r\033[K{}", line.substr(0, room));
-  std::fflush(stderr);
+  print_to_stderr("\r\033[K" + line.substr(0, room));
   line_shown_ = true;
 }
 

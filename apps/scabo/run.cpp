@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "commands.hpp"
+#include "failures.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "scabo/analysis/static_analysis.hpp"
@@ -13,6 +14,7 @@
 #include "scabo/result/results_directory.hpp"
 #include "scabo/result/version.hpp"
 #include "settings.hpp"
+#include "startup.hpp"
 #include "terminal.hpp"
 
 namespace scabo::app {
@@ -72,8 +74,7 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
                        count(converged, "increment"), solution.timing.total, certificate);
     if (last->error) text += fmt::format("Estimated error {:.2g} of the energy norm\n", last->error->relative);
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
-    text += last->contacts.empty() ? result::report_reactions(solution.model, *last) : result::report_contacts(*last);
-    text += result::report_cracks(*last);
+    text += result::report_totals(solution.model, *last);
   }
   return text + fmt::format("Results: {}\n", directory.string());
 }
@@ -97,11 +98,12 @@ void print_reason(const analysis::StaticSolution& solution, ExitStatus status) {
                                       [](const auto& increment) { return increment.converged; });
   const std::string kept =
       finished == 0 ? "no increment was finished" : count(finished, "finished increment") + " kept";
-  print_error(status == ExitStatus::not_converged
-                  ? fmt::format("{}: {} ({})",
-                                solution.outcome == analysis::Outcome::mechanism ? "not held" : "did not converge",
-                                solution.reason, kept)
-                  : fmt::format("interrupted; {}", kept));
+  if (status != ExitStatus::not_converged)
+    print_error(fmt::format("interrupted; {}", kept));
+  else if (solution.outcome == analysis::Outcome::mechanism)
+    print_error(fmt::format("{} ({})", solution.reason, kept));
+  else
+    print_error(fmt::format("did not converge: {} ({})", solution.reason, kept));
 }
 
 }  // namespace
@@ -113,15 +115,16 @@ ExitStatus run(const RunOptions& options) {
   const auto output = options.output.empty() ? default_output(options.model) : options.output;
   if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);
 
+  ignore_broken_pipes();
   // Looked through before the directory is made or cleared, and the directory made before the long work: a
   // mistake in either costs seconds and no results. Meshing twice is a hundredth of a solve.
-  analysis::check(model);
-  result::ResultsDirectory directory(output, model);
-
+  mesh::Mesh mesh = analysis::check(model);
   const Interrupt interrupt;
+  result::ResultsDirectory directory(output, model, std::move(mesh));
+
   Progress progress(options.quiet);
   analysis::Options analysis_options;
-  analysis_options.threads = options.threads;
+  analysis_options.threads = threads_that_fit(options.threads);
   analysis_options.stop = &interrupt.requested();
   analysis_options.on_stage = [&](const std::string& stage) { progress.stage(stage); };
   analysis_options.on_mesh = [&](const auto& solution) { progress.meshed(solution); };
@@ -133,17 +136,20 @@ ExitStatus run(const RunOptions& options) {
     analysis_options.on_problems = [&](const auto& increment, const auto& problems) {
       write_problems(directory, model, increment, problems);
     };
-  analysis::StaticSolution solution = analysis::solve_static(model, analysis_options);
-  solution.timing.read = reading;
-  solution.timing.total = seconds_since(start);
-  directory.finish(solution);
+  const analysis::StaticSolution solution = marking_failures(directory.path(), [&] {
+    analysis::StaticSolution solved = analysis::solve_static(model, analysis_options);
+    solved.timing.read = reading;
+    solved.timing.total = seconds_since(start);
+    directory.finish(solved);
+    return solved;
+  });
   progress.clear();
 
   const ExitStatus status = status_of(solution, interrupt.signal());
   for (const std::string& warning : solution.warnings) print_warning(warning);
   for (const std::string& warning : directory.warnings()) print_warning(warning);
   print_reason(solution, status);
-  if (!options.quiet) print_output(summary_text(solution, directory.path()));
+  if (!options.quiet) print_summary(summary_text(solution, directory.path()));
   return status;
 }
 

@@ -40,23 +40,37 @@ int terminal_width() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
+void print_to_stderr(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 void print_mistakes(const InputError& error) {
   for (const Diagnostic& diagnostic : error.diagnostics()) {
     const std::string line = format_diagnostic(error.file(), diagnostic);
     const size_t message = line.size() - diagnostic.message.size();
-    fmt::print(stderr, "{}{}\n", painted(line.substr(0, message), bold), diagnostic.message);
+    print_to_stderr(fmt::format("{}{}\n", painted(line.substr(0, message), bold), diagnostic.message));
   }
 }
 
-void print_error(std::string_view message) { fmt::print(stderr, "{} {}\n", painted("scabo:", red), message); }
+void print_error(std::string_view message) { print_to_stderr(fmt::format("{} {}\n", painted("scabo:", red), message)); }
 
 void print_warning(std::string_view message) {
-  fmt::print(stderr, "{} {}\n", painted("scabo: warning:", yellow), message);
+  print_to_stderr(fmt::format("{} {}\n", painted("scabo: warning:", yellow), message));
 }
 
 void print_output(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
+}
+
+void print_summary(std::string_view text) {
+  try {
+    print_output(text);
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::broken_pipe && error.code() != std::errc::bad_file_descriptor)
+      print_warning(fmt::format("{}; the results are complete all the same", error.what()));
+  }
 }
 
 std::string count(long number, std::string_view noun) {

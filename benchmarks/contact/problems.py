@@ -72,13 +72,15 @@ def project_on_cone(x, mu):
 
 
 def natural_map(problem, r):
-    """| r - P_K( r - (u + mu |u_t| n) ) | / |q|; absolute where q = 0."""
+    """| r - P_K( r - (u + mu |u_t| n) ) | / |q|, W and q scaled so that the mean of W_ii is 1; absolute where q = 0."""
     r = numpy.asarray(r, float)
     if r.shape != problem.q.shape or not numpy.all(numpy.isfinite(r)):
         return float("inf")
-    u = (problem.W @ r + problem.q).reshape(-1, problem.dimension)
+    mean = numpy.mean(problem.W.diagonal()) if len(r) > 0 else 1.0
+    stiffness = 1.0 / mean if mean > 0.0 else 1.0
+    u = stiffness * (problem.W @ r + problem.q).reshape(-1, problem.dimension)
     r = r.reshape(-1, problem.dimension)
     u = u.copy()
     u[:, 0] += problem.mu * numpy.linalg.norm(u[:, 1:], axis=1)
-    size = numpy.linalg.norm(problem.q)
+    size = stiffness * numpy.linalg.norm(problem.q)
     return float(numpy.linalg.norm(r - project_on_cone(r - u, problem.mu)) / (size if size > 0.0 else 1.0))

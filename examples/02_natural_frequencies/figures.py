@@ -32,26 +32,24 @@ def run(scabo, directory, *settings):
 
 
 def mode_shapes(directory, frequencies, fem):
-    figure, axes = plt.subplots(SHOWN // 2, 2, figsize=(9.2, 6.6), sharex=True, sharey=True)
-    figure.subplots_adjust(left=0.02, right=0.98, top=0.95, bottom=0.11, hspace=0.22, wspace=0.04)
+    figure = plt.figure(figsize=(9.2, 7.4), layout="constrained")
+    axes = figure.subplots(SHOWN // 2, 2, sharex=True, sharey=True)
     for number, axis in enumerate(axes.flat, start=1):
         mesh = pictures.fields(directory, number)
-        displacement = mesh.point_data["displacement"][:, :2]
-        at_rest, moved = mesh.points[:, :2], mesh.points[:, :2] + LARGEST * displacement
+        size = np.linalg.norm(mesh.point_data["displacement"], axis=1)
         triangles = pictures.triangles_of(mesh)
-        drawn = axis.tricontourf(pictures.Triangulation(*moved.T, triangles), np.linalg.norm(displacement, axis=1),
-                                 levels=np.linspace(0, 1.0001, 21), cmap="viridis", extend="max")
         for side in pictures.outline(triangles):
-            axis.plot(*at_rest[side].T, color="0.6", linewidth=0.7, linestyle="--")
-            axis.plot(*moved[side].T, color="black", linewidth=0.8)
+            axis.plot(*mesh.points[side, :2].T, color="0.6", linewidth=0.7, linestyle="--")
+        drawn = pictures.draw(axis, mesh, size, np.linspace(0, 1.0001, 21), magnification=LARGEST)
         axis.plot([0, 0], [-0.15, 1.15], color="black", linewidth=3, solid_capstyle="butt")
-        axis.set_title(f"{number}: {frequencies[number - 1]:.1f} Hz  (finite elements {fem[number - 1]:.1f})", loc="left")
-        axis.set_aspect("equal")
-        axis.set_axis_off()
-        axis.set_xlim(-0.1, 5.4)
-        axis.set_ylim(-0.45, 1.45)
-    figure.colorbar(drawn, cax=figure.add_axes([0.3, 0.075, 0.4, 0.014]), orientation="horizontal",
-                    label="displacement, the largest of a boundary node is 1", ticks=[0, 0.5, 1])
+        axis.set_title(f"{number}: {frequencies[number - 1]:.1f} Hz  (finite elements {fem[number - 1]:.1f} Hz)")
+        axis.set(xlim=(-0.1, 5.4), ylim=(-0.45, 1.45), xlabel="", ylabel="", yticks=[0, 1])
+    for axis in axes[-1]:
+        axis.set_xlabel("x (m)")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("y (m)")
+    figure.colorbar(drawn, ax=axes, location="bottom", shrink=0.5, aspect=40, ticks=[0, 0.5, 1],
+                    label=f"displacement / largest one of a boundary node, which is drawn as {LARGEST:g} m")
     return figure
 
 

@@ -12,7 +12,7 @@ import meshio
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import pictures
 import running
-from pictures import np, plt
+from pictures import BLUE, GREY, RED, np, plt
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODEL = HERE / "model.yaml"
@@ -20,7 +20,6 @@ TOLERANCES = ["1e-1", "3e-2", "1e-2", "3e-3", "1e-3", "3e-4", "1e-4"]
 CORNERS = [[0, 0], [48, 44], [48, 60], [0, 44]]
 EDGES = ", ".join(f"{{from: {CORNERS[k]}, to: {CORNERS[(k + 1) % 4]}, name: side_{k + 1}}}" for k in range(4))
 EQUAL = {1: [16, 8, 4, 2, 1], 2: [16, 8, 4, 2, 1], 4: [32, 16, 8, 4, 2]}  # order: sizes
-BLUE, RED, GREY = "#2b5c8a", "#c1442e", "0.55"
 
 
 def main():
@@ -71,16 +70,15 @@ def stress(run):
     x, y, values = (np.concatenate([table[key] for table in tables]) for key in ("x", "y", "von_mises"))
     figure, axis = plt.subplots(figsize=(6.2, 5.8), layout="constrained")
     levels = np.linspace(0, 0.3, 16)
-    drawn = axis.tricontourf(x, y, values, levels=levels, cmap="YlOrRd", extend="max")
+    drawn = axis.tricontourf(x, y, values, levels=levels, cmap=pictures.MAGNITUDE, extend="max")
     axis.plot(*np.array(CORNERS + CORNERS[:1]).T, color="black", linewidth=0.8)
     nodes = boundary_nodes(run)
     axis.plot(*nodes.T, ".", color=BLUE, markersize=4, clip_on=False)
     axis.plot([-0.7, -0.7], [-1, 45], color="black", linewidth=3)  # the wall, beside the nodes on the edge
     axis.annotate("", (50.2, 60), (50.2, 44), arrowprops={"arrowstyle": "-|>", "color": "black"})
-    axis.set(xlim=(-2, 52.5), ylim=(-2, 62), aspect="equal", xlabel="x", ylabel="y")
-    for side in ("top", "right"):
-        axis.spines[side].set_visible(False)
-    figure.colorbar(drawn, ax=axis, label="Von Mises stress", orientation="horizontal", shrink=0.8, aspect=40)
+    pictures.label_map(axis, unit="length")
+    axis.set(xlim=(-2, 52.5), ylim=(-2, 62))
+    pictures.colour_bar(figure, drawn, axis, "von Mises stress (force / length²)", count=6, shrink=0.8, aspect=25)
     return figure
 
 
@@ -88,12 +86,13 @@ def section(run):
     """Stress along the line from the bottom to the top at x = 24."""
     line = run.table("lines")
     figure, axis = plt.subplots(figsize=(6.2, 3.2))
-    figure.subplots_adjust(left=0.11, right=0.98, top=0.97, bottom=0.15)
-    for key, colour in (("stress_xx", RED), ("stress_yy", GREY), ("stress_xy", BLUE)):
-        axis.plot(line["y"], line[key], color=colour, label=key.replace("_", " "))
+    figure.subplots_adjust(left=0.12, right=0.98, top=0.97, bottom=0.15)
+    for key, colour, style in (("xx", RED, "-"), ("yy", GREY, "--"), ("xy", BLUE, ":")):
+        axis.plot(line["y"], line[f"stress_{key}"], style, color=colour, label=f"$\\sigma_{{{key}}}$")
     axis.axhline(0, color="black", linewidth=0.6)
-    axis.set(xlabel="y at x = 24", ylabel="stress", xlim=(22, 52))
-    axis.legend(frameon=False)
+    axis.set(xlabel="y at x = 24 (length)", ylabel="stress (force / length²)", xlim=(22, 52))
+    axis.grid(True)
+    axis.legend()
     return figure
 
 
@@ -112,11 +111,11 @@ def convergence(refined, equal):
                 markeredgecolor=RED, markersize=6, label="to a tolerance, estimated")
     axis.loglog([r.dofs for r in runs[:-1]], [true(r) for r in runs[:-1]], "o-", color=RED, markersize=3,
                 label="to a tolerance, true")
-    axis.set(xlabel="degrees of freedom", ylabel="relative error in the energy norm")
+    axis.set(xlabel="degrees of freedom", ylabel="error / energy norm of the displacement")
     axis.set_xticks([30, 50, 100, 200, 500], labels=["30", "50", "100", "200", "500"])
     axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
-    axis.grid(which="major", color="0.9", linewidth=0.6)
-    axis.legend(frameon=False)
+    axis.grid(True, which="major")
+    axis.legend()
     return figure
 
 

@@ -55,31 +55,29 @@ def crack_of(summary):
 
 
 def picture(options, points):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 4.6), gridspec_kw={"width_ratios": [1, 1.35]})
-    figure.subplots_adjust(left=0.02, right=0.98, top=0.92, bottom=0.12, wspace=0.28)
+    figure = plt.figure(figsize=(8.8, 4.8), layout="constrained")
+    left, right = figure.subplots(1, 2, gridspec_kw={"width_ratios": [1, 1.25]})
     mesh = pictures.fields(options.results / "case_0")
-    drawn = pictures.draw(left, mesh, mesh.point_data["stress_yy"] / 1e6, np.linspace(-2, 8, 21), magnification=5e3,
-                          cmap="RdYlBu_r")
-    figure.colorbar(drawn, ax=left, label="stress across the crack, MPa", shrink=0.8, ticks=np.arange(-2, 9, 2))
-    left.set_title("opened 5000 times, pull 1 MPa")
-    left.set_axis_off()
+    drawn = pictures.draw(left, mesh, pictures.values_of(mesh, "stress_yy", 1e-6), pictures.signed_levels(8, bands=16),
+                          magnification=5e3)
+    pictures.colour_bar(figure, drawn, left, "stress across the crack, $\\sigma_{yy}$ (MPa)", shrink=0.8)
+    left.set_title("pull 1 MPa, a/W = %g" % CHECK["factors"][0]["a"])
 
     # Tada's fit for a long plate under uniform tension, 0.5 %.
     ratio = np.linspace(0.05, 0.65, 121)
     tangent = np.tan(np.pi * ratio / 2)
     fit = np.sqrt(2 / (np.pi * ratio) * tangent) * (0.752 + 2.02 * ratio + 0.37 * (1 - np.sin(np.pi * ratio / 2)) ** 3) \
         / np.cos(np.pi * ratio / 2)
-    right.plot(ratio, fit, color="0.6", label="long plate, Tada's formula (0.5 %)")
+    right.plot(ratio, fit, color=pictures.GREY, label="long plate, Tada's formula (0.5 %)")
     for case in CHECK["factors"]:
-        right.plot(case["a"], case["factor"], "o", color="#2b5c8a", markersize=9, markerfacecolor="none",
+        right.plot(case["a"], case["factor"], "o", color=pictures.BLUE, markersize=9, markerfacecolor="none",
                    label="converged" if case is CHECK["factors"][0] else None)
-    right.plot([a for _, a, _ in points], [factor for _, _, factor in points], "x", color="#c1442e",
+    right.plot([a for _, a, _ in points], [factor for _, _, factor in points], "x", color=pictures.RED,
                label="Scabo, one super-element")
     right.annotate("h/W = 0.5", (0.5, points[1][2]), (0.36, points[1][2] + 0.25), arrowprops={"arrowstyle": "-", "lw": 0.6})
-    right.set_xlabel("crack length a / width W")
-    right.set_ylabel(r"$K_I / (\sigma \sqrt{\pi a})$")
-    right.legend(frameon=False, loc="upper left")
-    right.grid(linewidth=0.3)
+    right.set(xlabel="crack length a / width W", ylabel=r"$K_I / (\sigma \sqrt{\pi a})$", title="stress intensity factor")
+    right.legend(loc="upper left")
+    right.grid(True)
     return figure
 
 

@@ -30,42 +30,38 @@ def main():
 
 
 def picture(options, tunnel):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.6, 3.9), gridspec_kw={"width_ratios": [1, 1.5, 1]})
-    figure.subplots_adjust(left=0.065, right=0.985, top=0.9, bottom=0.13, wspace=0.27)
+    figure = plt.figure(figsize=(13.0, 4.0), layout="constrained")
+    left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1, 1.5, 1]})
     x, y = tunnel.points[:, 0], tunnel.points[:, 1]
     ray = (np.abs(y) < 1e-9) & (x > 0)
     radius = np.linspace(RADIUS, 6 * RADIUS, 200)
-    left.plot(radius, (RADIUS / radius) ** 2, color="0.6", label="closed form")
-    left.plot(radius, -(RADIUS / radius) ** 2, color="0.6")
-    left.plot(x[ray], tunnel.point_data["stress_yy"][ray] / PRESSURE, "x", color="#c1442e", label="around the hole")
-    left.plot(x[ray], tunnel.point_data["stress_xx"][ray] / PRESSURE, "+", color="#2b5c8a", label="radial")
-    left.set_xlabel("distance from the axis, m")
-    left.set_ylabel("stress / pressure")
-    left.legend(frameon=False)
-    left.grid(linewidth=0.3)
-    left.set_title("tunnel")
+    left.plot(radius, (RADIUS / radius) ** 2, color=pictures.GREY, label="closed form")
+    left.plot(radius, -(RADIUS / radius) ** 2, color=pictures.GREY)
+    left.plot(x[ray], pictures.values_of(tunnel, "stress_yy", 1 / PRESSURE)[ray], "x", color=pictures.RED, label="hoop stress")
+    left.plot(x[ray], pictures.values_of(tunnel, "stress_xx", 1 / PRESSURE)[ray], "+", color=pictures.BLUE, label="radial stress")
+    left.set(xlabel="distance from the axis (m)", ylabel="stress / pressure in the tunnel", title="pressure tunnel")
+    left.legend()
+    left.grid(True)
 
     last = pictures.fields(options.results / "trench", 5)
-    drawn = pictures.draw(middle, last, last.point_data["stress_yy"] / 1e6, np.linspace(-1.5, 0.25, 15), magnification=200)
-    figure.colorbar(drawn, ax=middle, label="vertical stress, MPa", shrink=0.9)
-    middle.set_xlim(-9, 9)
-    middle.set_ylim(-11, 1)
-    middle.set_title("trench, column and wind (moved 200 times)")
+    drawn = pictures.draw(middle, last, pictures.values_of(last, "stress_yy", 1e-6), pictures.signed_levels(1.6, bands=16), magnification=200)
+    pictures.colour_bar(figure, drawn, middle, "vertical stress (MPa)", shrink=0.85)
+    middle.set(xlim=(-9, 9), ylim=(-11, 1), title="trench, under column and wind")
 
     with open(options.results / "trench" / "contact.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    for step, increment, style, name in (("1", "1", "o-", "column"), ("2", "4", "s-", "column and wind")):
+    column = lambda rows, name, factor: [factor * float(row[name]) for row in rows]
+    for step, increment, style, colour, name in (("1", "1", "o-", pictures.GREY, "column"),
+                                                 ("2", "4", "s-", pictures.RED, "column and wind")):
         chosen = [row for row in rows if row["step"] == step and row["increment"] == increment]
-        right.plot([float(row["x"]) for row in chosen], [float(row["pressure"]) / 1e6 for row in chosen], style,
-                   markersize=3.5, linewidth=1, label=f"pressure, {name}")
-    right.plot([float(row["x"]) for row in chosen], [abs(float(row["shear"])) / 1e6 for row in chosen], "^--", markersize=3.5,
-               linewidth=0.8, color="0.4", label="shear, column and wind")
-    right.set_xlabel("x, m")
-    right.set_ylabel("MPa")
+        right.plot(column(chosen, "x", 1), column(chosen, "pressure", 1e-6), style, color=colour, markersize=3, linewidth=1,
+                   label=f"pressure, {name}")
+    shear = [abs(value) for value in column(chosen, "shear", 1e-6)]
+    right.plot(column(chosen, "x", 1), shear, "^--", markersize=3, linewidth=0.8, color=pictures.BLUE, label="shear, column and wind")
+    right.set(xlabel="x (m)", ylabel="traction in the joint (MPa)", title="joint under the footing")
     right.set_ylim(bottom=0)
-    right.legend(frameon=False)
-    right.grid(linewidth=0.3)
-    right.set_title("joint under the footing")
+    right.legend()
+    right.grid(True)
     return figure
 
 

@@ -28,31 +28,30 @@ def main():
 
 
 def picture(options, summary):
-    figure, axes = plt.subplots(1, 4, figsize=(12.4, 3.5), gridspec_kw={"width_ratios": [1, 1, 1, 1.15]})
-    figure.subplots_adjust(left=0.01, right=0.985, top=0.88, bottom=0.15, wspace=0.25)
+    figure = plt.figure(figsize=(9.4, 8.2), layout="constrained")
+    axes = figure.subplots(2, 2).flat
     for number, (axis, name) in enumerate(zip(axes, NAMES), start=1):
         mesh = pictures.fields(options.results / "panel", number)
-        top = TOPS[number - 1]
-        drawn = pictures.draw(axis, mesh, mesh.point_data["principal_1"] / 1e6, np.linspace(0, top, 21), cmap="magma_r",
+        drawn = pictures.draw(axis, mesh, pictures.values_of(mesh, "principal_1", 1e-6), pictures.signed_levels(TOPS[number - 1]),
                               magnification=MAGNIFICATIONS[number - 1])
-        figure.colorbar(drawn, ax=axis, shrink=0.75, ticks=[0, top / 2, top])
-        axis.set_title(f"{name}\nprincipal tension, MPa")
-        axis.set_axis_off()
-    for number, name in enumerate(NAMES, start=1):
+        pictures.colour_bar(figure, drawn, axis, "first principal stress (MPa)", shrink=0.85)
+        axis.set_title(name)
+    for number, (name, style, colour) in enumerate(zip(NAMES, ("s-", "o-", "^-"), (pictures.GREY, pictures.BLUE, pictures.RED)), start=1):
         mesh = pictures.fields(options.results / "panel", number)
         from_corner = mesh.points[:, :2] - 1.0
         diagonal = (np.abs(from_corner[:, 0] + from_corner[:, 1]) < 1e-9) & (from_corner[:, 0] < -1e-9)
         r = np.linalg.norm(from_corner[diagonal], axis=1)
         order = np.argsort(r)
-        axes[3].loglog(r[order], mesh.point_data["principal_1"][diagonal].reshape(-1)[order] / 1e6, "o-", markersize=3, linewidth=0.9,
-                       label=name)
+        stress = pictures.values_of(mesh, "principal_1", 1e-6)[diagonal][order]
+        tension = np.where(stress > 0, stress, np.nan)  # a logarithm has no room for compression
+        axes[3].loglog(r[order], tension, style, color=colour, markersize=3, linewidth=0.9, label=name)
     exponent = summary["increments"][0]["cracks"]["panel.corner"]["exponents"][0][0]
     r = np.array([0.01, 0.1])
     axes[3].loglog(r, 0.3 * r ** (exponent - 1), "k--", linewidth=0.8, label=f"slope {exponent - 1:.3f}")
-    axes[3].set_xlabel("distance from the corner, m")
-    axes[3].set_title("principal tension, MPa, on the diagonal")
-    axes[3].legend(frameon=False)
-    axes[3].grid(linewidth=0.3, which="both")
+    axes[3].set(xlabel="distance from the corner (m)", ylabel="first principal stress (MPa)", ylim=(1e-3, 10),
+                title="on the diagonal, where it is tension")
+    axes[3].legend(loc="lower left")
+    axes[3].grid(True, which="major")
     return figure
 
 

@@ -42,45 +42,38 @@ def flood(summary):
 
 
 def picture(options, glued, plain):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12, 4.1), gridspec_kw={"width_ratios": [1.25, 1, 1]})
-    figure.subplots_adjust(left=0.045, right=0.985, top=0.9, bottom=0.13, wspace=0.28)
+    figure = plt.figure(figsize=(13.2, 4.2), layout="constrained")
+    left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1.25, 1, 1]})
     count = len(glued["increments"])
     last = pictures.fields(options.results / "cohesion", count)
-    drawn = pictures.draw(left, last, last.point_data["stress_yy"] / 1e6, np.linspace(-1.4, 0.2, 17), magnification=1500,
-                          cmap="viridis")
-    figure.colorbar(drawn, ax=left, label="vertical stress, MPa", shrink=0.85)
-    left.set_xlim(-9, 24)
-    left.set_ylim(-9, 22)
-    left.set_title(f"thrust {flood(glued)[-1]:.2f}, moved 1500 times")
+    drawn = pictures.draw(left, last, pictures.values_of(last, "stress_yy", 1e-6), pictures.signed_levels(1.4, bands=14),
+                          magnification=1500)
+    pictures.colour_bar(figure, drawn, left, "vertical stress (MPa)", shrink=0.85)
+    left.set(xlim=(-9, 24), ylim=(-9, 22), title=f"thrust {flood(glued)[-1]:.1f}")
 
     rows = rows_of(options.results / "cohesion")
     factor = dict(zip([(str(i["step"]), str(i["increment"])) for i in glued["increments"]], flood(glued)))
-    for thrust, colour in ((0.0, "0.6"), (0.9, "#2b5c8a"), (1.4, "#3f9c6b"), (2.0, "#c1442e")):
+    for thrust, colour in ((0.0, pictures.GREY), (0.9, pictures.BLUE), (1.4, pictures.GREEN), (2.0, pictures.RED)):
         chosen = [row for row in rows if abs(factor[row["step"], row["increment"]] - thrust) < 1e-9]
         middle.plot([float(row["x"]) for row in chosen], [float(row["pressure"]) / 1e6 for row in chosen], "o-", color=colour,
                     markersize=2.5, linewidth=1, label=f"thrust {thrust:.1f}")
     middle.axhline(-TENSION / 1e6, color="black", linewidth=0.7, linestyle=":")
     middle.text(15, -TENSION / 1e6 - 0.02, "tensile strength", ha="right", va="top", fontsize=8)
-    middle.set_xlabel("along the joint from heel to toe, m")
-    middle.set_ylabel("pressure in the joint, MPa")
-    middle.legend(frameon=False)
-    middle.grid(linewidth=0.3)
-    middle.set_title("what the joint carries")
+    middle.set(xlabel="along the joint from heel to toe (m)", ylabel="pressure in the joint (MPa)", title="what the joint carries")
+    middle.legend()
+    middle.grid(True)
 
     pairs = sum(glued["increments"][-1]["contacts"]["joint"][state] for state in ("open", "stick", "slip"))
-    for summary, state, style, colour, name in ((plain, "slip", ":", "0.45", "friction alone: slips"),
-                                                (plain, "open", "--", "0.45", "friction alone: open"),
-                                                (glued, "broken", "-", "#c1442e", "with cohesion: broken")):
+    for summary, state, style, colour, name in ((plain, "slip", ":", pictures.GREY, "friction alone: slips"),
+                                                (plain, "open", "--", pictures.GREY, "friction alone: open"),
+                                                (glued, "broken", "-", pictures.RED, "with cohesion: broken")):
         share = [100 * increment["contacts"]["joint"][state] / pairs for increment in summary["increments"]]
         right.plot(flood(summary), share, style, color=colour, marker="o", markersize=2.5, label=name)
     right.axvline(LIMIT, color="black", linewidth=0.7, linestyle=":")
-    right.text(LIMIT + 0.02, 60, "mu N", fontsize=8)
-    right.set_xlabel("thrust / thrust of a full reservoir")
-    right.set_ylabel("part of the pairs, %")
-    right.set_ylim(0, 100)
-    right.legend(frameon=False, loc="upper left")
-    right.grid(linewidth=0.3)
-    right.set_title("failure of the joint")
+    right.text(LIMIT + 0.02, 60, "µ N", fontsize=8)
+    right.set(xlabel="thrust / thrust of a full reservoir", ylabel="share of the pairs (%)", ylim=(0, 100), title="failure of the joint")
+    right.legend(loc="upper left")
+    right.grid(True)
     return figure
 
 

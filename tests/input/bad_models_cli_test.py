@@ -39,7 +39,7 @@ class BadModels(unittest.TestCase):
         """Finished process; fails when it hangs or dies of a signal."""
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([SCABO, *arguments], cwd=folder, capture_output=True, text=True,
-                                  errors="replace", timeout=60, env=dict(os.environ, LC_ALL="C"))
+                                  errors="replace", timeout=1200, env=dict(os.environ, LC_ALL="C"))
         self.assertGreaterEqual(done.returncode, 0, done.stderr)
         self.assertFalse(sanitized(done.stderr), done.stderr)
         return done

@@ -6,7 +6,6 @@ import re
 import signal
 import stat
 import subprocess
-import time
 import xml.etree.ElementTree
 
 import support
@@ -159,7 +158,7 @@ class Output(support.InTemporaryDirectory):
         except OSError:
             pass  # how Linux says that the other end of a terminal was closed
         os.close(main)
-        process.wait(timeout=60)
+        process.wait(timeout=support.PATIENCE)
         return text.decode()
 
     def test_unwritable_directory_is_a_failure(self):
@@ -198,19 +197,20 @@ steps:
         (self.directory / "model.yaml").write_text(self.MODEL)
         run = scabo("run", "model.yaml", cwd=self.directory)
         self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
-        self.assertRegex(run.stderr, r"scabo: not held: step lift, increment 2: .*block.*"
-                                     r" \(3 finished increments kept\)\n")
+        self.assertIn("scabo: step lift, increment 2: mechanism: body 'block': translation along (0, 1), held neither by "
+                      "supports nor by contact and friction (3 finished increments kept)\n", run.stderr)
         results = self.directory / "model.results"
         self.assertIn("model.results", run.stdout)
         self.assertEqual(summary_of(results)["status"], "mechanism")
-        self.assertIn("NOT HELD: mechanism: body 'block': translation along (0, 1)", (results / "log.txt").read_text())
+        self.assertIn("Not solved: step lift, increment 2: mechanism: body 'block': translation along (0, 1), held neither",
+                      (results / "log.txt").read_text())
         increments = summary_of(results)["increments"]
         self.assertEqual([increment["converged"] for increment in increments], [True, True, True, False])
         self.assertEqual(sorted({(int(row["step"]), int(row["increment"])) for row in rows_of(results)}),
                          [(1, 1), (1, 2), (2, 1)])
         self.assertEqual(len(list(results.glob("fields_*.vtu"))), 3)
 
-    def test_rounding_beside_very_stiff_parts_is_told_with_its_remedy(self):
+    def test_very_stiff_parts_beside_soft_ones(self):
         (self.directory / "model.yaml").write_text("""
 scabo: 1
 materials: {stiff: {young: 1e14, poisson: 0.3}, soft: {young: 1e6, poisson: 0.2}}
@@ -220,10 +220,22 @@ supports: [{on: plate.left, fix: [x, y]}]
 loads: {pull: {on: plate.right, traction: [1e3, 0]}}
 """)
         run = scabo("run", "model.yaml", cwd=self.directory)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        reaction = summary_of(self.directory / "model.results")["increments"][0]["reactions"]["plate.left"]
+        self.assertAlmostEqual(reaction[0], -1e3, delta=1e-6)  # 1e3 Pa on 1 m
+        self.assertAlmostEqual(reaction[1], 0.0, delta=1e-6)
+
+    def test_rounding_of_a_very_slender_body_is_told_with_its_remedy(self):
+        (self.directory / "model.yaml").write_text("""
+scabo: 1
+materials: {steel: {young: 2e11, poisson: 0.3}}
+bodies: {strip: {material: steel, shape: {rectangle: {corner: [0, 0], size: [1000, 1]}}, mesh: {size: 4}}}
+supports: [{on: strip.left, fix: [x, y]}]
+loads: {push: {on: strip.right, traction: [0, 1]}}
+""")
+        run = scabo("run", "model.yaml", cwd=self.directory)
         self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
         self.assertRegex(run.stderr, r"above the tolerance 1e-10; rounding of the displacements alone can be as much .* raise solver\.tolerance")
-        run = scabo("run", "model.yaml", "--set", "solver.tolerance=1e-4", cwd=self.directory)
-        self.assertEqual(run.returncode, SOLVED, run.stderr)
 
     def test_quiet_prints_the_reason_only(self):
         (self.directory / "model.yaml").write_text(self.MODEL)
@@ -251,7 +263,7 @@ class Interruption(support.InTemporaryDirectory):
             with self.subTest(signal=number.name):
                 process = self.start()
                 process.send_signal(number)
-                out, err = process.communicate(timeout=60)
+                out, err = process.communicate(timeout=support.PATIENCE)
                 self.assertEqual(process.returncode, 128 + number, err)
                 self.assertIn("interrupted", err.lower())
 
@@ -270,9 +282,7 @@ class Interruption(support.InTemporaryDirectory):
         process = self.start()
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGINT)
-        started = time.monotonic()
-        process.communicate(timeout=60)
-        self.assertLess(time.monotonic() - started, 10)
+        process.communicate(timeout=support.PATIENCE)
         self.assertIn(process.returncode, (-signal.SIGINT, 128 + signal.SIGINT))
 
 

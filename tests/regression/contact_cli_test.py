@@ -21,7 +21,8 @@ KEYS = {"status": str, "natural_map_residual": float, "iterations": int, "coarse
 class Contact(support.InTemporaryDirectory):
     def solve(self, file, *arguments, status=SOLVED):
         run = scabo("contact", file, "--json", *arguments, cwd=self.directory)
-        self.assertEqual(run.returncode, status, run.stdout + run.stderr)
+        if status is not None:
+            self.assertEqual(run.returncode, status, run.stdout + run.stderr)
         return json.loads(run.stdout)
 
     def write(self, *problem, name="problem.hdf5", **options):
@@ -40,8 +41,8 @@ class Solves(Contact):
                     solution = self.solve(self.write(W, q, mu, storage=storage))
                     r = np.array(solution["r"])
                     np.testing.assert_allclose(solution["u"], W @ r + q, atol=1e-12)
-                    self.assertLess(natural_map_residual(W @ r + q, r, mu, q), 1e-10)
-                    self.assertAlmostEqual(solution["natural_map_residual"], natural_map_residual(W @ r + q, r, mu, q),
+                    self.assertLess(natural_map_residual(W @ r + q, r, mu, q, W), 1e-10)
+                    self.assertAlmostEqual(solution["natural_map_residual"], natural_map_residual(W @ r + q, r, mu, q, W),
                                            delta=1e-13)
                     self.assertEqual((solution["status"], solution["pairs"], solution["dimension"]), ("solved", 6, dimension))
 
@@ -137,7 +138,7 @@ print(json.dumps([p.dimension, p.numberOfContacts, W, list(p.q.ravel()), list(p.
             with self.subTest(storage=name):
                 first = self.solve(self.write(matrix, q, mu), "--save", f"{name}.dat")
                 run = subprocess.run([sys.executable, "-c", self.READ, f"{name}.dat", f"{name}_2.dat"], cwd=self.directory,
-                                     text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100)
+                                     text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=support.PATIENCE)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 dimension, pairs, read, q_read, mu_read = json.loads(run.stdout.splitlines()[-1])
                 self.assertEqual((dimension, pairs, q_read, mu_read), (2, 7, list(q), list(mu)))
@@ -145,6 +146,103 @@ print(json.dumps([p.dimension, p.numberOfContacts, W, list(p.q.ravel()), list(p.
                 # What Siconos writes sparse has six digits.
                 np.testing.assert_allclose(self.solve(f"{name}_2.dat")["r"], first["r"],
                                            atol=1e-9 if name == "dense" else 1e-4)
+
+
+def stack(columns, blocks, closing, d=3):
+    """Columns of blocks of mass 1 between a floor and a ceiling that close by `closing`: W and q of H = [1, -1, 0 ...; 0, 1, -1 ...]."""
+    H = np.zeros((blocks, blocks + 1))
+    for block in range(blocks):
+        H[block, block], H[block, block + 1] = 1.0, -1.0
+    H = np.kron(np.kron(np.eye(columns), H), np.eye(d))
+    q = np.zeros(H.shape[1])
+    q[::d] = 0.1
+    q[(blocks // 2) * d] = -closing
+    return H.T @ H, q, np.full(columns * (blocks + 1), 0.5)
+
+
+class Trust(Contact):
+    """Solved means solved, in any unit; what has no solution is proven so."""
+
+    def test_powers_of_two_change_no_bit(self):
+        for dimension in (2, 3):
+            W, q, mu = random_problem(12, dimension, seed=20 + dimension)
+            first = self.solve(self.write(W, q, mu))
+            for s, t in ((2.0**100, 1.0), (2.0**-100, 1.0), (1.0, 2.0**100), (1.0, 2.0**-100), (2.0**-100, 2.0**100)):
+                other = self.solve(self.write(s * W, t * q, mu))
+                np.testing.assert_array_equal(other["r"], np.array(first["r"]) * (t / s))
+                np.testing.assert_array_equal(other["u"], np.array(first["u"]) * t)
+                for key in ("status", "iterations", "natural_map_residual", "rounding", "certificate"):
+                    self.assertEqual(other[key], first[key], key)
+
+    def test_other_units_do_not_make_it_solved(self):
+        # An elastic problem whose W is 1e12 times its forces' unit: the natural map in file units is 1e-13 for anything.
+        W, q, mu = random_problem(30, 2, seed=31, mu=1.5)
+        for s in (1e-12, 1.0, 1e8, 1e12):
+            solution = self.solve(self.write(s * W, q, mu), status=None)
+            r = s * np.array(solution["r"])
+            residual = natural_map_residual(W @ r + q, r, mu, q, W)
+            self.assertEqual(solution["status"] == "solved", residual <= 1.1e-10, residual)
+            self.assertAlmostEqual(solution["natural_map_residual"], residual, delta=1e-12)
+
+    def test_no_contacts_are_solved(self):
+        empty = np.zeros((0, 0))
+        for storage in (csc, csr, triplets):
+            file = self.write(empty, np.zeros(0), np.zeros(0), storage=storage, spacedim=3)
+            for solver in ("b_differentiable", "gauss_seidel", "lemke"):
+                solution = self.solve(file, "--solver", solver)
+                self.assertEqual((solution["status"], solution["r"], solution["u"], solution["pairs"]), ("solved", [], [], 0))
+        path = self.directory / "global.hdf5"
+        write_global(path, np.diag([2.0, 3.0]), np.zeros((2, 0)), [1.0, 6.0], np.zeros(0), np.zeros(0), spacedim=2)
+        solution = self.solve(path)
+        self.assertEqual((solution["status"], solution["r"]), ("solved", []))
+        np.testing.assert_allclose(solution["v"], [0.5, 2.0])
+        text = self.directory / "none.dat"
+        text.write_text("2\n0\n0\n0\n0\n0 0\n\n\n")
+        self.assertEqual(self.solve(text)["status"], "solved")
+        self.assertIn("Solved", scabo("contact", path).stdout)
+
+    def test_infeasible_with_its_proof(self):
+        for columns, blocks in ((1, 1), (2, 5), (3, 12)):
+            W, q, mu = stack(columns, blocks, closing=0.1 * blocks + 0.05)
+            run = scabo("contact", self.write(W, q, mu), "--json")
+            self.assertEqual(run.returncode, NOT_CONVERGED, run.stdout)
+            solution = json.loads(run.stdout)
+            self.assertEqual(solution["status"], "infeasible")
+            self.assertIn(": infeasible: ", run.stderr)
+            r = np.array(solution["proof"])
+            self.assertLessEqual(np.abs(W @ r).max(), 1e-12)
+            self.assertLess(q @ r, 0.0)
+            self.assertTrue((r[::3] >= 0).all() and not r[1::3].any() and not r[2::3].any())
+            # A little less, and it is solved: statics of a column.
+            W, q, mu = stack(columns, blocks, closing=0.1 * blocks - 0.05)
+            self.assertEqual(self.solve(self.write(W, q, mu))["status"], "solved")
+        self.assertIn("Infeasible by", scabo("contact", self.write(*stack(1, 2, 1.0))).stdout)
+
+    def test_a_wedged_pair(self):
+        W, q = np.array([[1.0, 2, 0], [2, 4, 0], [0, 0, 0]]), np.array([-1.0, -1, 0])
+        for solver in ("b_differentiable", "newton_only", "proximal_point"):
+            solution = self.solve(self.write(W, q, [1.0]), "--solver", solver, status=NOT_CONVERGED)
+            self.assertEqual(solution["status"], "infeasible")
+            r = np.array(solution["proof"])
+            self.assertLessEqual(np.abs(W @ r).max(), 1e-12)
+            self.assertLess(q @ r, 0.0)
+            self.assertLessEqual(np.hypot(r[1], r[2]), r[0])
+
+    def test_time_limit(self):
+        W, q, mu = random_problem(40, 3, seed=7)
+        run = scabo("contact", self.write(W, q, mu), "--json", "--time-limit", "1e-9", "--tolerance", "1e-15", "--save",
+                    "best.hdf5", cwd=self.directory)
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stdout)
+        solution = json.loads(run.stdout)
+        self.assertEqual(solution["status"], "not_converged")
+        self.assertIn("the time limit of 1e-09 s", run.stderr)
+        r = np.array(solution["r"])
+        self.assertLessEqual(natural_map_residual(W @ r + q, r, mu, q, W), natural_map_residual(q, 0 * q, mu, q, W))
+        with h5py.File(self.directory / "best.hdf5") as saved:  # where a later solve goes on
+            np.testing.assert_array_equal(saved["guesses/1/r"][...], r)
+        self.assertEqual(self.solve("best.hdf5", "--time-limit", "1000")["status"], "solved")
+        for wrong in ("0", "-1", "soon"):
+            self.assertEqual(scabo("contact", "best.hdf5", "--time-limit", wrong).returncode, WRONG_INPUT)
 
 
 class Manners(Contact):

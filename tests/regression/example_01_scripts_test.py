@@ -8,7 +8,7 @@ from support import BEAM, certificate_of, summary_of
 
 def python(script, *arguments, cwd):
     return subprocess.run([sys.executable, BEAM.parent / script, *map(str, arguments)], cwd=cwd, text=True,
-                          capture_output=True, timeout=240)
+                          capture_output=True, timeout=support.PATIENCE)
 
 
 class Scripts(support.InTemporaryDirectory):

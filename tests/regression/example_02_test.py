@@ -69,7 +69,7 @@ class NaturalFrequencies(support.InTemporaryDirectory):
 
     def test_figures_are_drawn(self):
         run = subprocess.run([sys.executable, EXAMPLE / "figures.py", "--scabo", support.SCABO, "-o", self.directory],
-                             cwd=self.directory, text=True, capture_output=True, timeout=240)
+                             cwd=self.directory, text=True, capture_output=True, timeout=support.PATIENCE)
         self.assertEqual(run.returncode, 0, run.stderr)
         picture = self.directory / "mode_shapes.png"
         self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))

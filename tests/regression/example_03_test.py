@@ -37,7 +37,7 @@ class DiscreteProblem(support.InTemporaryDirectory):
 
     def test_checked_without_scabo(self):
         run = subprocess.run([sys.executable, EXAMPLE / "check_solution.py", "--scabo", support.SCABO], cwd=self.directory, text=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100)
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=support.PATIENCE)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         for line in run.stdout.splitlines():
             if "worst violation" in line or "the saved ones" in line:

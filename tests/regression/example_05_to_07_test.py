@@ -20,7 +20,7 @@ class Examples(support.InTemporaryDirectory):
 
     def draw(self, folder, picture):
         run = subprocess.run([sys.executable, EXAMPLES / folder / "figures.py", "--scabo", support.SCABO, "-o", self.directory],
-                             cwd=self.directory, text=True, capture_output=True, timeout=240)
+                             cwd=self.directory, text=True, capture_output=True, timeout=support.PATIENCE)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertTrue((self.directory / picture).read_bytes().startswith(b"\x89PNG"))
         self.assertTrue((EXAMPLES / folder / "figures" / picture).exists(), "the README shows it")
@@ -105,7 +105,8 @@ class Corner(Examples):
         summary = self.solve(self.MODEL)
         increments = summary["increments"]
         corner = increments[0]["cracks"]["panel.corner"]
-        self.assertAlmostEqual(corner["exponents"][0][0], 0.618374, delta=1e-5)
+        # 0.61837399 by integration from face to face (tests/verification/converged_numbers.py)
+        self.assertAlmostEqual(corner["exponents"][0][0], 0.61837399, delta=1e-6)
         # 2.5 m2 of concrete and 0.5 m2 of laminate, 0.2 m thick
         weight = 9.81 * 0.2 * (2.5 * 2400 + 0.5 * 1900)
         self.assertAlmostEqual(increments[0]["reactions"]["panel.foot"][1], weight, delta=1e-6 * weight)

@@ -1,4 +1,5 @@
 """The checked numbers of examples/08_joint."""
+import csv
 import json
 import subprocess
 import sys
@@ -37,6 +38,13 @@ class Joint(support.InTemporaryDirectory):
         log = (self.directory / "results" / "log.txt").read_text(encoding="utf-8")
         self.assertIn("friction 0.75, cohesion 800000, tension 100000 until failure", log)
 
+    def test_no_pair_pulls_by_more_than_the_tensile_strength(self):
+        self.solve()
+        with open(self.directory / "results" / "contact.csv", newline="", encoding="utf-8") as file:
+            lowest = min(float(row["pressure"]) for row in csv.DictReader(file))
+        self.assertGreaterEqual(lowest, -CHECK["tension"] * (1 + 1e-9))
+        self.assertLess(lowest, -0.5 * CHECK["tension"])
+
     def friction_alone(self, thrust, status):
         factors = ", ".join(f"water_{k}: {thrust}" for k in range(1, 5))
         return self.solve("contacts.joint.cohesion=0", "contacts.joint.tension=0", "steps.1.increments=4",
@@ -57,7 +65,7 @@ class Joint(support.InTemporaryDirectory):
 
     def test_figures_are_drawn(self):
         run = subprocess.run([sys.executable, EXAMPLE / "figures.py", "--scabo", support.SCABO, "-o", self.directory],
-                             cwd=self.directory, text=True, capture_output=True, timeout=240)
+                             cwd=self.directory, text=True, capture_output=True, timeout=support.PATIENCE)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertTrue((self.directory / "joint.png").read_bytes().startswith(b"\x89PNG"))
         self.assertTrue((EXAMPLE / "figures" / "joint.png").exists(), "the README shows it")

@@ -52,10 +52,10 @@ def write_local(path, W, q, mu, storage=csc, spacedim=None, V=None, s=None, R=No
         local.create_dataset("info/title", data="Written by h5py", dtype=VARIABLE_TEXT)
 
 
-def write_global(path, M, H, f, w, mu, storage=csc, G=None, b=None):
+def write_global(path, M, H, f, w, mu, storage=csc, G=None, b=None, spacedim=None):
     with h5py.File(path, "w") as file:
         whole = file.create_group("fclib_global")
-        whole.create_dataset("spacedim", data=np.array([len(w) // len(mu)], dtype=np.int32))
+        whole.create_dataset("spacedim", data=np.array([spacedim or len(w) // len(mu)], dtype=np.int32))
         for name, matrix in dict(M=M, H=H, G=G).items():
             if matrix is not None:
                 write_matrix(whole.create_group(name), np.asarray(matrix), storage)
@@ -75,8 +75,11 @@ def on_cone(x, mu):
     return np.concatenate([[normal], mu * normal * x[1:] / size])
 
 
-def natural_map_residual(u, r, mu, q):
+def natural_map_residual(u, r, mu, q, W=1.0):
+    """Motions as forces: `W` and `q` are scaled so that the mean of the diagonal of W is 1."""
     d = len(r) // len(mu)
+    stiffness = 1.0 / np.mean(np.diag(np.atleast_2d(W)))
+    u, q = stiffness * np.asarray(u), stiffness * np.asarray(q)
     total = 0.0
     for k, coefficient in enumerate(mu):
         u_k, r_k = u[d * k:d * k + d].copy(), r[d * k:d * k + d]

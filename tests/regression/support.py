@@ -11,13 +11,14 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BEAM = ROOT / "examples" / "01_double_cantilever" / "model.yaml"
 SCABO = None  # set by main()
+PATIENCE = 1200  # seconds until a program counts as hung: a busy machine is slow, and no test judges speed
 
 
 def scabo(*arguments, cwd=None, **environment):
     """Runs the program with its output piped; environment variables by name, None removes one."""
     variables = {key: value for key, value in {**os.environ, **environment}.items() if value is not None}
     return subprocess.run([SCABO, *map(str, arguments)], cwd=cwd, env=variables, text=True, capture_output=True,
-                          stdin=subprocess.DEVNULL, timeout=240)
+                          stdin=subprocess.DEVNULL, timeout=PATIENCE)
 
 
 def summary_of(directory):

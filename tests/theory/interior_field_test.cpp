@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <unsupported/Eigen/MatrixFunctions>
-
 #include "scabo/system/loads.hpp"
+#include "support/decompositions.hpp"
+#include "support/long_double.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {
@@ -14,8 +13,6 @@ namespace {
 
 using namespace test;
 using std::numbers::pi;
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 const std::vector<Vec2> skew = {{-0.7, -0.9}, {1.1, -0.6}, {1.4, 0.2}, {0.3, 0.4}, {-0.2, 1.3}, {-1.0, 0.1}};
 
@@ -28,9 +25,8 @@ struct Oracle {
   Oracle(const Ring& ring, const Mat3& D, const Matrix& K) {
     const CoefficientMatrices matrices = coefficient_matrices(ring, D, 1.0);
     const LongMatrix E0 = Matrix(matrices.E0).cast<long double>(), E1 = Matrix(matrices.E1).cast<long double>();
-    S = E0.partialPivLu().solve(K.cast<long double>() - E1.transpose());
-    const Vector sizes =
-        Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(matrices.E0), Eigen::EigenvaluesOnly).eigenvalues();
+    S = long_double::solve_lu(E0, K.cast<long double>() - E1.transpose());
+    const Vector sizes = symmetric_eigenvalues(Matrix(matrices.E0));
     rounding = std::numeric_limits<double>::epsilon() * sizes.maxCoeff() / sizes.minCoeff();
     for (Eigen::Index component : {0, 1}) {
       LongVector t = LongVector::Zero(S.cols());
@@ -39,7 +35,7 @@ struct Oracle {
     }
   }
   LongVector at(const Vector& u, double xi) const {
-    return (S * std::log(static_cast<long double>(xi))).exp() * u.cast<long double>();
+    return long_double::exponential(S * std::log(static_cast<long double>(xi))) * u.cast<long double>();
   }
 };
 

@@ -19,59 +19,15 @@ struct Sample {
 };
 
 /// Where an edge of a polygon is divided, ascending in (0, 1): evenly, at random, or towards one end down to 1e-4.
-inline std::vector<double> marks(std::mt19937& random, int parts) {
-  std::vector<double> at;
-  const int kind = whole(random, 0, 2);
-  for (int i = 1; i < parts; ++i)
-    at.push_back(kind == 0   ? static_cast<double>(i) / parts
-                 : kind == 1 ? (i + uniform(random, -0.4, 0.4)) / parts
-                             : std::pow(10.0, -4.0 * (parts - i) / parts));
-  return at;
-}
+std::vector<double> marks(std::mt19937& random, int parts);
 
 /// A ring of straight elements of one order through `vertices`; open: its first vertex is a doubled node.
-inline Ring ring_through(const std::vector<Vec2>& vertices, int order, bool open) {
-  Ring ring = polygon_ring(vertices, 1, order);
-  if (open) {
-    ring.elements.back().nodes.back() = static_cast<int>(ring.nodes.size());
-    ring.nodes.push_back(ring.nodes.front());
-  }
-  return ring;
-}
+Ring ring_through(const std::vector<Vec2>& vertices, int order, bool open);
 
-inline Mat3 random_isotropic(std::mt19937& random) {
-  const double nu =
-      whole(random, 0, 1) == 0 ? uniform(random, -0.3, 0.45) : 0.5 - std::pow(10.0, uniform(random, -5.0, -1.0));
-  return elasticity(1.0, nu, whole(random, 0, 2) == 0 ? model::Plane::stress : model::Plane::strain);
-}
+Mat3 random_isotropic(std::mt19937& random);
 
 /// 3 to 40 edges, orders 1 to 8, aspect to 1:100, edges 1 to 1e-4 of the size, nu to 0.49999, E ratio between sectors
 /// to 1e6; a third with a crack, a half of several materials. At most `most` degrees of freedom.
-inline Sample random_sample(std::mt19937& random, int most) {
-  const int order = whole(random, 1, 8);
-  std::vector<Vec2> corners = random_star(random);  // 3 to 12 edges
-  const int edges = std::clamp(most / (2 * order), static_cast<int>(corners.size()), 40);
-  std::vector<int> parts(corners.size(), 1);
-  for (int extra = whole(random, 0, edges - static_cast<int>(corners.size())); extra > 0; --extra)
-    ++parts[static_cast<std::size_t>(whole(random, 0, static_cast<int>(corners.size()) - 1))];
-  std::vector<Vec2> vertices;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    vertices.push_back(corners[i]);
-    for (double at : marks(random, parts[i]))
-      vertices.push_back(corners[i] + at * (corners[(i + 1) % corners.size()] - corners[i]));
-  }
-  // Thinner in one direction, turned, of any size.
-  const double aspect = std::pow(10.0, uniform(random, -2.0, 0.0)), turn = uniform(random, 0.0, 6.3),
-               size = std::pow(10.0, uniform(random, -3.0, 3.0));
-  Mat2 Q;
-  Q << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
-  for (Vec2& x : vertices) x = size * (Q * Vec2(x.x(), aspect * x.y()));
-  Sample sample{ring_through(vertices, order, whole(random, 0, 2) == 0), {}, uniform(random, 0.01, 10.0)};
-  const std::size_t sectors = whole(random, 0, 1) == 0 ? 1 : sample.ring.elements.size();
-  for (std::size_t e = 0; e < sectors; ++e)
-    sample.D.push_back(std::pow(10.0, sectors == 1 ? uniform(random, 0.0, 12.0) : uniform(random, -3.0, 3.0)) *
-                       random_isotropic(random));
-  return sample;
-}
+Sample random_sample(std::mt19937& random, int most);
 
 }  // namespace scabo::test

@@ -4,120 +4,44 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "scabo/element/radial_load.hpp"
+#include "support/random.hpp"
 
 namespace scabo::test {
 
 /// A closed polygon, counter-clockwise, as the scaling centre at the origin sees it. Edge i (from vertex i)
 /// is divided into divisions[i] elements of one order.
-inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions, int order) {
-  const std::vector<double> points = mesh::lobatto_points(order);
-  element::Ring ring;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Vec2 from = vertices[i], along = vertices[(i + 1) % vertices.size()] - from;
-    for (int part = 0; part < divisions[i]; ++part) {
-      mesh::LineElement element;
-      for (int k = 0; k <= order; ++k) element.nodes.push_back(static_cast<int>(ring.nodes.size()) + k);
-      for (int k = 0; k < order; ++k)
-        ring.nodes.push_back(from + (part + 0.5 * (points[static_cast<std::size_t>(k)] + 1.0)) / divisions[i] * along);
-      ring.elements.push_back(element);
-    }
-  }
-  ring.elements.back().nodes.back() = 0;
-  return ring;
-}
+element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions, int order);
 
-inline element::Ring polygon_ring(const std::vector<Vec2>& vertices, int divisions, int order) {
-  return polygon_ring(vertices, std::vector<int>(vertices.size(), divisions), order);
-}
+element::Ring polygon_ring(const std::vector<Vec2>& vertices, int divisions, int order);
 
-inline std::vector<element::RadialLoad> uniform_body_force(const element::Ring& ring, const Vec2& b, double thickness) {
-  return element::body_force_loads(ring, {b.x()}, {b.y()}, thickness);
-}
+std::vector<element::RadialLoad> uniform_body_force(const element::Ring& ring, const Vec2& b, double thickness);
 
-inline std::vector<Vec2> rectangle(double width, double height) {
-  const double x = 0.5 * width, y = 0.5 * height;
-  return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-}
+std::vector<Vec2> rectangle(double width, double height);
 
 /// A rectangle with nx and ny elements along its sides.
-inline element::Ring rectangle_ring(double width, double height, int nx, int ny, int order) {
-  return polygon_ring(rectangle(width, height), {nx, ny, nx, ny}, order);
-}
+element::Ring rectangle_ring(double width, double height, int nx, int ny, int order);
 
-inline std::vector<Vec2> regular_polygon(int corners, double radius, double first_angle) {
-  std::vector<Vec2> vertices;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = first_angle + 2.0 * std::numbers::pi * i / corners;
-    vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return vertices;
-}
+std::vector<Vec2> regular_polygon(int corners, double radius, double first_angle);
 
 /// The same boundary and node numbers, its elements listed from another one on: the symmetries of such a ring
 /// are not looked for.
-inline element::Ring unsplit(element::Ring ring) {
-  std::rotate(ring.elements.begin(), ring.elements.begin() + 1, ring.elements.end());
-  return ring;
-}
-
-inline double uniform(std::mt19937& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
-inline int whole(std::mt19937& random, int from, int to) {
-  return std::uniform_int_distribution<int>(from, to)(random);
-}
+element::Ring unsplit(element::Ring ring);
 
 /// The angle at which the scaling centre sees the closest call of |J| > 0: smallest sine between an edge and
 /// the ray to its end, and between the rays to its ends.
-inline double visibility(const std::vector<Vec2>& vertices, const Vec2& centre) {
-  double least = 1.0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Vec2 a = vertices[i] - centre, b = vertices[(i + 1) % vertices.size()] - centre, edge = b - a;
-    const double twice_area = cross(a, b);
-    least = std::min({least, twice_area / (a.norm() * edge.norm()), twice_area / (b.norm() * edge.norm()),
-                      a.dot(b) > 0.0 ? twice_area / (a.norm() * b.norm()) : 1.0});
-  }
-  return least;
-}
+double visibility(const std::vector<Vec2>& vertices, const Vec2& centre);
 
 /// A random star-shaped polygon of 3 to 12 corners relative to a random centre that sees its whole boundary
 /// by at least about three degrees.
-inline std::vector<Vec2> random_star(std::mt19937& random, double size = 1.0) {
-  while (true) {
-    const int corners = whole(random, 3, 12);
-    std::vector<double> angles;
-    for (int i = 0; i < corners; ++i) angles.push_back(uniform(random, 0.0, 2.0 * std::numbers::pi));
-    std::sort(angles.begin(), angles.end());
-    std::vector<Vec2> vertices;
-    for (double angle : angles) {
-      const double radius = uniform(random, 0.3, 1.0);
-      vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-    }
-    const Vec2 centre(uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5));
-    if (visibility(vertices, centre) < 0.05) continue;
-    for (Vec2& vertex : vertices) vertex = size * (vertex - centre);
-    return vertices;
-  }
-}
+std::vector<Vec2> random_star(std::mt19937& random, double size = 1.0);
 
 /// Elasticity of a random material, plane stress or strain.
-inline element::Mat3 random_elasticity(std::mt19937& random) {
-  model::Material material;
-  material.young = std::pow(10.0, uniform(random, 0.0, 12.0));
-  material.poisson = uniform(random, -0.5, 0.49);
-  return element::elasticity_matrix(material, whole(random, 0, 1) == 0 ? model::Plane::stress : model::Plane::strain);
-}
+element::Mat3 random_elasticity(std::mt19937& random);
 
-inline element::Mat3 elasticity(double young, double poisson, model::Plane plane = model::Plane::stress) {
-  model::Material material;
-  material.young = young;
-  material.poisson = poisson;
-  return element::elasticity_matrix(material, plane);
-}
+element::Mat3 elasticity(double young, double poisson, model::Plane plane = model::Plane::stress);
 
 /// Values of a displacement field at the nodes, two per node.
 template <typename Field>
@@ -127,11 +51,9 @@ Vector at_nodes(const std::vector<Vec2>& nodes, Field field) {
   return u;
 }
 
-inline double largest(const Matrix& A) { return A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0.0; }
+double largest(const Matrix& A);
 
 /// [xx, yy, xy] as the traction on a plane of unit normal n.
-inline Vec2 traction_of(const element::Vec3& stress, const Vec2& n) {
-  return {stress[0] * n.x() + stress[2] * n.y(), stress[2] * n.x() + stress[1] * n.y()};
-}
+Vec2 traction_of(const element::Vec3& stress, const Vec2& n);
 
 }  // namespace scabo::test

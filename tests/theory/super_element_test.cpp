@@ -6,6 +6,7 @@
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
+#include "support/decompositions.hpp"
 #include "theory/rings.hpp"
 #include "theory/textbook_route.hpp"
 
@@ -67,15 +68,14 @@ Matrix rigid_motions(const Ring& ring) {
   R.col(0) = at_nodes(ring.nodes, [](const Vec2&) { return Vec2(1, 0); });
   R.col(1) = at_nodes(ring.nodes, [](const Vec2&) { return Vec2(0, 1); });
   R.col(2) = at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(-x.y(), x.x()); });
-  return Matrix(Eigen::HouseholderQR<Matrix>(R).householderQ() * Matrix::Identity(R.rows(), 3));
+  return orthonormal_columns(R);
 }
 
 /// (K - E1) E0^-1 (K - E1') = E2, from K = E0 S + E1' and the scaled boundary equation.
 double riccati_residual(const CoefficientMatrices& matrices, const Matrix& K) {
-  const Eigen::LLT<Matrix> E0((Matrix(matrices.E0)));
-  EXPECT_EQ(E0.info(), Eigen::Success);
-  const Matrix X = E0.matrixL().solve(K - Matrix(matrices.E1.transpose()));
-  return (X.transpose() * X - Matrix(matrices.E2)).norm() / matrices.E2.norm();
+  const Matrix right = K - Matrix(matrices.E1.transpose());
+  return (right.transpose() * solve_cholesky(Matrix(matrices.E0), right) - Matrix(matrices.E2)).norm() /
+         matrices.E2.norm();
 }
 
 /// K is positive semi-definite with exactly the three rigid motions at zero: K + |K| Q Q' - delta has a
@@ -84,7 +84,7 @@ bool only_rigid_motions_are_free(const Matrix& K, const Matrix& Q) {
   const double size = largest(K);
   Matrix held = K + size * Q * Q.transpose();
   held.diagonal().array() -= 1e-9 * size;
-  return Eigen::LLT<Matrix>(held).info() == Eigen::Success;
+  return is_positive_definite(held);
 }
 
 StiffnessErrors errors_of(const Ring& ring, const Mat3& D) {

@@ -52,8 +52,8 @@ TEST(PushedBlock, TipsBeforeItSlidesWhereFrictionIsLarge) {  // P h / 2 > W b / 
   expect_mechanism(run(pushed_block(80.1e3, 3.0)), "body 'block': rotation about (2, 0)");
 }
 
-/// A stiff wedge of half angle alpha, pressed into its notch between two fixed walls by F.
-std::string wedge(double alpha, double friction, double F) {
+/// A stiff wedge of half angle alpha, pressed into its notch between two fixed walls by F; at first `gap` from them.
+std::string wedge(double alpha, double friction, double F, double gap = 0.0) {
   const double h = 1.0 / std::tan(alpha);  // half width 1
   return fmt::format(R"(
 scabo: 1
@@ -71,14 +71,13 @@ supports:
 loads:
   press: {{on: wedge.top, force: [0, {1}]}}
 contacts:
-  east: {{between: [east.face, wedge.right], friction: {2}}}
-  west: {{between: [west.face, wedge.left], friction: {2}}}
+  east: {{between: [east.face, wedge.right], friction: {2}, gap: {3}}}
+  west: {{between: [west.face, wedge.left], friction: {2}, gap: {3}}}
 )",
-                     h, -F, friction);
+                     h, -F, friction, gap);
 }
 
-// Equilibrium alone: on either side N sin + T cos = F / 2; pushed in it slips where T = mu N, and with little friction
-// N = F / (2 (sin + mu cos)).
+// Equilibrium alone: on either side N sin + T cos = F / 2.
 TEST(Wedge, PressedInItsForcesBalanceTheLoad) {
   const double F = 1e4;
   for (double alpha : {0.3, 0.6})
@@ -91,9 +90,27 @@ TEST(Wedge, PressedInItsForcesBalanceTheLoad) {
         vertical += N * s + T * c;
         EXPECT_LE(T, mu * N * (1.0 + 1e-9));
         if (mu == 0.0) EXPECT_NEAR(N, F / (2.0 * s), 1e-8 * F);
-        if (side.stick == 0 && side.open == 0) EXPECT_NEAR(N, F / (2.0 * (s + mu * c)), 1e-8 * F);
       }
       EXPECT_NEAR(vertical, F, 1e-8 * F);
+    }
+}
+
+// From a gap that is large beside its deformation (F / E = 1e-5) it slides in: every point moves along its wall by
+// about gap / tan(alpha) in the increment, so that T = mu N everywhere and N = F / (2 (sin + mu cos)).
+TEST(Wedge, SlidingInItHasItsClosedForm) {
+  const double F = 1e4, gap = 1e-2;
+  for (double alpha : {0.3, 0.6})
+    for (double mu : {0.0, 0.2, 0.5}) {
+      const auto solution = run(wedge(alpha, mu, F, gap));
+      const double N = F / (2.0 * (std::sin(alpha) + mu * std::cos(alpha)));
+      const analysis::IncrementResult& end = last(solution);
+      ASSERT_EQ(end.contacts.size(), 2u);
+      for (const analysis::ContactResult& side : end.contacts) {
+        EXPECT_EQ(side.stick, 0) << alpha << ", mu " << mu << ": " << side.name;
+        EXPECT_GT(side.slip, 5) << alpha << ", mu " << mu << ": " << side.name;
+        EXPECT_NEAR(side.normal_force, N, 1e-8 * F) << alpha << ", mu " << mu << ": " << side.name;
+        EXPECT_NEAR(std::abs(side.tangential_force), mu * N, 1e-8 * F) << alpha << ", mu " << mu << ": " << side.name;
+      }
     }
 }
 

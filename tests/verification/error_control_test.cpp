@@ -1,4 +1,5 @@
 // Estimated errors and refinement to a tolerance, against energies that are known or converged.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -23,14 +24,16 @@ double true_error(const analysis::StaticSolution& solution, double exact) {
   return std::sqrt(std::max(0.0, 1.0 - elastic(solution) / exact));
 }
 
-double estimated(const analysis::StaticSolution& solution) { return last(solution).error->relative; }
+double estimated(const analysis::StaticSolution& solution) { return last(solution).error.value().relative; }
 
-/// From this model to a tolerance of 1e-4 (12.0208030021, 458 degrees of freedom) and 2e-5 (12.0208030119, 590), with
-/// the rest of the estimated errors; good to 5e-8, or 6e-5 in the norm.
+/// By a program that shares nothing with Scabo (converged_numbers.py) 12.020802, good to 2e-6. The digits beyond are of
+/// this model to a tolerance of 1e-4 (12.0208030021, 458 degrees of freedom) and 2e-5 (12.0208030119, 590), with the
+/// rest of the estimated errors; good to 5e-8, or 6e-5 in the norm.
 constexpr double exact_energy_of_cook = 12.02080304;
 
 TEST(ErrorEstimate, IsBetweenHalfAndTwiceTheTrueErrorOfCooksMembrane) {
   const double exact = exact_energy_of_cook;
+  EXPECT_NEAR(exact, 12.020802, 2e-6);
   // Half of the work of the load, 1 in total, on the mean deflection of the loaded edge: near that of its
   // middle, 23.966.
   EXPECT_NEAR(2 * exact, 23.966, 0.1);
@@ -82,8 +85,8 @@ loads: {lower: {on: ground.edge_1, pressure: 1e-3}, upper: {on: ground.edge_2, p
   }
 }
 
-// Re-entrant corners of the ground around a square hole: exponent 0.544. Energy from this model to a tolerance of 5e-4
-// (1006 degrees of freedom), with the rest of the estimated error: good to 1e-7, or 3e-4 in the norm.
+// Re-entrant corners of the ground around a square hole: exponent 0.544. Energy by a program that shares nothing with
+// Scabo (converged_numbers.py, order 11 and what it still rises): good to 1e-7, or 3e-4 in the norm.
 TEST(Refinement, MeetsTheToleranceOfASquareHole) {
   const char* const hole = R"(
 scabo: 1
@@ -97,7 +100,7 @@ bodies:
     mesh: {size: 1, order: 2}
 loads: {top: {on: ground.top, pressure: 1e-3}, bottom: {on: ground.bottom, pressure: 1e-3}}
 )";
-  const double exact = 3.76326754e-6;
+  const double exact = 3.7632673e-6;
   for (const double tolerance : {1e-1, 1e-2, 3e-3}) {
     const auto solution = run(hole, {fmt_setting("bodies.ground.mesh.tolerance", tolerance)});
     std::cout << "square hole, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, estimated "
@@ -124,7 +127,7 @@ loads: {pull: {on: plate.top, traction: [0, 1e-3]}, hold: {on: plate.bottom, tra
 )";
   const auto converged = run(plate, {"bodies.plate.mesh.order=12"});
   const double exact = elastic(converged);
-  EXPECT_NEAR(last(converged).cracks[0].factors.K_I / (1e-3 * std::sqrt(0.5 * std::numbers::pi)), 2.82546, 3e-5);
+  EXPECT_NEAR(last(converged).cracks.at(0).factors.K_I / (1e-3 * std::sqrt(0.5 * std::numbers::pi)), 2.82546, 3e-5);
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
     const auto solution = run(plate, {fmt_setting("bodies.plate.mesh.tolerance", tolerance)});
     std::cout << "crack, tolerance " << tolerance << ": " << 2 * solution.mesh.nodes() << " dofs, estimated "
@@ -186,7 +189,7 @@ TEST(ErrorEstimate, OfTwoBeamsInContactFallsWithTheSize) {
   for (const char* size : {"0.75", "0.375", "0.1875"}) {
     const std::string value = size;
     const auto solution = run(beams, {"bodies.lower.mesh.size=" + value, "bodies.upper.mesh.size=" + value});
-    const analysis::ErrorEstimate& error = *last(solution).error;
+    const analysis::ErrorEstimate& error = last(solution).error.value();
     EXPECT_LT(error.relative, 0.9 * before);
     EXPECT_NEAR(std::pow(error.relative, 2),
                 std::pow(error.bodies[0]->relative, 2) + std::pow(error.bodies[1]->relative, 2), 1e-10);
@@ -200,14 +203,20 @@ TEST(Refinement, OfTwoBeamsKeepsTheirNodesMatching) {
     const auto solution = run(beams, {fmt_setting("bodies.lower.mesh.tolerance", tolerance),
                                       fmt_setting("bodies.upper.mesh.tolerance", tolerance)});
     const analysis::IncrementResult& increment = last(solution);
-    EXPECT_LE(increment.error->bodies[0]->relative, tolerance);
-    EXPECT_LE(increment.error->bodies[1]->relative, tolerance);
+    EXPECT_LE(increment.error.value().bodies.at(0).value().relative, tolerance);
+    EXPECT_LE(increment.error.value().bodies.at(1).value().relative, tolerance);
     EXPECT_GE(solution.mesh.nodes(), dofs);
     dofs = solution.mesh.nodes();
     // Against equal elements, converged: forces are as good as the tolerance.
     EXPECT_NEAR(increment.contacts[0].normal_force / 53669.4, 1.0, tolerance);
-    ASSERT_EQ(solution.warnings.size(), 1u);
-    EXPECT_NE(solution.warnings[0].find("upper.top_right is infinite"), std::string::npos) << solution.warnings[0];
+    const auto tells = [&](const char* text) {
+      return std::any_of(solution.warnings.begin(), solution.warnings.end(),
+                         [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+    };
+    EXPECT_TRUE(tells("upper.top_right is infinite"));
+    const bool coarse = increment.contacts[0].stick + increment.contacts[0].slip < 5;  // at the coarsest tolerance
+    EXPECT_EQ(tells("too coarse to trust the pressure"), coarse);
+    EXPECT_EQ(solution.warnings.size(), coarse ? 2u : 1u);
   }
 }
 

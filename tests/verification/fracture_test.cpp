@@ -2,10 +2,11 @@
 // with its scaling centre at the tip. None has more than 200 degrees of freedom.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include "scabo/element/line_basis.hpp"
 #include "scabo/element/stress_intensity.hpp"
+#include "support/decompositions.hpp"
 #include "theory/open_rings.hpp"
 
 namespace scabo::element {
@@ -40,8 +41,8 @@ Vector free_body(const Ring& ring, const SuperElementSolution& solution, Stress 
   R.col(1) = at_nodes(ring.nodes, [](const Vec2&) { return Vec2(0, 1); });
   R.col(2) = at_nodes(ring.nodes, [](const Vec2& x) { return Vec2(-x.y(), x.x()); });
   EXPECT_LT((R.transpose() * f).norm(), 1e-10 * f.norm() * R.norm());
-  const Matrix Q = Eigen::HouseholderQR<Matrix>(R).householderQ() * Matrix::Identity(n, 3);
-  return (solution.K + solution.K.trace() / static_cast<double>(n) * Q * Q.transpose()).ldlt().solve(f);
+  const Matrix Q = orthonormal_columns(R);
+  return solve_ldlt(solution.K + solution.K.trace() / static_cast<double>(n) * Q * Q.transpose(), f);
 }
 
 const Mat3 steel = elasticity(1.0, 0.3, model::Plane::strain);

@@ -35,7 +35,7 @@ constexpr double just_below = 1.0 - 1e-6, just_above = 1.0 + 1e-6;
 
 void expect_held(const std::string& model) {
   const auto solution = run(model);
-  const analysis::ContactResult& contact = last(solution).contacts.front();
+  const analysis::ContactResult& contact = contact_of(last(solution));
   EXPECT_EQ(contact.open + contact.slip, 0);
   EXPECT_EQ(contact.broken.value_or(0), 0);
 }
@@ -132,7 +132,7 @@ TEST(SlidingBlock, ForceFallsFromTheStaticToTheDynamicCoefficient) {
     const auto solution = run(
         moved_block(2e-3, -1e-3, fmt::format("friction: {{static: 0.5, dynamic: 0.3, slip_distance: {}}}", distance),
                     "[{name: press, loads: {lift: 1}}, {name: push, increments: 10}]"));
-    const analysis::ContactResult& contact = last(solution).contacts.front();
+    const analysis::ContactResult& contact = contact_of(last(solution));
     EXPECT_EQ(contact.slip, static_cast<int>(contact.pairs.size()));
     EXPECT_NEAR(contact.tangential_force, -0.3 * contact.normal_force, 1e-9 * contact.normal_force);
     double most = 0.0;
@@ -150,7 +150,7 @@ TEST(SlidingBlock, ForceFallsFromTheStaticToTheDynamicCoefficient) {
 TEST(SlidingBlock, EveryPairHasTheCoefficientOfItsPosition) {
   const auto solution = run(moved_block(5e-3, -1e-3, "friction: {along: [[0, 0.2], [0.5, 0.2], [1, 0.4]]}",
                                         "[{name: press, loads: {lift: 1}}, {name: push, increments: 4}]"));
-  const analysis::ContactResult& contact = last(solution).contacts.front();
+  const analysis::ContactResult& contact = contact_of(last(solution));
   for (const analysis::PairResult& pair : contact.pairs) {
     if (pair.state != contact::ContactState::slip) continue;
     const double s = pair.position.x() / 2.0, mu = s < 0.5 ? 0.2 : 0.2 + 0.4 * (s - 0.5);
@@ -198,8 +198,8 @@ TEST(BondedHalves, AreTheBodyInOnePiece) {
 TEST(Uniqueness, IsReportedWhereAskedFor) {
   const auto solution = run(moved_block(1e-4, -1e-3, "friction: 0.1"), {"solver.uniqueness=true"});
   ASSERT_TRUE(last(solution).uniqueness.has_value());
-  EXPECT_EQ(solution.increments.back().uniqueness->verdict, "proven");
-  EXPECT_FALSE(run(moved_block(1e-4, -1e-3, "friction: 0.1")).increments.back().uniqueness.has_value());
+  EXPECT_EQ(last(solution).uniqueness->verdict, "proven");
+  EXPECT_FALSE(last(run(moved_block(1e-4, -1e-3, "friction: 0.1"))).uniqueness.has_value());
 }
 
 }  // namespace

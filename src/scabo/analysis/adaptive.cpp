@@ -88,8 +88,14 @@ Frozen frozen_elements(const StaticSolution& solution) {
   };
   for (const mesh::EdgeElement& at : paired.alone)
     if (!frozen[static_cast<std::size_t>(at.body)].empty()) flag(at) = true;
-  for (const auto& [a, b] : paired.alike)
-    if (flag(a) || flag(b)) flag(a) = flag(b) = true;
+  for (const auto& [a, b] : paired.alike) {
+    const bool divided_a = !frozen[static_cast<std::size_t>(a.body)].empty(),
+               divided_b = !frozen[static_cast<std::size_t>(b.body)].empty();
+    if (divided_a != divided_b)
+      flag(divided_a ? a : b) = true;  // finite elements stay as they are
+    else if (divided_a && (flag(a) || flag(b)))
+      flag(a) = flag(b) = true;
+  }
   return frozen;
 }
 

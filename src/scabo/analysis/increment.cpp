@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <limits>
 
 #include "scabo/analysis/branch.hpp"
-#include "scabo/system/loads.hpp"
 
 namespace scabo::analysis {
 
@@ -44,7 +42,7 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
   const system::ContactSystem& contact = prepared.contact;
   if (contact.held.empty()) return;
   Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
-  for (std::size_t b = 0; b < u.size(); ++b) motion += contact.held_motion[b] * u[b];
+  for (std::size_t b = 0; b < u.size(); ++b) motion.noalias() += contact.held_motion[b] * u[b];
   for (std::size_t i = 0; i < contact.held.size(); ++i) {
     const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
     const double gap = pair.gap + motion[static_cast<Eigen::Index>(2 * i)];
@@ -58,6 +56,19 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
                                     "each other, and no force can part it: free one side there",
                                     pair.point_a.x(), pair.point_a.y(), -gap)}});
   }
+}
+
+/// Pairs whose points lie on each other, or overlap, as the bodies are drawn.
+std::vector<bool> touching_pairs(const Prepared& prepared) {
+  constexpr double rounding_of_points = 1e-9;  // of a body's size
+  std::vector<bool> touching;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
+    const double size = std::max(prepared.structure.bodies[static_cast<std::size_t>(contact.a.body)]->lever(),
+                                 prepared.structure.bodies[static_cast<std::size_t>(contact.b.body)]->lever());
+    touching.push_back(prepared.contact.gap[static_cast<Eigen::Index>(i)] <= rounding_of_points * size);
+  }
+  return touching;
 }
 
 /// Work done on the way between two accepted states, by the trapezoidal rule.
@@ -152,49 +163,6 @@ Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int
   return {u.dot(normal), u.dot(tangent_of(normal))};
 }
 
-/// Pressure and shear at the pairs in contact, from their nodal forces on the shape functions of the elastic edge (A's
-/// when both are): int N_i N_j ds p_j = F_i / thickness over the pairs in contact; open pairs carry none.
-void recover_pressure(const Prepared& prepared, std::size_t contact, ContactResult& result,
-                      const std::vector<int>& index_of_pair) {
-  const model::Contact& named = prepared.model.contacts[contact];
-  const bool on_b = prepared.model.bodies[static_cast<std::size_t>(named.a.body)].rigid;
-  const mesh::BodyMesh& body = prepared.mesh.bodies[static_cast<std::size_t>((on_b ? named.b : named.a).body)];
-  const Eigen::SparseMatrix<double> mass =
-      system::line_mass(mesh::nodes_of(on_b ? named.b : named.a, prepared.mesh).elements, body.nodes);
-
-  std::vector<int> unknown_of(body.nodes.size(), -1), nodes;  // of the pairs in contact
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    if (result.pairs[i].state == contact::ContactState::open) continue;
-    const mesh::ContactPair& pair = prepared.mesh.interfaces[contact].pairs[static_cast<std::size_t>(index_of_pair[i])];
-    const int node = on_b ? pair.node_b : pair.node_a;
-    unknown_of[static_cast<std::size_t>(node)] = static_cast<int>(nodes.size());
-    nodes.push_back(node);
-    rows.push_back(i);
-  }
-  if (nodes.empty()) return;
-  const auto count = static_cast<Eigen::Index>(nodes.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  Matrix forces(count, 2);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const PairResult& pair = result.pairs[rows[static_cast<std::size_t>(k)]];
-    forces.row(k) << pair.normal_force, pair.tangential_force;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(mass, nodes[static_cast<std::size_t>(k)]); it; ++it)
-      if (const int row = unknown_of[static_cast<std::size_t>(it.row())]; row >= 0)
-        entries.emplace_back(row, k, it.value());
-  }
-  Eigen::SparseMatrix<double> reduced(count, count);
-  reduced.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(reduced);
-  ensure(solver.info() == Eigen::Success, "the mass matrix of a contact edge is not positive definite");
-  const Matrix tractions = solver.solve(forces) / prepared.model.analysis.thickness;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    PairResult& pair = result.pairs[rows[static_cast<std::size_t>(k)]];
-    pair.pressure = tractions(k, 0);
-    pair.shear = tractions(k, 1);
-  }
-}
-
 void add_totals(ContactResult& result) {
   for (const PairResult& pair : result.pairs) {
     result.normal_force += pair.normal_force;
@@ -214,7 +182,6 @@ void add_totals(ContactResult& result) {
 
 std::vector<ContactResult> contact_results(const Prepared& prepared, const State& state) {
   std::vector<ContactResult> results(prepared.model.contacts.size());
-  std::vector<std::vector<int>> index_of_pair(results.size());
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
     const mesh::ContactPair& pair = mesh_pair(prepared, at);
@@ -223,10 +190,13 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     PairResult row;
     row.pair = at.number;
     row.position = pair.point_a;
+    row.normal = pair.normal;
     row.gap = state.gap[k];
     row.slip = state.slip[k];
     row.normal_force = state.p[2 * k];
     row.tangential_force = state.p[2 * k + 1];
+    row.pressure = row.normal_force / prepared.contact.laws.area[k];
+    row.shear = row.tangential_force / prepared.contact.laws.area[k];
     row.state = state.states[i];
     row.displacement_a = displacement_at(prepared, state, contact.a.body, pair.node_a, pair.point_a, pair.normal);
     row.displacement_b = displacement_at(prepared, state, contact.b.body, pair.node_b, pair.point_b, pair.normal);
@@ -234,11 +204,9 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     result.pairs.push_back(row);
     if (contact.cohesion > 0.0 || contact.tension > 0.0)
       result.broken = result.broken.value_or(0) + state.history[i].broken;
-    index_of_pair[static_cast<std::size_t>(at.contact)].push_back(at.index);
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     results[c].name = prepared.model.contacts[c].name;
-    recover_pressure(prepared, c, results[c], index_of_pair[c]);
     add_totals(results[c]);
   }
   return results;
@@ -309,13 +277,13 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   std::vector<Vector> free;  // without contact
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
-    problem.q += system.motion[b] * free[b];
+    problem.q.noalias() += system.motion[b] * free[b];
     const Matrix& rigid = bodies[b]->rigid_motions();
     problem.f.segment(system.first_rigid[b], rigid.cols()) = rigid.transpose() * to.forces[b];
   }
   check_held_pairs(prepared, free);
 
-  result.start = {from.p, from.a};
+  result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
   contact::Evolution evolution = contact::evolve(problem, system.laws, from.history, result.start, options);
   if (prepared.model.solver.uniqueness && N > 0)
@@ -368,6 +336,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   }
   result.contacts = contact_results(prepared, state);
   result.energy = state.energy;
+  result.largest_force = largest_force(state);
   result.displacements = state.u;
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
   result.interior.resize(state.u.size());

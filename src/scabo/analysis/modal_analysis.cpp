@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "scabo/analysis/super_elements.hpp"
+#include "scabo/analysis/worthwhile_threads.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/element/mass.hpp"
 #include "scabo/linalg/dense.hpp"
@@ -97,7 +98,6 @@ ModalResult solve_modal(model::Model model, const Options& options) {
   const auto stage = [&](const std::string& what) {
     if (options.on_stage) options.on_stage(what);
   };
-  linalg::set_blas_threads(options.threads);
   ModalResult result;
   StaticSolution& structure = result.structure;
   structure.model = std::move(model);
@@ -112,12 +112,14 @@ ModalResult solve_modal(model::Model model, const Options& options) {
     structure.mesh = mesh::make_mesh(structure.model);
     constraints = system::constraints_of(structure.model, structure.mesh);
   }
+  const int threads = worthwhile_threads(structure.model, structure.mesh, options.threads);
+  linalg::set_blas_threads(threads);
   stage("super-elements");
   {
     const Stopwatch stopwatch(result.timing.super_elements);
-    structure.super_elements = solve_super_elements(structure.model, structure.mesh, options.threads);
+    structure.super_elements = solve_super_elements(structure.model, structure.mesh, threads);
   }
-  Matrices matrices(structure, options.threads);
+  Matrices matrices(structure, threads);
   std::vector<double> squares;
   for (std::size_t b = 0; b < structure.model.bodies.size(); ++b) {
     if (structure.model.bodies[b].rigid) continue;

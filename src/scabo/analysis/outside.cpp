@@ -39,7 +39,24 @@ std::string without_reference(const Prepared& prepared, const State& state) {
   return {};
 }
 
-void refer_displacements(const StaticSolution& solution, IncrementResult& result) {
+namespace {
+
+/// Takes a translation off the displacements of the pairs, which are along [n, t].
+void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vector<ContactResult>& contacts) {
+  std::vector<std::size_t> next(contacts.size(), 0);
+  for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
+    const auto c = static_cast<std::size_t>(at.contact);
+    const Vec2& normal = prepared.mesh.interfaces[c].pairs[static_cast<std::size_t>(at.index)].normal;
+    const Vec2 along(translation.dot(normal), translation.dot(tangent_of(normal)));
+    PairResult& pair = contacts[c].pairs[next[c]++];
+    pair.displacement_a -= along;
+    pair.displacement_b -= along;
+  }
+}
+
+}  // namespace
+
+void refer_displacements(const Prepared& prepared, const StaticSolution& solution, IncrementResult& result) {
   if (!solution.model.supports.empty()) return;
   for (std::size_t b = 0; b < solution.model.bodies.size(); ++b) {
     const model::Body& body = solution.model.bodies[b];
@@ -49,13 +66,10 @@ void refer_displacements(const StaticSolution& solution, IncrementResult& result
     const auto at = element::locate(super_element.ring, *body.reference - centre, true);
     ensure(at.has_value(), "the reference point of an outside body lies in it");
     const element::RadialField field(super_element.solution, super_element.modes(), result.displacements[b]);
-    const Vec2 shift =
+    result.reference_displacement =
         element::point_values(super_element.ring, field.at(at->xi), super_element.sectors.D, at->element, at->eta)
             .displacement;
-    for (Vector& u : result.displacements) {
-      const Eigen::Index points = u.size() == 3 ? 1 : u.size() / 2;  // a rigid body: its centroid
-      for (Eigen::Index i = 0; i < points; ++i) u.segment<2>(2 * i) -= shift;
-    }
+    take_off_pairs(prepared, result.reference_displacement, result.contacts);
     return;  // one point fixes all
   }
 }

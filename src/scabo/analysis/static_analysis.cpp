@@ -10,6 +10,8 @@
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/super_elements.hpp"
+#include "scabo/analysis/warnings.hpp"
+#include "scabo/analysis/worthwhile_threads.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/uniqueness.hpp"
@@ -48,9 +50,8 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
       fmt::format("the certificate's worst figure, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
   if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason +=
-        "; rounding of the displacements alone can be as much beside parts this stiff: make them less stiff or rigid, "
-        "or "
-        "raise solver.tolerance";
+        "; rounding of the displacements alone can be as much beside parts this stiff, or in a body this slender: make "
+        "the parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
   return reason;
 }
 
@@ -83,8 +84,8 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       reached.certificate = tried.certificate;
       reached.mechanism = mechanism;
       if (mechanism)
-        reached.reason =
-            fmt::format("mechanism: {}; {}", describe_motions(prepared, tried.solution.motion), tried.solution.reason);
+        reached.reason = fmt::format("mechanism: {}, held neither by supports nor by contact and friction",
+                                     describe_motions(prepared, tried.solution.motion));
       else if (tried.solution.status == contact::Status::solved)
         reached.reason = above_tolerance(tried, prepared.model.solver.tolerance);
       else
@@ -96,8 +97,8 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
                                                  : std::nullopt) {
           reached.mechanism = true;
           reached.reason = fmt::format(
-              "mechanism: {}; no forces were found with what is left of the joints' strengths, not even after {} "
-              "halvings, and nothing holds this motion without them",
+              "mechanism: {}, which only the joints' strengths could hold; no forces were found with what is left of "
+              "them after {} halvings",
               describe_motions(prepared, *motion), reached.halvings);
           return reached;
         }
@@ -167,7 +168,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       if (there)
         result = timed(solution.timing.recover, [&] {
           IncrementResult described = describe(prepared, reached.state);
-          refer_displacements(solution, described);
+          refer_displacements(prepared, solution, described);
           described.cracks = crack_results(solution, described);
           return described;
         });
@@ -251,15 +252,16 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   const auto stage = [&](const char* what) {
     if (options.on_stage) options.on_stage(what);
   };
-  linalg::set_blas_threads(options.threads);
+  const int threads = worthwhile_threads(model, mesh, options.threads);
+  linalg::set_blas_threads(threads);
   StaticSolution solution;
   solution.model = std::move(model);
   solution.mesh = std::move(mesh);
   Timing& timing = solution.timing;
 
   stage("super-elements");
-  solution.super_elements = timed(timing.super_elements,
-                                  [&] { return solve_super_elements(solution.model, solution.mesh, options.threads); });
+  solution.super_elements =
+      timed(timing.super_elements, [&] { return solve_super_elements(solution.model, solution.mesh, threads); });
   stage("factorisation");
   const auto pointers = solutions_of(solution);
   system::Structure structure =
@@ -269,7 +271,9 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   const system::ContactSystem contact =
       timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh); });
   if (options.on_mesh) options.on_mesh(solution);
+  solution.warnings = load_warnings(solution.model, structure);
   run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure)}, solution, options);
+  for (std::string& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;
 }
 

@@ -1,4 +1,4 @@
-// The whole journey of a static analysis: Model -> Mesh -> super-elements -> systems -> contact -> results of every
+// The steps of a static analysis: Model -> Mesh -> super-elements -> systems -> contact -> results of every
 // increment. Nothing is written to files here (result/).
 #pragma once
 
@@ -23,11 +23,12 @@ namespace scabo::analysis {
 struct PairResult {
   int pair = 0;
   Vec2 position = Vec2::Zero();   ///< undeformed, on A
+  Vec2 normal = Vec2::Zero();     ///< n, unit, out of A
   double gap = 0.0;               ///< length, > 0 open
   double slip = 0.0;              ///< length, since the start, of B relative to A along t
   double normal_force = 0.0;      ///< on B along n, >= 0: compression
   double tangential_force = 0.0;  ///< on B along t
-  double pressure = 0.0;          ///< force / length^2, recovered on the edge's shape functions
+  double pressure = 0.0;          ///< force / length^2, over the pair's tributary length
   double shear = 0.0;             ///< force / length^2, on B along t
   contact::ContactState state = contact::ContactState::open;
   Vec2 displacement_a = Vec2::Zero();  ///< of the point of A, along [n, t]
@@ -98,10 +99,18 @@ struct IncrementResult {
   double residual = 0.0;
   std::vector<ContactResult> contacts;
   std::vector<Vec2> reactions;  ///< one for each support of the model, in its order: force on the body
+  double largest_force =
+      0.0;  ///< at a node or a pair, applied, of contact or of a support: what others are small beside
   contact::Certificate certificate;
   Energy energy;
   std::optional<ErrorEstimate> error;  ///< when asked for
-  std::vector<Vector> displacements;  ///< per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid
+  /// Per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid. As the stiffness of a body that
+  /// reaches to infinity knows them (element/stiffness.hpp, eq. 6): a translation would not leave its forces as they
+  /// are.
+  std::vector<Vector> displacements;
+  /// Displacement of the point that is said to stand still (analysis/outside.hpp). Results show all displacements less
+  /// this; those of the pairs above have it taken off already.
+  Vec2 reference_displacement = Vec2::Zero();
   std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
   std::vector<CrackResult> cracks;               ///< of all bounded open super-elements
   std::string reason;                            ///< why it did not converge
@@ -168,7 +177,7 @@ struct StaticSolution {
 };
 
 struct Options {
-  int threads = 1;                          ///< for BLAS and for super-elements that differ
+  int threads = 1;                          ///< at most: for BLAS and for super-elements that differ, where it pays
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
   /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.

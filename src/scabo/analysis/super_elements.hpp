@@ -1,4 +1,4 @@
-// Super-elements that are alike share one solution.
+// Identical super-elements share one solution.
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"

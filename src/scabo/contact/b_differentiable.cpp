@@ -135,7 +135,7 @@ void BDifferentiableEquations::hold(double weight, Vector centre) {
 void BDifferentiableEquations::evaluate(const Vector& p, const Vector& a, Residual& at) const {
   problem_.W.apply(p, at.motion);
   at.motion += problem_.q;
-  if (a.size() > 0) at.motion.noalias() += problem_.G * a;
+  if (a.size() > 0) problem_.G.add_motion(a, at.motion);
   if (weight_ > 0.0) at.motion.array() += weight_ * (p - centre_).array() / r_.array();
   evaluate_at_motion(p, at);
 }
@@ -178,7 +178,7 @@ Vector BDifferentiableEquations::motion_along(const Vector& d) const {
 void BDifferentiableEquations::motion_along(const Vector& d, Vector& change) const {
   const Eigen::Index size = problem_.q.size();
   problem_.W.apply(d.head(size), change);
-  if (d.size() > size) change.noalias() += problem_.G * d.tail(d.size() - size);
+  if (d.size() > size) problem_.G.add_motion(d.tail(d.size() - size), change);
   if (weight_ > 0.0) change.array() += weight_ * d.head(size).array() / r_.array();
 }
 

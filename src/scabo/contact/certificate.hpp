@@ -1,5 +1,6 @@
-// What is checked of every increment before it counts as solved. All figures are free of units: forces are divided
-// by the largest force at work, lengths by the largest motion that these forces cause.
+// The checks of every increment before it counts as solved. All figures are dimensionless: forces are divided by the
+// largest force, lengths by the largest motion that the acting forces cause (judge.hpp defines both scales and the
+// rule).
 #pragma once
 
 #include <algorithm>
@@ -33,13 +34,5 @@ struct Scales {
 Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales);
 /// The same where the motions u are known.
 Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion, const Scales& scales);
-
-/// The residual by which FCLIB judges: | p - P_K(p - (u + mu |u_t| n)) | / |q|, with P_K the projection on Coulomb's
-/// cone, motions u and forces p as they are, units and all (absolute where q = 0). For a pair with cohesion or tension,
-/// whose set of forces is no cone: | [p_n - max(p_n - u_n, -tension), p_t - P_b(p_t - u_t)] |, P_b the projection on
-/// the disc of radius b = cohesion + mu (p_n)+. Infinite where a number is not finite.
-double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a);
-/// The same where the motions u are known.
-double natural_map_residual_at(const Problem& problem, const Vector& p, const Vector& motion);
 
 }  // namespace scabo::contact

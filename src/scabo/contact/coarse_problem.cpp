@@ -76,7 +76,7 @@ CoarseProblem coarse_problem(const Problem& problem) {
   small.tension = weakest(problem.tension, coarse, groups);
   small.mu.setConstant(groups, HUGE_VAL);
   small.q.setZero(components * groups);
-  small.G.setZero(components * groups, problem.G.cols());
+  Matrix G_small = Matrix::Zero(components * groups, problem.G.cols());
   small.f = problem.f;
   Matrix W_small = Matrix::Zero(components * groups, components * groups);
   for (Eigen::Index j = 0; j < N; ++j) {
@@ -84,12 +84,13 @@ CoarseProblem coarse_problem(const Problem& problem) {
     const double share = coarse.share[j];
     small.mu[to] = std::min(small.mu[to], problem.mu[j]);
     small.q.segment<components>(components * to) += share * problem.q.segment<components>(components * j);
-    small.G.middleRows<components>(components * to) += share * problem.G.middleRows<components>(components * j);
+    G_small.middleRows<components>(components * to) += share * problem.G.dense().middleRows<components>(components * j);
     for (Eigen::Index i = 0; i < N; ++i)
       W_small.block<components, components>(components * coarse.group[static_cast<std::size_t>(i)], components * to) +=
           share * coarse.share[i] * W.block<components, components>(components * i, components * j);
   }
   small.W = std::move(W_small);
+  small.G = G_small;
   return coarse;
 }
 

@@ -1,4 +1,4 @@
-// A plane contact problem of half as many pairs: neighbours press as one and move as their mean.
+// A plane contact problem with half as many pairs: neighbours share one force and move as their mean.
 //
 // A force p_c of a group goes in equal shares s_i (1, or 1/2 of two) to its members, p = P p_c. Galerkin:
 //
@@ -14,7 +14,7 @@
 //
 // Groups: each pair with the pair not yet taken that it couples with most,
 // kappa_ij = (W_nn)_ij / sqrt((W_nn)_ii (W_nn)_jj), where that is at least half of its strongest coupling; bonded pairs
-// (infinite tension) with bonded ones only. Who has no such neighbour stays alone.
+// (infinite tension) with bonded ones only. A pair without such a neighbour stays single.
 #pragma once
 
 #include <vector>

@@ -1,18 +1,18 @@
 // Starts for Newton where there is no history.
 //
-// At zero force every pair lies on the tip of its cone, which says nothing of stick and slip. Sweeps of Gauss-Seidel
-// cost less than one factorisation and say more; but what happens at one end of a joint takes many of them to be felt
-// at the other. Problems of many pairs therefore start from one of half as many (contact/coarse_problem.hpp), and so on
-// down: nested iteration.
+// At zero force every pair lies at the apex of its cone, which does not distinguish stick from slip. Sweeps of
+// Gauss-Seidel cost less than one factorisation and do distinguish them, but many sweeps are needed to carry forces
+// from one end of a joint to the other. Problems with many pairs therefore start from a problem with half as many
+// (contact/coarse_problem.hpp), recursively: nested iteration.
 //
 //     start(N):  N < 48:  30 sweeps from zero
-//                else     p_c, a from start(N / 2), then by Newton on the problem of N / 2 groups until |H| <= 0.05
-//                |p_c|
-//                         of the start (largest components), at most 3 iterations;  p = P p_c;  3 sweeps
+//                else     p_c, a from start(N / 2), then by Newton on the problem of N / 2 groups, at most
+//                         3 iterations, until |H| <= 0.05 |p_c| of the start (largest components);
+//                         p = P p_c;  3 sweeps
 //
-// Where pairs are not coupled, 30 sweeps from zero take the place of the coarse problem. Bodies that contact alone
-// holds are held during sweeps by 0.7 of the mean stiffness of a pair, around the a at hand. Nothing here need
-// converge: Newton on the problem itself has the last word. Figures: docs/methods/12_contact_solver.md.
+// Where pairs are not coupled, 30 sweeps from zero replace the coarse problem. Bodies supported by contact alone are
+// held during sweeps by 0.7 of the mean stiffness of a pair, around the current a. Nothing here needs to converge: the
+// last solve is always Newton on the original problem. Figures: docs/methods/12_contact_solver.md.
 #pragma once
 
 #include <vector>

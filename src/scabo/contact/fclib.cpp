@@ -113,7 +113,6 @@ int read_dimension(const Hdf5Reader& file, const std::string& path) {
 
 /// Number of pairs of `rows` rows.
 Index pairs_of(const Hdf5Reader& file, const std::string& path, Index rows, int dimension) {
-  if (rows == 0) file.fail(path, "is 0: there is no contact to solve");
   if (rows % dimension != 0)
     file.fail(path, fmt::format("is {}, no multiple of spacedim, {}: every pair has a normal and {}", rows, dimension,
                                 dimension == 3 ? "two tangents" : "a tangent"));
@@ -141,7 +140,7 @@ Vector read_strength(const Hdf5Reader& file, const std::string& path, Index pair
 /// V, R, s: rigid motions where R = 0; otherwise l = -R^-1 (V' r + s) is put into W and q.
 void read_constraints(const Hdf5Reader& file, Problem& problem) {
   const std::string V_path = "fclib_local/V", R_path = "fclib_local/R";
-  problem.G = Matrix::Zero(problem.q.size(), 0);
+  problem.G.resize(problem.q.size(), 0);
   problem.f = Vector::Zero(0);
   if (!file.has(V_path) && !file.has(R_path)) return;
   const Sparse V = read_matrix(file, V_path), R = read_matrix(file, R_path);
@@ -152,7 +151,7 @@ void read_constraints(const Hdf5Reader& file, Problem& problem) {
               fmt::format("must be {0} x {0}, as many as columns of V, not {1} x {2}", V.cols(), R.rows(), R.cols()));
   const Vector s = read_vector(file, "fclib_local/vectors/s", V.cols(), "one for each column of V");
   if (R.norm() == 0.0) {
-    problem.G = Matrix(V);
+    problem.G = RigidMap(V);
     problem.f = s;
     return;
   }
@@ -327,7 +326,7 @@ void write_fclib(const std::string& name, const SavedProblem& saved) {
   if (problem.cohesion.size() > 0) file.numbers("fclib_local/vectors/cohesion", problem.cohesion);
   if (problem.tension.size() > 0) file.numbers("fclib_local/vectors/tension", problem.tension);
   if (problem.G.cols() > 0) {
-    write_matrix(file, "fclib_local/V", problem.G.sparseView());
+    write_matrix(file, "fclib_local/V", problem.G.sparse());
     write_matrix(file, "fclib_local/R", Sparse(problem.G.cols(), problem.G.cols()));
     file.numbers("fclib_local/vectors/s", problem.f);
   }

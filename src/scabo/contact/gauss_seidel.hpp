@@ -1,6 +1,6 @@
 // Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the pair's own problem (Jourdan, Alart, Jean, Comput.
-// Methods Appl. Mech. Engrg. 155 (1998) 31). Linear at best: a start for Newton, a way back where Newton's own fail,
-// and what sweeps.hpp accelerates.
+// Methods Appl. Mech. Engrg. 155 (1998) 31). Convergence is linear at best: it is a start for Newton, a fallback where
+// Newton fails, and the iteration that sweeps.hpp accelerates.
 #pragma once
 
 #include <variant>

@@ -71,7 +71,7 @@ Problem GlobalReduction::problem() const {
   problem.mu = global_.mu;
   problem.q = global_.w + global_.H.transpose() * motion(Vector::Zero(global_.H.cols())).head(n);
   if (!problem.q.allFinite()) throw SingularProblem();
-  problem.G = Matrix::Zero(problem.q.size(), 0);
+  problem.G.resize(problem.q.size(), 0);
   problem.f = Vector::Zero(0);
   const double work =
       static_cast<double>(global_.H.cols()) * static_cast<double>(factor_->lu.nnzL() + factor_->lu.nnzU());

@@ -1,4 +1,4 @@
-// The attempts of solve() in order: starts for Newton, each followed by Newton on the problem itself.
+// The fallback strategies of solve() in order: starts for Newton, each followed by Newton on the original problem.
 #pragma once
 
 #include "scabo/contact/cold_start.hpp"
@@ -13,21 +13,21 @@ struct Scaled {
   double stiffness = 1.0;  ///< force / length
 };
 Scaled scaled(const Problem& problem);
-/// The one of scaled(): 1 / mean W_ii.
-double stiffness_of(const Problem& problem);
 
 class Ladder {
  public:
-  /// `small`: the largest |H| at which Newton may stop; `content`: the judge of forces and (scaled) motions, where H is
-  /// not it.
+  /// `small`: the largest |H| at which Newton may stop; `content`: decides whether forces and (scaled) motions are
+  /// accepted, if H does not.
   Ladder(const Problem& scaled_problem, const SolverOptions& options, double small,
          std::function<bool(const Vector& p, const Vector& motion)> content);
 
-  /// The best end is returned when none converges.
-  NewtonEnd climb(const Vector& p, const Vector& a);
+  /// Returns the best result when no strategy converges. `hopeless`, if given, is called once, after the first
+  /// attempts.
+  NewtonEnd climb(const Vector& p, const Vector& a, const std::vector<bool>& touching,
+                  const std::function<bool()>& hopeless);
 
   int iterations() const { return iterations_; }
-  /// Of problems of fewer pairs (contact/cold_start.hpp); not among iterations().
+  /// On problems with fewer pairs (contact/cold_start.hpp); not included in iterations().
   int coarse_iterations() const { return coarse_iterations_; }
   std::vector<Iteration> take_trace() { return std::move(trace_); }
 
@@ -40,11 +40,14 @@ class Ladder {
   };
   NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, const Run& how);
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
-  NewtonEnd climb_elastic(const Vector& p, const Vector& a);
+  NewtonEnd climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,
+                          const std::function<bool()>& hopeless);
+  NewtonEnd bonded(const std::vector<bool>& touching);
   NewtonEnd without_history(const Vector& p, const Vector& a);
   NewtonEnd after_start(ColdStart start, const std::string& stage);
   NewtonEnd climb_rank_deficient(const Vector& p);
-  NewtonEnd swept(const Vector& p, int sweeps, double regularisation);
+  NewtonEnd swept(const Vector& p, int sweeps, double regularisation, int iterations = 0);
+  NewtonEnd inside();
   NewtonEnd enough(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);
   NewtonEnd vanishing_proximal(Vector p);
@@ -53,6 +56,7 @@ class Ladder {
   NewtonEnd after_sweeps(const Vector& p, const Vector& a);
   NewtonEnd after_pivoting(const Problem& held);
   bool may_sweep() const;
+  bool late() const { return options_.deadline.passed(); }
 
   const Problem& problem_;
   const SolverOptions& options_;

@@ -8,8 +8,8 @@ namespace scabo::contact {
 
 namespace {
 
-/// w - M z - 1 z0 = q as a tableau; columns: w (n), z (n), z0, right-hand side.
-Matrix make_tableau(const Problem& problem) {
+/// w - M z - 1 z0 = q / unit as a tableau; columns: w (n), z (n), z0, right-hand side.
+Matrix make_tableau(const Problem& problem, double unit) {
   const Eigen::Index N = problem.pairs(), n = 4 * N;
   Matrix M = Matrix::Zero(n, n);
   Vector q = Vector::Zero(n);
@@ -32,7 +32,7 @@ Matrix make_tableau(const Problem& problem) {
   tableau.leftCols(n).setIdentity();
   tableau.middleCols(n, n) = -M;
   tableau.col(2 * n).setConstant(-1.0);
-  tableau.col(2 * n + 1) = q;
+  tableau.col(2 * n + 1) = q / unit;
   return tableau;
 }
 
@@ -77,7 +77,10 @@ Eigen::Index leaving_row(const Matrix& tableau, const std::vector<Eigen::Index>&
 std::optional<Vector> lemke(const Problem& problem) {
   const Eigen::Index N = problem.pairs(), n = 4 * N;
   if (N == 0) return Vector();
-  Matrix tableau = make_tableau(problem);
+  // Ties are told from 1: a power of two makes q as large, and its unit does not matter.
+  const double largest = problem.q.lpNorm<Eigen::Infinity>();
+  const double unit = largest > 0.0 && std::isfinite(largest) ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
+  Matrix tableau = make_tableau(problem, unit);
   const Eigen::Index z0 = 2 * n, right = 2 * n + 1;
   std::vector<Eigen::Index> basis(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) basis[static_cast<std::size_t>(i)] = i;
@@ -101,8 +104,8 @@ std::optional<Vector> lemke(const Problem& problem) {
   }
   Vector p(2 * N);
   for (Eigen::Index i = 0; i < N; ++i) {
-    p[2 * i] = z[i];
-    p[2 * i + 1] = z[N + i] - z[2 * N + i];
+    p[2 * i] = unit * z[i];
+    p[2 * i + 1] = unit * (z[N + i] - z[2 * N + i]);
   }
   return p;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/contact/bonded_start.hpp"
 #include "scabo/contact/newton_direction.hpp"
 
 namespace scabo::contact {
@@ -12,7 +13,12 @@ namespace {
 class Newton {
  public:
   Newton(const BDifferentiableEquations& equations, Vector p, Vector a, const NewtonOptions& options)
-      : equations_(equations), options_(options), direction_(equations), p_(std::move(p)), a_(std::move(a)) {}
+      : equations_(equations),
+        options_(options),
+        direction_(equations),
+        many_(may_bond(equations.problem())),
+        p_(std::move(p)),
+        a_(std::move(a)) {}
 
   NewtonEnd run() {
     end_.p = p_;
@@ -24,9 +30,12 @@ class Newton {
     while (true) {
       keep_best();
       record();
-      if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit())) break;
-      const bool found = find_direction(first);
+      if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) ||
+          options_.deadline.passed())
+        break;
       ++end_.iterations;
+      if (many_ && step_of_many_bodies(first)) continue;
+      const bool found = find_direction(first, NewtonDirection::Ties::as_d_takes_them);
       if (found && line_search()) continue;
       if (!found || ++unchecked_ > options_.unchecked) {
         end_.singular = !found;
@@ -39,13 +48,46 @@ class Newton {
 
  private:
   /// With the regularisation of the moment; where no direction exists all the same, with more and more.
-  bool find_direction(double first) {
+  bool find_direction(double first, NewtonDirection::Ties ties) {
     double alpha = options_.regularisation * std::clamp(at_.largest() / first, 1e-8, 1.0);
     for (int attempt = 0; attempt < 4; ++attempt, alpha *= 100.0) {
-      if (direction_.find(at_, alpha, d_)) return true;
+      if (direction_.find(at_, alpha, ties, d_)) return true;
       if (alpha == 0.0) return false;
     }
     return false;
+  }
+
+  /// Of a wall hundreds of joints change their state together, and have ties besides: they just touch or are about to slip.
+  /// One kink after the other stops the line search, while full steps pass them all: up to `watched` full steps without
+  /// descent are tried before the search is believed (watchdog of Chamberlain, Powell, Lemarechal and Pedersen, Math.
+  /// Programming Study 16 (1982) 1). A tower of 50 blocks at half of its overturning load: 43 iterations with the search
+  /// alone.
+  bool step_of_many_bodies(double first) {
+    constexpr int watched = 6, patience = 8;
+    constexpr double long_enough = 0.5;
+    if (watch_ > 0 && at_.merit() < watched_merit_) watch_ = 0;
+    if (watch_ == watched) {
+      p_ = watched_p_;
+      a_ = watched_a_;
+      equations_.evaluate(p_, a_, at_);
+      watch_ = 0;
+      patience_ = patience;
+    }
+    if (!find_direction(first, NewtonDirection::Ties::free)) return false;
+    const double step = descending_step();
+    if (watch_ == 0 && (step >= long_enough || (patience_ > 0 && step > 0.0))) {
+      --patience_;
+      take(step);
+      return true;
+    }
+    if (patience_ > 0) return false;
+    if (watch_++ == 0) {
+      watched_p_ = p_;
+      watched_a_ = a_;
+      watched_merit_ = at_.merit();
+    }
+    take(1.0);
+    return true;
   }
 
   void keep_best() {
@@ -57,7 +99,8 @@ class Newton {
       end_.a = a_;
       end_.residual = at_.largest();
     }
-    end_.converged = content || end_.residual <= options_.small;
+    const double largest = end_.p.size() > 0 ? end_.p.lpNorm<Eigen::Infinity>() : 0.0;
+    end_.converged = content || end_.residual <= std::max(options_.small, options_.relative * largest);
   }
 
   void record() {
@@ -75,6 +118,13 @@ class Newton {
   }
 
   bool line_search() {
+    const double step = descending_step();
+    if (step > 0.0) take(step);
+    return step > 0.0;
+  }
+
+  /// The longest step 2^-k along d with sufficient descent; 0 where there is none.
+  double descending_step() {
     constexpr double sufficient = 1e-4;
     constexpr int halvings = 12;
     const double merit = at_.merit();
@@ -84,22 +134,24 @@ class Newton {
       trial_p_ = p_ + step * d_.head(p_.size());
       trial_.motion = at_.motion + step * change_;
       equations_.evaluate_at_motion(trial_p_, trial_);
-      if (trial_.merit() > (1.0 - 2.0 * sufficient * step) * merit) continue;  // theta'(z; d) = -2 theta
-      take(step);
-      return true;
+      if (trial_.merit() <= (1.0 - 2.0 * sufficient * step) * merit) return step;  // theta'(z; d) = -2 theta
     }
-    return false;
+    return 0.0;
   }
 
   const BDifferentiableEquations& equations_;
   const NewtonOptions& options_;
   NewtonDirection direction_;
+  bool many_;  // bodies
   Vector p_, a_, d_, change_, trial_p_;
   Residual at_, trial_;
   std::vector<Branch> before_;
   NewtonEnd end_;
   double best_merit_ = HUGE_VAL, step_ = 0.0;
   int unchecked_ = 0;  // full steps without descent
+  int watch_ = 0, patience_ = 0;  // full steps since watched_; line searches to go before the next
+  Vector watched_p_, watched_a_;
+  double watched_merit_ = 0.0;
 };
 
 }  // namespace

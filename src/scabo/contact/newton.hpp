@@ -1,6 +1,6 @@
 // Damped Newton method on the B-differentiable equations: direction (newton_direction.hpp), line search on the merit
-// theta = 1/2 |H|^2, until H is small or a judge of its own is content. Where no step descends, a few full steps are
-// tried (H is made of pieces, and a step may lead past a kink); the best point is kept.
+// theta = 1/2 |H|^2, until H is small or the given judge accepts the point. Where no step descends, a few full steps
+// are tried (H is piecewise smooth, and a step may lead past a kink); the best point is kept.
 #pragma once
 
 #include <functional>
@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/deadline.hpp"
 #include "scabo/contact/solution.hpp"
 
 namespace scabo::contact {
 
 struct NewtonOptions {
-  double small = 0.0;           ///< converged when the largest |H| is not above it
+  double small = 0.0;           ///< converged when the largest |H| is not above it,
+  double relative = 0.0;        ///< or not above this part of the largest force
   int iterations = 50;          ///< most
   double regularisation = 0.0;  ///< alpha, relative to 1 / r: at the start; it vanishes with |H|
   int unchecked = 8;            ///< full steps without descent, most
   std::string stage = "newton";
+  Deadline deadline;  ///< no iteration begins after it
   /// Converged as well when this says so of forces and motions; may be empty.
   std::function<bool(const Vector& p, const Vector& motion)> content;
 };

@@ -2,12 +2,12 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/contact/gmres.hpp"
 #include "scabo/linalg/general_solver.hpp"
+#include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
 
@@ -15,17 +15,30 @@ struct NewtonDirection::Workspace {
   Matrix A, factor;
   linalg::GeneralSolver solver;
   Vector column, full, image, residual;
-  Eigen::SparseMatrix<double> sparse;
+  Eigen::SparseMatrix<double> sparse, raised;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> G;  // by rows, for sparse saddle systems
   std::vector<double> sum;
   std::vector<int> touched;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_solver;
-  Matrix blocks;  // of W on its diagonal, for the preconditioner
+  linalg::SparseGeneralSolver sparse_solver;
+  bool redundant = false;  // a sparse system was singular before: pairs of three bodies that meet in a point
+  Matrix blocks;           // of W on its diagonal, for the preconditioner
 };
 
 namespace {
 
 constexpr Eigen::Index most_direct = 2500;  // unknowns of a dense factorisation
+constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
 constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
+
+// Pairs of three bodies that meet in a point, or of a body wedged between others, are redundant: their forces are not
+// unique, and the matrix is singular for good. It is factorised with this much on the diagonal of the force rows (the
+// mean W_ii is 1), and GMRES with that factor as its preconditioner solves the singular system itself. With 1e-6 and less
+// rounding drifts in the null space (walls of blocks: 14 to 38 iterations instead of 1 to 5).
+constexpr double raise = 1e-4;
+constexpr GmresOptions singular_gmres{1e-12, 40, 80};
+/// Residual, relative to the right-hand side, up to which a direction solves its equations; up to `descending` it is
+/// still one along which the merit falls.
+constexpr double exact = 1e-9, descending = 0.5;
 
 /// Components that no contact force and no rigid motion moves (a support holds the pair along the joint): rows and
 /// columns of W and rows of G that are zero. Empty where there are none.
@@ -34,7 +47,7 @@ std::vector<bool> immovable_components(const Problem& problem) {
   if (!problem.W.is_dense()) return immovable;
   const Matrix& W = problem.W.dense();
   for (Eigen::Index k = 0; k < W.rows(); ++k) {
-    if (W(k, k) != 0.0 || !W.col(k).isZero(0.0) || !W.row(k).isZero(0.0) || !problem.G.row(k).isZero(0.0)) continue;
+    if (W(k, k) != 0.0 || !W.col(k).isZero(0.0) || !W.row(k).isZero(0.0) || !problem.G.dense().row(k).isZero(0.0)) continue;
     immovable.resize(static_cast<std::size_t>(W.rows()), false);
     immovable[static_cast<std::size_t>(k)] = true;
   }
@@ -49,7 +62,19 @@ NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
       immovable_(immovable_components(equations.problem())) {}
 NewtonDirection::~NewtonDirection() = default;
 
-bool NewtonDirection::find(Residual& at, double regularisation, Vector& d) {
+bool NewtonDirection::find(Residual& at, double regularisation, Ties ties, Vector& d) {
+  if (ties == Ties::free) {
+    for (Branch& branch : at.branches) {
+      if (branch.normal_tie) branch.contact = false;
+      if (branch.bound_tie || branch.tip) {
+        branch.slope = 0.0;
+        branch.tangent = Branch::Tangent::free;
+      } else if (branch.edge) {
+        branch.tangent = Branch::Tangent::slip;
+      }
+    }
+    return solve(at, regularisation, d);
+  }
   constexpr int rounds = 8;
   for (int round = 0; round < rounds; ++round) {
     if (!solve(at, regularisation, d)) return round > 0 ? solve(at, 1e-8, d) : false;
@@ -173,7 +198,7 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   }
 
   bool solved = false;
-  if (problem.W.is_sparse() && m == 0 && size >= least_sparse)
+  if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = solve_sparse(regularisation);
   else if (size + m <= most_direct && (m > 0 || problem.W.is_dense() || forces <= most_direct))
     solved = solve_dense(regularisation);
@@ -189,7 +214,7 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
 
 bool NewtonDirection::solve_dense(double regularisation) {
   const Problem& problem = equations_.problem();
-  const Matrix& W = problem.W.dense();
+  const Matrix &W = problem.W.dense(), &G = problem.G.dense();
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
   Matrix& A = work_->A;
@@ -210,8 +235,8 @@ bool NewtonDirection::solve_dense(double regularisation) {
     for (Eigen::Index g = 0; g < m; ++g) {
       double force = 0.0, motion = 0.0;
       for (Eigen::Index k = 0; k < d; ++k) {
-        force += from.column[k] * problem.G(d * from.pair + k, g);
-        motion += from.row[k] * problem.G(d * from.pair + k, g);
+        force += from.column[k] * G(d * from.pair + k, g);
+        motion += from.row[k] * G(d * from.pair + k, g);
       }
       A(size + g, j) = force;
       A(j, size + g) = from.scale * motion;
@@ -237,61 +262,111 @@ bool NewtonDirection::solve_dense(double regularisation) {
     residual.noalias() -= matrix * y;
     if (y.allFinite() && residual.lpNorm<Eigen::Infinity>() <= scale) return true;
   }
-  if (n > 400) return false;
-  // Singular: the shortest solution, if there is one.
-  Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
-  shortest.setThreshold(1e-11);
-  shortest.compute(matrix);
-  y = shortest.solve(right);
-  return y.allFinite() && (matrix * y - right).lpNorm<Eigen::Infinity>() <= scale;
+  if (n <= most_orthogonal) {  // the shortest solution, if there is one
+    Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
+    shortest.setThreshold(1e-11);
+    shortest.compute(matrix);
+    y = shortest.solve(right);
+    return y.allFinite() && (matrix * y - right).lpNorm<Eigen::Infinity>() <= scale;
+  }
+  work_->factor.topLeftCorner(n, n) = matrix;
+  for (Eigen::Index j = 0; j < size; ++j)
+    work_->factor(j, j) += raise * (1.0 - unknowns_[static_cast<std::size_t>(j)].own);
+  if (!work_->solver.factorise(work_->factor, n)) return false;
+  const auto multiply = [&](const Vector& x, Vector& result) { result = matrix * x; };
+  const auto precondition = [&](const Vector& x, Vector& result) {
+    result = x;
+    work_->solver.solve_in_place(result);
+  };
+  Vector x = Vector::Zero(n);
+  const double left = gmres(multiply, precondition, right, x, singular_gmres);
+  y = x;
+  return y.allFinite() && left <= descending;
+}
+
+void NewtonDirection::lay_out_sparse(double regularisation) {
+  const Problem& problem = equations_.problem();
+  const Eigen::SparseMatrix<double>& W = problem.W.sparse();
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index m = problem.G.cols(), n = size + m;
+  const int d = problem.dimension;
+  Workspace& work = *work_;
+  if (m > 0 && work.G.rows() != problem.G.rows()) work.G = problem.G.sparse();
+  if (static_cast<Eigen::Index>(work.sum.size()) < n) work.sum.assign(static_cast<std::size_t>(n), 0.0);
+  const auto add = [&](Eigen::Index row, double value) {
+    double& sum = work.sum[static_cast<std::size_t>(row)];
+    if (sum == 0.0) work.touched.push_back(static_cast<int>(row));
+    sum += value == 0.0 ? 1e-300 : value;  // stays in the pattern
+  };
+  // Adds `value` of motion component `component` (a row of W or G) to the rows of the unknowns that it enters.
+  const auto add_motion = [&](Eigen::Index component, double value) {
+    const auto pair = static_cast<std::size_t>(component / d);
+    for (int row = first_of_pair_[pair]; row < first_of_pair_[pair + 1]; ++row) {
+      const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
+      if (to.row[component % d] != 0.0) add(row, to.scale * to.row[component % d] * value);
+    }
+  };
+  Eigen::SparseMatrix<double>& A = work.sparse;
+  A.resize(n, n);
+  A.reserve(3 * W.nonZeros() / 2 + n + 3 * problem.G.sparse().nonZeros());
+  const auto finish_column = [&](Eigen::Index column) {
+    std::sort(work.touched.begin(), work.touched.end());
+    work.touched.erase(std::unique(work.touched.begin(), work.touched.end()), work.touched.end());
+    A.startVec(column);
+    for (int row : work.touched) {
+      A.insertBack(row, column) = work.sum[static_cast<std::size_t>(row)];
+      work.sum[static_cast<std::size_t>(row)] = 0.0;
+    }
+    work.touched.clear();
+  };
+  work.touched.clear();
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
+    add(j, regularisation * (1.0 - from.own) + from.own);
+    for (int k = 0; k < d; ++k) {
+      if (from.column[k] == 0.0) continue;
+      const Eigen::Index force = d * static_cast<Eigen::Index>(from.pair) + k;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(W, force); it; ++it)
+        add_motion(it.row(), it.value() * from.column[k]);
+      if (m > 0)
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(work.G, force); it; ++it)
+          add(size + it.col(), it.value() * from.column[k]);
+    }
+    finish_column(j);
+  }
+  for (Eigen::Index g = 0; g < m; ++g) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(problem.G.sparse(), g); it; ++it)
+      add_motion(it.row(), it.value());
+    finish_column(size + g);
+  }
+  A.finalize();
 }
 
 bool NewtonDirection::solve_sparse(double regularisation) {
-  const Eigen::SparseMatrix<double>& W = equations_.problem().W.sparse();
+  lay_out_sparse(regularisation);
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  const int d = equations_.problem().dimension;
   Workspace& work = *work_;
-  if (work.sum.size() < unknowns_.size()) work.sum.assign(unknowns_.size(), 0.0);
-  Eigen::SparseMatrix<double>& A = work.sparse;
-  A.resize(size, size);
-  A.reserve(3 * W.nonZeros() / 2 + size);
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
-    work.touched.clear();
-    const auto add = [&](int row, double value) {
-      double& sum = work.sum[static_cast<std::size_t>(row)];
-      if (sum == 0.0) work.touched.push_back(row);
-      sum += value == 0.0 ? 1e-300 : value;  // stays in the pattern
-    };
-    add(static_cast<int>(j), regularisation * (1.0 - from.own) + from.own);
-    for (int k = 0; k < d; ++k) {
-      if (from.column[k] == 0.0) continue;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(W, d * from.pair + k); it; ++it) {
-        const int pair = static_cast<int>(it.row()) / d, component = static_cast<int>(it.row()) % d;
-        for (int row = first_of_pair_[static_cast<std::size_t>(pair)];
-             row < first_of_pair_[static_cast<std::size_t>(pair) + 1]; ++row) {
-          const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
-          if (to.row[component] != 0.0) add(row, to.scale * to.row[component] * it.value() * from.column[k]);
-        }
-      }
-    }
-    std::sort(work.touched.begin(), work.touched.end());
-    work.touched.erase(std::unique(work.touched.begin(), work.touched.end()), work.touched.end());
-    A.startVec(j);
-    for (int row : work.touched) {
-      A.insertBack(row, j) = work.sum[static_cast<std::size_t>(row)];
-      work.sum[static_cast<std::size_t>(row)] = 0.0;
-    }
+  const Eigen::SparseMatrix<double>& A = work.sparse;
+  const Vector right = right_.head(A.rows());
+  const double largest = right.lpNorm<Eigen::Infinity>() + 1e-300;
+  if (!work.redundant && work.sparse_solver.factorise(A) && work.sparse_solver.reciprocal_condition() > 1e-13) {
+    work.sparse_solver.solve(right, y_);
+    work.residual = right - A * y_;
+    work.sparse_solver.solve(work.residual, work.image);
+    y_ += work.image;  // one step of refinement: the certificate is judged at 1e-10
+    work.residual = right - A * y_;
+    if (y_.allFinite() && work.residual.lpNorm<Eigen::Infinity>() <= exact * largest) return true;
   }
-  A.finalize();
-  work.sparse_solver.compute(A);
-  if (work.sparse_solver.info() != Eigen::Success) return false;
-  const auto right = right_.head(size);
-  y_ = work.sparse_solver.solve(right);
-  work.residual = right - A * y_;
-  y_ += work.sparse_solver.solve(work.residual);
-  work.residual = right - A * y_;
-  return y_.allFinite() && work.residual.lpNorm<Eigen::Infinity>() <= 1e-8 * (right.lpNorm<Eigen::Infinity>() + 1e-300);
+  work.redundant = true;
+  work.raised = A;
+  for (Eigen::Index j = 0; j < size; ++j)
+    work.raised.coeffRef(j, j) += raise * (1.0 - unknowns_[static_cast<std::size_t>(j)].own);
+  if (!work.sparse_solver.factorise(work.raised)) return false;
+  const auto multiply = [&](const Vector& x, Vector& result) { result.noalias() = A * x; };
+  const auto precondition = [&](const Vector& x, Vector& result) { work.sparse_solver.solve(x, result); };
+  y_.setZero(A.rows());
+  const double left = gmres(multiply, precondition, right, y_, singular_gmres);
+  return y_.allFinite() && left <= descending;
 }
 
 void NewtonDirection::apply(const Vector& y, double regularisation, Vector& result) {

@@ -13,8 +13,9 @@
 // At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the
 // branches of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
 //
-// Dense LU up to a few thousand unknowns, sparse LU where W is sparse, GMRES with the blocks of the pairs as
-// preconditioner otherwise.
+// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES with the blocks of the pairs
+// as preconditioner otherwise. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions
+// GMRES on the matrix itself.
 #pragma once
 
 #include <memory>
@@ -30,8 +31,13 @@ class NewtonDirection {
   explicit NewtonDirection(const BDifferentiableEquations& equations);
   ~NewtonDirection();
 
-  /// d = [dp; da] for the branches of `at`, which at ties are changed to those of d. False where there is none.
-  bool find(Residual& at, double regularisation, Vector& d);
+  /// Which branches are followed at ties. free: the one that holds least (open, slip), one linear system; of redundant pairs
+  /// that just slip, stick would make the matrix nearly singular and the direction huge. as_d_takes_them: those of d itself,
+  /// up to eight systems and more.
+  enum class Ties { free, as_d_takes_them };
+
+  /// d = [dp; da] for the branches of `at`, which at ties may be changed to those of d. False where there is none.
+  bool find(Residual& at, double regularisation, Ties ties, Vector& d);
 
  private:
   struct Unknown {
@@ -44,6 +50,7 @@ class NewtonDirection {
   bool enumerate(Residual& at, double regularisation, Vector& d);
   void lay_out(const Residual& at);
   bool solve_dense(double regularisation);
+  void lay_out_sparse(double regularisation);
   bool solve_sparse(double regularisation);
   bool solve_iteratively(double regularisation);
   void apply(const Vector& y, double regularisation, Vector& result);

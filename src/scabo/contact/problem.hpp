@@ -18,6 +18,7 @@
 
 #include "scabo/base/types.hpp"
 #include "scabo/contact/delassus.hpp"
+#include "scabo/contact/rigid_map.hpp"
 
 namespace scabo::contact {
 
@@ -28,7 +29,7 @@ struct Problem {
   Vector mu;          // N, coefficient of friction, >= 0
   Vector cohesion;    // N, >= 0, or empty: 0
   Vector tension;     // N, >= 0, or empty: 0; infinity: bonded
-  Matrix G;           // dN x m, motion of the pairs per unit rigid motion; m may be 0
+  RigidMap G;         // dN x m, motion of the pairs per unit rigid motion; m may be 0
   Vector f;           // m, work of the applied loads per unit rigid motion
 
   int pairs() const { return static_cast<int>(mu.size()); }
@@ -44,6 +45,7 @@ struct Problem {
 /// from nothing). Slip so far is in q.
 struct Start {
   Vector p, a;
+  std::vector<bool> touching = {};  ///< N, pairs that touch before the increment; empty: not known, all may
 };
 
 enum class ContactState { open, stick, slip };

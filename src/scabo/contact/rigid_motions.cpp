@@ -1,22 +1,30 @@
 #include "scabo/contact/rigid_motions.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
+#include "scabo/linalg/nonnegative_combination.hpp"
 #include "scabo/linalg/nonnegative_least_squares.hpp"
+#include "scabo/linalg/symmetric_positive_solver.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
+/// Rigid motions up to which dense decompositions are as fast as sparse ones.
+constexpr Eigen::Index most_dense = 60;
+
 /// The proof moves up the friction cones while it slides; the slide that changes no gap says the same more plainly. It
 /// is taken where the proof is mostly that.
 Vector slide_of(const Problem& problem, const Vector& motion) {
-  if (problem.pairs() == 0) return motion;
+  if (problem.pairs() == 0 || has_many_motions(problem)) return motion;
   Matrix normals(problem.pairs(), motion.size());
-  for (Eigen::Index i = 0; i < problem.pairs(); ++i) normals.row(i) = problem.G.row(problem.dimension * i);
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) normals.row(i) = problem.G.dense().row(problem.dimension * i);
   const Eigen::JacobiSVD<Matrix> svd(normals, Eigen::ComputeFullV);
   Eigen::Index rank = 0;
   for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
@@ -37,14 +45,14 @@ Matrix rays_of(const Problem& problem) {
   rays.setZero();  // of pairs whose forces are unlimited: unlimited()
   for (Eigen::Index i = 0; i < N; ++i)
     for (int k = 0; k < count && !std::isinf(problem.tension_of(i)); ++k) {
-      Vector ray = problem.G.row(d * i).transpose();
+      Vector ray = problem.G.dense().row(d * i).transpose();
       if (d == 2) {
-        ray += (k == 0 ? 1.0 : -1.0) * problem.mu[i] * problem.G.row(2 * i + 1).transpose();
+        ray += (k == 0 ? 1.0 : -1.0) * problem.mu[i] * problem.G.dense().row(2 * i + 1).transpose();
       } else {
         const double angle = 2.0 * std::numbers::pi * k / sides,
                      reach = problem.mu[i] / std::cos(std::numbers::pi / sides);
         ray += reach *
-               (std::cos(angle) * problem.G.row(3 * i + 1) + std::sin(angle) * problem.G.row(3 * i + 2)).transpose();
+               (std::cos(angle) * problem.G.dense().row(3 * i + 1) + std::sin(angle) * problem.G.dense().row(3 * i + 2)).transpose();
       }
       rays.col(count * i + k) = ray;
     }
@@ -58,11 +66,28 @@ Matrix unlimited(const Problem& problem) {
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const bool normal = std::isinf(problem.tension_of(i)), tangent = normal || std::isinf(problem.cohesion_of(i));
     for (Eigen::Index k = normal ? 0 : 1; k < d && tangent; ++k)
-      for (double sign : {-1.0, 1.0}) columns.emplace_back(sign * problem.G.row(d * i + k).transpose());
+      for (double sign : {-1.0, 1.0}) columns.emplace_back(sign * problem.G.dense().row(d * i + k).transpose());
   }
   Matrix result(problem.G.cols(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = columns[k];
   return result;
+}
+
+/// The extreme rays of plane friction cones, sparse: n + mu t in the even columns, n - mu t in the odd ones.
+RigidMap::Sparse sparse_rays(const Problem& problem) {
+  const RigidMap::Sparse& G = problem.G.sparse();
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(2 * G.nonZeros()));
+  for (Eigen::Index motion = 0; motion < G.cols(); ++motion)
+    for (RigidMap::Sparse::InnerIterator it(G, motion); it; ++it) {
+      const Eigen::Index pair = it.row() / 2;
+      const bool normal = it.row() % 2 == 0;
+      entries.emplace_back(motion, 2 * pair, normal ? it.value() : problem.mu[pair] * it.value());
+      entries.emplace_back(motion, 2 * pair + 1, normal ? it.value() : -problem.mu[pair] * it.value());
+    }
+  RigidMap::Sparse rays(G.cols(), G.rows());
+  rays.setFromTriplets(entries.begin(), entries.end());
+  return rays;
 }
 
 /// Effect of the strengths (p_n = -c_t, |p_t| = c) that resist the motion v most.
@@ -72,7 +97,7 @@ Vector resisting(const Problem& problem, const Vector& v) {
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     if (std::isinf(problem.tension_of(i))) continue;
     p[d * i] = -problem.tension_of(i);
-    const Vector slip = problem.G.middleRows(d * i + 1, d - 1) * v;
+    const Vector slip = problem.G.dense().middleRows(d * i + 1, d - 1) * v;
     const double size = slip.norm();
     if (size > 0.0 && !std::isinf(problem.cohesion_of(i)))
       p.segment(d * i + 1, d - 1) = problem.cohesion_of(i) / size * slip;
@@ -127,6 +152,8 @@ std::optional<Vector> mechanism_of(const Problem& problem);
 
 }  // namespace
 
+bool has_many_motions(const Problem& problem) { return problem.G.cols() > most_dense; }
+
 std::optional<Vector> find_mechanism(const Problem& problem) {
   if (problem.G.cols() == 0 || problem.f.isZero(0.0)) return std::nullopt;
   const Problem less = moderate(problem);
@@ -138,12 +165,53 @@ std::optional<Vector> find_mechanism(const Problem& problem) {
 namespace {
 
 std::optional<Vector> mechanism_of(const Problem& problem) {
+  const bool strong = problem.cohesion.size() > 0 || problem.tension.size() > 0;
+  if (has_many_motions(problem)) {
+    // With strengths, or in space, it is not decided for so many bodies: what does not converge says just that.
+    if (strong || problem.dimension != 2) return std::nullopt;
+    const std::optional<Vector> y = linalg::separating_vector(sparse_rays(problem), -problem.f);
+    return y ? std::optional<Vector>(-*y) : std::nullopt;
+  }
   const Matrix rays = rays_of(problem);
   if (problem.cohesion.size() > 0 || problem.tension.size() > 0) return mechanism_against_strengths(problem, rays);
   const Vector strengths = linalg::nonnegative_least_squares(rays, -problem.f);
   const Vector unbalanced = problem.f + rays * strengths;  // f'unbalanced = |unbalanced|^2 > 0, rays'unbalanced >= 0
   if (unbalanced.norm() <= 1e-9 * problem.f.norm()) return std::nullopt;
   return slide_of(problem, unbalanced.normalized());
+}
+
+}  // namespace
+
+namespace {
+
+/// An orthonormal basis of the v with H v = 0, H sparse with many columns: inverse iteration on H'H, whose block is made
+/// wider until it holds a vector that is not in the null space.
+Matrix sparse_null_space(const RigidMap::Sparse& H) {
+  const Eigen::Index m = H.cols();
+  RigidMap::Sparse B = H.transpose() * H;
+  const double mean = Vector(B.diagonal()).mean();
+  RigidMap::Sparse identity(m, m);
+  identity.setIdentity();
+  B += 1e-12 * mean * identity;
+  const linalg::SymmetricPositiveSolver solver(B);
+  for (Eigen::Index width = std::min<Eigen::Index>(6, m);; width = std::min(4 * width, m)) {
+    std::minstd_rand random(1);
+    Matrix X(m, width);
+    for (double& x : X.reshaped()) x = static_cast<double>(random()) / static_cast<double>(random.max()) - 0.5;
+    const auto make_orthonormal = [&] {
+      X = Eigen::HouseholderQR<Matrix>(X).householderQ() * Matrix::Identity(m, width);
+    };
+    for (int round = 0; round < 4; ++round) {
+      X = solver.solve(X);
+      make_orthonormal();
+    }
+    const Matrix moved = H * X;
+    const Eigen::SelfAdjointEigenSolver<Matrix> modes(moved.transpose() * moved);  // smallest first
+    const Matrix turned = X * modes.eigenvectors();
+    Eigen::Index count = 0;
+    while (count < width && (H * turned.col(count)).norm() <= 1e-9 * std::sqrt(mean)) ++count;
+    if (count < width || width == m) return turned.leftCols(count);
+  }
 }
 
 }  // namespace
@@ -160,7 +228,19 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
       for (int k = 1; k < d; ++k) rows.push_back(d * i + k);
   }
   if (rows.empty()) return Matrix::Identity(m, m);
-  const Matrix held = problem.G(rows, Eigen::all);
+  if (has_many_motions(problem)) {
+    std::vector<int> place(static_cast<std::size_t>(problem.G.rows()), -1);
+    for (std::size_t k = 0; k < rows.size(); ++k) place[static_cast<std::size_t>(rows[k])] = static_cast<int>(k);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index motion = 0; motion < m; ++motion)
+      for (RigidMap::Sparse::InnerIterator it(problem.G.sparse(), motion); it; ++it)
+        if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0)
+          entries.emplace_back(row, motion, it.value());
+    RigidMap::Sparse H(static_cast<Eigen::Index>(rows.size()), m);
+    H.setFromTriplets(entries.begin(), entries.end());
+    return sparse_null_space(H);
+  }
+  const Matrix held = problem.G.dense()(rows, Eigen::all);
   const Eigen::JacobiSVD<Matrix> svd(held, Eigen::ComputeFullV);
   Eigen::Index rank = 0;
   for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
@@ -170,8 +250,13 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
 
 Problem held_at(const Problem& problem, const Vector& a_0, double c) {
   Problem held = problem;
-  held.W = Matrix(problem.W.dense() + problem.G * problem.G.transpose() / c);
-  held.q.noalias() += problem.G * (a_0 + problem.f / c);
+  if (problem.W.is_sparse()) {
+    const RigidMap::Sparse& G = problem.G.sparse();
+    held.W = Delassus(Eigen::SparseMatrix<double>(problem.W.sparse() + RigidMap::Sparse(G * G.transpose()) / c));
+  } else {
+    held.W = Matrix(problem.W.dense() + problem.G.dense() * problem.G.dense().transpose() / c);
+  }
+  held.q += problem.G * Vector(a_0 + problem.f / c);
   held.G.resize(problem.q.size(), 0);
   held.f.resize(0);
   return held;

@@ -1,4 +1,4 @@
-// What can be said of the rigid motions of a problem before and after it is solved.
+// Rigid motions of a problem: mechanisms before the solve, undetermined motions after it.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,9 @@
 #include "scabo/contact/problem.hpp"
 
 namespace scabo::contact {
+
+/// So many rigid motions that questions about them take sparse factorisations, and are asked only where needed.
+bool has_many_motions(const Problem& problem);
 
 /// A rigid motion v (m) that nothing holds although the loads drive it, f'v > 0: no forces in the friction cones
 /// balance f. With cohesion or tension: no forces in the convex hull of what the pairs carry. Nothing where the loads

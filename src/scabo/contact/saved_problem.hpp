@@ -1,10 +1,9 @@
-// A discrete problem as a file holds it, with what a solver may want besides: where it starts, what is known
-// already.
+// A discrete problem as stored in a file, with additional data for a solver: its start and, if known, its solution.
 //
-// Three layouts (docs/methods/13_problem_files.md), told apart by their content:
+// Three layouts (docs/methods/13_problem_files.md), distinguished by their content:
 //   FCLIB, local form      HDF5, group fclib_local       fclib.hpp
-//   FCLIB, global form     HDF5, group fclib_global      fclib.hpp, reduced to the pairs by
-//   global_problem.hpp Siconos text           .dat                          text_problem.hpp
+//   FCLIB, global form     HDF5, group fclib_global      fclib.hpp, reduced to the pairs by global_problem.hpp
+//   Siconos text           .dat                          text_problem.hpp
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Solution of a discrete contact problem: a value. Not to converge is a result, with its reason.
+// Solution of a discrete contact problem: a value. Non-convergence is a result, with its reason.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace scabo::contact {
 
-enum class Status { solved, not_converged, mechanism };
+/// infeasible: no forces solve it, and `proof` shows why (contact/infeasibility.hpp).
+enum class Status { solved, not_converged, mechanism, infeasible };
 
 /// One iteration as it is written to a trace.
 struct Iteration {
@@ -31,8 +32,10 @@ struct Solution {
   int coarse_iterations = 0;         ///< of problems of fewer pairs that made the start; not counted above
   double residual = 0.0;             ///< |H| / force scale
   Certificate certificate;
-  double natural_map_residual = 0.0;  ///< contact/certificate.hpp
-  Vector motion;                      ///< m: with `mechanism`, the motion that nothing holds
+  double natural_map_residual = 0.0;  ///< contact/judge.hpp
+  double rounding = 0.0;              ///< of the motions, against those at work: contact/judge.hpp
+  Vector motion;                      ///< m: with `mechanism`, the motion that is not restrained
+  Vector proof;                       ///< dN: with `infeasible`, forces in balance with themselves
   Matrix undetermined;           ///< m x k: rigid motions that neither contact nor load fixes (solved all the same)
   std::vector<Iteration> trace;  ///< every iteration of every stage
   std::string reason;            ///< why not, in a sentence

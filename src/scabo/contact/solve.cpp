@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "scabo/base/error.hpp"
+#include "scabo/contact/infeasibility.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/sweeps.hpp"
@@ -46,49 +50,39 @@ namespace {
   return states;
 }
 
-/// What the judge compares with the tolerance. The natural map knows forces and motions of pairs only.
-[[gnu::hot]] double judged_figure(const Solution& solution, Judge judge) {
-  return judge == Judge::certificate ? solution.certificate.worst()
-                                     : std::max(solution.natural_map_residual, solution.certificate.rigid_balance);
-}
-
-std::string reason_of(const Solution& solution, const SolverOptions& options, bool singular) {
-  const double reached = judged_figure(solution, options.judge);
-  const bool unbalanced = reached > solution.natural_map_residual;
+/// What happened, where it was not solved.
+std::string story_of(const Solution& solution, const SolverOptions& options, bool singular) {
   char text[160];
-  std::snprintf(text, sizeof text, "; the best point of %d iterations leaves a %s of %.2g", solution.iterations,
-                options.judge == Judge::certificate ? "certificate"
-                : unbalanced                        ? "balance of the rigid motions"
-                                                    : "natural-map residual",
-                reached);
-  return (singular ? "contact forces could not balance the loads on any branch tried"
-                   : "the Newton iterations stalled from every start tried") +
-         std::string(text);
+  if (options.deadline.passed())
+    std::snprintf(text, sizeof text, "the time limit of %g s ended the search after %d iterations",
+                  options.deadline.seconds(), solution.iterations);
+  else if (singular)
+    std::snprintf(text, sizeof text, "contact forces could not balance the loads on any branch tried (%d iterations)",
+                  solution.iterations);
+  else
+    std::snprintf(text, sizeof text, "the Newton iterations stalled from every start tried (%d iterations)",
+                  solution.iterations);
+  return text;
 }
 
-/// By what forces are judged: those applied, before or now; else those that would undo the motions q.
-[[gnu::hot]] double reference_force(const Problem& problem, const Vector& p_start, const SolverOptions& options,
-                                    double q_force) {
-  // What rounding left of forces that are gone is no force to measure by.
-  const double largest_start = largest_of(p_start),
-               from_history = largest_start > 1e-10 * q_force ? largest_start : 0.0;
-  const double applied = std::max({options.force_scale, largest_of(problem.f), from_history});
-  return applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
-}
-
-/// Certificate, gaps, slips and states of the forces found, and whether they are a solution.
-[[gnu::hot]] void complete(Solution& solution, const Problem& problem, const Vector& motion, double reference,
-                           double stiffness, const SolverOptions& options, bool singular) {
-  const Eigen::Index N = problem.pairs(), d = problem.dimension;
-  const double largest = std::max(reference, largest_of(solution.p));
-  const Scales scales{largest, largest / stiffness};
+/// What was met as forces, relative to the largest.
+[[gnu::hot]] void make_relative(Solution& solution, double force) {
   for (Iteration& iteration : solution.trace) {
-    iteration.residual /= largest;
-    iteration.merit /= largest * largest;
+    iteration.residual /= force;
+    iteration.merit /= force * force;
   }
-  solution.residual /= largest;
-  solution.certificate = certify_at(problem, solution.p, motion, scales);
-  solution.natural_map_residual = natural_map_residual_at(problem, solution.p, motion);
+  solution.residual /= force;
+}
+
+/// Judgement, gaps, slips and states of the forces found, and whether they are a solution.
+[[gnu::hot]] void complete(Solution& solution, const Problem& problem, const Vector& motion, const Measure& measure,
+                           const SolverOptions& options, bool singular) {
+  const Eigen::Index N = problem.pairs(), d = problem.dimension;
+  const Scales scales = measure.scales(solution.p);
+  const Judgement judgement = judge(problem, solution.p, motion, measure, options.judge);
+  solution.certificate = judgement.certificate;
+  solution.natural_map_residual = judgement.natural_map_residual;
+  solution.rounding = judgement.rounding;
   solution.gap.resize(N);
   solution.slip_increment.resize((d - 1) * N);
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -97,29 +91,28 @@ std::string reason_of(const Solution& solution, const SolverOptions& options, bo
   }
   solution.states = states_of(problem, solution.p, motion, scales);
   if (solution.status == Status::mechanism) return;
-  if (judged_figure(solution, options.judge) <= options.tolerance) {
+  if (judgement.solved(options.tolerance)) {
     solution.status = Status::solved;
     if (problem.G.cols() > 0) solution.undetermined = undetermined_motions(problem, solution.states);
   } else {
-    solution.reason = reason_of(solution, options, singular);
+    solution.reason = reason_of(judgement, options.judge, options.tolerance, story_of(solution, options, singular));
   }
 }
 
-/// What sweeps alone solve, in the problem's own units.
-[[gnu::hot]] Solution swept_solution(const Problem& problem, const Vector& p_start, SweepsEnd end,
+/// Where the sweeps ended, judged.
+[[gnu::hot]] Solution swept_solution(const Problem& problem, const Measure& measure, SweepsEnd end,
                                      const SolverOptions& options) {
   Solution solution;
   solution.p = std::move(end.p);
   solution.residual = end.residual;
   solution.trace.push_back(
       {0, end.residual, 0.5 * end.residual * end.residual, 1.0, 0, std::to_string(end.sweeps) + " sweeps"});
-  const double stiffness = stiffness_of(problem);
-  complete(solution, problem, end.motion, reference_force(problem, p_start, options, stiffness * largest_of(problem.q)),
-           stiffness, options, false);
+  make_relative(solution, measure.scales(solution.p).force);
+  complete(solution, problem, end.motion, measure, options, false);
   return solution;
 }
 
-Solution climbed_solution(const Problem& problem, const Vector& p_start, const Start& start,
+Solution climbed_solution(const Problem& problem, const Measure& measure, const Vector& p_start, const Start& start,
                           const SolverOptions& options) {
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, N = problem.pairs();
   Solution solution;
@@ -127,45 +120,48 @@ Solution climbed_solution(const Problem& problem, const Vector& p_start, const S
   const double stiffness = scaled_problem.stiffness;
   const Vector a_start = start.a.size() == m ? Vector(stiffness * start.a) : Vector(Vector::Zero(m));
 
-  if (const auto motion = find_mechanism(problem)) {
+  const auto is_mechanism = [&] {
+    const auto motion = find_mechanism(problem);
+    if (!motion) return false;
     solution.status = Status::mechanism;
     solution.motion = *motion;
     solution.p = p_start;
     solution.a = a_start / stiffness;
     solution.reason = "a rigid motion is held neither by supports nor by contact and friction";
-  }
-
-  const double q_force = largest_of(scaled_problem.problem.q);
-  const double reference = reference_force(problem, p_start, options, q_force);
+    return true;
+  };
+  // Of many bodies it costs as much as solving them, and forces that are found say the same.
+  const bool asked_first = !has_many_motions(problem);
+  if (asked_first) is_mechanism();
 
   // Well below the tolerance, but not below the rounding of the gaps themselves (a body that hovers far away).
-  const double epsilon = std::numeric_limits<double>::epsilon();
+  const double epsilon = std::numeric_limits<double>::epsilon(), reference = measure.reference();
   const bool by_map = options.judge == Judge::natural_map;
   const double small =
-      by_map ? epsilon * reference : std::max(0.01 * options.tolerance * reference, 4.0 * epsilon * q_force);
+      by_map ? epsilon * reference
+             : std::max(0.01 * options.tolerance * reference, 4.0 * epsilon * largest_of(scaled_problem.problem.q));
   std::function<bool(const Vector&, const Vector&)> content;
   if (by_map)
-    content = [&, real = Vector()](const Vector& p, const Vector& motion) mutable {
-      real = motion / stiffness;
-      if (natural_map_residual_at(problem, p, real) > 0.9 * options.tolerance) return false;
-      return m == 0 || largest_of(problem.f + problem.G.transpose() * p) <=
-                           0.9 * options.tolerance * std::max(reference, largest_of(p));
+    content = [&, in_forces = measure.of_forces()](const Vector& p, const Vector& motion) {
+      const double asked = 0.9 * options.tolerance;
+      return in_forces.natural_map(problem, p, motion) <= asked &&
+             judge(scaled_problem.problem, p, motion, in_forces, options.judge).solved(asked);
     };
   Ladder ladder(scaled_problem.problem, options, small, std::move(content));
   NewtonEnd end;
   if (solution.status != Status::mechanism) {
-    end = ladder.climb(p_start, a_start);
+    end = ladder.climb(p_start, a_start, start.touching, asked_first ? std::function<bool()>() : is_mechanism);
+  }
+  if (solution.status != Status::mechanism) {
     solution.p = end.p.size() == d * N ? end.p : p_start;
     solution.a = end.a.size() == m ? Vector(end.a / stiffness) : Vector(a_start / stiffness);
   }
   solution.iterations = ladder.iterations();
   solution.coarse_iterations = ladder.coarse_iterations();
   solution.trace = ladder.take_trace();
-
-  Vector motion = problem.q + problem.W * solution.p;
-  if (m > 0) motion += problem.G * solution.a;
   solution.residual = end.residual;
-  complete(solution, problem, motion, reference, stiffness, options, end.singular);
+  make_relative(solution, measure.scales(solution.p).force);
+  complete(solution, problem, motion_of(problem, solution.p, solution.a), measure, options, end.singular);
   return solution;
 }
 
@@ -175,11 +171,29 @@ Solution climbed_solution(const Problem& problem, const Vector& p_start, const S
   check_sizes(problem);
   Vector p_start = start.p;
   if (p_start.size() != problem.q.size()) p_start.setZero(problem.q.size());
+  const Measure measure(problem, p_start, options.force_scale);
   if (options.judge == Judge::natural_map && may_accelerate(problem)) {
-    SweepsEnd end = accelerated_sweeps(problem, p_start, 0.9 * options.tolerance);
-    if (end.content) return swept_solution(problem, p_start, std::move(end), options);
+    SweepsEnd end = accelerated_sweeps(problem, p_start, 0.9 * options.tolerance, measure, options.deadline);
+    if (end.content || options.deadline.passed()) return swept_solution(problem, measure, std::move(end), options);
+    const std::optional<Infeasibility> found = find_infeasibility(problem, options.deadline);
+    if (found && found->proven) {
+      // No point is the best one: sweeps run away along r.
+      end.p = p_start;
+      end.motion = motion_of(problem, p_start, Vector());
+      Solution none = swept_solution(problem, measure, std::move(end), options);
+      mark_infeasible(none, *found);
+      return none;
+    }
+    Solution climbed = climbed_solution(problem, measure, p_start, start, options);
+    // Not solved: the best point of all is handed back.
+    if (climbed.status == Status::not_converged && end.natural_map < climbed.natural_map_residual) {
+      climbed.p = std::move(end.p);
+      complete(climbed, problem, end.motion, measure, options, false);
+    }
+    if (climbed.status == Status::not_converged && found) mark_infeasible(climbed, *found);
+    return climbed;
   }
-  return climbed_solution(problem, p_start, start, options);
+  return climbed_solution(problem, measure, p_start, start, options);
 }
 
 }  // namespace scabo::contact

@@ -1,27 +1,25 @@
-// Solves a discrete contact problem: a ladder of attempts, each honest about its end
+// Solves a discrete contact problem by a sequence of fallback strategies; each reports why it stopped
 // (docs/methods/12_contact_solver.md).
 //
-// Newton on the B-differentiable equations is tried from several starts: the forces of the increment before, a few
-// sweeps of Gauss-Seidel, the frictionless solution and growing friction, a sequence of problems held softly where they
-// last were (proximal point, the hold vanishes), Lemke's pivoting, other r. Whatever the start, Newton on the problem
-// itself has the last word. The result is solved and judged so, or says what it is instead.
+// Newton on the B-differentiable equations is tried from several starts: the forces of the previous increment, a few
+// sweeps of Gauss-Seidel, the frictionless solution and increasing friction, a proximal point iteration whose terms
+// vanish, Lemke's pivoting, other values of r. Whatever the start, the last solve is Newton on the original problem.
+// The result is solved, as confirmed by contact/judge, or its status and reason say why not.
 #pragma once
 
+#include "scabo/contact/deadline.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/solution.hpp"
 
 namespace scabo::contact {
 
-/// What "solved" means. certificate: every figure of the certificate is within the tolerance (increments of elastic
-/// bodies). natural_map: natural_map_residual is (problems of others; W may be rank deficient, so sweeps come first),
-/// and so is certificate.rigid_balance, which the natural map does not know.
-enum class Judge { certificate, natural_map };
-
 struct SolverOptions {
-  double tolerance = 1e-10;  ///< of the judge, free of units
-  Judge judge = Judge::certificate;
-  int iterations = 50;       ///< of Newton in one attempt, > 0
-  double r_factor = 1.0;     ///< r = r_factor / W_ii; the solution does not depend on it
-  double force_scale = 0.0;  ///< largest applied force, >= 0: part of the scale by which forces are judged
+  double tolerance = 1e-10;          ///< of the judge, free of units
+  Judge judge = Judge::certificate;  ///< natural_map: W may be rank deficient, so sweeps come first
+  int iterations = 50;               ///< of Newton in one attempt, > 0
+  double r_factor = 1.0;             ///< r = r_factor / W_ii; the solution does not depend on it
+  double force_scale = 0.0;          ///< largest applied force, >= 0: part of the scale by which forces are judged
+  Deadline deadline;                 ///< the end of the search; the best point so far is returned
 };
 
 Solution solve(const Problem& problem, const Start& start = {}, const SolverOptions& options = {});

@@ -1,9 +1,11 @@
 #include "scabo/contact/solvers.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/infeasibility.hpp"
 #include "scabo/contact/lemke.hpp"
 #include "scabo/contact/newton.hpp"
 #include "scabo/contact/rigid_motions.hpp"
@@ -79,6 +81,7 @@ End newton_only(const Problem& problem, const Vector& p, const Vector& a, const 
   NewtonOptions how;
   how.small = control.small;
   how.iterations = control.iterations;
+  how.deadline = control.deadline;
   NewtonEnd end = newton(equations, p, a, how);
   return {end.p,
           end.a,
@@ -131,9 +134,8 @@ End travel(const Road& road, const Problem& problem, const Vector& p, const Vect
 }
 
 /// Gaps, slips, states.
-void describe(Solution& solution, const Problem& problem, const Scales& scales) {
+void describe(Solution& solution, const Problem& problem, const Vector& motion, const Scales& scales) {
   const Eigen::Index d = problem.dimension, N = problem.pairs(), t = d - 1;
-  const Vector motion = solvers::motion_of(problem, solution.p, solution.a);
   solution.gap.resize(N);
   solution.slip_increment.resize(t * N);
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -168,7 +170,8 @@ std::vector<std::string> method_names() {
 }
 
 Solution solve_with(Method method, const Problem& problem, const Start& start, const SolverOptions& options) {
-  if (method == Method::b_differentiable) return solve(problem, start, options);
+  // Without pairs every method has nothing to do.
+  if (method == Method::b_differentiable || problem.q.size() == 0) return solve(problem, start, options);
   const Road& road = road_of(method);
   const Eigen::Index size = problem.q.size(), m = problem.G.cols();
   Solution solution;
@@ -184,16 +187,13 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
   }
 
   // Motions as forces, so that all unknowns are forces; scales as in solve().
-  const double mean = size > 0 ? problem.W.diagonal().mean() : 0.0, stiffness = mean > 0.0 ? 1.0 / mean : 1.0;
-  const double q_force = stiffness * largest(problem.q);
-  const double applied = std::max({options.force_scale, largest(problem.f), largest(solution.p)});
-  const double reference = applied > 0.0 ? applied : q_force > 0.0 ? q_force : 1.0;
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q_force;
+  const Measure measure(problem, solution.p, options.force_scale);
+  const double stiffness = measure.stiffness();
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * stiffness * largest(problem.q);
   // Well below what the judge asks, but not below the rounding of the gaps themselves.
-  const double asked = options.judge == Judge::certificate
-                           ? 0.01 * options.tolerance * reference
-                           : 0.1 * options.tolerance * problem.q.norm() * std::min(1.0, stiffness);
-  const Control control{std::max(asked, rounding), options.iterations};
+  const double asked = options.judge == Judge::certificate ? 0.01 * options.tolerance * measure.reference()
+                                                           : 0.1 * options.tolerance * stiffness * problem.q.norm();
+  const Control control{std::max(asked, rounding), options.iterations, options.deadline};
 
   End end;
   if (!refused && !motion) {
@@ -206,27 +206,34 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
     solution.iterations = end.iterations;
     solution.trace = std::move(end.trace);
   }
-  const double force = std::max(reference, largest(solution.p));
-  const Scales scales{force, force / stiffness};
-  for (Iteration& iteration : solution.trace) iteration.residual /= force;
-  solution.residual = end.residual / force;
-  solution.certificate = certify(problem, solution.p, solution.a, scales);
-  solution.natural_map_residual = natural_map_residual(problem, solution.p, solution.a);
-  describe(solution, problem, scales);
+  const Scales scales = measure.scales(solution.p);
+  for (Iteration& iteration : solution.trace) iteration.residual /= scales.force;
+  solution.residual = end.residual / scales.force;
+  const Vector u = motion_of(problem, solution.p, solution.a);
+  Judgement judgement = judge(problem, solution.p, u, measure, options.judge);
+  solution.certificate = judgement.certificate;
+  solution.natural_map_residual = judgement.natural_map_residual;
+  solution.rounding = judgement.rounding;
+  describe(solution, problem, u, scales);
   if (refused || motion) return solution;
   // The certificate sees a small turn of the friction away from the slip only squared (work): the residual
   // has to be small too.
-  const double judged = options.judge == Judge::certificate
-                            ? std::max(solution.certificate.worst(), solution.residual)
-                            : std::max(solution.natural_map_residual, solution.certificate.rigid_balance);
-  if (judged <= options.tolerance) {
+  if (options.judge == Judge::certificate) judgement.figure = std::max(judgement.figure, solution.residual);
+  if (judgement.solved(options.tolerance)) {
     solution.status = Status::solved;
     solution.undetermined = undetermined_motions(problem, solution.states);
+  } else if (options.deadline.passed()) {
+    char limit[80];
+    std::snprintf(limit, sizeof limit, "%s: the time limit of %g s ended the search", road.name,
+                  options.deadline.seconds());
+    solution.reason = reason_of(judgement, options.judge, options.tolerance, limit);
   } else {
     solution.reason =
         std::string(road.name) + ": " +
-        (end.reason.empty() ? "it ended, but what it ended with is not the law's to the tolerance" : end.reason);
+        (end.reason.empty() ? reason_of(judgement, options.judge, options.tolerance, "it ended") : end.reason);
   }
+  if (solution.status == Status::not_converged && options.judge == Judge::natural_map)
+    if (const auto found = find_infeasibility(problem, options.deadline)) mark_infeasible(solution, *found);
   return solution;
 }
 

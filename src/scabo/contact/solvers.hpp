@@ -1,6 +1,6 @@
-// The solvers of a discrete contact problem, by name. One is the product: `b_differentiable`, Newton on the
-// B-differentiable equations with all its ways back (solve.hpp). The others are the roads that the literature
-// took before, kept for comparison and as ways back; each has its page of equations and limits in solvers/.
+// The solvers of a discrete contact problem, by name. The default is `b_differentiable`, Newton on the
+// B-differentiable equations with all its fallback strategies (solve.hpp). The others are earlier methods of the
+// literature, kept for comparison and as alternatives; the headers in solvers/ give their equations and limits.
 // docs/methods/14_other_solvers.md compares them.
 //
 //     name                 space  friction  cohesion  rigid    how

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "scabo/contact/certificate.hpp"
 #include "scabo/contact/gauss_seidel.hpp"
 
 namespace scabo::contact {
@@ -104,11 +103,12 @@ class Extrapolation {
 template <int d>
 class Sweeps {
  public:
-  [[gnu::hot]] Sweeps(const Problem& problem, Vector p) : problem_(problem), p_(std::move(p)), sweeps_(problem) {
+  [[gnu::hot]] Sweeps(const Problem& problem, Vector p, const Measure& measure)
+      : problem_(problem), measure_(measure), p_(std::move(p)), sweeps_(problem) {
     sweeps_.start(p_, motion_);
   }
 
-  [[gnu::hot]] SweepsEnd run(double tolerance) {
+  [[gnu::hot]] SweepsEnd run(double tolerance, const Deadline& deadline) {
     constexpr int most = 2000, window = 30;
     std::array<double, window> least_before;
     Extrapolation extrapolation(p_.size());
@@ -118,11 +118,11 @@ class Sweeps {
     while (end.sweeps < most) {
       sweeps_.sweep(p_, motion_);
       ++end.sweeps;
-      double figure = natural_map_residual_at(problem_, p_, motion_);
+      double figure = measure_.natural_map(problem_, p_, motion_);
       if (figure <= tolerance) {
         sweeps_.start(p_, motion_);  // the motion afresh, without what rounding added from pair to pair
-        figure = natural_map_residual_at(problem_, p_, motion_);
-        if (figure <= tolerance) {
+        figure = measure_.natural_map(problem_, p_, motion_);
+        if (figure <= tolerance && measure_.rounding(problem_, p_, motion_) <= tolerance) {
           end.content = true;
           end.residual = largest_equation();
           break;
@@ -130,8 +130,13 @@ class Sweeps {
         extrapolation.forget();
       }
       double& before = least_before[static_cast<std::size_t>(end.sweeps % window)];
-      least = std::min(least, figure);
+      if (figure < least) {
+        least = end.natural_map = figure;
+        end.p = p_;
+        end.motion = motion_;
+      }
       if (end.sweeps > window && !(4.0 * least <= before)) break;
+      if (deadline.passed()) break;
       before = least;
       if (figure > 2.0 * least_since) {
         extrapolation.forget();
@@ -142,8 +147,11 @@ class Sweeps {
       }
       before_ = p_;
     }
-    end.p = std::move(p_);
-    end.motion = std::move(motion_);
+    if (end.content || end.p.size() == 0) {
+      end.p = std::move(p_);
+      end.motion = std::move(motion_);
+    }
+    if (!end.content) sweeps_.start(end.p, end.motion);  // afresh: what the last sweep carried along is no judge's
     return end;
   }
 
@@ -166,6 +174,7 @@ class Sweeps {
   }
 
   const Problem& problem_;
+  const Measure& measure_;
   Vector p_, before_, motion_;
   PairSweeps<d> sweeps_;
 };
@@ -177,9 +186,10 @@ class Sweeps {
          (problem.W.is_dense() || problem.W.is_sparse());
 }
 
-[[gnu::hot]] SweepsEnd accelerated_sweeps(const Problem& problem, Vector p, double tolerance) {
-  return problem.dimension == 2 ? Sweeps<2>(problem, std::move(p)).run(tolerance)
-                                : Sweeps<3>(problem, std::move(p)).run(tolerance);
+[[gnu::hot]] SweepsEnd accelerated_sweeps(const Problem& problem, Vector p, double tolerance, const Measure& measure,
+                                          const Deadline& deadline) {
+  return problem.dimension == 2 ? Sweeps<2>(problem, std::move(p), measure).run(tolerance, deadline)
+                                : Sweeps<3>(problem, std::move(p), measure).run(tolerance, deadline);
 }
 
 }  // namespace scabo::contact

@@ -259,7 +259,7 @@ SavedProblem parse_text_problem(std::string_view text, const std::string& file) 
   saved.layout = "Siconos text";
   Problem& problem = saved.problem;
   problem.dimension = static_cast<int>(words.integer("dimension", 2, 3));
-  const long pairs = words.integer("number of pairs", 1, most_rows / 3);
+  const long pairs = words.integer("number of pairs", 0, most_rows / 3);
   const Index size = problem.dimension * pairs;
   const long storage = words.integer("storage of W (0 dense, 1 blocks, 2 sparse)", 0, 2);
   words.integer("rows of W (dimension times pairs)", size, size);
@@ -276,7 +276,7 @@ SavedProblem parse_text_problem(std::string_view text, const std::string& file) 
     if (value < 0.0) words.fail(fmt::format("a coefficient of friction is 0 or more, not {}", value));
   }
   words.expect_end();
-  problem.G = Matrix::Zero(size, 0);
+  problem.G.resize(size, 0);
   problem.f = Vector::Zero(0);
   return saved;
 }

@@ -17,17 +17,10 @@ constexpr Eigen::Index most_dense = 1200;  // unknowns of dense eigenvalues and 
 
 double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
-/// Scales of a certificate for forces p, as solve() judges them.
-Scales scales_of(const Problem& problem, const Vector& p, const SolverOptions& options) {
-  const double mean = problem.W.size() > 0 ? problem.W.diagonal().mean() : 1.0, length = mean > 0.0 ? mean : 1.0;
-  double applied = std::max({options.force_scale, largest_of(problem.f)});
-  if (applied == 0.0) applied = largest_of(problem.q) / length;
-  const double force = std::max({applied, largest_of(p), 1e-300});
-  return {force, force * length};
-}
-
 bool solves(const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options) {
-  return p.allFinite() && certify(problem, p, a, scales_of(problem, p, options)).worst() <= options.tolerance;
+  return p.allFinite() &&
+         judge(problem, p, motion_of(problem, p, a), Measure(problem, p, options.force_scale), Judge::certificate)
+             .solved(options.tolerance);
 }
 
 /// Forces that differ but move nothing (of a pair that a support holds along the joint) are no other solution, and what
@@ -88,7 +81,7 @@ std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const
   const BDifferentiableEquations equations(problem, options.r_factor);
   NewtonOptions newton_options;
   newton_options.iterations = options.iterations;
-  newton_options.small = 0.01 * options.tolerance * scales_of(problem, p, options).force;
+  newton_options.small = 0.01 * options.tolerance * Measure(problem, Vector(), options.force_scale).scales(p).force;
   const NewtonEnd end = newton(equations, p, a, newton_options);
   if (!end.converged || !solves(problem, end.p, end.a, options)) return std::nullopt;
   return end.p;
@@ -190,7 +183,7 @@ std::optional<std::vector<Vector>> all_solutions(const Problem& problem, double 
   SolverOptions options;
   options.tolerance = tolerance;
   options.force_scale = force_scale;
-  const double scale = scales_of(problem, Vector(), options).force;
+  const double scale = Measure(problem, Vector(), options.force_scale).reference();
   std::vector<Vector> solutions;
   std::vector<Trial> states(static_cast<std::size_t>(problem.pairs()));
   for (int combination = 0; combination < 1 << (2 * problem.pairs()); ++combination) {
@@ -209,7 +202,7 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
   if (solution.status != Status::solved) return report;
   SolverOptions options = given;  // forces of the history are at work as well
   options.force_scale = std::max(given.force_scale, largest_of(start.p));
-  const double scale = scales_of(problem, solution.p, options).force;
+  const double scale = Measure(problem, Vector(), options.force_scale).scales(solution.p).force;
   report.bound = uniqueness_bound(problem);
   report.index = index_of(problem, solution.p, solution.a);
   if (report.bound < 1.0) {

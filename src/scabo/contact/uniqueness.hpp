@@ -3,8 +3,8 @@
 //
 // Uniqueness is proven when W is positive definite, bodies are held without contact (no G), and
 //
-//     lambda(M D (W^-1)_nn D M) lambda(M D^-1 W_tt D^-1 M) < 1,   M = diag(sqrt(mu_i)),  D =
-//     diag(sqrt((W_tt)_ii)),
+//     lambda(M D (W^-1)_nn D M) lambda(M D^-1 W_tt D^-1 M) < 1,
+//     M = diag(sqrt(mu_i)),  D = diag(sqrt((W_tt)_ii)),
 //
 // lambda the largest eigenvalue: for two solutions, dp'W dp = sum dp_i.du_i <= sum mu_i |dp_n,i| |du_t,i|. Up
 // to `most_enumerated` plane pairs all combinations of states (open, stick, slip either way) are solved

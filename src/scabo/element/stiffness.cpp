@@ -200,13 +200,13 @@ void add_block(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& 
       K.col(j).tail(K.rows() - j) += entry.value() * columns.col(entry.row()).tail(K.rows() - j);
 }
 
-/// Takes K r = 0 of the rotation r, known exactly, for what short elements beside long ones left of it,
+/// Imposes K r = 0 for the rotation r, which is known exactly and which short elements beside long ones violate,
 ///
 ///     K <- (1 - w r') K (1 - r w'),  w = D r / (r'D r),  D = diag K,  t'D r = 0 for the translations t            (7)
 ///
-/// so that every row is changed by what its own size allows (with D = 1 a soft sector took over what stiff ones had
-/// left: 1e-8 of its stiffness where moduli differ by 1e6) and K t = 0 stays. What left too much lost digits on the
-/// way, and is told. The lower triangle of K is read and written.
+/// so that every row is changed in proportion to its own size (with D = 1 the residual of stiff sectors would be moved
+/// to a soft one: 1e-8 of its stiffness where moduli differ by 1e6) and K t = 0 is preserved. If K violates K r = 0 by
+/// too much, accuracy has been lost, which is reported. The lower triangle of K is read and written.
 void take_rotation_out(const Ring& ring, Matrix& K) {
   const Vector D = K.diagonal();
   Vec2 centre = Vec2::Zero(), weight = Vec2::Zero();

@@ -4,6 +4,7 @@
 #include <lapacke.h>
 
 #include <algorithm>
+#include <new>
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/blas_kernels.hpp"
@@ -65,6 +66,7 @@ RealSchur real_schur(Matrix A) {
   lapack_int sorted = 0;
   const int info = LAPACKE_dgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, n, schur.T.data(), n, &sorted, real.data(),
                                  imaginary.data(), schur.U.data(), n);
+  if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
   ensure(info == 0, "the real Schur form did not converge");
   return schur;
 }

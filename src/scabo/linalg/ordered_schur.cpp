@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -87,6 +88,7 @@ OrderedSchur::OrderedSchur(const Matrix& S, const GroupOf& group_of) : schur_(re
     if (best != done) {
       lapack_int from = best + 1, to = done + 1;  // LAPACK counts from 1
       const int info = LAPACKE_dtrexc(LAPACK_COL_MAJOR, 'V', n, T.data(), n, schur_.U.data(), n, &from, &to);
+      if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
       ensure(info == 0, "two groups of exponents are too close to be told apart");
     }
     for (int i = 0; i < size; ++i) groups_.push_back(best_rank);

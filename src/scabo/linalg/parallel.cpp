@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,7 +29,10 @@ void parallel_for(int count, int threads, const std::function<void(int)>& task) 
   set_blas_threads(1);
   {
     std::vector<std::jthread> pool;  // joined at the end of the block
-    for (std::size_t k = 1; k < failures.size(); ++k) pool.emplace_back([&, k] { work(failures[k]); });
+    try {
+      for (std::size_t k = 1; k < failures.size(); ++k) pool.emplace_back([&, k] { work(failures[k]); });
+    } catch (const std::system_error&) {  // a limit on processes or memory: those there are do the work
+    }
     work(failures[0]);
   }
   set_blas_threads(threads);

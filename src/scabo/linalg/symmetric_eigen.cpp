@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <new>
 #include <random>
 #include <vector>
 
@@ -58,6 +59,7 @@ EigenPairs largest_eigenpairs(Matrix A, Matrix B, int count) {
   const int info =
       LAPACKE_dsygvx(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, A.data(), n, B.data(), n, 0.0, 0.0, n - count + 1, n,
                      2.0 * LAPACKE_dlamch('S'), &found, values.data(), vectors.data(), n, failed.data());
+  if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
   ensure(info == 0 && found == count, "eigenvalues of a pair of symmetric matrices were not found");
   return {values.head(count).reverse(), vectors.rowwise().reverse()};
 }

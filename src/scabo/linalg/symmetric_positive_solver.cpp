@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/cholesky_factor.hpp"
@@ -23,7 +24,9 @@ class SparseCholesky {
     const bool definite =
         factor_ != nullptr && common_.status == CHOLMOD_OK && factor_->minor == static_cast<std::size_t>(n_);
     if (!definite) {
+      const bool out_of_memory = common_.status == CHOLMOD_OUT_OF_MEMORY;
       release();
+      if (out_of_memory) throw std::bad_alloc();
       throw NotPositiveDefinite();
     }
   }

@@ -86,10 +86,32 @@ bool before_side_faces(const model::Body& body, const Vec2& point, double slack)
          (distance_to(leaving, point) <= slack && (point - leaving.end).norm() > slack);
 }
 
-std::vector<int> bodies_at(const model::Model& model, const Vec2& point, int only) {
+/// Around each body, a little larger than it: a million points and thousands of bodies have few pairs that are worth a
+/// closer look.
+std::vector<Box> boxes_of(const model::Model& model) {
+  std::vector<Box> boxes(model.bodies.size());
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    if (model.bodies[b].outside) {
+      boxes[b].high = Vec2::Constant(std::numeric_limits<double>::max());
+      boxes[b].low = -boxes[b].high;
+      continue;
+    }
+    add(boxes[b], model.bodies[b].outline);
+    const Vec2 margin = Vec2::Constant(2.0 * on_outline * (boxes[b].high - boxes[b].low).norm());
+    boxes[b].low -= margin, boxes[b].high += margin;
+  }
+  return boxes;
+}
+
+std::vector<int> bodies_at(const model::Model& model, const std::vector<Box>& boxes, const Vec2& point, int only) {
   std::vector<int> bodies;
-  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
-    if ((only < 0 || b == only) && holds(model.bodies[static_cast<std::size_t>(b)], point)) bodies.push_back(b);
+  const int first = only < 0 ? 0 : only, last = only < 0 ? static_cast<int>(model.bodies.size()) : only + 1;
+  for (int b = first; b < last; ++b) {
+    const Box& box = boxes[static_cast<std::size_t>(b)];
+    if (point.x() < box.low.x() || point.x() > box.high.x() || point.y() < box.low.y() || point.y() > box.high.y())
+      continue;
+    if (holds(model.bodies[static_cast<std::size_t>(b)], point)) bodies.push_back(b);
+  }
   return bodies;
 }
 
@@ -114,12 +136,12 @@ std::string lies_outside(const model::Model& model, const Vec2& point, int only)
                      coordinates_of(point), nearest->name, least);
 }
 
-void add_line(const model::Model& model, const model::OutputLine& line, std::vector<OutputPoint>& points,
-              std::vector<Diagnostic>& mistakes) {
+void add_line(const model::Model& model, const std::vector<Box>& boxes, const model::OutputLine& line,
+              std::vector<OutputPoint>& points, std::vector<Diagnostic>& mistakes) {
   for (int k = 0; k < line.points; ++k) {
     const double t = static_cast<double>(k) / (line.points - 1);
     const Vec2 at = k + 1 == line.points ? line.to : Vec2(line.from + t * (line.to - line.from));
-    const std::vector<int> bodies = bodies_at(model, at, line.body);
+    const std::vector<int> bodies = bodies_at(model, boxes, at, line.body);
     if (bodies.empty()) {  // one message for a line
       mistakes.push_back(
           {line.source, fmt::format("point {} of '{}', {}", k + 1, line.name, lies_outside(model, at, line.body))});
@@ -136,8 +158,8 @@ std::vector<double> coordinates(double low, double high, int count) {
   return values;
 }
 
-void add_grid(const model::Model& model, const model::OutputGrid& grid, std::vector<OutputPoint>& points,
-              std::vector<Diagnostic>& mistakes) {
+void add_grid(const model::Model& model, const std::vector<Box>& boxes, const model::OutputGrid& grid,
+              std::vector<OutputPoint>& points, std::vector<Diagnostic>& mistakes) {
   std::array<std::vector<double>, 2> axes;
   if (grid.spacing) {
     Box box;
@@ -164,7 +186,7 @@ void add_grid(const model::Model& model, const model::OutputGrid& grid, std::vec
   }
   for (const double y : axes[1])
     for (const double x : axes[0])
-      for (const int body : bodies_at(model, {x, y}, grid.body)) points.push_back({"grid", body, {x, y}, 0.0});
+      for (const int body : bodies_at(model, boxes, {x, y}, grid.body)) points.push_back({"grid", body, {x, y}, 0.0});
   if (points.empty()) mistakes.push_back({grid.source, "no point of the grid lies in a body: give other coordinates"});
 }
 
@@ -181,13 +203,16 @@ bool holds(const model::Body& body, const Vec2& point) {
 OutputPoints output_points(const model::Model& model) {
   OutputPoints found;
   std::vector<Diagnostic> mistakes;
+  const model::Output& wanted = model.output;
+  const bool some = !wanted.points.empty() || !wanted.lines.empty() || wanted.grid;
+  const std::vector<Box> boxes = some ? boxes_of(model) : std::vector<Box>();
   for (const model::OutputPoint& point : model.output.points) {
-    const std::vector<int> bodies = bodies_at(model, point.at, point.body);
+    const std::vector<int> bodies = bodies_at(model, boxes, point.at, point.body);
     if (bodies.empty()) mistakes.push_back({point.source, lies_outside(model, point.at, point.body)});
     for (const int body : bodies) found.points.push_back({point.name, body, point.at, 0.0});
   }
-  for (const model::OutputLine& line : model.output.lines) add_line(model, line, found.lines, mistakes);
-  if (model.output.grid) add_grid(model, *model.output.grid, found.grid, mistakes);
+  for (const model::OutputLine& line : model.output.lines) add_line(model, boxes, line, found.lines, mistakes);
+  if (model.output.grid) add_grid(model, boxes, *model.output.grid, found.grid, mistakes);
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
   return found;
 }

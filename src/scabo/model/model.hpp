@@ -255,13 +255,23 @@ struct OutputGrid {
   Source source;
 };
 
-/// What is wanted besides the files that every run writes.
+/// Groups of arrays that the .vtu files hold.
+struct OutputFields {
+  bool displacement = true, stress = true;  ///< of every body
+  bool principal = true, von_mises = true;  ///< of every body, measures of its stress
+  bool contact = true;                      ///< a file of its own: state, pressure and slip along the contacts
+  bool any_of_bodies() const { return displacement || stress || principal || von_mises; }
+};
+
+/// What is wanted besides the files that every run writes, and how much those hold.
 struct Output {
   std::vector<OutputPoint> points;
   std::vector<OutputLine> lines;
   std::optional<OutputGrid> grid;
   bool error = false;              ///< estimate the error of every increment
   bool discrete_problems = false;  ///< the contact problem of every increment, as a file
+  int every = 1;                   ///< .vtu files of every so many increments, and of the last
+  OutputFields fields;
 };
 
 struct Model {

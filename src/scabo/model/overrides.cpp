@@ -51,8 +51,12 @@ class Replacement {
     auto copy = std::make_shared<Node>(*node);
     const std::string here = path.empty() ? key : path + "." + key;
     if (node->kind == Node::Kind::map) {
-      const auto entry = std::find_if(copy->entries.begin(), copy->entries.end(),
-                                      [&](const MapEntry& candidate) { return candidate.key == key; });
+      const auto find = [&](std::string_view name) {
+        return std::find_if(copy->entries.begin(), copy->entries.end(),
+                            [&](const MapEntry& candidate) { return candidate.key == name; });
+      };
+      auto entry = find(key);
+      if (entry == copy->entries.end() && key == "on") entry = find("true");  // what a writer of YAML 1.1 makes of it
       if (entry != copy->entries.end()) {
         const NodePtr inner = replace(entry->value, level + 1, here);
         if (!inner) return nullptr;

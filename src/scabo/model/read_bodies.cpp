@@ -165,13 +165,13 @@ namespace {}  // namespace
 std::optional<int> read_material_name(Reading& reading, const Value& value) {
   const auto name = read_text(reading.report, value);
   if (!name || !reading.materials_known) return {};
-  const auto found = std::find(reading.material_names.begin(), reading.material_names.end(), *name);
-  if (found == reading.material_names.end()) {
-    reading.report.error(
-        value, fmt::format("no material named {}{}", quoted_name(*name), suggestion(*name, reading.material_names)));
+  const auto found = reading.index_of_material.find(*name);
+  if (found == reading.index_of_material.end()) {
+    const std::string hint = reading.report.full() ? "" : suggestion(*name, reading.material_names);
+    reading.report.error(value, fmt::format("no material named {}{}", quoted_name(*name), hint));
     return {};
   }
-  return reading.material_index[static_cast<std::size_t>(found - reading.material_names.begin())];
+  return reading.material_index[static_cast<std::size_t>(found->second)];
 }
 
 namespace {
@@ -259,6 +259,7 @@ void read_body(Reading& reading, const Entry& entry) {
       if (state.shape) turn_outside(body);
     }
   }
+  reading.index_of_body.emplace(body.name, static_cast<int>(reading.model.bodies.size()));
   reading.model.bodies.push_back(std::move(body));
   reading.bodies.push_back(state);
 }
@@ -266,10 +267,8 @@ void read_body(Reading& reading, const Entry& entry) {
 }  // namespace
 
 int Reading::body_index(std::string_view name) const {
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    if (model.bodies[i].name == name) return static_cast<int>(i);
-  }
-  return -1;
+  const auto found = index_of_body.find(std::string(name));
+  return found == index_of_body.end() ? -1 : found->second;
 }
 
 void read_bodies(Reading& reading, const Value& value) {

@@ -44,30 +44,29 @@ std::optional<OnEdge> find_on_outline(const Outline& outline, const Vec2& x) {
   return {};
 }
 
-/// An edge of this body by name, `left` or `plate.left`.
-std::optional<int> edge_named(Reading& reading, const Value& value, const Body& body) {
+/// The middle of an edge or a corner of this body by name, `left` or `plate.left`.
+std::optional<OnEdge> mouth_named(Reading& reading, const Value& value, const Body& body) {
   const auto text = read_text(reading.report, value);
   if (!text) return {};
   const std::string prefix = body.name + ".";
   const std::string name = text->starts_with(prefix) ? text->substr(prefix.size()) : *text;
   std::vector<std::string> known;
-  for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
-    const auto& names = body.outline.edges[e].names;
-    if (std::find(names.begin(), names.end(), name) != names.end()) return static_cast<int>(e);
+  const auto has = [&](const std::vector<std::string>& names) {
     known.insert(known.end(), names.rbegin(), names.rend());
-  }
-  reading.report.error(
-      value, fmt::format("body '{}' has no edge named {}{}", body.name, quoted_name(name), suggestion(name, known)));
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (std::size_t e = 0; e < body.outline.edges.size(); ++e)
+    if (has(body.outline.edges[e].names)) return OnEdge{static_cast<int>(e), 0.5};
+  for (std::size_t c = 0; c < body.outline.corners.size(); ++c)  // corner c is the start of edge c
+    if (has(body.outline.corners[c].names)) return OnEdge{static_cast<int>(c), 0.0};
+  reading.report.error(value, fmt::format("body '{}' has no edge or corner named {}{}", body.name, quoted_name(name),
+                                          suggestion(name, known)));
   return {};
 }
 
-/// `mouth`: a point of the outline, or an edge, of which the middle is meant.
+/// `mouth`: a point of the outline, a corner, or an edge, of which the middle is meant.
 std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Body& body) {
-  if (value.node->kind == Node::Kind::scalar) {
-    const auto edge = edge_named(reading, value, body);
-    if (!edge) return {};
-    return OnEdge{*edge, 0.5};
-  }
+  if (value.node->kind == Node::Kind::scalar) return mouth_named(reading, value, body);
   const auto point = read_vector(reading.report, value);
   if (!point) return {};
   const auto found = find_on_outline(body.outline, *point);

@@ -140,6 +140,13 @@ std::set<int> materials_of(const Body& body) {
   return materials;
 }
 
+/// First and last + 1 of the bodies on which a load acts that acts on whole ones.
+std::pair<std::size_t, std::size_t> bodies_under(const Reading& reading, const Load& load) {
+  if (!load.on) return {0, reading.model.bodies.size()};
+  const auto body = static_cast<std::size_t>(load.on->body);
+  return {body, body + 1};
+}
+
 }  // namespace
 
 void read_loads(Reading& reading, const Value& value) {
@@ -149,11 +156,13 @@ void read_loads(Reading& reading, const Value& value) {
   for (const Entry& entry :
        read_named(reading.report, value, "loads", "{tip: {on: upper.top_right, force: [0, -100e3]}}")) {
     reading.load_names.push_back(entry.key);
+    int& index = reading.index_of_load[entry.key] = -1;
     if (reading.own_support_names.contains(entry.key)) {
       reading.report.error(entry.key_source,
                            fmt::format("a support is named '{}' as well: steps could mean either", entry.key));
     }
     if (auto load = read_load(reading, entry)) {
+      index = static_cast<int>(reading.model.loads.size());
       reading.model.loads.push_back(std::move(*load));
     } else {
       reading.conditions_known = false;
@@ -167,9 +176,10 @@ void check_expansion(Reading& reading) {
   std::set<int> told;
   for (const Load& load : reading.model.loads) {
     if (!std::holds_alternative<Temperature>(load.kind)) continue;
-    for (std::size_t i = 0; i < reading.model.bodies.size(); ++i) {
+    const auto [first, last] = bodies_under(reading, load);
+    for (std::size_t i = first; i < last; ++i) {
       const Body& body = reading.model.bodies[i];
-      if (body.material < 0 || body.outside || (load.on && load.on->body != static_cast<int>(i))) continue;
+      if (body.material < 0 || body.outside) continue;
       if (!load.on && body.mesh.kind == MeshKind::fem)
         reading.report.error(load.source,
                              fmt::format("temperature is not available for finite elements, as in body '{}': name "
@@ -216,9 +226,10 @@ void check_density(Reading& reading) {
   for (const Load& load : reading.model.loads) {
     if (!std::holds_alternative<Gravity>(load.kind)) continue;
     std::set<int> told;
-    for (std::size_t i = 0; i < reading.model.bodies.size(); ++i) {
+    const auto [first, last] = bodies_under(reading, load);
+    for (std::size_t i = first; i < last; ++i) {
       const Body& body = reading.model.bodies[i];
-      if (body.material < 0 || body.outside || (load.on && load.on->body != static_cast<int>(i))) continue;
+      if (body.material < 0 || body.outside) continue;
       for (const int index : materials_of(body)) {
         const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
         if (material.density || !told.insert(index).second) continue;

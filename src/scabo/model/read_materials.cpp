@@ -168,6 +168,7 @@ void read_materials(Reading& reading, const Value& value) {
   if (reading.report.count() > before) reading.materials_known = false;
   for (const Entry& entry : entries) {
     const auto material = read_material(reading, entry);
+    reading.index_of_material.emplace(entry.key, static_cast<int>(reading.material_names.size()));
     reading.material_names.push_back(entry.key);
     reading.material_index.push_back(material ? static_cast<int>(reading.model.materials.size()) : -1);
     if (material) reading.model.materials.push_back(*material);

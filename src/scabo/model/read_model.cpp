@@ -192,8 +192,9 @@ void check_bodies_held(Reading& reading) {
     if (body.rigid && !state.touched) {
       reading.report.error(body.source, fmt::format("rigid body '{}' is in no contact: it has no effect", body.name));
     } else if (!state.held && !state.touched) {
-      reading.report.error(body.source,
-                           fmt::format("body '{}' has no support and no contact: nothing holds it", body.name));
+      reading.report.error(
+          body.source,
+          fmt::format("body '{}' is insufficiently supported: it has no support and no contact", body.name));
     }
   }
 }

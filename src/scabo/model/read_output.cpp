@@ -1,4 +1,5 @@
-// `output`: points, lines and a grid whose values are wanted, and the estimate of the error.
+// `output`: points, lines and a grid whose values are wanted, the arrays of the .vtu files, and the estimate of the
+// error.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@ namespace scabo::model {
 namespace {
 
 constexpr long most_points = 1'000'000;
+constexpr long largest_every = 100'000;  // as many as a step has increments at most
 
 constexpr const char* output_example = "{points: [[1, 0.5]], grid: {spacing: 0.1}}";
 constexpr const char* point_example = "[1, 0.5] or {at: [1, 0.5], name: crest}";
@@ -28,7 +30,8 @@ std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
   if (index >= 0) return index;
   if (!reading.bodies_known) return {};
   std::vector<std::string> names;
-  for (const Body& body : reading.model.bodies) names.push_back(body.name);
+  if (!reading.report.full())
+    for (const Body& body : reading.model.bodies) names.push_back(body.name);
   reading.report.error(*value, fmt::format("no body named {}{}", quoted_name(*name), suggestion(*name, names)));
   return {};
 }
@@ -151,13 +154,42 @@ void read_grid(Reading& reading, const Value& value) {
   reading.model.output.grid = grid;
 }
 
+/// `fields`: those that are named, no others.
+void read_fields(Reading& reading, const Value& value) {
+  const auto items = read_list(reading.report, value, "[displacement, stress]");
+  if (!items) return;
+  OutputFields& fields = reading.model.output.fields;
+  const std::vector<std::pair<std::string, bool OutputFields::*>> groups = {
+      {"displacement", &OutputFields::displacement},
+      {"stress", &OutputFields::stress},
+      {"principal", &OutputFields::principal},
+      {"von_mises", &OutputFields::von_mises},
+      {"contact", &OutputFields::contact}};
+  std::vector<std::string> names;
+  for (const auto& [name, member] : groups) {
+    names.push_back(name);
+    fields.*member = false;
+  }
+  for (const Value& item : *items) {
+    const auto choice = read_choice(reading.report, item, names);
+    if (!choice) continue;
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& of) { return of.first == *choice; });
+    if (fields.*group->second) reading.report.error(item, fmt::format("'{}' is named twice", *choice));
+    fields.*group->second = true;
+  }
+}
+
 }  // namespace
 
 void read_output(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"points", "lines", "grid", "error", "discrete_problems"}, output_example);
+  const MapReader map(reading.report, value,
+                      {"points", "lines", "grid", "fields", "every", "error", "discrete_problems"}, output_example);
   if (const auto points = map.get("points")) read_points(reading, *points);
   if (const auto lines = map.get("lines")) read_lines(reading, *lines);
   if (const auto grid = map.get("grid")) read_grid(reading, *grid);
+  if (const auto fields = map.get("fields")) read_fields(reading, *fields);
+  if (const auto every = map.get("every"))
+    reading.model.output.every = static_cast<int>(read_integer(reading.report, *every, 1, largest_every).value_or(1));
   if (const auto error = map.get("error"))
     reading.model.output.error = read_flag(reading.report, *error).value_or(false);
   if (const auto problems = map.get("discrete_problems"))

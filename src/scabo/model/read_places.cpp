@@ -17,7 +17,8 @@ std::optional<int> read_body_name(Reading& reading, const Value& at, std::string
   reading.places_known = false;
   if (!reading.bodies_known) return {};
   std::vector<std::string> known;
-  for (const Body& candidate : reading.model.bodies) known.push_back(candidate.name);
+  if (!reading.report.full())
+    for (const Body& candidate : reading.model.bodies) known.push_back(candidate.name);
   reading.report.error(at, fmt::format("no body named {}{}", quoted_name(name), suggestion(name, known)));
   return {};
 }
@@ -102,7 +103,7 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
     known.insert(known.end(), outline.corners[i].names.rbegin(), outline.corners[i].names.rend());
   }
   reading.report.error(value, fmt::format("body '{}' has no edge or corner named {}{}", reading.body(body).name,
-                                          quoted_name(part), suggestion(part, known)));
+                                          quoted_name(part), reading.report.full() ? "" : suggestion(part, known)));
   return result;
 }
 

@@ -16,6 +16,7 @@ namespace scabo::model {
 namespace {
 
 constexpr long most_increments = 100'000;
+constexpr std::size_t most_factors = 20'000'000;
 
 bool is_fixed(const Support& support) {
   return std::all_of(support.displacement.begin(), support.displacement.end(),
@@ -36,35 +37,36 @@ void apply_everything(Step& step) {
 }
 
 /// Takes one load or support to `factor`; reports a name that is none.
-void set_factor(Reading& reading, Step& step, const MapEntry& entry, const Value& value, const Source& at) {
+void set_factor(Reading& reading, const Index& supports, Step& step, const MapEntry& entry, const Value& value,
+                const Source& at) {
   const auto factor = read_number(reading.report, value);
-  const auto& loads = reading.model.loads;
-  const auto load = std::find_if(loads.begin(), loads.end(), [&](const Load& l) { return l.name == entry.key; });
-  if (load != loads.end()) {
-    if (factor) step.load_factors[static_cast<std::size_t>(load - loads.begin())] = *factor;
+  const auto load = reading.index_of_load.find(entry.key);
+  if (load != reading.index_of_load.end() && load->second >= 0) {
+    if (factor) step.load_factors[static_cast<std::size_t>(load->second)] = *factor;
     return;
   }
-  for (std::size_t i = 0; i < reading.model.supports.size(); ++i) {
-    const Support& support = reading.model.supports[i];
-    if (!reading.support_is_named[i] || support.name != entry.key) continue;
-    if (is_fixed(support)) {
+  if (const auto found = supports.find(entry.key); found != supports.end()) {
+    const auto i = static_cast<std::size_t>(found->second);
+    if (is_fixed(reading.model.supports[i])) {
       reading.report.error(at, fmt::format("support '{}' stays where it is: a factor has no effect", entry.key));
     } else if (factor) {
       step.support_factors[i] = *factor;
     }
     return;
   }
-  const auto& names = reading.load_names;
-  const bool broken =
-      std::find(names.begin(), names.end(), entry.key) != names.end() || reading.own_support_names.contains(entry.key);
+  const bool broken = load != reading.index_of_load.end() || reading.own_support_names.contains(entry.key);
   if (broken) return;
-  std::vector<std::string> known = names;
+  if (reading.report.full()) {
+    reading.report.error(at, "");  // counted
+    return;
+  }
+  std::vector<std::string> known = reading.load_names;
   known.insert(known.end(), reading.own_support_names.begin(), reading.own_support_names.end());
   reading.report.error(
       at, fmt::format("no load or named support is called {}{}", quoted_name(entry.key), suggestion(entry.key, known)));
 }
 
-void read_factors(Reading& reading, Step& step, const Value& value) {
+void read_factors(Reading& reading, const Index& supports, Step& step, const Value& value) {
   if (value.node->kind != Node::Kind::map) {
     reading.report.error(value,
                          fmt::format("must be a map of factors, as in {{tip: 1.0}}, not {}", describe(*value.node)));
@@ -74,12 +76,12 @@ void read_factors(Reading& reading, Step& step, const Value& value) {
     const Value factor{entry.value, value.path + "." + entry.key};
     Source at = factor.source();
     if (at.line > 0) at = {entry.line, entry.column, factor.path};
-    set_factor(reading, step, entry, factor, at);
+    set_factor(reading, supports, step, entry, factor, at);
   }
 }
 
 /// The step that follows one which ends with the factors of `before`.
-Step read_step(Reading& reading, const Value& value, const Step& before, std::size_t number) {
+Step read_step(Reading& reading, const Index& supports, const Value& value, const Step& before, std::size_t number) {
   const MapReader map(reading.report, value, {"name", "increments", "loads"},
                       "{name: press, increments: 10, loads: {tip: 1.0}}");
   Step step = before;
@@ -101,7 +103,7 @@ Step read_step(Reading& reading, const Value& value, const Step& before, std::si
   for (std::size_t i = 0; number == 1 && i < step.support_factors.size(); ++i) {
     if (!reading.support_is_named[i]) step.support_factors[i] = 1.0;
   }
-  read_factors(reading, step, *loads);
+  read_factors(reading, supports, step, *loads);
   return step;
 }
 
@@ -123,9 +125,20 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
     reading.model.steps.push_back(step);
     return;
   }
+  const std::size_t factors = reading.model.loads.size() + reading.model.supports.size();
+  if (factors * items->size() > most_factors) {
+    reading.report.error(*value,
+                         fmt::format("{} steps of {} loads and supports are more than can be kept ({} factors): "
+                                     "put loads that change together into fewer steps",
+                                     items->size(), factors, most_factors));
+    return;
+  }
+  Index supports;  // those that have their name from the user
+  for (std::size_t i = 0; i < reading.model.supports.size(); ++i)
+    if (reading.support_is_named[i]) supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
   std::set<std::string> names;
   for (std::size_t i = 0; i < items->size(); ++i) {
-    step = read_step(reading, (*items)[i], step, i + 1);
+    step = read_step(reading, supports, (*items)[i], step, i + 1);
     if (!names.insert(step.name).second) {
       reading.report.error((*items)[i], fmt::format("another step is named '{}' already", step.name));
     }

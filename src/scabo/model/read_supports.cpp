@@ -2,7 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <initializer_list>
+#include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "scabo/model/reading.hpp"
 #include "scabo/model/suggestions.hpp"
@@ -14,6 +20,22 @@ namespace {
 using Displacement = std::array<std::optional<double>, 2>;
 
 constexpr const char* support_example = "{on: lower.left, fix: [x, y]}";
+
+/// What other programs call the components: a remedy for `fix`, or nothing.
+std::string meant_components(std::string_view text) {
+  std::string plain;
+  for (const char c : text)
+    if (c != ' ' && c != ',' && c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), plain) != names.end();
+  };
+  if (is_one_of(
+          {"all", "both", "xy", "yx", "uxuy", "12", "u1u2", "true", "yes", "fixed", "clamped", "encastre", "pinned"}))
+    return "[x, y]";
+  if (is_one_of({"x", "ux", "u1", "1", "u", "horizontal"})) return "x";
+  if (is_one_of({"y", "uy", "u2", "2", "v", "vertical"})) return "y";
+  return "";
+}
 
 std::optional<Displacement> read_fix(Reading& reading, const Value& value) {
   std::vector<Value> items{value};
@@ -27,7 +49,9 @@ std::optional<Displacement> read_fix(Reading& reading, const Value& value) {
     const bool x = node.kind == Node::Kind::scalar && node.text == "x";
     const bool y = node.kind == Node::Kind::scalar && node.text == "y";
     if (!x && !y) {
-      reading.report.error(item, fmt::format("must be x, y or [x, y], not {}", describe(node)));
+      const std::string meant = node.kind == Node::Kind::scalar ? meant_components(node.text) : "";
+      reading.report.error(item, fmt::format("must be x, y or [x, y], not {}{}", describe(node),
+                                             meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant)));
       return {};
     }
     auto& component = displacement[x ? 0 : 1];
@@ -111,10 +135,12 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
 /// Names without a user's: the place, made unique.
 void name_supports(Reading& reading) {
   std::set<std::string> taken = reading.own_support_names;
+  std::map<std::string, int> last;
   for (Support& support : reading.model.supports) {
     if (!support.name.empty()) continue;
     std::string name = support.on.text;
-    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{} ({})", support.on.text, k);
+    int& k = last[name];  // numbers before it are taken
+    for (k = std::max(k, 1); !taken.insert(name).second;) name = fmt::format("{} ({})", support.on.text, ++k);
     support.name = name;
   }
 }
@@ -177,36 +203,85 @@ bool share_a_point(const Place& a, const Place& b, const Body& body) {
 
 std::string where(const Source& source) { return source.line > 0 ? fmt::format("line {}", source.line) : source.path; }
 
-/// Reports two supports that move the same point differently in some step.
-void check_pair(Reading& reading, std::size_t first, std::size_t second) {
+/// Whether two supports that share a point move it differently in some step.
+bool differ(const Reading& reading, std::size_t first, std::size_t second, std::size_t component) {
+  const auto& a = reading.model.supports[first].displacement[component];
+  const auto& b = reading.model.supports[second].displacement[component];
+  return a && b && std::any_of(reading.model.steps.begin(), reading.model.steps.end(), [&](const Step& step) {
+           return *a * step.support_factors[first] != *b * step.support_factors[second];
+         });
+}
+
+/// Places that are the same have the same key.
+using PlaceKey = std::tuple<Place::Kind, int, double, double>;
+PlaceKey key_of(const Place& place) { return {place.kind, place.index, place.near.x(), place.near.y()}; }
+
+/// Of the supports of one place: the first that prescribes x and the first that prescribes y. Those after it move
+/// alike, or were reported.
+using First = std::array<std::optional<std::size_t>, 2>;
+using Places = std::map<PlaceKey, First>;
+
+/// The supports of the body so far with which a new one can be at odds: those at its own place, and those at places
+/// that share a point with it. A point near which something is shares one with itself and with the whole body only, and
+/// there may be many of them.
+std::vector<const First*> candidates(const Places& places, const Place& place, const Body& body) {
+  std::vector<const First*> found;
+  const auto add = [&](const Place& other) {
+    if (const auto at = places.find(key_of(other)); at != places.end() && share_a_point(other, place, body))
+      found.push_back(&at->second);
+  };
+  Place other;
+  add(place);
+  other.kind = Place::Kind::body;
+  if (place.kind != Place::Kind::body) add(other);
+  const int corners = static_cast<int>(body.outline.corners.size());
+  if (place.kind == Place::Kind::edge || place.kind == Place::Kind::corner)
+    for (const int step : {-1, 0, 1})
+      for (const Place::Kind kind : {Place::Kind::edge, Place::Kind::corner}) {
+        other.kind = kind;
+        other.index = (place.index + step + corners) % corners;
+        if (key_of(other) != key_of(place)) add(other);
+      }
+  if (place.kind == Place::Kind::body)
+    for (const auto& [key, first] : places)
+      if (std::get<0>(key) != Place::Kind::body) found.push_back(&first);
+  return found;
+}
+
+void report_conflict(Reading& reading, std::size_t first, std::size_t second, std::size_t component) {
   const Support& a = reading.model.supports[first];
   const Support& b = reading.model.supports[second];
-  if (!share_a_point(a.on, b.on, reading.body(a.on.body))) return;
-  for (std::size_t c = 0; c < 2; ++c) {
-    if (!a.displacement[c] || !b.displacement[c]) continue;
-    const bool differ = std::any_of(reading.model.steps.begin(), reading.model.steps.end(), [&](const Step& step) {
-      return *a.displacement[c] * step.support_factors[first] != *b.displacement[c] * step.support_factors[second];
-    });
-    if (!differ) continue;
-    reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}: they share "
-                                               "a point; remove one, or free the component there",
-                                               c == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
-    return;
-  }
+  reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}: they share "
+                                             "a point; remove one, or free the component there",
+                                             component == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
 }
 
 }  // namespace
 
 void check_conflicting_supports(Reading& reading) {
-  std::vector<std::vector<std::size_t>> of_body(reading.model.bodies.size());
+  std::vector<Places> of_body(reading.model.bodies.size());
   for (std::size_t i = 0; i < reading.model.supports.size(); ++i) {
-    auto& others = of_body[static_cast<std::size_t>(reading.model.supports[i].on.body)];
-    for (const std::size_t other : others) {
-      const std::size_t before = reading.report.count();
-      check_pair(reading, other, i);
-      if (reading.report.count() > before) break;  // one message for each support
+    const Support& support = reading.model.supports[i];
+    Places& places = of_body[static_cast<std::size_t>(support.on.body)];
+    const auto at = places.find(key_of(support.on));
+    // A whole body shares points with everything; where one was compared already, another like it brings nothing new.
+    const bool known = at != places.end() && (!support.displacement[0] || at->second[0]) &&
+                       (!support.displacement[1] || at->second[1]);
+    std::optional<std::pair<std::size_t, std::size_t>> conflict;  // the first other support, component
+    const auto compare = [&](const First& first) {
+      for (std::size_t c = 0; c < 2; ++c)
+        if (first[c] && (!conflict || *first[c] < conflict->first) && differ(reading, *first[c], i, c))
+          conflict = {*first[c], c};
+    };
+    if (known && support.on.kind == Place::Kind::body) {
+      compare(at->second);
+    } else {
+      for (const First* first : candidates(places, support.on, reading.body(support.on.body))) compare(*first);
     }
-    others.push_back(i);
+    if (conflict) report_conflict(reading, conflict->first, i, conflict->second);  // one message for each support
+    First& own = places[key_of(support.on)];
+    for (std::size_t c = 0; c < 2; ++c)
+      if (support.displacement[c] && !own[c]) own[c] = i;
   }
 }
 

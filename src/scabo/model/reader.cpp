@@ -37,7 +37,7 @@ Value Value::item(std::size_t index) const { return {node->items[index], join_pa
 
 void Report::error(const Source& at, std::string message) {
   ++count_;
-  if (diagnostics_.size() >= most) return;
+  if (full()) return;
   Source place = at;
   place.path = one_line(at.path);  // keys may be any text
   if (place.path.size() > longest_path) place.path = shortened(place.path, longest_path);
@@ -184,6 +184,9 @@ Source source_of_key(const Value& map, const MapEntry& entry) {
   return {entry.line, entry.column, path};
 }
 
+/// What a writer of YAML 1.1 makes of the key `on`, which it takes for a truth value.
+constexpr std::string_view written_for_on = "true";
+
 }  // namespace
 
 std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what, std::string_view example) {
@@ -229,11 +232,22 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
   is_map_ = true;
   std::vector<std::string> absent;  // a key that is there already was not meant
   for (const std::string& key : known) {
-    if (node.find(key) == nullptr) absent.push_back(key);
+    if (entry_of(key) == nullptr) absent.push_back(key);
   }
+  const bool takes_on = std::find(known.begin(), known.end(), "on") != known.end();
   for (const MapEntry& entry : node.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    if (report_.full()) {
+      broken_ = true;
+      report_.error(map_, "");  // counted
+      continue;
+    }
     const Source at = source_of_key(map_, entry);
+    if (takes_on && entry.key == written_for_on) {
+      if (node.find("on") != nullptr)
+        report_.error(at, "is read as 'on', which is given as well: remove one of the two");
+      continue;
+    }
     const auto planned =
         std::find_if(later.begin(), later.end(), [&](const auto& pair) { return pair.first == entry.key; });
     if (planned != later.end()) {
@@ -247,7 +261,8 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
       report_.error(at, fmt::format("unknown key {}: a space belongs after the colon", quoted_name(entry.key)));
       continue;
     }
-    const std::string nearest = nearest_name(entry.key, absent);
+    const std::string synonym = key_of_synonym(entry.key, absent);
+    const std::string nearest = synonym.empty() ? nearest_name(entry.key, absent) : synonym;
     const std::string hint = nearest.empty() ? suggestion("", known) : fmt::format(" (did you mean '{}'?)", nearest);
     if (nearest.empty()) broken_ = true;
     misspelt_.push_back(nearest);
@@ -255,9 +270,14 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
   }
 }
 
+const MapEntry* MapReader::entry_of(std::string_view key) const {
+  const MapEntry* entry = map_.node->find(key);
+  return entry == nullptr && key == "on" ? map_.node->find(written_for_on) : entry;
+}
+
 std::optional<Value> MapReader::get(std::string_view key) const {
   if (!is_map_) return {};
-  const MapEntry* entry = map_.node->find(key);
+  const MapEntry* entry = entry_of(key);
   if (entry == nullptr || entry->value->kind == Node::Kind::null) return {};
   return Value{entry->value, join_path(map_.path, key)};
 }
@@ -265,7 +285,7 @@ std::optional<Value> MapReader::get(std::string_view key) const {
 std::optional<Value> MapReader::need(std::string_view key) const {
   auto value = get(key);
   if (value || !is_map_) return value;
-  if (map_.node->find(key) != nullptr) {
+  if (entry_of(key) != nullptr) {
     report_.error(key_source(key), "has no value");
   } else if (!broken_ && std::find(misspelt_.begin(), misspelt_.end(), key) == misspelt_.end()) {
     report_.error(map_, fmt::format("'{}' is missing", key));
@@ -274,12 +294,12 @@ std::optional<Value> MapReader::need(std::string_view key) const {
 }
 
 Source MapReader::key_source(std::string_view key) const {
-  const MapEntry* entry = is_map_ ? map_.node->find(key) : nullptr;
+  const MapEntry* entry = is_map_ ? entry_of(key) : nullptr;
   return entry == nullptr ? map_.source() : source_of_key(map_, *entry);
 }
 
 void MapReader::refuse(std::string_view key, std::string_view why) const {
-  if (is_map_ && map_.node->find(key) != nullptr) report_.error(key_source(key), std::string(why));
+  if (is_map_ && entry_of(key) != nullptr) report_.error(key_source(key), std::string(why));
 }
 
 }  // namespace scabo::model

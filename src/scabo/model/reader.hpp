@@ -41,6 +41,8 @@ class Report {
   void error(const Value& at, std::string message) { error(at.source(), std::move(message)); }
   std::size_t count() const { return count_; }
   bool clean() const { return count_ == 0; }
+  /// More mistakes are counted only: their messages, and suggestions in them, need not be made.
+  bool full() const { return diagnostics_.size() >= most; }
   /// Throws InputError with all mistakes in the order of the file, unless there are none.
   void throw_if_any(const std::string& file);
 
@@ -100,6 +102,8 @@ class MapReader {
   Report& report_;
   Value map_;
   bool is_map_ = false;
+  /// The entry of a key; nullptr when it is absent. A writer of YAML 1.1 turns the key `on` into `true`: both are read.
+  const MapEntry* entry_of(std::string_view key) const;
   bool broken_ = false;                // an unknown key that resembles no known one may be the missing one
   std::vector<std::string> misspelt_;  // known keys that an unknown one was probably meant to be
 };

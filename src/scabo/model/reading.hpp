@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "scabo/model/model.hpp"
@@ -21,6 +22,9 @@ struct BodyState {
   bool touched = false;   ///< a contact names it
 };
 
+/// Place of a name in a list: models have thousands of bodies.
+using Index = std::unordered_map<std::string, int>;
+
 struct Reading {
   Report report;
   Model model;
@@ -31,6 +35,9 @@ struct Reading {
   std::vector<std::string> material_names;  ///< of the section, broken ones included
   std::vector<int> material_index;          ///< of each name; -1 for a broken one
   std::vector<std::string> load_names;      ///< of the section, broken ones included
+  Index index_of_body;                      ///< in model.bodies
+  Index index_of_material;                  ///< in material_names
+  Index index_of_load;                      ///< in model.loads; -1 for a broken one
   std::set<std::string> own_support_names;  ///< given by the user
   std::vector<bool> support_is_named;       ///< for each of model.supports: has its name from the user
   bool conditions_known = true;             ///< false: some load or support is broken

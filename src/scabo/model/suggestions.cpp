@@ -34,7 +34,102 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+struct Synonym {
+  std::string_view key, name;  ///< `name` without capitals, spaces, _ and -
+};
+
+/// Names of keys in textbooks and in the input of other programs.
+constexpr Synonym synonyms[] = {
+    {"young", "e"},
+    {"young", "emod"},
+    {"young", "emodulus"},
+    {"young", "modulus"},
+    {"young", "elasticmodulus"},
+    {"young", "modulusofelasticity"},
+    {"young", "youngsmodulus"},
+    {"young", "youngmodulus"},
+    {"young", "stiffness"},
+    {"poisson", "nu"},
+    {"poisson", "v"},
+    {"poisson", "poissonsratio"},
+    {"poisson", "poissonratio"},
+    {"density", "rho"},
+    {"density", "massdensity"},
+    {"expansion", "alpha"},
+    {"expansion", "cte"},
+    {"expansion", "thermalexpansion"},
+    {"friction", "mu"},
+    {"friction", "frictioncoefficient"},
+    {"friction", "coefficientoffriction"},
+    {"friction", "cof"},
+    {"cohesion", "c"},
+    {"tension", "ft"},
+    {"tension", "tensilestrength"},
+    {"gap", "clearance"},
+    {"gap", "interference"},
+    {"gap", "overclosure"},
+    {"bond", "tied"},
+    {"bond", "bonded"},
+    {"bond", "glue"},
+    {"bond", "glued"},
+    {"between", "pairs"},
+    {"between", "surfaces"},
+    {"along", "positions"},
+    {"supports", "bc"},
+    {"supports", "bcs"},
+    {"supports", "boundary"},
+    {"supports", "boundaryconditions"},
+    {"supports", "constraints"},
+    {"supports", "restraints"},
+    {"contacts", "interfaces"},
+    {"contacts", "interactions"},
+    {"bodies", "parts"},
+    {"loads", "forces"},
+    {"steps", "stages"},
+    {"shape", "geometry"},
+    {"mesh", "elements"},
+    {"size", "h"},
+    {"size", "elementsize"},
+    {"size", "meshsize"},
+    {"order", "degree"},
+    {"order", "p"},
+    {"on", "at"},
+    {"on", "where"},
+    {"on", "place"},
+    {"on", "location"},
+    {"fix", "fixed"},
+    {"fix", "dof"},
+    {"fix", "dofs"},
+    {"fix", "constrain"},
+    {"displacement", "u"},
+    {"force", "f"},
+    {"pressure", "p"},
+    {"gravity", "g"},
+    {"gravity", "acceleration"},
+    {"thickness", "t"},
+    {"thickness", "depth"},
+    {"tolerance", "tol"},
+    {"tolerance", "eps"},
+    {"iterations", "maxiter"},
+    {"iterations", "maxiterations"},
+    {"increments", "substeps"},
+    {"increments", "n"},
+    {"every", "interval"},
+    {"every", "frequency"},
+};
+
 }  // namespace
+
+std::string key_of_synonym(std::string_view name, const std::vector<std::string>& known) {
+  std::string plain;
+  for (const char c : name.substr(0, longest_name))
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const Synonym& synonym : synonyms)
+    if (synonym.name == plain && std::find(known.begin(), known.end(), synonym.key) != known.end())
+      return std::string(synonym.key);
+  return "";
+}
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
   if (name.empty() || name.size() > longest_name) return "";

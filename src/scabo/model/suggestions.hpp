@@ -10,6 +10,9 @@ namespace scabo::model {
 /// The one of `known` closest to `name`, by single-character changes and swaps; empty when none is close.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
 
+/// The one of `known` keys that other programs and textbooks call `name`, as in `E` for `young`; empty when none is.
+std::string key_of_synonym(std::string_view name, const std::vector<std::string>& known);
+
 /// ` (did you mean 'concrete'?)`, or the list of what there is when nothing is close, or nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string>& known);
 

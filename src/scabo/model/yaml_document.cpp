@@ -12,7 +12,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <istream>
+#include <streambuf>
 #include <unordered_map>
 #include <utility>
 
@@ -100,11 +101,41 @@ std::string explain(const std::string& message) {
   return fmt::format("not valid YAML: {}", message);
 }
 
+/// Hands the text to yaml-cpp piece by piece, and ends it where no value came for too long: yaml-cpp would first read a
+/// text of any length to its end.
+class BoundedText : public std::streambuf {
+ public:
+  BoundedText(const std::string& text, long most) : text_(text), most_(static_cast<std::size_t>(most)) {}
+
+  void value_came() { at_last_value_ = given_; }
+  bool cut() const { return cut_; }
+
+ private:
+  int_type underflow() override {
+    constexpr std::size_t piece = 1 << 14;
+    if (given_ == text_.size()) return traits_type::eof();
+    if (given_ - at_last_value_ > most_) {
+      cut_ = true;
+      return traits_type::eof();
+    }
+    const std::size_t length = std::min(piece, text_.size() - given_);
+    char* const begin = const_cast<char*>(text_.data()) + given_;  // only read
+    setg(begin, begin, begin + length);
+    given_ += length;
+    return traits_type::to_int_type(*begin);
+  }
+
+  const std::string& text_;
+  std::size_t most_, given_ = 0, at_last_value_ = 0;
+  bool cut_ = false;
+};
+
 /// Builds the tree from yaml-cpp's events. A Diagnostic thrown from an event ends the reading.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& text, std::vector<Diagnostic>& diagnostics, const YamlLimits& limits)
-      : text_(text), diagnostics_(diagnostics), limits_(limits) {
+  TreeBuilder(const std::string& text, BoundedText& source, std::vector<Diagnostic>& diagnostics,
+              const YamlLimits& limits)
+      : text_(text), source_(source), diagnostics_(diagnostics), limits_(limits) {
     line_starts_.push_back(0);
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (text[i] == '\n') line_starts_.push_back(i + 1);
@@ -113,6 +144,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   NodePtr root() const { return root_; }
+  Position last_value() const { return last_value_; }
 
   /// yaml-cpp counts bytes from 0, editors characters from 1.
   Position position(const YAML::Mark& mark) const {
@@ -152,6 +184,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    source_.value_came();
     const auto found = anchors_.find(anchor);
     if (found == anchors_.end()) fail(mark, "this alias stands inside its own anchor");
     add(found->second, position(mark));
@@ -221,11 +254,12 @@ class TreeBuilder : public YAML::EventHandler {
     fail(mark, "not valid YAML: this quote is not closed");
   }
 
-  Open start(const YAML::Mark& mark, YAML::anchor_t anchor, Node::Kind kind) const {
+  Open start(const YAML::Mark& mark, YAML::anchor_t anchor, Node::Kind kind) {
+    source_.value_came();
     Open open;
     open.node = std::make_shared<Node>();
     open.node->kind = kind;
-    const Position at = position(mark);
+    const Position at = last_value_ = position(mark);
     open.node->line = at.line;
     open.node->column = at.column;
     open.anchor = anchor;
@@ -329,6 +363,8 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   const std::string& text_;
+  BoundedText& source_;
+  Position last_value_;
   std::vector<Diagnostic>& diagnostics_;
   const YamlLimits& limits_;
   std::vector<std::size_t> line_starts_;
@@ -348,22 +384,33 @@ NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics, 
     diagnostics.push_back(diagnostic);
     return nullptr;
   }
-  TreeBuilder builder(clean, diagnostics, limits);
+  BoundedText source(clean, limits.scalar);
+  TreeBuilder builder(clean, source, diagnostics, limits);
+  const auto cut = [&] {
+    if (!source.cut()) return false;
+    const Position at = builder.last_value();
+    diagnostics.push_back({{at.line, at.column, ""},
+                           fmt::format("more than {} MB of text or comment follow here without a value: shorten them",
+                                       limits.scalar >> 20)});
+    return true;
+  };
   try {
-    std::istringstream stream(clean);
+    std::istream stream(&source);
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const Diagnostic& diagnostic) {
-    diagnostics.push_back(diagnostic);
+    if (!cut()) diagnostics.push_back(diagnostic);
     return nullptr;
   } catch (const YAML::Exception& error) {
+    if (cut()) return nullptr;
     const Position at = builder.position(error.mark);
     // What a tab breaks is reported further on, as a fault of the indentation.
     const bool tab = builder.indentation(error.mark).find('\t') != std::string_view::npos;
     diagnostics.push_back({{at.line, at.column, ""}, explain(tab ? YAML::ErrorMsg::TAB_IN_INDENTATION : error.msg)});
     return nullptr;
   }
+  if (cut()) return nullptr;
   if (builder.root()) return builder.root();
   return std::make_shared<Node>();
 }
@@ -378,6 +425,11 @@ std::string read_text_file(const std::string& file, const YamlLimits& limits) {
   const auto fail = [&](const std::string& message) { refuse_file(file, message); };
   std::error_code code;
   const auto status = std::filesystem::status(file, code);
+  if (code == std::errc::too_many_symbolic_link_levels) fail("symbolic links on the way to it lead in a circle");
+  if (code == std::errc::filename_too_long) fail("no such file: the name is longer than any file's");
+  if (!std::filesystem::exists(status) && code && code != std::errc::no_such_file_or_directory &&
+      code != std::errc::not_a_directory)
+    fail(fmt::format("cannot be read: {}", code.message()));
   if (!std::filesystem::exists(status)) fail("no such file");
   if (std::filesystem::is_directory(status)) fail("is a directory, not a model file");
   errno = 0;

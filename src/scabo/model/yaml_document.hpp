@@ -45,6 +45,7 @@ struct YamlLimits {
   long bytes = 64L << 20;
   long nodes = 500'000;
   int depth = 50;
+  long scalar = 1L << 20;  ///< bytes from one value to the next: yaml-cpp takes a fifth of a second for each MB of one
 };
 
 /// The tree of `text`; null node when it is empty. Mistakes are added to `diagnostics`; returns nothing when

@@ -108,6 +108,17 @@ class Axes {
   double low_ = -12.0, high_ = 0.0;
 };
 
+/// Whether an iteration belongs to a problem of fewer pairs, which makes the start (stage `newton, 65 pairs`).
+bool is_coarse(const contact::Iteration& at) { return at.stage.ends_with(" pairs"); }
+
+/// More points than this would cover the curve.
+constexpr std::size_t most_points = 200;
+
+bool shows_coarse_points(const ConvergenceCurve& curve) {
+  return curve.iterations.size() <= most_points &&
+         std::any_of(curve.iterations.begin(), curve.iterations.end(), is_coarse);
+}
+
 void draw_curve(Text to, const Axes& axes, const ConvergenceCurve& curve, const std::string& stroke, bool name_stages) {
   const bool crowded = curve.iterations.size() > 40;
   fmt::format_to(to, "<g stroke=\"{0}\" fill=\"{0}\"{1}><title>{2}</title>", stroke,
@@ -126,8 +137,9 @@ void draw_curve(Text to, const Axes& axes, const ConvergenceCurve& curve, const 
   std::vector<std::pair<double, double>> names;  // where they are
   for (const contact::Iteration& at : curve.iterations) {
     const double x = axes.x(at.iteration), y = axes.y(at.residual);
-    if (curve.iterations.size() <= 200)
-      fmt::format_to(to, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, crowded ? "1.6" : "2.6");
+    if (curve.iterations.size() <= most_points)
+      fmt::format_to(to, "<circle{} cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", is_coarse(at) ? " class=\"coarse\"" : "",
+                     x, y, crowded ? "1.6" : "2.6");
     if (name_stages && (!stage || *stage != at.stage)) {
       double name_y = y - 7;
       const auto covers = [&](const auto& other) {
@@ -176,6 +188,15 @@ void draw_legend(Text to, const std::vector<const ConvergenceCurve*>& curves, co
                    left_out);
 }
 
+/// What hollow points are, below the names.
+void draw_coarse_note(Text to) {
+  const double x = right + 20, y = bottom + 18;
+  fmt::format_to(to, "<circle class=\"coarse\" stroke=\"#222\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\"/>", x + 8, y - 4);
+  for (const auto& [line, text] : {std::pair(0, "coarse problem, of every"), std::pair(1, "second, fourth, ... pair:"),
+                                   std::pair(2, "the next starts from it")})
+    fmt::format_to(to, "<text class=\"note\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x + 22, y + 14 * line, text);
+}
+
 }  // namespace
 
 std::string convergence_table_rows(const analysis::IncrementResult& increment) {
@@ -213,6 +234,7 @@ std::string convergence_plot(const std::vector<ConvergenceCurve>& all, const std
   .title {{ font-size: 16px }} .power {{ font-size: 9px }} .middle {{ text-anchor: middle }} .end {{ text-anchor: end }}
   .note, .stage {{ font-size: 11px; fill: #555 }}
   .grid {{ stroke: #e4e4e4 }} .frame {{ fill: none; stroke: #444 }} .tolerance {{ stroke: #888; stroke-dasharray: 2 3 }}
+  .coarse {{ fill: white }}
   .curve {{ fill: none; stroke-width: 1.6; stroke-linejoin: round }}
 </style>
 <rect width="100%" height="100%" fill="white"/>
@@ -226,6 +248,8 @@ std::string convergence_plot(const std::vector<ConvergenceCurve>& all, const std
                  axes.y(tolerance) - 5);
   for (std::size_t k = 0; k < curves.size(); ++k) draw_curve(to, axes, *curves[k], colours[k], all.size() == 1);
   draw_legend(to, curves, colours, all.size() - curves.size());
+  if (std::any_of(curves.begin(), curves.end(), [](const auto* curve) { return shows_coarse_points(*curve); }))
+    draw_coarse_note(to);
   fmt::format_to(to, "</svg>\n");
   return fmt::to_string(text);
 }

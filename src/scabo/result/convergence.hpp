@@ -1,4 +1,4 @@
-// How the contact solver came to its solutions: convergence.csv, one line for every iteration, and
+// Convergence history of the contact solver: convergence.csv, one line for every iteration, and
 // convergence.svg, the residual over the iterations for every increment (docs/results.md).
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -63,6 +64,18 @@ void replace_file(const std::filesystem::path& path, std::string_view content) {
   const int error = errno;
   remove_regular(part);
   fail_to_write(path, error);
+}
+
+DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
+    : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(descriptor_);
+  throw WriteError("cannot write results to", directory,
+                   "another run is writing there: wait until it ends, or choose another directory with -o");
+}
+
+DirectoryLock::~DirectoryLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 GrowingFile::GrowingFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_empty(path_)) {}

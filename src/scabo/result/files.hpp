@@ -1,12 +1,12 @@
-// Files that are written whole or not at all, and files that grow so that they can be read at any moment,
-// even when the program is killed. The system's own calls, because a stream loses the reason why a disk did
-// not take the data.
+// Files that are written completely or not at all, and files that grow and can be read at any time, even if the
+// program is killed. System calls are used, because a stream loses the reason why data could not be written.
 #pragma once
 
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace scabo::result {
 
@@ -26,6 +26,22 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// The same through `path.part` and a change of name: readers see the old or the new content, never a part.
 void replace_file(const std::filesystem::path& path, std::string_view content);
+
+/// Holds a directory for the one run that writes into it, until it is destroyed or the process ends: however it ends,
+/// the system releases the lock, so that none is ever stale. Nothing is written for it. Where a file system knows no
+/// locks, nothing is held.
+class DirectoryLock {
+ public:
+  /// Throws WriteError where another process holds the directory.
+  explicit DirectoryLock(const std::filesystem::path& directory);
+  ~DirectoryLock();
+  DirectoryLock(DirectoryLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
 
 /// A file that grows at its end. What a failed write left there is taken away again.
 class GrowingFile {

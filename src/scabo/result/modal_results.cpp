@@ -25,6 +25,7 @@ const std::string& body_name(const analysis::ModalResult& result, const analysis
 }
 
 std::string mass_cell(double mass, double total) {
+  if (mass <= 1e-12 * total) mass = 0.0;  // rounding, as in the other tables (report.hpp)
   return fmt::format("{:.4g} ({:.1f} %)", mass, 100.0 * mass / total);
 }
 
@@ -61,13 +62,13 @@ std::string report_modes(const analysis::ModalResult& result) {
   return table(rows);
 }
 
-std::string modal_summary_content(const analysis::ModalResult& result) {
+std::string modal_summary_content(const analysis::ModalResult& result, bool running) {
   const ModelSizes sizes = sizes_of(result.structure);
   Json json;
   json["scabo"] = version();
   json["title"] = result.structure.model.title;
   json["analysis"] = "modal";
-  json["status"] = "solved";
+  json["status"] = running ? "running" : "solved";
   json["reason"] = nullptr;
   json["warnings"] = result.warnings;
   json["model"] = {{"nodes", sizes.nodes},

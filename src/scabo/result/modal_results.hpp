@@ -11,8 +11,8 @@ namespace scabo::result {
 /// A line for each mode: number, frequency, body, effective masses and their share of the total mass.
 std::string report_modes(const analysis::ModalResult& result);
 
-/// Content of summary.json.
-std::string modal_summary_content(const analysis::ModalResult& result);
+/// Content of summary.json; `running`: before there are modes.
+std::string modal_summary_content(const analysis::ModalResult& result, bool running = false);
 
 /// Writes the shapes into a directory that `prepare_directory` has made; adds the seconds it took to `result.timing`.
 /// Throws WriteError.

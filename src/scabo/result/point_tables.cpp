@@ -114,7 +114,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       PointResult& result = results[body.rows[i]];
       if (condensed) {
         const element::PointOperator& rows = body.operators[i];
-        result.values.displacement = rows.N * increment.displacements[b];
+        result.values.displacement = rows.N * increment.displacements[b] - increment.reference_displacement;
         result.values.strain = rows.B * increment.displacements[b];
         result.values.stress =
             super_element->sectors.D.of(static_cast<std::size_t>(body.places[i].element)) * result.values.strain;

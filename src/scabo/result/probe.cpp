@@ -77,6 +77,7 @@ Probe::Probe(const analysis::StaticSolution& solution, const analysis::Increment
     : solution_(solution),
       body_(static_cast<std::size_t>(body)),
       u_(increment.displacements[body_]),
+      reference_displacement_(increment.reference_displacement),
       interior_(increment.interior[body_]) {
   const auto& super_element = solution.super_elements[body_];
   if (!super_element) return;
@@ -92,7 +93,7 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
   if (body.rigid) {
     if (!inside(body.outline, x)) return std::nullopt;
     element::PointValues values;
-    values.displacement = rigid_displacement(u_, x - body.outline.centroid());
+    values.displacement = rigid_displacement(u_, x - body.outline.centroid()) - reference_displacement_;
     return values;
   }
   if (!field_) return in_finite_elements(x);
@@ -108,8 +109,11 @@ element::PointValues Probe::at(const Vec2& x, const element::ScaledPoint& place)
   const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
   const element::Vec3 free =
       super_element.sectors.unit_strain_of(static_cast<std::size_t>(place.element)) * interior_.temperature.at(x);
-  return element::point_values(super_element.ring, table_ ? table_->at(place.xi) : field_->at(place.xi),
-                               super_element.sectors.D, place.element, place.eta, free);
+  element::PointValues values =
+      element::point_values(super_element.ring, table_ ? table_->at(place.xi) : field_->at(place.xi),
+                            super_element.sectors.D, place.element, place.eta, free);
+  values.displacement -= reference_displacement_;
+  return values;
 }
 
 std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {
@@ -117,11 +121,14 @@ std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) con
   const auto material = static_cast<std::size_t>(solution_.model.bodies[body_].material);
   for (const mesh::PlaneElement8& element : mesh.elements) {
     const FiniteElementState state = finite_element_state(mesh, element, u_);
-    if (const auto natural = natural_coordinates(state.x, x))
-      return element::plane_element8_values(
+    if (const auto natural = natural_coordinates(state.x, x)) {
+      element::PointValues values = element::plane_element8_values(
           state.x, state.u,
           element::elasticity_matrix(solution_.model.materials[material], solution_.model.analysis.plane), natural->x(),
           natural->y());
+      values.displacement -= reference_displacement_;
+      return values;
+    }
   }
   return std::nullopt;
 }

@@ -35,6 +35,7 @@ class Probe {
   const analysis::StaticSolution& solution_;
   std::size_t body_;
   const Vector& u_;
+  Vec2 reference_displacement_;
   const element::InteriorLoads& interior_;
   std::optional<element::RadialField> field_;  // of a super-element
   std::optional<element::RadialTable> table_;  // of field_

@@ -306,6 +306,9 @@ Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis
       recover_finite_elements(fields, point, solution, increment, b);
     }
   }
+  for (std::size_t point = 0; point < grid_.point_count(); ++point)
+    for (std::size_t k = 0; k < 2; ++k)
+      fields.displacement[3 * point + k] -= increment.reference_displacement[static_cast<Eigen::Index>(k)];
   return fields;
 }
 

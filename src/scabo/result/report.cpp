@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "scabo/result/summary.hpp"
@@ -27,6 +29,37 @@ std::string pairs_in_contact(const analysis::ContactResult& contact) {
   if (!contact.first_in_contact || !contact.last_in_contact) return "none";
   if (*contact.first_in_contact == *contact.last_in_contact) return fmt::format("P{}", *contact.first_in_contact);
   return fmt::format("P{} to P{}", *contact.first_in_contact, *contact.last_in_contact);
+}
+
+constexpr double rounding = 1e-12;
+
+/// Forces as small are rounding.
+double force_level(const analysis::IncrementResult& increment) {
+  const contact::Certificate& certificate = increment.certificate;
+  return increment.largest_force * std::max({rounding, certificate.equilibrium, certificate.rigid_balance});
+}
+
+/// Lengths as small are rounding.
+double length_level(const analysis::IncrementResult& increment) {
+  double motion = 0.0, place = 0.0;
+  for (const Vector& u : increment.displacements)
+    if (u.size() > 0) motion = std::max(motion, u.lpNorm<Eigen::Infinity>());
+  for (const analysis::ContactResult& contact : increment.contacts)
+    for (const analysis::PairResult& pair : contact.pairs)
+      place = std::max(place, pair.position.lpNorm<Eigen::Infinity>());
+  return std::max(rounding * motion, 4.0 * std::numeric_limits<double>::epsilon() * place);
+}
+
+std::string shown(double value, double level, int digits = 6) {
+  return fmt::format("{:.{}g}", std::abs(value) <= level ? 0.0 : value, digits);
+}
+
+/// 0 also where the forces that it stands for are rounding.
+std::string shown_pressure(const analysis::ContactResult& contact, double level) {
+  const bool pressed = std::any_of(contact.pairs.begin(), contact.pairs.end(), [&](const analysis::PairResult& pair) {
+    return std::abs(pair.normal_force) > level;
+  });
+  return fmt::format("{:.4g}", pressed ? contact.max_pressure : 0.0);
 }
 
 }  // namespace
@@ -98,8 +131,8 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
     }
     return text + '\n';
   }
-  const bool mechanism = increment.reason.starts_with("mechanism");
-  return text + fmt::format("; {}: {}\n", mechanism ? "NOT HELD" : "NOT CONVERGED", increment.reason);
+  if (increment.reason.starts_with("mechanism")) return text + "; mechanism\n";  // named at the end
+  return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
 }
 
 std::string describe_law(const model::Contact& contact) {
@@ -130,11 +163,11 @@ std::string report_contacts(const analysis::IncrementResult& increment) {
   std::vector<std::vector<std::string>> rows = {{"contact", "normal force", "tangential force", "open", "stick", "slip",
                                                  "in contact", "max pressure", "max gap"}};
   if (breaks) rows.front().emplace_back("broken");
+  const double force = force_level(increment), length = length_level(increment);
   for (const analysis::ContactResult& contact : increment.contacts) {
-    rows.push_back({contact.name, fmt::format("{:.6g}", contact.normal_force),
-                    fmt::format("{:.6g}", contact.tangential_force), fmt::format("{}", contact.open),
-                    fmt::format("{}", contact.stick), fmt::format("{}", contact.slip), pairs_in_contact(contact),
-                    fmt::format("{:.4g}", contact.max_pressure), fmt::format("{:.4g}", contact.max_gap)});
+    rows.push_back({contact.name, shown(contact.normal_force, force), shown(contact.tangential_force, force),
+                    fmt::format("{}", contact.open), fmt::format("{}", contact.stick), fmt::format("{}", contact.slip),
+                    pairs_in_contact(contact), shown_pressure(contact, force), shown(contact.max_gap, length, 4)});
     if (breaks) rows.back().push_back(contact.broken ? fmt::format("{}", *contact.broken) : "-");
   }
   return table(rows);
@@ -142,10 +175,11 @@ std::string report_contacts(const analysis::IncrementResult& increment) {
 
 std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment) {
   if (increment.reactions.empty()) return {};
+  const double force = force_level(increment);
   std::vector<std::vector<std::string>> rows = {{"support", "reaction x", "reaction y"}};
   for (std::size_t i = 0; i < increment.reactions.size(); ++i)
-    rows.push_back({model.supports[i].name, fmt::format("{:.6g}", increment.reactions[i].x()),
-                    fmt::format("{:.6g}", increment.reactions[i].y())});
+    rows.push_back(
+        {model.supports[i].name, shown(increment.reactions[i].x(), force), shown(increment.reactions[i].y(), force)});
   return table(rows);
 }
 
@@ -159,6 +193,7 @@ std::string report_cracks(const analysis::IncrementResult& increment) {
   std::vector<std::vector<std::string>> corners = {{"corner", "K_tt", "K_rt", "at distance", "singular exponents"}};
   for (const analysis::CrackResult& crack : increment.cracks) {
     const element::StressIntensity& f = crack.factors;
+    const double level = rounding * std::max(std::abs(f.K_I), std::abs(f.K_II));
     if (f.kind == element::CornerKind::corner) {
       std::string exponents;
       for (const element::CornerTerm& term : f.terms) {
@@ -168,18 +203,25 @@ std::string report_cracks(const analysis::IncrementResult& increment) {
                                             : fmt::format("{:.6g}{:+.6g}i", value.real(), value.imag()));
         if (term.defective) exponents += " (power-logarithmic)";
       }
-      corners.push_back({crack.name, fmt::format("{:.6g}", f.K_I), fmt::format("{:.6g}", f.K_II),
+      corners.push_back({crack.name, shown(f.K_I, level), shown(f.K_II, level),
                          fmt::format("{:.6g}", f.reference_length), exponents.empty() ? "none" : exponents});
       continue;
     }
     const bool interface = f.kind == element::CornerKind::interface_crack;
-    rows.push_back({crack.name, interface ? "interface" : "crack", fmt::format("{:.6g}", f.K_I),
-                    fmt::format("{:.6g}", f.K_II),
+    rows.push_back({crack.name, interface ? "interface" : "crack", shown(f.K_I, level), shown(f.K_II, level),
                     interface ? number(f.T_left) + ", " + number(f.T_right) : number(f.T_left), number(f.G),
                     number(f.J), interface ? fmt::format("{:.6g}", f.epsilon) : "-",
                     interface ? fmt::format("{:.6g}", f.reference_length) : "-"});
   }
   return (rows.size() > 1 ? table(rows) : "") + (corners.size() > 1 ? table(corners) : "");
+}
+
+std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
+  std::string text;
+  for (const std::string& part :
+       {report_contacts(increment), report_reactions(model, increment), report_cracks(increment)})
+    if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
+  return text;
 }
 
 std::string report_warnings(const analysis::StaticSolution& solution) {
@@ -212,7 +254,7 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
       text += fmt::format("Did not converge: {}\n", solution.reason);
       break;
     case analysis::Outcome::mechanism:
-      text += fmt::format("Not held: {}\n", solution.reason);
+      text += fmt::format("Not solved: {}\n", solution.reason);
       break;
     case analysis::Outcome::interrupted:
       text += fmt::format("Interrupted: {}\n", solution.reason);
@@ -220,10 +262,7 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
   }
   if (const analysis::IncrementResult* last = last_converged(solution)) {
     text += fmt::format("\nAfter step {}, increment {}:\n", last->step_name, last->increment);
-    text += report_contacts(*last);
-    if (!last->contacts.empty() && !last->reactions.empty()) text += '\n';
-    text += report_reactions(solution.model, *last);
-    if (!last->cracks.empty()) text += '\n' + report_cracks(*last);
+    text += report_totals(solution.model, *last);
   }
   if (!solution.warnings.empty()) text += '\n' + report_warnings(solution);
   return text + '\n' + report_timing(timing);

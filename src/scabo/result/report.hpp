@@ -24,6 +24,11 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
 /// What a contact carries, as in `friction 0.5, cohesion 3e+05 until failure`.
 std::string describe_law(const model::Contact& contact);
 
+// Tables for people show 0 for a figure that is nothing but rounding: a force below 1e-12 of the largest force at work,
+// or below what the certificate leaves of equilibrium; a gap below 1e-12 of the largest displacement, or below the
+// rounding of coordinates; of the two factors of a crack one below 1e-12 of the other; an effective mass below 1e-12
+// of the total. Files for programs keep what was computed.
+
 /// Totals of every contact; empty where there is none.
 std::string report_contacts(const analysis::IncrementResult& increment);
 
@@ -32,6 +37,9 @@ std::string report_reactions(const model::Model& model, const analysis::Incremen
 
 /// Table of stress intensity factors; empty without cracks.
 std::string report_cracks(const analysis::IncrementResult& increment);
+
+/// All of these, an empty line between them.
+std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment);
 
 /// One line for each warning.
 std::string report_warnings(const analysis::StaticSolution& solution);

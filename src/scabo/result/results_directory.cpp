@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "scabo/base/stopwatch.hpp"
@@ -20,12 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds between_summaries{2};
 constexpr const char* problems_name = "problems";
 
-/// `fields_0001.vtu` and the like.
-bool is_fields_name(const std::string& name) {
-  constexpr std::string_view begin = "fields_", end = ".vtu";
+/// `fields_0001.vtu`, `contact_0001.vtu` and the like.
+bool is_vtu_name(const std::string& name, std::string_view begin) {
+  constexpr std::string_view end = ".vtu";
   if (!name.starts_with(begin) || !name.ends_with(end)) return false;
   const std::string number = name.substr(begin.size(), name.size() - begin.size() - end.size());
   return number.size() >= 4 &&
@@ -34,7 +34,8 @@ bool is_fields_name(const std::string& name) {
 
 /// What the beginning of a result file holds; nothing for names that no result has.
 std::optional<std::string_view> mark_of(const std::string& name) {
-  if (is_fields_name(name) || name == "fields.pvd") return vtk_mark;
+  if (is_vtu_name(name, "fields_") || is_vtu_name(name, "contact_")) return vtk_mark;
+  if (name == "fields.pvd" || name == "contact.pvd") return vtk_mark;
   if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
   if (name == "contact.csv") return contact_table_header;
   if (name == "convergence.csv") return convergence_table_header;
@@ -55,12 +56,27 @@ bool written_by_scabo(const fs::path& file, std::string_view mark) {
   return read.empty() || read.find(mark) != std::string_view::npos;
 }
 
+/// The system's words, and what to do where they do not say it.
+std::string reason_of(const std::error_code& error) {
+  if (error == std::errc::too_many_symbolic_link_levels)
+    return "symbolic links on the way lead in a circle: remove them, or choose another directory";
+  if (error == std::errc::filename_too_long) return "the name is too long: choose a shorter one";
+  if (error == std::errc::permission_denied || error == std::errc::read_only_file_system)
+    return error.message() + ": choose a directory that you may write to";
+  if (error == std::errc::not_a_directory) return "a part of the path is a file, not a directory";
+  return error.message();
+}
+
 void create(const fs::path& path) {
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_directory(path, error))
-    throw WriteError("cannot write results to", path, "it is a file, not a directory");
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found && fs::is_symlink(fs::symlink_status(path, error)))
+    throw WriteError("cannot write results to", path,
+                     "it is a symbolic link to a directory that does not exist: make that, or choose another one");
+  if (fs::exists(status) && !fs::is_directory(status))
+    throw WriteError("cannot write results to", path, "it is a file, not a directory: choose another name");
   fs::create_directories(path, error);
-  if (error) throw WriteError("cannot create the directory", path, error.message());
+  if (error) throw WriteError("cannot create the directory", path, reason_of(error));
 }
 
 /// The discrete problems of an earlier run: HDF5 files with the group `scabo`, whose name stands near the beginning.
@@ -118,15 +134,30 @@ bool has_iterations(const analysis::StaticSolution& solution) {
 
 }  // namespace
 
-void prepare_directory(const fs::path& path) {
+DirectoryLock prepare_directory(const fs::path& path) {
   create(path);
+  DirectoryLock lock(path);
   remove_old_results(path);
+  return lock;
 }
 
-ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model) : path_(std::move(path)) {
+void mark_failed(const fs::path& directory, const std::string& reason) noexcept try {
+  const fs::path file = directory / "summary.json";
+  std::ifstream stream(file, std::ios::binary);
+  const std::string before((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  replace_file(file, failed_summary(before, reason));
+} catch (...) {  // the caller tells why the run ended
+}
+
+ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mesh::Mesh mesh)
+    : path_(std::move(path)), output_(model.output) {
   const Stopwatch writing(write_seconds_);
   for (const model::Step& step : model.steps) increments_of_step_.push_back(step.increments);
-  prepare_directory(path_);
+  lock_.emplace(prepare_directory(path_));
+  analysis::StaticSolution start;
+  start.model = model;
+  start.mesh = std::move(mesh);
+  write_running_summary(start);
   contact_table_.emplace(path_ / "contact.csv");
   contact_table_->append(contact_table_header);
   convergence_table_.emplace(path_ / "convergence.csv");
@@ -136,13 +167,41 @@ ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model) : p
     point_files_.push_back({table, std::make_unique<GrowingFile>(path_ / file_of(table)), std::nullopt});
     point_files_.back().file->append(header_of(table));
   }
-  collection_.emplace(path_ / "fields.pvd");
+  if (output_.fields.any_of_bodies()) fields_collection_.emplace(path_ / "fields.pvd");
+  if (output_.fields.contact && !model.contacts.empty()) contact_collection_.emplace(path_ / "contact.pvd");
   log_.emplace(path_ / "log.txt");
-  next_summary_ = Clock::now() + between_summaries;
 }
 
-void ResultsDirectory::add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
+void ResultsDirectory::add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) try {
+  add_files(solution, increment);
+  const Stopwatch writing(write_seconds_);
+  if (Clock::now() >= next_summary_) write_running_summary(solution);
+} catch (const WriteError&) {
+  try {  // the increment is solved: its totals may still find room
+    replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true));
+  } catch (const WriteError&) {
+  }
+  throw;
+}
+
+void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
   if (increment.converged) {
+    ++finished_;
+    if (finished_ % output_.every == 0 || is_last(increment)) add_fields(solution, increment);
+    const Stopwatch writing(write_seconds_);
+    contact_table_->append(contact_table_rows(increment));
+    add_points(solution, increment);
+  }
+  const Stopwatch writing(write_seconds_);
+  convergence_table_->append(convergence_table_rows(increment));
+  begin_log(solution);
+  log_->append(report_increment(solution.model, increment));
+}
+
+/// Collections last: they name only files that are complete.
+void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
+                                  const analysis::IncrementResult& increment) {
+  if (fields_collection_) {
     std::optional<Fields> fields;
     {
       const Stopwatch recovering(recover_seconds_);
@@ -150,19 +209,17 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution, const analy
       fields = recovery_->fields(solution, increment);
     }
     const Stopwatch writing(write_seconds_);
-    // The collection last: it names only files that are complete.
-    const std::string file = fmt::format("fields_{:04d}.vtu", fields_written_ + 1);
-    write_file(path_ / file, vtu_content(recovery_->grid(), *fields));
-    ++fields_written_;
-    contact_table_->append(contact_table_rows(increment));
-    add_points(solution, increment);
-    collection_->add(pseudo_time(increment), file);
+    const std::string file = fmt::format("fields_{:04d}.vtu", finished_);
+    write_file(path_ / file, vtu_content(recovery_->grid(), *fields, output_.fields));
+    fields_collection_->add(pseudo_time(increment), file);
   }
-  const Stopwatch writing(write_seconds_);
-  convergence_table_->append(convergence_table_rows(increment));
-  begin_log(solution);
-  log_->append(report_increment(solution.model, increment));
-  if (Clock::now() >= next_summary_) write_running_summary(solution);
+  if (contact_collection_) {
+    const Stopwatch writing(write_seconds_);
+    const std::string file = fmt::format("contact_{:04d}.vtu", finished_);
+    write_file(path_ / file, vtu_content(contact_lines(increment)));
+    contact_collection_->add(pseudo_time(increment), file);
+  }
+  fields_written_ = finished_;
 }
 
 std::filesystem::path ResultsDirectory::problem_file(const analysis::IncrementResult& increment,
@@ -198,6 +255,10 @@ void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
 }
 
 void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
+  // Where the run ended early, the last increment that converged was not known to be the last.
+  const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
+                                 [](const auto& increment) { return increment.converged; });
+  if (fields_written_ < finished_ && last != solution.increments.rend()) add_fields(solution, *last);
   {
     const Stopwatch writing(write_seconds_);
     if (has_iterations(solution)) replace_file(path_ / "convergence.svg", convergence_plot(solution));
@@ -221,6 +282,11 @@ double ResultsDirectory::pseudo_time(const analysis::IncrementResult& increment)
              increments_of_step_.at(static_cast<std::size_t>(increment.step - 1));
 }
 
+bool ResultsDirectory::is_last(const analysis::IncrementResult& increment) const {
+  return increment.step == static_cast<int>(increments_of_step_.size()) &&
+         increment.increment == increments_of_step_.back();
+}
+
 void ResultsDirectory::begin_log(const analysis::StaticSolution& solution) {
   if (log_begun_) return;
   log_->append(report_header(solution));
@@ -232,7 +298,7 @@ void ResultsDirectory::write_running_summary(const analysis::StaticSolution& sol
   const Clock::time_point start = Clock::now();
   replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true));
   const Clock::time_point end = Clock::now();
-  next_summary_ = end + std::max<Clock::duration>(between_summaries, 20 * (end - start));
+  next_summary_ = end + 20 * (end - start);
 }
 
 }  // namespace scabo::result

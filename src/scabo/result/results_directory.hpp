@@ -1,7 +1,7 @@
-// The directory that a run leaves: summary.json, contact.csv, fields.pvd with one .vtu for each increment,
-// convergence.csv and .svg, log.txt, and where they are asked for points.csv, lines.csv, grid.csv and problems/
-// (docs/results.md). Increments are added as they finish, so that they can be read while the run goes
-// on, and after it was interrupted or killed.
+// The directory that a run leaves: summary.json, contact.csv, fields.pvd with one .vtu for each increment, contact.pvd
+// with one .vtu of the contacts for each (both as `output` asks for them), convergence.csv and .svg, log.txt, and where
+// they are asked for points.csv, lines.csv, grid.csv and problems/ (docs/results.md). Increments are added as they
+// finish, so that they can be read while the run goes on, and after it was interrupted or killed.
 #pragma once
 
 #include <chrono>
@@ -19,18 +19,23 @@
 namespace scabo::result {
 
 /// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
-/// removed; one of another origin that stands where a result has to go is an error. Throws WriteError.
-void prepare_directory(const std::filesystem::path& path);
+/// removed; one of another origin that stands where a result has to go is an error, and so is another run at work
+/// there. The directory is held for the caller as long as the lock lives. Throws WriteError.
+[[nodiscard]] DirectoryLock prepare_directory(const std::filesystem::path& path);
+
+/// Says in summary.json that an error ended the run: status `failed`, with the reason. Where that cannot be written
+/// (a full disk), the file stays as it was: readable, with status `running`.
+void mark_failed(const std::filesystem::path& directory, const std::string& reason) noexcept;
 
 class ResultsDirectory {
  public:
-  /// Prepares the directory. Throws WriteError.
-  ResultsDirectory(std::filesystem::path path, const model::Model& model);
+  /// Prepares the directory, and writes a first summary.json with the sizes of the mesh. Throws WriteError.
+  ResultsDirectory(std::filesystem::path path, const model::Model& model, mesh::Mesh mesh = {});
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes what an increment came to; for one that did not converge a line of log.txt only. From time to
-  /// time also summary.json, as far as it is known. Throws WriteError.
+  /// Writes what an increment came to; for one that did not converge a line of log.txt only. Also summary.json, as far
+  /// as it is known, unless that would take more than a twentieth of the time. Throws WriteError.
   void add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
 
   /// Writes summary.json and ends log.txt, however the run ended. `solution.timing` with the figures that
@@ -51,13 +56,18 @@ class ResultsDirectory {
 
   /// `timing` of the analysis and of this directory.
   analysis::Timing complete(analysis::Timing timing) const;
+  void add_files(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
   void begin_log(const analysis::StaticSolution& solution);
   void write_running_summary(const analysis::StaticSolution& solution);
 
   std::filesystem::path path_;
+  std::optional<DirectoryLock> lock_;
   double pseudo_time(const analysis::IncrementResult& increment) const;
+  bool is_last(const analysis::IncrementResult& increment) const;
+  void add_fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
   std::vector<int> increments_of_step_;
-  int fields_written_ = 0;
+  int finished_ = 0;        // converged increments
+  int fields_written_ = 0;  // number of the last one whose fields are written
   bool log_begun_ = false;
   double recover_seconds_ = 0.0, write_seconds_ = 0.0;
   Clock::time_point next_summary_;
@@ -70,7 +80,8 @@ class ResultsDirectory {
   };
   std::vector<PointFile> point_files_;
   std::vector<std::string> warnings_;  // of the tables
-  std::optional<FieldCollection> collection_;
+  model::Output output_;
+  std::optional<FieldCollection> fields_collection_, contact_collection_;
   std::optional<Recovery> recovery_;
 };
 

@@ -238,4 +238,11 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
+std::string failed_summary(const std::string& summary, const std::string& reason) {
+  Json json = Json::parse(summary);
+  json["status"] = "failed";
+  json["reason"] = reason;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 }  // namespace scabo::result

@@ -1,4 +1,4 @@
-// summary.json: what a run came to, for programs (docs/results.md names every key).
+// summary.json: the results of a run, for programs (docs/results.md names every key).
 #pragma once
 
 #include <optional>
@@ -24,6 +24,9 @@ std::optional<long long> peak_memory();
 /// Content of summary.json. `running`: not at its end yet, so without the figures of the whole run. `timing`
 /// instead of the solution's. Values that do not exist are null.
 std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running);
+
+/// The summary of a run that an error ended: `summary` with status `failed` and the reason.
+std::string failed_summary(const std::string& summary, const std::string& reason);
 
 /// `solved`, `not_converged`, `mechanism` or `interrupted`.
 std::string_view name_of(analysis::Outcome outcome);

@@ -1,4 +1,4 @@
-// The version that results say they come from.
+// The version of Scabo that is written into results.
 #pragma once
 
 #include <string_view>

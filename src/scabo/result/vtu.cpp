@@ -30,26 +30,40 @@ constexpr std::string_view name_of() {
   if constexpr (std::is_same_v<Value, std::uint8_t>) return "UInt8";
 }
 
+/// Numbers as text, for small files, or appended as they lie in memory. (meshio 5.3 mixes up appended arrays where the
+/// offset of one equals that of another in its own encoding, which small arrays bring about.)
+enum class Encoding { text, appended };
+
 /// Elements that describe arrays, and the data they describe. A block of data is its length in bytes (64
 /// bits), then the values as they lie in memory; offsets count from the underscore that begins the data.
 class Document {
  public:
-  explicit Document(std::string beginning) : text_(std::move(beginning)) {}
+  explicit Document(std::string beginning, Encoding encoding) : text_(std::move(beginning)), encoding_(encoding) {}
 
   void add(std::string_view text) { text_ += text; }
 
+  /// A scalar has no number of components, as in VTK's own files: readers give one number for each point, not a list.
   template <typename Value>
   void add_array(std::string_view name, int components, const std::vector<Value>& values,
                  std::string_view attributes = "") {
+    if (encoding_ == Encoding::text) {
+      fmt::format_to(std::back_inserter(text_), "        <DataArray type=\"{}\" Name=\"{}\"{}{} format=\"ascii\">",
+                     name_of<Value>(), name,
+                     components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components), attributes);
+      for (const Value value : values) fmt::format_to(std::back_inserter(text_), "{} ", +value);
+      text_ += "</DataArray>\n";
+      return;
+    }
+    const std::string number = components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
     fmt::format_to(std::back_inserter(text_),
-                   "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" "
-                   "offset=\"{}\"/>\n",
-                   name_of<Value>(), name, components, attributes, data_size_);
+                   "        <DataArray type=\"{}\" Name=\"{}\"{}{} format=\"appended\" offset=\"{}\"/>\n",
+                   name_of<Value>(), name, number, attributes, data_size_);
     blocks_.push_back({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
     data_size_ += sizeof(std::uint64_t) + values.size() * sizeof(Value);
   }
 
   std::string finish() && {
+    if (encoding_ == Encoding::text) return std::move(text_) + "</VTKFile>\n";
     constexpr std::string_view begin = "  <AppendedData encoding=\"raw\">\n_",
                                end = "\n  </AppendedData>\n</VTKFile>\n";
     text_.reserve(text_.size() + begin.size() + data_size_ + end.size());
@@ -65,45 +79,85 @@ class Document {
 
  private:
   std::string text_;
+  Encoding encoding_;
   std::vector<std::string_view> blocks_;
   std::size_t data_size_ = 0;
 };
 
-void add_fields(Document& document, const Fields& fields) {
-  document.add_array("displacement", 3, fields.displacement);
-  document.add_array("stress", 6, fields.stress,
-                     " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\""
-                     " ComponentName4=\"YZ\" ComponentName5=\"XZ\"");
-  document.add_array("stress_xx", 1, fields.stress_xx);
-  document.add_array("stress_yy", 1, fields.stress_yy);
-  document.add_array("stress_xy", 1, fields.stress_xy);
-  document.add_array("stress_zz", 1, fields.stress_zz);
-  document.add_array("principal_1", 1, fields.principal_1);
-  document.add_array("principal_2", 1, fields.principal_2);
-  document.add_array("principal_3", 1, fields.principal_3);
-  document.add_array("principal_angle", 1, fields.principal_angle);
-  document.add_array("von_mises", 1, fields.von_mises);
+void add_fields(Document& document, const Fields& fields, const model::OutputFields& wanted) {
+  if (wanted.displacement) document.add_array("displacement", 3, fields.displacement);
+  if (wanted.stress) {
+    document.add_array("stress", 6, fields.stress,
+                       " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\""
+                       " ComponentName4=\"YZ\" ComponentName5=\"XZ\"");
+    document.add_array("stress_xx", 1, fields.stress_xx);
+    document.add_array("stress_yy", 1, fields.stress_yy);
+    document.add_array("stress_xy", 1, fields.stress_xy);
+    document.add_array("stress_zz", 1, fields.stress_zz);
+  }
+  if (wanted.principal) {
+    document.add_array("principal_1", 1, fields.principal_1);
+    document.add_array("principal_2", 1, fields.principal_2);
+    document.add_array("principal_3", 1, fields.principal_3);
+    document.add_array("principal_angle", 1, fields.principal_angle);
+  }
+  if (wanted.von_mises) document.add_array("von_mises", 1, fields.von_mises);
+}
+
+/// The arrays that a viewer shows first.
+std::string point_data(std::string_view scalars, bool displacement) {
+  return fmt::format("      <PointData{}{}>\n", scalars.empty() ? "" : fmt::format(" Scalars=\"{}\"", scalars),
+                     displacement ? " Vectors=\"displacement\"" : "");
+}
+
+/// Everything after the arrays of the points.
+template <typename Cells>
+std::string finish_piece(Document document, const Cells& cells, std::string_view owner,
+                         const std::vector<std::int32_t>& owners) {
+  document.add("      </PointData>\n      <CellData>\n");
+  document.add_array(owner, 1, owners);
+  document.add("      </CellData>\n      <Points>\n");
+  document.add_array("Points", 3, cells.points);
+  document.add("      </Points>\n      <Cells>\n");
+  document.add_array("connectivity", 1, cells.connectivity);
+  document.add_array("offsets", 1, cells.offsets);
+  document.add_array("types", 1, cells.types);
+  document.add("      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n");
+  return std::move(document).finish();
+}
+
+Document begin_piece(std::size_t points, std::size_t cells, Encoding encoding) {
+  Document document(opening("UnstructuredGrid", " header_type=\"UInt64\""), encoding);
+  document.add(
+      fmt::format("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, cells));
+  return document;
 }
 
 }  // namespace
 
-std::string vtu_content(const Grid& grid, const Fields& fields) {
-  Document document(opening("UnstructuredGrid", " header_type=\"UInt64\""));
-  document.add(fmt::format("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                           grid.point_count(), grid.cell_count()));
-  document.add("      <PointData Scalars=\"principal_1\" Vectors=\"displacement\">\n");
-  add_fields(document, fields);
+std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted) {
+  Document document = begin_piece(grid.point_count(), grid.cell_count(), Encoding::appended);
+  document.add(point_data(wanted.principal ? "principal_1" : wanted.von_mises ? "von_mises" : "", wanted.displacement));
+  add_fields(document, fields, wanted);
   document.add_array("body", 1, grid.point_body);
-  document.add("      </PointData>\n      <CellData>\n");
-  document.add_array("body", 1, grid.cell_body);
-  document.add("      </CellData>\n      <Points>\n");
-  document.add_array("Points", 3, grid.points);
-  document.add("      </Points>\n      <Cells>\n");
-  document.add_array("connectivity", 1, grid.connectivity);
-  document.add_array("offsets", 1, grid.offsets);
-  document.add_array("types", 1, grid.types);
-  document.add("      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n");
-  return std::move(document).finish();
+  return finish_piece(std::move(document), grid, "body", grid.cell_body);
+}
+
+std::string vtu_content(const ContactLines& lines) {
+  Document document = begin_piece(lines.state.size(), lines.types.size(), Encoding::text);
+  document.add(point_data("pressure", true));
+  document.add_array("state", 1, lines.state);
+  document.add_array("pressure", 1, lines.pressure);
+  document.add_array("shear", 1, lines.shear);
+  document.add_array("gap", 1, lines.gap);
+  document.add_array("slip", 1, lines.slip);
+  document.add_array("normal_force", 1, lines.normal_force);
+  document.add_array("tangential_force", 1, lines.tangential_force);
+  document.add_array("traction", 3, lines.traction);
+  document.add_array("displacement", 3, lines.displacement);
+  document.add_array("pair", 1, lines.pair);
+  document.add_array("contact", 1, lines.contact);
+  return finish_piece(std::move(document), lines, "contact", lines.cell_contact);
 }
 
 FieldCollection::FieldCollection(const std::filesystem::path& path) : file_(path) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "scabo/model/model.hpp"
+#include "scabo/result/contact_lines.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/grid.hpp"
 
@@ -15,8 +17,9 @@ namespace scabo::result {
 /// Stands near the beginning of every .vtu and .pvd of Scabo's, so that they are told from others.
 inline constexpr std::string_view vtk_mark = "<!-- written by Scabo";
 
-/// Content of a .vtu file.
-std::string vtu_content(const Grid& grid, const Fields& fields);
+/// Content of a .vtu file, with the arrays that are wanted.
+std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {});
+std::string vtu_content(const ContactLines& lines);
 
 /// A .pvd file, complete after every call.
 class FieldCollection {

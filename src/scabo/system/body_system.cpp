@@ -6,10 +6,17 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "scabo/linalg/twofold.hpp"
 
 namespace scabo::system {
 
 Vector Stiffness::times(const Vector& u) const { return dense ? Vector(*dense * u) : Vector(sparse * u); }
+
+linalg::TwofoldVector Stiffness::times(const linalg::TwofoldVector& u) const {
+  return dense ? linalg::product(*dense, u) : linalg::product(sparse, u);
+}
 
 double Stiffness::largest_diagonal() const {
   if (size() == 0) return 0.0;
@@ -76,6 +83,7 @@ class ElasticBody final : public BodySystem {
       : stiffness_(std::move(stiffness)), free_(static_cast<std::size_t>(2 * nodes.size()), true) {
     constraints_ = std::move(constraints);
     find_rigid_motions(nodes);
+    find_turn(nodes);
     for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
     solved_ = free_;
     for (int dof : further_dofs()) solved_[static_cast<std::size_t>(dof)] = false;
@@ -95,6 +103,7 @@ class ElasticBody final : public BodySystem {
       const Vector load = f - internal_forces(u);
       u(dofs_) += solver_.solve(load(dofs_)).col(0);
     }
+    if (rounding_matters(u, f)) u += refined(u, f).missing;
     return u;
   }
 
@@ -106,11 +115,26 @@ class ElasticBody final : public BodySystem {
     }
     Matrix A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
     A(at, at) = solver_.inverse_block(places);
+    // The factor alone gives it to about this condition times the unit of rounding.
+    constexpr double most_entries = 1e9;  // some seconds
+    const double entries = static_cast<double>(stiffness_.entries()) * static_cast<double>(at.size());
+    if (!at.empty() && stiffness_.largest_diagonal() * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
+      const Vector none = Vector::Zero(size());
+      for (std::size_t j = 0; j < at.size(); ++j) {
+        Vector force = none;
+        force[dofs[static_cast<std::size_t>(at[j])]] = 1.0;
+        Vector u = none;
+        u(dofs_) = solver_.solve(force(dofs_)).col(0);
+        u += refined(u, force).missing;
+        for (std::size_t i = 0; i < at.size(); ++i) A(at[i], at[j]) = u[dofs[static_cast<std::size_t>(at[i])]];
+      }
+      A = 0.5 * (A + A.transpose()).eval();
+    }
     return A;
   }
 
   Vector reactions(const Vector& u, const Vector& f) const override {
-    const Vector remaining = internal_forces(u) - f;
+    const Vector remaining = unbalanced(u, f);
     Vector forces(static_cast<Eigen::Index>(constraints_.size()));
     for (std::size_t c = 0; c < constraints_.size(); ++c)
       forces[static_cast<Eigen::Index>(c)] = remaining[constraints_[c].dof];
@@ -118,14 +142,19 @@ class ElasticBody final : public BodySystem {
   }
 
   double imbalance(const Vector& u, const Vector& f) const override {
-    const Vector remaining = internal_forces(u) - f;
+    const Vector remaining = unbalanced(u, f);
     double largest = 0.0;
     for (std::size_t i = 0; i < free_.size(); ++i)
       if (free_[i]) largest = std::max(largest, std::abs(remaining[static_cast<Eigen::Index>(i)]));
     return largest;
   }
 
-  double elastic_energy(const Vector& u) const override { return 0.5 * u.dot(internal_forces(u)); }
+  double elastic_energy(const Vector& u) const override {
+    const Vector plain = internal_forces(u);
+    if (!rounding_matters(u, plain)) return 0.5 * u.dot(plain);
+    const Vector nothing = Vector::Zero(size());
+    return 0.5 * u.dot(forces_left(u, nothing, nothing));
+  }
   double stiff_force(const Vector& u) const override {
     return stiffness_.largest_diagonal() * u.lpNorm<Eigen::Infinity>();
   }
@@ -139,6 +168,96 @@ class ElasticBody final : public BodySystem {
     const Vec2 mean = by_node.rowwise().mean();
     by_node.colwise() -= mean;
     return stiffness_.times(u);
+  }
+
+  /// Whether rounding u can leave forces that are not small beside f: in slender bodies K u is a small difference of
+  /// large numbers.
+  bool rounding_matters(const Vector& u, const Vector& f) const {
+    constexpr double unit = std::numeric_limits<double>::epsilon();
+    return unit * stiff_force(u) > 1e-12 * f.lpNorm<Eigen::Infinity>();
+  }
+
+  /// K (u + missing) - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out
+  /// (translations and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that
+  /// come from rounding have no resultant this way.
+  Vector forces_left(const Vector& u, const Vector& missing, const Vector& f) const {
+    linalg::TwofoldVector moved(static_cast<std::size_t>(size()));
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      moved[i] = linalg::exact_sum(u[row], missing[row]);
+    }
+    if (!stiffness_.unbounded) take_out_rigid_motions(moved);
+    linalg::TwofoldVector forces = stiffness_.times(moved);
+    if (!stiffness_.unbounded) take_out_rigid_motions(forces);
+    Vector left(size());
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      left[row] = (forces[i] - linalg::Twofold{f[row], 0.0}).high;
+    }
+    return left;
+  }
+
+  void take_out_rigid_motions(linalg::TwofoldVector& v) const {
+    const linalg::Twofold nodes{static_cast<double>(v.size() / 2), 0.0};
+    for (std::size_t k = 0; k < 2; ++k) {
+      linalg::Twofold sum;
+      for (std::size_t i = k; i < v.size(); i += 2) sum = sum + v[i];
+      const linalg::Twofold mean = sum / nodes;
+      for (std::size_t i = k; i < v.size(); i += 2) v[i] = v[i] - mean;
+    }
+    linalg::Twofold product, square;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      product = product + v[i] * turn_[i];
+      square = square + turn_[i] * turn_[i];
+    }
+    const linalg::Twofold angle = product / square;
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = v[i] - angle * turn_[i];
+  }
+
+  /// What u lacks of the displacement under f, too small to be added to it, and the forces that are left with it.
+  struct Refined {
+    Vector missing, left;
+  };
+  Refined refined(const Vector& u, const Vector& f) const {
+    Refined best{Vector::Zero(size()), {}};
+    best.left = forces_left(u, best.missing, f);
+    const auto size_of = [&](const Vector& left) {
+      return dofs_.empty() ? 0.0 : Vector(left(dofs_)).lpNorm<Eigen::Infinity>();
+    };
+    constexpr int most = 8;
+    for (int round = 0; round < most && size_of(best.left) > 1e-14 * f.lpNorm<Eigen::Infinity>(); ++round) {
+      Refined next = best;
+      next.missing(dofs_) -= solver_.solve(best.left(dofs_)).col(0);
+      next.left = forces_left(u, next.missing, f);
+      if (!(size_of(next.left) < 0.5 * size_of(best.left))) break;
+      best = std::move(next);
+    }
+    return best;
+  }
+
+  /// K u - f. Where rounding u matters, of the displacement that u is the rounded value of, if it is one: u must not
+  /// lack more than its last digits.
+  Vector unbalanced(const Vector& u, const Vector& f) const {
+    Vector plain = internal_forces(u) - f;
+    if (!u.allFinite() || !rounding_matters(u, f)) return plain;
+    Refined with_missing = refined(u, f);
+    constexpr double last_digits = 256 * std::numeric_limits<double>::epsilon();
+    if (!(with_missing.missing.lpNorm<Eigen::Infinity>() <= last_digits * u.lpNorm<Eigen::Infinity>())) return plain;
+    return std::move(with_missing.left);
+  }
+
+  void find_turn(const std::vector<Vec2>& nodes) {
+    for (const Vec2& x : nodes) {
+      turn_.push_back({-x.y(), 0.0});
+      turn_.push_back({x.x(), 0.0});
+    }
+    const linalg::Twofold count{static_cast<double>(nodes.size()), 0.0};
+    for (std::size_t k = 0; k < 2; ++k) {  // about the mean of the nodes: orthogonal to translations
+      linalg::Twofold sum;
+      for (std::size_t i = k; i < turn_.size(); i += 2) sum = sum + turn_[i];
+      const linalg::Twofold mean = sum / count;
+      for (std::size_t i = k; i < turn_.size(); i += 2) turn_[i] = turn_[i] - mean;
+    }
   }
 
   void find_rigid_motions(const std::vector<Vec2>& nodes) {
@@ -155,7 +274,10 @@ class ElasticBody final : public BodySystem {
   std::vector<int> further_dofs() const {
     std::vector<int> chosen;
     if (rigid_motions_.cols() == 0) return chosen;
-    const Eigen::ColPivHouseholderQR<Matrix> qr(rigid_motions_.transpose());
+    // Equal pivots are common, of equal corners for one. Rounded, they are equal in every unit of length, and the choice,
+    // on which W and the iterations depend, is the same.
+    const Matrix rounded = (rigid_motions_.transpose().array() * 0x1p30).round() * 0x1p-30;
+    const Eigen::ColPivHouseholderQR<Matrix> qr(rounded);
     for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) chosen.push_back(qr.colsPermutation().indices()[k]);
     return chosen;
   }
@@ -179,8 +301,9 @@ class ElasticBody final : public BodySystem {
   }
 
   Stiffness stiffness_;
-  std::vector<bool> free_;    // by supports
-  std::vector<bool> solved_;  // free, and not among the further dofs
+  linalg::TwofoldVector turn_;  // the rotation about the mean of the nodes
+  std::vector<bool> free_;      // by supports
+  std::vector<bool> solved_;    // free, and not among the further dofs
   std::vector<int> dofs_, place_;
   linalg::SymmetricPositiveSolver solver_;
 };

@@ -6,7 +6,7 @@
 #include "scabo/contact/laws/frictionless.hpp"
 #include "scabo/contact/laws/slip_weakening.hpp"
 #include "scabo/contact/laws/tresca.hpp"
-#include "scabo/system/loads.hpp"
+#include "scabo/system/tributary_lengths.hpp"
 
 namespace scabo::system {
 
@@ -41,14 +41,6 @@ LawPointer law_of(const model::Contact& contact, double s) {
   return std::make_shared<contact::Cohesive>(std::move(friction), contact.cohesion, contact.tension);
 }
 
-/// int N_i ds of every node of the edge of a contact that its areas are taken from.
-Vector tributary_lengths(const model::Contact& contact, bool on_b, const mesh::Mesh& mesh) {
-  const model::Place& place = on_b ? contact.b : contact.a;
-  const auto mass =
-      line_mass(mesh::nodes_of(place, mesh).elements, mesh.bodies[static_cast<std::size_t>(place.body)].nodes);
-  return mass * Vector::Ones(mass.cols());
-}
-
 }  // namespace
 
 std::vector<double> positions_along(const mesh::Interface& interface) {
@@ -69,26 +61,19 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
   laws.area = Vector::Ones(static_cast<Eigen::Index>(pairs.size()));
   int contact_before = -1;
   std::vector<double> positions;
-  Vector lengths;
+  std::vector<double> lengths;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const ContactSystem::Pair& at = pairs[k];
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(at.contact)];
     const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(at.contact)];
-    const bool on_b = model.bodies[static_cast<std::size_t>(contact.a.body)].rigid;
     if (at.contact != contact_before) {
       contact_before = at.contact;
       positions = positions_along(interface);
-      lengths = tributary_lengths(contact, on_b, mesh);
+      lengths = tributary_lengths(at.contact, model, mesh);
     }
     const auto index = static_cast<std::size_t>(at.index);
     laws.of_pair.push_back(law_of(contact, positions[index]));
-    const mesh::ContactPair& pair = interface.pairs[index];
-    const double area = lengths[on_b ? pair.node_b : pair.node_a] * model.analysis.thickness;
-    laws.area[static_cast<Eigen::Index>(k)] = area;
-    if (area > 0.0 || (contact.cohesion == 0.0 && contact.tension == 0.0 && !contact.shear_strength)) continue;
-    throw InputError(model.file, {{contact.source,
-                                   "a node of this contact has no length of its own to carry strength: use "
-                                   "another order of mesh"}});
+    laws.area[static_cast<Eigen::Index>(k)] = lengths[index] * model.analysis.thickness;
   }
   return laws;
 }

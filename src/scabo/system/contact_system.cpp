@@ -1,6 +1,7 @@
 #include "scabo/system/contact_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scabo/system/contact_laws.hpp"
 
@@ -47,17 +48,66 @@ std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSyst
   return motion;
 }
 
-/// B A B' of one body, through the flexibility of the few degrees of freedom that contact touches.
-void add_flexibility(Matrix& W, const Eigen::SparseMatrix<double>& motion, const BodySystem& body) {
-  std::vector<int> touched;
+/// What one body adds to W: B A B' on the rows of the pairs that touch it.
+struct BodyFlexibility {
+  std::vector<int> rows;
+  Matrix block;  // rows x rows, symmetric
+};
+
+BodyFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const BodySystem& body) {
+  BodyFlexibility result;
+  std::vector<int> touched;  // degrees of freedom of the body
+  std::vector<int> place(static_cast<std::size_t>(motion.cols()), -1);
   for (Eigen::Index column = 0; column < motion.cols(); ++column)
-    if (motion.outerIndexPtr()[column + 1] > motion.outerIndexPtr()[column])
-      touched.push_back(static_cast<int>(column));
-  if (touched.empty()) return;
-  Eigen::SparseMatrix<double> narrow(motion.rows(), static_cast<Eigen::Index>(touched.size()));
-  for (std::size_t k = 0; k < touched.size(); ++k) narrow.col(static_cast<Eigen::Index>(k)) = motion.col(touched[k]);
-  const Matrix half = narrow * body.flexibility(touched);
-  W += narrow * half.transpose();
+    for (Eigen::SparseMatrix<double>::InnerIterator it(motion, column); it; ++it) {
+      result.rows.push_back(static_cast<int>(it.row()));
+      int& at = place[static_cast<std::size_t>(column)];
+      if (at < 0) at = static_cast<int>(touched.size()), touched.push_back(static_cast<int>(column));
+    }
+  std::sort(result.rows.begin(), result.rows.end());
+  result.rows.erase(std::unique(result.rows.begin(), result.rows.end()), result.rows.end());
+  if (touched.empty()) return result;
+  Matrix narrow =
+      Matrix::Zero(static_cast<Eigen::Index>(result.rows.size()), static_cast<Eigen::Index>(touched.size()));
+  for (std::size_t k = 0; k < touched.size(); ++k)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(motion, touched[k]); it; ++it) {
+      const auto row = std::lower_bound(result.rows.begin(), result.rows.end(), it.row()) - result.rows.begin();
+      narrow(row, static_cast<Eigen::Index>(k)) += it.value();
+    }
+  const Matrix W = narrow * body.flexibility(touched) * narrow.transpose();
+  result.block = 0.5 * (W + W.transpose());
+  return result;
+}
+
+/// W on the rows that `place` keeps (-1: left out): dense where bodies couple most pairs with each other, or where it is
+/// small; sparse otherwise.
+contact::Delassus sum_of(const std::vector<BodyFlexibility>& bodies, const std::vector<int>& place, Eigen::Index rows) {
+  constexpr Eigen::Index least_sparse = 400;  // rows: below, dense factors are as fast
+  constexpr double most_filled = 0.2;
+  double entries = 0.0;
+  for (const BodyFlexibility& body : bodies) entries += std::pow(static_cast<double>(body.rows.size()), 2);
+  const bool is_sparse =
+      rows >= least_sparse && entries <= most_filled * static_cast<double>(rows) * static_cast<double>(rows);
+  Matrix dense = Matrix::Zero(is_sparse ? 0 : rows, is_sparse ? 0 : rows);
+  Triplets triplets;
+  if (is_sparse) triplets.reserve(static_cast<std::size_t>(entries));
+  for (const BodyFlexibility& body : bodies)
+    for (std::size_t j = 0; j < body.rows.size(); ++j) {
+      const int column = place[static_cast<std::size_t>(body.rows[j])];
+      for (std::size_t i = 0; column >= 0 && i < body.rows.size(); ++i) {
+        const int row = place[static_cast<std::size_t>(body.rows[i])];
+        const double value = body.block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (row < 0) continue;
+        if (is_sparse)
+          triplets.emplace_back(row, column, value);
+        else
+          dense(row, column) += value;
+      }
+    }
+  if (!is_sparse) return {std::move(dense)};
+  Eigen::SparseMatrix<double> W(rows, rows);
+  W.setFromTriplets(triplets.begin(), triplets.end());
+  return contact::Delassus(std::move(W));
 }
 
 template <typename T>
@@ -77,29 +127,41 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
 
   const auto motion = motion_of(all, structure, model, mesh);
   const auto rows = static_cast<Eigen::Index>(2 * all.size());
-  Matrix W = Matrix::Zero(rows, rows);
   ContactSystem system;
   Eigen::Index columns = 0;
-  for (const auto& body : structure.bodies) {
-    system.first_rigid.push_back(static_cast<int>(columns));
-    columns += body->rigid_motions().cols();
-  }
-  Matrix G = Matrix::Zero(rows, columns);
+  Vector diagonal = Vector::Zero(rows);
+  std::vector<BodyFlexibility> flexibilities;
+  Triplets of_G;
   for (std::size_t b = 0; b < structure.bodies.size(); ++b) {
     const BodySystem& body = *structure.bodies[b];
-    if (!model.bodies[b].rigid) add_flexibility(W, motion[b], body);
-    if (body.rigid_motions().cols() > 0)
-      G.middleCols(system.first_rigid[b], body.rigid_motions().cols()) = motion[b] * body.rigid_motions();
+    system.first_rigid.push_back(static_cast<int>(columns));
+    if (!model.bodies[b].rigid) {
+      const BodyFlexibility& added = flexibilities.emplace_back(flexibility_of(motion[b], body));
+      if (added.block.size() > 0) diagonal(added.rows) += added.block.diagonal();
+    }
+    const Matrix& rigid = body.rigid_motions();
+    for (Eigen::Index column = 0; column < motion[b].cols(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(motion[b], column); it; ++it)
+        for (Eigen::Index k = 0; k < rigid.cols(); ++k)
+          if (rigid(column, k) != 0.0) of_G.emplace_back(it.row(), columns + k, it.value() * rigid(column, k));
+    columns += body.rigid_motions().cols();
   }
-  W = 0.5 * (W + W.transpose()).eval();
+
+  Eigen::SparseMatrix<double> G(rows, columns);
+  G.setFromTriplets(of_G.begin(), of_G.end());
+  Vector moved = Vector::Zero(rows);  // by rigid motions, at most
+  for (Eigen::Index k = 0; k < columns; ++k)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
+      moved[it.row()] = std::max(moved[it.row()], std::abs(it.value()));
 
   // A pair whose gap no force and no rigid motion changes is held by supports on both sides.
-  const double largest = rows > 0 ? W.diagonal().maxCoeff() : 0.0;
-  std::vector<int> moving, held, moving_rows;
+  const double largest = rows > 0 ? diagonal.maxCoeff() : 0.0;
+  std::vector<int> moving, held, place(static_cast<std::size_t>(rows), -1);
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    const bool moves = W(2 * i, 2 * i) > 1e-13 * largest || (columns > 0 && G.row(2 * i).cwiseAbs().maxCoeff() > 1e-12);
+    const bool moves = diagonal[2 * i] > 1e-13 * largest || moved[2 * i] > 1e-12;
+    if (moves)
+      for (int k = 0; k < 2; ++k) place[static_cast<std::size_t>(2 * i + k)] = 2 * static_cast<int>(moving.size()) + k;
     (moves ? moving : held).push_back(i);
-    if (moves) moving_rows.insert(moving_rows.end(), {2 * i, 2 * i + 1});
   }
   system.pairs = selected(all, moving);
   system.held = selected(all, held);
@@ -108,8 +170,17 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   system.held_motion =
       held.empty() ? std::vector<Eigen::SparseMatrix<double>>{} : motion_of(system.held, structure, model, mesh);
   system.motion = held.empty() ? motion : motion_of(system.pairs, structure, model, mesh);
-  system.W = held.empty() ? std::move(W) : Matrix(W(moving_rows, moving_rows));
-  system.G = held.empty() ? std::move(G) : Matrix(G(moving_rows, Eigen::all));
+  const auto kept = static_cast<Eigen::Index>(2 * moving.size());
+  system.W = sum_of(flexibilities, place, kept);
+  if (!held.empty()) {
+    Triplets entries;
+    for (Eigen::Index k = 0; k < columns; ++k)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
+        if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0) entries.emplace_back(row, k, it.value());
+    G = Eigen::SparseMatrix<double>(kept, columns);
+    G.setFromTriplets(entries.begin(), entries.end());
+  }
+  system.G = contact::RigidMap(std::move(G));
   const auto N = static_cast<Eigen::Index>(system.pairs.size());
   system.gap.resize(N);
   system.laws = contact_laws(system.pairs, model, mesh);

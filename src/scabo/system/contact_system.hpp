@@ -21,8 +21,8 @@ struct ContactSystem {
   std::vector<Eigen::SparseMatrix<double>> held_motion;  // per body, rows [n, t] as above
   Vector gap;                                            // N, initial; 0 where the pair is bonded as it is
   contact::JointLaws laws;                               // what each pair carries
-  contact::Delassus W;                                   // 2N x 2N
-  Matrix G;                                              // 2N x m
+  contact::Delassus W;                                   // 2N x 2N, a sum over bodies: sparse where they are many
+  contact::RigidMap G;                                   // 2N x m
   std::vector<int> first_rigid;                          // per body: its first column in G
 
   int rigid_motions() const { return static_cast<int>(G.cols()); }

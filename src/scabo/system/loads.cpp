@@ -46,19 +46,4 @@ double length_of(const std::vector<mesh::LineElement>& elements, const std::vect
   return length;
 }
 
-Eigen::SparseMatrix<double> line_mass(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const mesh::LineElement& element : elements)
-    integrate(element, nodes, [&](const auto& N, const Vec2&, const Vec2&, double ds) {
-      for (std::size_t i = 0; i < element.nodes.size(); ++i)
-        for (std::size_t j = 0; j < element.nodes.size(); ++j)
-          entries.emplace_back(element.nodes[i], element.nodes[j],
-                               N[static_cast<Eigen::Index>(i)] * N[static_cast<Eigen::Index>(j)] * ds);
-    });
-  const auto n = static_cast<Eigen::Index>(nodes.size());
-  Eigen::SparseMatrix<double> mass(n, n);
-  mass.setFromTriplets(entries.begin(), entries.end());
-  return mass;
-}
-
 }  // namespace scabo::system

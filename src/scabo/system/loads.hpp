@@ -1,7 +1,6 @@
 // Consistent nodal forces of loads on elastic bodies, and forces on rigid ones.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <functional>
 
 #include "scabo/mesh/mesh.hpp"
@@ -17,8 +16,5 @@ Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std
 
 /// Length of the elements, as they were divided.
 double length_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes);
-
-/// Consistent mass of line elements along the edge, int N_i N_j ds.
-Eigen::SparseMatrix<double> line_mass(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes);
 
 }  // namespace scabo::system

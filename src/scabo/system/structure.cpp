@@ -111,11 +111,14 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   return system;
 }
 
-bool has_contact(const model::Model& model, const mesh::Mesh& mesh, int body) {
+/// Of each body: whether it has a contact with pairs.
+std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh) {
+  std::vector<bool> found(model.bodies.size(), false);
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    if ((model.contacts[c].a.body == body || model.contacts[c].b.body == body) && !mesh.interfaces[c].pairs.empty())
-      return true;
-  return false;
+    if (!mesh.interfaces[c].pairs.empty())
+      for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body})
+        found[static_cast<std::size_t>(body)] = true;
+  return found;
 }
 
 }  // namespace
@@ -146,10 +149,11 @@ std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, c
 
 void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
   const auto constraints = constraints_of(model, mesh);
+  const std::vector<bool> touched = in_contact(model, mesh);
   std::vector<Diagnostic> diagnostics;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (body.outside || has_contact(model, mesh, static_cast<int>(b))) continue;
+    if (body.outside || touched[b]) continue;
     Vec2 reference;
     double lever = 0.0;
     Matrix free;
@@ -165,8 +169,8 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
     std::string motions;
     for (Eigen::Index k = 0; k < free.cols(); ++k)
       motions += (k > 0 ? ", " : "") + describe_motion(free.col(k), reference, lever);
-    diagnostics.push_back({body.source, fmt::format("nothing holds this body: it is free to move by {}; add a support "
-                                                    "that stops it, or a contact",
+    diagnostics.push_back({body.source, fmt::format("this body is insufficiently supported: it is free to move by {}; "
+                                                    "add a support that prevents this motion, or a contact",
                                                     motions)});
   }
   if (!diagnostics.empty()) throw InputError(model.file, std::move(diagnostics));

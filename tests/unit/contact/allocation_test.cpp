@@ -29,8 +29,9 @@ Problem problem_of(int d, bool floating) {
   Problem problem = held_problem(random, 60, 0.0, d);
   problem.mu.setConstant(0.6);
   if (!floating) return problem;
-  problem.G = Matrix::Zero(60 * d, 1);
-  for (int i = 0; i < 60; ++i) problem.G(d * i, 0) = 1.0;
+  Matrix G = Matrix::Zero(60 * d, 1);
+  for (int i = 0; i < 60; ++i) G(d * i, 0) = 1.0;
+  problem.G = G;
   problem.f = Vector::Constant(1, -30.0);
   return problem;
 }

@@ -1,7 +1,6 @@
 // Small problems whose forces are known in closed form.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "scabo/contact/solve.hpp"
@@ -24,7 +23,7 @@ Problem problem_of(const Matrix& W, const Vector& q, const Vector& mu, int dimen
 TEST(OnePair, WithMoreFrictionThanItsStiffnessCouplesHasThreeSolutions) {
   Matrix K(2, 2);
   K << 2.0, -1.0, -1.0, 1.0;
-  const Problem problem = problem_of(K.inverse(), Eigen::Vector2d(0.1, 1.0), Vector::Constant(1, 1.5));
+  const Problem problem = problem_of(test::inverse(K), Eigen::Vector2d(0.1, 1.0), Vector::Constant(1, 1.5));
   struct Known {
     Eigen::Vector2d p;
     ContactState state;
@@ -63,8 +62,7 @@ TEST(Wedge, SticksOrSlipsBetweenItsWalls) {
     for (double factor : {0.0, 0.3, 0.999, 1.001, 1.5}) {
       const double c = std::cos(alpha), s = std::sin(alpha), mu = factor * c / s;
       Problem problem = problem_of(w * Matrix::Identity(4, 4), Vector::Zero(4), Vector::Constant(2, mu));
-      problem.G.resize(4, 1);  // up: the walls open, and slide
-      problem.G << s, c, s, -c;
+      problem.G = Vector{{s, c, s, -c}};  // up: the walls open, and slide
       problem.f = Vector::Constant(1, -F);
       const Solution solution = solve(problem);
       ASSERT_EQ(solution.status, Status::solved) << solution.reason;
@@ -82,10 +80,11 @@ TEST(TwoBlocks, TheWeakerJointDecides) {
   const double weight_1 = 30.0, weight_2 = 10.0;
   const auto blocks = [&](double mu_1, double mu_2, double P) {
     Problem problem = problem_of(1e-3 * Matrix::Identity(4, 4), Vector::Zero(4), Eigen::Vector2d(mu_1, mu_2));
-    problem.G = Matrix::Zero(4, 4);  // [x_1, y_1, x_2, y_2]; pairs: floor to lower, lower to upper
-    problem.G(0, 1) = problem.G(1, 0) = 1.0;
-    problem.G(2, 3) = problem.G(3, 2) = 1.0;
-    problem.G(2, 1) = problem.G(3, 0) = -1.0;
+    Matrix G = Matrix::Zero(4, 4);  // [x_1, y_1, x_2, y_2]; pairs: floor to lower, lower to upper
+    G(0, 1) = G(1, 0) = 1.0;
+    G(2, 3) = G(3, 2) = 1.0;
+    G(2, 1) = G(3, 0) = -1.0;
+    problem.G = G;
     problem.f = Eigen::Vector4d(0.0, -weight_1, P, -weight_2);
     return solve(problem);
   };

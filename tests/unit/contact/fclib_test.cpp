@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <fstream>
 #include <limits>
 
+#include "support/decompositions.hpp"
 #include "unit/contact/saved_problems.hpp"
 
 namespace scabo::contact {
@@ -73,7 +73,7 @@ TEST(Fclib, RigidMotionsLawsHistoryAndSolution) {
   saved.contact_of_pair = {0, 0, 1, 1};
   saved.number_of_pair = {1, 3, 2, 4};
   const SavedProblem read = written_and_read(saved);
-  EXPECT_EQ(read.problem.G, saved.problem.G);
+  EXPECT_EQ(read.problem.G.dense(), saved.problem.G.dense());
   EXPECT_EQ(read.problem.f, saved.problem.f);
   EXPECT_EQ(read.problem.cohesion, saved.problem.cohesion);
   EXPECT_EQ(read.problem.tension, saved.problem.tension);
@@ -128,7 +128,7 @@ TEST(GlobalForm, ReducesToThePairs) {
   const GlobalProblem global = two_springs();
   const GlobalReduction reduction(global);
   const Problem problem = reduction.problem();
-  const Matrix M = Matrix(global.M), H = Matrix(global.H), inverse = M.inverse();
+  const Matrix M = Matrix(global.M), H = Matrix(global.H), inverse = test::inverse(M);
   EXPECT_LT((problem.W.dense() - H.transpose() * inverse * H).norm(), 1e-14);
   EXPECT_LT((problem.q - global.w - H.transpose() * inverse * global.f).norm(), 1e-14);
   const Vector r = Vector::LinSpaced(2, 1.0, 0.25), v = reduction.motion(r);

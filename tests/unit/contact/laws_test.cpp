@@ -160,8 +160,9 @@ Problem block_on_incline(int pairs, double weight, double angle) {
   Problem problem;
   problem.W = Matrix(1e-4 * Matrix::Identity(2 * pairs, 2 * pairs));
   problem.q = Vector::Zero(2 * pairs);
-  problem.G = Matrix::Zero(2 * pairs, 2);
-  for (int i = 0; i < pairs; ++i) problem.G(2 * i, 1) = problem.G(2 * i + 1, 0) = 1.0;
+  Matrix G = Matrix::Zero(2 * pairs, 2);
+  for (int i = 0; i < pairs; ++i) G(2 * i, 1) = G(2 * i + 1, 0) = 1.0;
+  problem.G = G;
   problem.f = Eigen::Vector2d(weight * std::sin(angle), -weight * std::cos(angle));
   return problem;
 }

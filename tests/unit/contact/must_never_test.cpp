@@ -113,8 +113,7 @@ TEST(MustNever, CallSolvedWhatLeavesABodyOutOfBalance) {
     problem.W = Matrix(Matrix::Identity(d, d));
     problem.q = Vector::Zero(d);
     problem.mu = Vector::Constant(1, 0.3);
-    problem.G = Matrix::Zero(d, 1);
-    problem.G(0, 0) = 1.0;
+    problem.G = Vector::Unit(d, 0);
     problem.f = Vector::Constant(1, -2.0);
     SolverOptions options;
     options.judge = Judge::natural_map;

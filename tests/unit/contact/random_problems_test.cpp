@@ -39,8 +39,8 @@ bool cannot_be_balanced(const Problem& problem) {
   const Eigen::Index N = problem.pairs();
   Matrix rays(problem.G.cols(), 2 * N);
   for (Eigen::Index i = 0; i < N; ++i) {
-    rays.col(2 * i) = (problem.G.row(2 * i) + problem.mu[i] * problem.G.row(2 * i + 1)).transpose();
-    rays.col(2 * i + 1) = (problem.G.row(2 * i) - problem.mu[i] * problem.G.row(2 * i + 1)).transpose();
+    rays.col(2 * i) = (problem.G.dense().row(2 * i) + problem.mu[i] * problem.G.dense().row(2 * i + 1)).transpose();
+    rays.col(2 * i + 1) = (problem.G.dense().row(2 * i) - problem.mu[i] * problem.G.dense().row(2 * i + 1)).transpose();
   }
   const Vector v = problem.f + rays * linalg::nonnegative_least_squares(rays, -problem.f);
   return problem.f.dot(v) > 1e-12 * problem.f.squaredNorm() && (rays.transpose() * v).minCoeff() >= -1e-10 * v.norm();
@@ -58,7 +58,7 @@ void expect_solved_or_mechanism(const Problem& problem, Tally& tally, int k) {
       EXPECT_TRUE(cannot_be_balanced(problem)) << "problem " << k;
       EXPECT_GT(problem.f.dot(solution.motion), 0.0) << "problem " << k;
       for (Eigen::Index i = 0; i < problem.pairs(); ++i)  // it presses no gap shut
-        EXPECT_GE(problem.G.row(2 * i).dot(solution.motion), -1e-9) << "problem " << k;
+        EXPECT_GE(problem.G.dense().row(2 * i).dot(solution.motion), -1e-9) << "problem " << k;
       break;
     case Status::not_converged:
       ADD_FAILURE() << "problem " << k << ", " << problem.pairs() << " pairs, mu " << problem.mu[0] << ", "

@@ -144,9 +144,10 @@ TEST(FloatingBlock, TwoOfThemAreSolvedLikeEach) {
   both.q << one.q, two.q;
   both.mu.resize(9);
   both.mu << one.mu, two.mu;
-  both.G = Matrix::Zero(18, 6);
-  both.G.topLeftCorner(8, 3) = one.G;
-  both.G.bottomRightCorner(10, 3) = two.G;
+  Matrix G = Matrix::Zero(18, 6);
+  G.topLeftCorner(8, 3) = one.G.dense();
+  G.bottomRightCorner(10, 3) = two.G.dense();
+  both.G = G;
   both.f.resize(6);
   both.f << one.f, two.f;
   const Solution solution = solve(both);

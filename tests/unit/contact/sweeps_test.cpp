@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "scabo/contact/certificate.hpp"
 #include "scabo/contact/gauss_seidel.hpp"
 #include "scabo/contact/solve.hpp"
+#include "support/decompositions.hpp"
 
 namespace scabo::contact {
 namespace {
@@ -38,7 +38,7 @@ Problem chain(int d, int pairs, double ground, double mu) {
   const Vector load = Vector::NullaryExpr(d * pairs, [&](Eigen::Index k) {
     return k % d == 0 ? -1.0 - 2.0 * std::sin(0.7 * double(k / d)) : 0.6 * std::cos(0.9 * double(k));
   });
-  const Matrix W = K.inverse();
+  const Matrix W = test::inverse(K);
   return coulomb(d, W, W * load, mu);
 }
 
@@ -62,7 +62,7 @@ TEST(AcceleratedSweeps, NeedFewerThanPlainOnes) {
     Vector p = Vector::Zero(d * 30);
     plain.start(p);
     int sweeps = 0;
-    while (sweeps < 5000 && natural_map_residual_at(problem, p, plain.motion()) > 1e-9) plain.sweep(p), ++sweeps;
+    while (sweeps < 5000 && Measure(problem).natural_map(problem, p, plain.motion()) > 1e-9) plain.sweep(p), ++sweeps;
     const SweepsEnd end = accelerated_sweeps(problem, Vector::Zero(d * 30), 1e-9);
     EXPECT_TRUE(end.content);
     EXPECT_LE(natural_map_residual(problem, end.p, Vector(0)), 1e-9);

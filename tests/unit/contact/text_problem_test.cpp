@@ -93,7 +93,7 @@ TEST(TextProblem, EveryMistakeHasItsPlace) {
   expect("", "p.dat:1:1: dimension: the file ends here");
   expect("5\n", "p.dat:1:1: dimension: must be from 2 to 3, not 5");
   expect("scabo: 1\n", "p.dat:1:1: dimension: must be a whole number, not 'scabo:'");
-  expect("2\n0\n", "p.dat:2:1: number of pairs: must be from 1 to ");
+  expect("2\n-1\n", "p.dat:2:1: number of pairs: must be from 0 to ");
   expect("2\n2\n3\n", "p.dat:3:1: storage of W (0 dense, 1 blocks, 2 sparse): must be from 0 to 2, not 3");
   expect("2\n2\n0\n4\n5\n", "p.dat:5:1: columns of W (dimension times pairs): must be 4, not 5");
   expect("2\n30000000\n0\n60000000\n60000000\n1 2",

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "unit/contact/problems.hpp"
@@ -16,7 +15,7 @@ Problem one_pair(double mu, const Vector& q) {
   Problem problem;
   Matrix K(2, 2);
   K << 2.0, -1.0, -1.0, 1.0;
-  problem.W = Matrix(K.inverse());
+  problem.W = test::inverse(K);
   problem.q = q;
   problem.mu = Vector::Constant(1, mu);
   problem.G.resize(2, 0);

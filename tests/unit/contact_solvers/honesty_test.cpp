@@ -60,8 +60,7 @@ TEST(Roads, RefuseWhatTheyDoNotHandle) {
   strong.cohesion = Vector::Ones(3);
   EXPECT_EQ(reason(Method::gauss_seidel, strong), "gauss_seidel does not handle cohesion and tension");
   Problem floating = elastic_problem(random, 2, 3, 0.3);
-  floating.G = Matrix::Zero(6, 1);
-  for (int i = 0; i < 3; ++i) floating.G(2 * i, 0) = 1.0;
+  floating.G = Vector{{1.0, 0.0, 1.0, 0.0, 1.0, 0.0}};
   floating.f = Vector::Constant(1, -1.0);
   EXPECT_EQ(reason(Method::lemke, floating), "lemke does not handle rigid motions that contact alone holds");
 }
@@ -92,7 +91,7 @@ TEST(TrialAndError, SaysThatItGoesAround) {
     const Solution solution = contact::solve_with(Method::trial_and_error, problem);
     if (solution.status == Status::solved) continue;
     EXPECT_LE(solution.iterations, 200);
-    around += solution.reason.find("goes around") != std::string::npos;
+    around += solution.reason.find("it cycles") != std::string::npos;
   }
   EXPECT_GT(around, 0);
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cmath>
-#include <random>
 
 #include "scabo/contact/solvers.hpp"
+#include "support/random.hpp"
 
 namespace scabo::test {
 
@@ -12,10 +12,6 @@ using contact::Method;
 using contact::Problem;
 using contact::Solution;
 using contact::Status;
-
-inline double uniform(std::mt19937& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
 
 /// Positive definite, decaying along the interface, normal and tangents coupled: little friction gives one
 /// solution.

@@ -14,8 +14,9 @@ TEST(FloatingBody, RestsOnItsPairs) {
     std::mt19937 random(11);
     Problem problem = elastic_problem(random, d, 3, 0.4);
     problem.q.setZero();
-    problem.G = Matrix::Zero(3 * d, 2);
-    for (int i = 0; i < 3; ++i) problem.G(d * i, 0) = problem.G(d * i + 1, 1) = 1.0;
+    Matrix G = Matrix::Zero(3 * d, 2);
+    for (int i = 0; i < 3; ++i) G(d * i, 0) = G(d * i + 1, 1) = 1.0;
+    problem.G = G;
     problem.f = Vec2(-3.0, 0.5);
     std::vector<Method> methods(std::begin(with_both), std::end(with_both));
     methods.insert(methods.end(), {Method::fischer_burmeister, Method::trial_and_error});

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "support/decompositions.hpp"
 
 namespace scabo::element {
 namespace {
@@ -26,7 +25,7 @@ Known known(Eigen::Index n, double contrast) {
   made.E0 = scaled(X * X.transpose() / static_cast<double>(n) + Matrix::Identity(n, n));
   made.K = scaled(Y * Y.transpose() + 4.0 * Matrix::Identity(n, n));
   made.E1 = scaled(random(n));
-  made.S = made.E0.inverse() * (made.K - made.E1.transpose());
+  made.S = test::solve_lu(made.E0, made.K - made.E1.transpose());
   made.E2 = (made.K - made.E1) * made.S;
   made.E2 = 0.5 * (made.E2 + made.E2.transpose()).eval();
   made.L.A = made.E0;
@@ -48,7 +47,7 @@ TEST(RiccatiResidual, IsZeroAtTheSolution) {
 TEST(RiccatiResidual, IsTheFormula) {
   const Known at = known(7, 1.0);
   const Matrix other = at.K + 0.1 * Matrix::Identity(7, 7);
-  const Matrix P = (other - at.E1) * at.E0.inverse() * (other - at.E1.transpose()) - at.E2;
+  const Matrix P = (other - at.E1) * test::solve_lu(at.E0, other - at.E1.transpose()) - at.E2;
   const RiccatiResidual residual = riccati_residual(at.L, at.E1, at.E2, other);
   EXPECT_LT((Matrix(residual.P.selfadjointView<Eigen::Lower>()) + P).norm(), 1e-12 * P.norm());
   const Vector over = at.E2.diagonal().cwiseSqrt().cwiseInverse();
@@ -67,7 +66,7 @@ TEST(RiccatiResidual, OfWhatIsNotANumberIsNotSmall) {
 TEST(RiccatiNewton, SquaresTheError) {
   for (double contrast : {1.0, 1e6}) {
     const Known at = known(12, contrast);
-    ASSERT_GT(Eigen::EigenSolver<Matrix>(at.S, false).eigenvalues().real().minCoeff(), 0.1);
+    ASSERT_GT(test::eigenvalues(at.S).real().minCoeff(), 0.1);
     const Vector scale = scale_of(at), over = scale.cwiseInverse();
     const auto error_of = [&](const Matrix& K) { return (over.asDiagonal() * (K - at.K) * over.asDiagonal()).norm(); };
     for (double delta : {1e-2, 1e-3, 1e-4}) {

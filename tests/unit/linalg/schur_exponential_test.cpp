@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <random>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "support/long_double.hpp"
 
 namespace scabo::linalg {
 namespace {
 
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using test::LongMatrix;
 
 /// psi(s) for psi' = T psi - e^(2s) w by the dense exponential of [[T, -w], [0, 2]], in long double.
 Vector oracle(const Matrix& T, const Vector& c, const Vector& w, double s) {
@@ -18,7 +18,7 @@ Vector oracle(const Matrix& T, const Vector& c, const Vector& w, double s) {
   augmented.topLeftCorner(n, n) = T.cast<long double>();
   augmented.topRightCorner(n, 1) = -w.cast<long double>();
   augmented(n, n) = 2.0L;
-  const LongMatrix exponential = (augmented * static_cast<long double>(s)).exp();
+  const LongMatrix exponential = test::long_double::exponential(augmented * static_cast<long double>(s));
   return (exponential.topLeftCorner(n, n) * c.cast<long double>() + exponential.topRightCorner(n, 1)).cast<double>();
 }
 

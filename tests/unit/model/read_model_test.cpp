@@ -140,5 +140,61 @@ TEST(Schema, IsTheOneInTheSourceTree) {
   EXPECT_EQ(model_schema().front(), '{');
 }
 
+/// A writer of YAML 1.1 takes the key `on` for a truth value and writes `true`.
+std::string with_true_for_on(std::string text) {
+  for (auto at = text.find("{on: "); at != std::string::npos; at = text.find("{on: ")) text.replace(at, 5, "{true: ");
+  return text;
+}
+
+TEST(ReadModel, TakesTrueForOn) {
+  const Model model = parse(with_true_for_on(block()));
+  EXPECT_EQ(model.supports.at(0).on.text, "block.bottom");
+  EXPECT_EQ(model.loads.at(0).on->text, "block.right");
+}
+
+TEST(ReadModel, TakesTrueForOnInJsonToo) {
+  std::string text = with_true_for_on(block());
+  for (auto at = text.find("{true: "); at != std::string::npos; at = text.find("{true: "))
+    text.replace(at, 7, "{\"true\": ");
+  EXPECT_EQ(parse(text).supports.at(0).on.text, "block.bottom");
+}
+
+TEST(ReadModel, OverridesOfOnReplaceTrue) {
+  EXPECT_EQ(parse(with_true_for_on(block()), {{"loads.push.on", "block.top"}}).loads.at(0).on->text, "block.top");
+}
+
+TEST(ReadModel, TrueIsNoKeyWhereOnIsNone) {
+  EXPECT_THAT(mistakes_in(block("solver: {true: 1}\n")), HasSubstr("solver.true: unknown key 'true'"));
+}
+
+TEST(ReadModel, TheMouthOfACrackIsAPointAnEdgeOrACorner) {
+  const auto crack_of = [](const std::string& mouth) {
+    return parse(
+               shaped(
+                   "{polygon: {vertices: [[0, 0], [2, 0], [2, 2], [0, 2]], names: {left: edge_4, top_left: vertex_4}}}",
+                   "{size: 0.5}, cracks: [{tip: [1, 1], mouth: " + mouth + "}]"))
+        .bodies.front()
+        .cracks.front();
+  };
+  for (const char* mouth : {"top_left", "body.top_left"}) {
+    const Crack named = crack_of(mouth), at_point = crack_of("[0, 2]");
+    EXPECT_EQ(named.mouth, Vec2(0.0, 2.0)) << mouth;
+    EXPECT_EQ(named.edge, at_point.edge);
+    EXPECT_EQ(named.at, at_point.at);
+  }
+  EXPECT_EQ(crack_of("left").mouth, Vec2(0.0, 1.0));
+}
+
+TEST(ReadModel, FieldsAreAllUnlessSomeAreNamed) {
+  const OutputFields all = parse(block()).output.fields;
+  EXPECT_TRUE(all.displacement && all.stress && all.principal && all.von_mises && all.contact);
+  const Output some = parse(block("output: {fields: [stress, contact], every: 7}\n")).output;
+  EXPECT_TRUE(some.fields.stress && some.fields.contact);
+  EXPECT_FALSE(some.fields.displacement || some.fields.principal || some.fields.von_mises);
+  EXPECT_EQ(some.every, 7);
+  const OutputFields none = parse(block("output: {fields: []}\n")).output.fields;
+  EXPECT_FALSE(none.any_of_bodies() || none.contact);
+}
+
 }  // namespace
 }  // namespace scabo::model

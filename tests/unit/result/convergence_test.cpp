@@ -60,6 +60,16 @@ TEST(ConvergencePlot, NamesOfStagesDoNotCoverEachOther) {
   }
 }
 
+TEST(ConvergencePlot, ProblemsOfFewerPairsAreHollowPointsAndExplained) {
+  auto iterations = falling(4);
+  iterations[0].stage = iterations[1].stage = "newton, 17 pairs";
+  const std::string plot = convergence_plot({{"press 1", iterations, true}, {"press 2", falling(2), true}}, "", 1e-10);
+  EXPECT_EQ(number_of(plot, "<circle class=\"coarse\""), 3u);  // and the one beside the explanation
+  EXPECT_EQ(number_of(plot, "<circle"), 9u);
+  EXPECT_THAT(plot, HasSubstr("coarse problem"));
+  EXPECT_THAT(convergence_plot({{"press 1", falling(4), true}}, "", 1e-10), Not(HasSubstr("coarse problem")));
+}
+
 TEST(ConvergencePlot, OddNumbersStayInsideTheFrame) {
   std::vector<contact::Iteration> odd;
   const double infinity = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
-"""Reads what `result_sample` wrote back: with meshio, and with VTK's own readers, which ParaView uses, where VTK is
-installed. Usage: read_vtu_test.py RESULT_SAMPLE"""
+"""Reads what `result_sample` wrote back: with meshio, and with VTK's own readers, which ParaView uses.
+Usage: read_vtu_test.py RESULT_SAMPLE"""
 import pathlib
 import subprocess
 import sys
@@ -9,12 +9,8 @@ import xml.etree.ElementTree
 
 import meshio
 import numpy as np
-
-try:
-    import vtk
-    from vtk.util.numpy_support import vtk_to_numpy
-except ImportError:
-    vtk = None
+import vtk  # package python3-vtk9 (make packages)
+from vtk.util.numpy_support import vtk_to_numpy
 
 YOUNG, POISSON = 2.0e9, 0.3  # plane strain
 GRADIENT = np.array([[1.1e-3, -0.4e-3], [0.7e-3, -0.9e-3]])
@@ -41,7 +37,7 @@ class Fields(unittest.TestCase):
     def setUpClass(cls):
         cls.holder = tempfile.TemporaryDirectory(prefix="scabo_test_")
         cls.directory = pathlib.Path(cls.holder.name) / "out"
-        subprocess.run([SAMPLE, cls.directory], check=True, timeout=60)
+        subprocess.run([SAMPLE, cls.directory], check=True, timeout=1200)
 
     @classmethod
     def tearDownClass(cls):
@@ -50,7 +46,9 @@ class Fields(unittest.TestCase):
     def check_values(self, points, data, factor):
         self.assertEqual(set(data), set(COMPONENTS))
         for name, values in data.items():
-            self.assertEqual(values.size, COMPONENTS[name] * len(points), name)
+            # A scalar is one number for each point, not a list of one.
+            shape = (len(points),) if COMPONENTS[name] == 1 else (len(points), COMPONENTS[name])
+            self.assertEqual(values.shape, shape, name)
             self.assertTrue(np.all(np.isfinite(values)), name)
         self.assertEqual(points.dtype, np.float64)
         self.assertTrue(np.all(points[:, 2] == 0))
@@ -88,6 +86,23 @@ class Fields(unittest.TestCase):
         np.testing.assert_allclose(along, np.linalg.eigvalsh(stress[:2, :2])[1], rtol=0, atol=tolerance)
 
 
+def check_contacts(test, points, data):
+    """Three pairs on the line y = x/2 and one pair of another contact, as result_sample made them."""
+    i = np.array([0, 1, 2, 1])
+    n, t = np.array([-1, 2]) / np.sqrt(5), np.array([2, 1]) / np.sqrt(5)
+    np.testing.assert_allclose(points, np.column_stack([2 * i, i, 0 * i]), atol=1e-15)
+    expected = {"state": i, "pressure": 100 * i, "shear": -30 * i, "gap": 0.1 * (2 - i), "slip": 0.01 * i,
+                "normal_force": 10 * i, "tangential_force": -3 * i, "pair": i + 1, "contact": np.array([1, 1, 1, 2])}
+    vectors = {"traction": np.outer(100 * i, n) + np.outer(-30 * i, t),
+               "displacement": np.outer(0.5 + 0 * i, n) + np.outer(0.25 * i, t)}
+    test.assertEqual(set(data), set(expected) | set(vectors))
+    for name, values in expected.items():
+        test.assertEqual(data[name].shape, (4,), name)
+        np.testing.assert_allclose(data[name], values, atol=1e-14, err_msg=name)
+    for name, values in vectors.items():
+        np.testing.assert_allclose(data[name], np.column_stack([values, 0 * i]), atol=1e-12, err_msg=name)
+
+
 class WithMeshio(Fields):
     def test_values(self):
         for number in (1, 2):
@@ -105,18 +120,25 @@ class WithMeshio(Fields):
             self.assertTrue(np.all(body == {"quad8": 2, "polygon": 3}.get(block.type, 1)))
             self.assertTrue(np.all(mesh.point_data["body"][block.data].reshape(len(body), -1) == body.reshape(-1, 1)))
 
-    def test_collection(self):
-        root = xml.etree.ElementTree.parse(self.directory / "fields.pvd").getroot()
-        self.assertEqual(root.get("type"), "Collection")
-        self.assertEqual([(float(entry.get("timestep")), entry.get("file")) for entry in root.iter("DataSet")],
-                         [(0.25, "fields_0001.vtu"), (0.5, "fields_0002.vtu")])
+    def test_collections(self):
+        for name in ("fields", "contact"):
+            root = xml.etree.ElementTree.parse(self.directory / f"{name}.pvd").getroot()
+            self.assertEqual(root.get("type"), "Collection")
+            self.assertEqual([(float(entry.get("timestep")), entry.get("file")) for entry in root.iter("DataSet")],
+                             [(0.25, f"{name}_0001.vtu"), (0.5, f"{name}_0002.vtu")])
+
+    def test_contacts(self):
+        mesh = meshio.read(self.directory / "contact_0001.vtu")
+        check_contacts(self, mesh.points, mesh.point_data)
+        cells = {block.type: (block.data.tolist(), contact.tolist())
+                 for block, contact in zip(mesh.cells, mesh.cell_data["contact"])}
+        self.assertEqual(cells, {"line": ([[0, 1], [1, 2]], [1, 1]), "vertex": ([[3]], [2])})
 
 
-@unittest.skipIf(vtk is None, "VTK for Python is not installed")
 class WithVtk(Fields):
-    def read(self, number):
+    def read(self, number, kind="fields"):
         reader = vtk.vtkXMLUnstructuredGridReader()
-        name = str(self.directory / f"fields_{number:04d}.vtu")
+        name = str(self.directory / f"{kind}_{number:04d}.vtu")
         self.assertEqual(reader.CanReadFile(name), 1)
         complaints = []
         for event in ("ErrorEvent", "WarningEvent"):
@@ -133,6 +155,14 @@ class WithVtk(Fields):
             fields = grid.GetPointData()
             data = {fields.GetArrayName(i): vtk_to_numpy(fields.GetArray(i)) for i in range(fields.GetNumberOfArrays())}
             self.check_values(vtk_to_numpy(grid.GetPoints().GetData()), data, number)
+
+    def test_contacts(self):
+        grid = self.read(1, "contact")
+        fields = grid.GetPointData()
+        data = {fields.GetArrayName(i): vtk_to_numpy(fields.GetArray(i)) for i in range(fields.GetNumberOfArrays())}
+        check_contacts(self, vtk_to_numpy(grid.GetPoints().GetData()), data)
+        self.assertEqual([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())],
+                         [vtk.VTK_LINE, vtk.VTK_LINE, vtk.VTK_VERTEX])
 
     def test_names(self):
         fields = self.read(1).GetPointData()

@@ -130,6 +130,59 @@ TEST_F(Results, FilesOfARun) {
   EXPECT_GT(run.directory.write_seconds(), 0.0);
 }
 
+/// Names of the .vtu and .pvd files of a run of `count` converged increments, of four.
+std::vector<std::string> field_files(const std::filesystem::path& path, const model::Output& output, int count) {
+  analysis::StaticSolution solution = two_bodies();
+  solution.model.output = output;
+  solution.model.contacts.resize(1);
+  ResultsDirectory directory(path, solution.model);
+  for (int number = 1; number <= count; ++number) {
+    solution.increments.push_back(increment_number(solution, number));
+    directory.add(solution, solution.increments.back());
+  }
+  directory.finish(solution);
+  std::vector<std::string> names;
+  for (const std::string& name : names_in(path))
+    if (name.ends_with(".vtu") || name.ends_with(".pvd")) names.push_back(name);
+  return names;
+}
+
+TEST_F(Results, FieldsOfEveryThirdIncrementAndTheLast) {
+  model::Output output;
+  output.every = 3;
+  EXPECT_THAT(field_files(path_, output, 4),
+              UnorderedElementsAre("fields.pvd", "fields_0003.vtu", "fields_0004.vtu", "contact.pvd",
+                                   "contact_0003.vtu", "contact_0004.vtu"));
+  const std::string collection = content_of(path_ / "fields.pvd");
+  EXPECT_THAT(collection, HasSubstr("timestep=\"0.75\" part=\"0\" file=\"fields_0003.vtu\""));
+  EXPECT_THAT(collection, HasSubstr("timestep=\"1\" part=\"0\" file=\"fields_0004.vtu\""));
+}
+
+TEST_F(Results, FieldsOfTheLastIncrementWhereTheRunEndedEarly) {
+  model::Output output;
+  output.every = 3;
+  output.fields.contact = false;
+  EXPECT_THAT(field_files(path_, output, 2), UnorderedElementsAre("fields.pvd", "fields_0002.vtu"));
+}
+
+TEST_F(Results, OnlyTheFieldsThatAreWanted) {
+  model::Output output;
+  output.fields = {.displacement = true, .stress = false, .principal = false, .von_mises = true, .contact = false};
+  field_files(path_, output, 1);
+  const std::string vtu = content_of(path_ / "fields_0001.vtu");
+  EXPECT_THAT(vtu, HasSubstr("Name=\"displacement\""));
+  EXPECT_THAT(vtu, HasSubstr("Name=\"von_mises\""));
+  EXPECT_THAT(vtu, HasSubstr("Name=\"body\""));
+  for (const char* name : {"stress", "stress_xx", "principal_1", "principal_angle"})
+    EXPECT_EQ(vtu.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
+}
+
+TEST_F(Results, NoFieldsNoVtuFiles) {
+  model::Output output;
+  output.fields = {false, false, false, false, false};
+  EXPECT_THAT(field_files(path_, output, 2), testing::IsEmpty());
+}
+
 TEST_F(Results, ContactTable) {
   const FinishedRun run(path_);
   const std::string rows =
@@ -243,6 +296,34 @@ TEST_F(Results, FinishedIncrementsAreReadableWithoutTheEndOfTheRun) {
   EXPECT_THAT(content_of(path_ / "log.txt"), HasSubstr("step press, increment 1 of 4: tip = 0.25; 3 iterations"));
 }
 
+TEST_F(Results, TheSummaryIsThereFromTheStart) {
+  auto solution = two_bodies();
+  ResultsDirectory directory(path_, solution.model, solution.mesh);
+  auto summary = Json::parse(content_of(path_ / "summary.json"));
+  EXPECT_EQ(summary["status"], "running");
+  EXPECT_EQ(summary["model"]["nodes"], solution.mesh.nodes());
+  EXPECT_TRUE(summary["increments"].empty());
+  mark_failed(path_, "the disk is full");
+  summary = Json::parse(content_of(path_ / "summary.json"));
+  EXPECT_EQ(summary["status"], "failed");
+  EXPECT_EQ(summary["reason"], "the disk is full");
+}
+
+TEST_F(Results, TwoRunsAtOnceAreRefused) {
+  auto solution = two_bodies();
+  {
+    const ResultsDirectory first(path_, solution.model);
+    try {
+      const ResultsDirectory second(path_, solution.model);
+      ADD_FAILURE();
+    } catch (const WriteError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("another run is writing there"));
+    }
+    EXPECT_EQ(content_of(path_ / "contact.csv"), contact_table_header);
+  }
+  const ResultsDirectory third(path_, solution.model);  // the first has ended
+}
+
 TEST_F(Results, LogTellsTheRun) {
   const FinishedRun run(path_);
   const std::string log = content_of(path_ / "log.txt");
@@ -257,8 +338,8 @@ TEST_F(Results, AnEarlierRunLeavesNothingBehind) {
   write_text(path_ / "fields_mine.vtu", "mine");
   auto solution = two_bodies();
   const ResultsDirectory directory(path_, solution.model);
-  EXPECT_THAT(names_in(path_), UnorderedElementsAre("contact.csv", "fields.pvd", "convergence.csv", "log.txt",
-                                                    "notes.txt", "fields_mine.vtu"));
+  EXPECT_THAT(names_in(path_), UnorderedElementsAre("summary.json", "contact.csv", "fields.pvd", "convergence.csv",
+                                                    "log.txt", "notes.txt", "fields_mine.vtu"));
   EXPECT_EQ(content_of(path_ / "contact.csv"), contact_table_header);
 }
 
@@ -311,6 +392,33 @@ TEST(Report, ContactTable) {
   const std::string text = report_contacts(increment);
   EXPECT_THAT(text, HasSubstr("joint, left           100          0.333333     1      0     1  P28 to P32"));
   EXPECT_EQ(report_contacts({}), "");
+}
+
+/// 1e5 along the normal, rounding along the tangent: people see 0, programs what was computed.
+TEST_F(Results, FiguresAtTheLevelOfRoundingAreShownAsZero) {
+  analysis::StaticSolution solution = two_bodies();
+  analysis::IncrementResult increment = increment_number(solution, 1);
+  increment.largest_force = 1e5;
+  analysis::ContactResult& contact = increment.contacts[0];
+  contact.normal_force = 1e5;
+  contact.tangential_force = -1.4e-11;
+  contact.max_gap = 3e-18;
+  increment.reactions = {{-2.3e-9, -1e5}, {1e-5, 0.0}};
+  EXPECT_THAT(report_contacts(increment), testing::ContainsRegex("joint, left +100000 +0 +1 +0 +1 +P2 +4e\\+05 +0\n"));
+  EXPECT_THAT(report_reactions(solution.model, increment), testing::ContainsRegex("lower.bottom +0 +-100000\n"));
+  EXPECT_THAT(report_reactions(solution.model, increment), testing::ContainsRegex("upper.top +1e-05 +0\n"));
+  // The certificate leaves 1e-9 of equilibrium: 1e-5 is nothing then.
+  increment.certificate.equilibrium = 1e-9;
+  EXPECT_THAT(report_reactions(solution.model, increment), testing::ContainsRegex("upper.top +0 +0\n"));
+  solution.increments.push_back(increment);
+  EXPECT_THAT(summary_content(solution, {}, false), HasSubstr("-1.4e-11"));
+}
+
+TEST_F(Results, TotalsAreContactsAndReactions) {
+  const analysis::StaticSolution solution = two_bodies();
+  const std::string totals = report_totals(solution.model, increment_number(solution, 1));
+  EXPECT_THAT(totals, HasSubstr("normal force"));
+  EXPECT_THAT(totals, HasSubstr("\n\n  support"));
 }
 
 }  // namespace

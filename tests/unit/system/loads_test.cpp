@@ -38,7 +38,6 @@ TEST(TractionForces, HaveTheForceAndMomentOfALinearTractionOnALine) {
     EXPECT_LT((total(f) - thickness * Vec2(30.0, -48.0)).norm(), 1e-14 * 48.0);
     EXPECT_NEAR(moment(f, body.nodes), thickness * (-2.0 * 114.0 - 3.5 * 30.0), 1e-12);
     EXPECT_NEAR(length_of(body.edges[2], body.nodes), 6.0, 6e-14);
-    EXPECT_NEAR(line_mass(body.edges[2], body.nodes).sum(), 6.0, 6e-14);
   }
 }
 
@@ -137,7 +136,7 @@ TEST(Condensation, IsTheMotionOfThePairsUnderUnitPairForces) {
     EXPECT_LT(test::largest(system.W.dense().col(j) - expected), 1e-13 * test::largest(system.W.dense()));
   }
   for (Eigen::Index k = 0; k < 3; ++k)
-    EXPECT_LT(test::largest(system.G.col(k) - motion(Vector::Zero(blocks.structure.bodies[0]->size()),
+    EXPECT_LT(test::largest(system.G.dense().col(k) - motion(Vector::Zero(blocks.structure.bodies[0]->size()),
                                                      blocks.structure.bodies[1]->rigid_motions().col(k))),
               1e-14);
 }

@@ -197,7 +197,7 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
       result.solution.trace = std::move(total.trace);
       return result;
     }
-    at = {result.solution.p, result.solution.a};
+    at = {result.solution.p, result.solution.a, start.touching};
   }
   result.history = from;
   result.problem = std::move(problem);

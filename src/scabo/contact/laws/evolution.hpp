@@ -1,5 +1,5 @@
-// One increment of pairs whose laws remember: solve, look which histories the solution changes, solve again
-// with what the pairs then can carry, until nothing changes.
+// One increment of pairs whose laws depend on history: solve, determine which histories the solution changes, solve
+// again with the resulting strengths, until nothing changes.
 //
 //     set limits by the trial histories -> solve -> ends of the pairs -> new histories
 //

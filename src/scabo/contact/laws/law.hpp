@@ -1,7 +1,7 @@
-// A law of contact: what a pair can carry, from its parameters and its history
+// A law of contact: the admissible forces of a pair, from its parameters and its history
 // (docs/methods/20_contact_laws.md).
 //
-// The discrete problem knows one set of forces for a pair (contact/problem.hpp),
+// The discrete problem has one set of admissible forces for a pair (contact/problem.hpp),
 //
 //     p_n >= -tau_t A,   |p_t| <= c A + mu (p_n)+                    A: tributary area of the pair
 //

@@ -1,8 +1,9 @@
 // Coulomb's law whose coefficient falls with the slip s that the pair has been through, in contact:
 //
-//     mu(s) = mu_s - (mu_s - mu_d) min(s / L, 1)        L > 0   (linear slip weakening; Ida, J. Geophys. Res.
-//     77 (1972) 3796) mu = mu_s until slip begins, mu_d ever after      L = 0
+//     mu(s) = mu_s - (mu_s - mu_d) min(s / L, 1)          L > 0
+//     mu    = mu_s until slip begins, mu_d afterwards     L = 0
 //
+// Linear slip weakening: Ida, J. Geophys. Res. 77 (1972) 3796.
 // There is no healing.
 #pragma once
 

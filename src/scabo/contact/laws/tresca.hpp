@@ -1,6 +1,6 @@
-// Tresca's law: the bound of the tangential force is prescribed and does not depend on pressure, |p_t| <= k
-// A, p_n >= 0. Slip does not use it up. It acts on an open pair as well (Tresca's bound knows no p_n): model
-// the parts of a joint that stay shut with it.
+// Tresca's law: the bound of the tangential force is prescribed and does not depend on pressure, |p_t| <= k A,
+// p_n >= 0. Slip does not reduce it. It acts on an open pair as well, because the bound does not depend on p_n: use it
+// for the parts of a joint that stay closed.
 #pragma once
 
 #include "scabo/contact/laws/law.hpp"

@@ -59,8 +59,8 @@ class AlartCurnier {
       J.block(d * k, d * k, d, d) += B + alpha * A;
       right.segment(d * k, d) = -at.F.segment(d * i, d) - A * moved.segment(d * i, d);
       if (m == 0) continue;
-      J.block(d * k, n, d, m) = A * problem_.G.middleRows(d * i, d);
-      J.block(n, d * k, m, d) = problem_.G.middleRows(d * i, d).transpose();
+      J.block(d * k, n, d, m) = A * problem_.G.dense().middleRows(d * i, d);
+      J.block(n, d * k, m, d) = problem_.G.dense().middleRows(d * i, d).transpose();
     }
     if (m > 0) right.tail(m) = -at.F.tail(m) - problem_.G.transpose() * known;
     if (n + m == 0) return true;
@@ -143,7 +143,7 @@ End alart_curnier(const Problem& problem, Vector p, Vector a, const Control& con
     before = at.states;
     end.converged = residual <= control.small;
     if (end.converged) return end;
-    if (end.iterations >= control.iterations) {
+    if (end.iterations >= control.iterations || control.deadline.passed()) {
       end.reason = "the limit of iterations was reached";
       return end;
     }

@@ -93,9 +93,9 @@ bool direction(const Problem& problem, const SmoothedEquations& at, Vector& step
       const LocalMatrix A = at.A.middleCols(d * i, d);
       J.block(d * i, 0, d, n).noalias() = A * W.middleRows(d * i, d);
       J.block(d * i, d * i, d, d) += at.B.middleCols(d * i, d) + alpha * A;
-      if (m > 0) J.block(d * i, n, d, m) = A * problem.G.middleRows(d * i, d);
+      if (m > 0) J.block(d * i, n, d, m) = A * problem.G.dense().middleRows(d * i, d);
     }
-    if (m > 0) J.block(n, 0, m, n) = problem.G.transpose();
+    if (m > 0) J.block(n, 0, m, n) = problem.G.dense().transpose();
     const Eigen::PartialPivLU<Matrix> lu(J);
     step = lu.solve(-at.F);
     if (step.allFinite()) step += lu.solve(-at.F - J * step);
@@ -125,7 +125,7 @@ End fischer_burmeister(const Problem& problem, Vector p, Vector a, const Control
     before = states;
     end.converged = residual <= control.small;
     if (end.converged) return end;
-    if (end.iterations >= 4 * control.iterations) {
+    if (end.iterations >= 4 * control.iterations || control.deadline.passed()) {
       end.reason = "the limit of iterations was reached";
       return end;
     }

@@ -22,7 +22,7 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
       end.iterations = sweep;
       end.converged = largest(H) <= control.small;
       if (end.converged) return end;
-      if (!p.allFinite() || sweep == sweeps) break;
+      if (!p.allFinite() || sweep == sweeps || control.deadline.passed()) break;
     }
     iteration.sweep(p);
   }

@@ -14,7 +14,7 @@ Problem held_at(const Problem& problem, const Vector& p, const Vector& a, double
   W.diagonal().array() += alpha;
   held.q -= alpha * p;
   if (a.size() > 0) {
-    W.noalias() += problem.G * problem.G.transpose() / beta;
+    W.noalias() += problem.G.dense() * problem.G.dense().transpose() / beta;
     held.q.noalias() += problem.G * (a + problem.f / beta);
     held.G.resize(problem.q.size(), 0);
     held.f.resize(0);
@@ -48,12 +48,12 @@ End proximal_point(const Problem& problem, Vector p, Vector a, const Control& co
     before = states;
     end.converged = largest(H) <= control.small;
     if (end.converged) return end;
-    if (round >= 4 * control.iterations) {
+    if (round >= 4 * control.iterations || control.deadline.passed()) {
       end.reason = "the proximal points did not settle in their limit";
       return end;
     }
     const Problem held = held_at(problem, p, a, alpha, alpha);
-    const Control inner{std::max(0.1 * control.small, 1e-4 * largest(H)), control.iterations};
+    const Control inner{std::max(0.1 * control.small, 1e-4 * largest(H)), control.iterations, control.deadline};
     const End solved = alart_curnier(held, p, Vector(), inner, bound);
     end.iterations += solved.iterations;
     if (!solved.converged && (alpha *= 10.0) > 1e4) {
@@ -70,7 +70,7 @@ End proximal_point(const Problem& problem, Vector p, Vector a, const Control& co
 int start_softly(const Problem& problem, Vector& p, Vector& a, const Control& control) {
   if (a.size() == 0 || !p.isZero(0.0)) return 0;
   const double soft = 0.1;
-  const Control rough{std::max(control.small, 1e-8 * largest(problem.f)), control.iterations};
+  const Control rough{std::max(control.small, 1e-8 * largest(problem.f)), control.iterations, control.deadline};
   const End held = alart_curnier(held_at(problem, p, a, 1e-8, soft), p, Vector(), rough);
   a += (problem.G.transpose() * held.p + problem.f) / soft;
   p = held.p;

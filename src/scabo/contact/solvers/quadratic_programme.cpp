@@ -79,7 +79,7 @@ End quadratic_programme(const Problem& problem, const Control& control) {
     end.trace.push_back(
         {end.iterations, enters < 0 ? 0.0 : -most, 0.5 * p_n.dot(gap + q_n), 1.0, 1, "quadratic_programme"});
     if (enters < 0) return finish("");
-    if (++end.iterations > 10 * N + 100) return finish("the active set did not settle");
+    if (++end.iterations > 10 * N + 100 || control.deadline.passed()) return finish("the active set did not settle");
     in.push_back(enters);
     is_in[static_cast<std::size_t>(enters)] = true;
     while (!in.empty()) {

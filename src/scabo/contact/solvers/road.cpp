@@ -23,12 +23,6 @@ Matrix pair_stiffness(const Problem& problem) {
   return r;
 }
 
-Vector motion_of(const Problem& problem, const Vector& p, const Vector& a) {
-  Vector motion = problem.q + problem.W.times(p);
-  if (a.size() > 0) motion.noalias() += problem.G * a;
-  return motion;
-}
-
 Local project_on_disk(const Local& t, double bound) {
   const double length = t.norm();
   return length <= bound ? t : Local(t * (bound / length));

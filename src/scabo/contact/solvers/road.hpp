@@ -1,11 +1,11 @@
-// What the other solvers ("roads") of a discrete contact problem share. They exist for comparison and as a
-// way back where Newton on the B-differentiable equations fails; ../solvers.hpp lists and calls them.
+// Common parts of the other solvers of a discrete contact problem ("roads"). They exist for comparison and as
+// alternatives where Newton on the B-differentiable equations fails; ../solvers.hpp lists and calls them.
 //
-// A road gets the problem in forces: W and q times one stiffness, the inverse of the mean of W_ii, so that
-// every unknown and every residual is a force. It ends with the best point it saw, and says why where that is
-// not good enough. It does not judge itself solved: ../solvers.cpp certifies.
+// A solver receives the problem in forces: W and q times one stiffness, the inverse of the mean of W_ii, so that
+// every unknown and every residual is a force. It returns the best point found and, if this is not accurate enough,
+// the reason. It does not decide whether the problem is solved: ../solvers.cpp certifies.
 //
-// The residual of all roads is the largest component, a force, of
+// The residual of all these solvers is the largest component, a force, of
 //
 //     p_n - (p_n - r_n g)+                                     = min(r_n g, p_n)
 //     p_t - P_D( p_t - r_t ds ),  D = { |p_t| <= mu (p_n)+ }    P: nearest point of the disk (2D: interval)
@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "scabo/contact/deadline.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/solution.hpp"
 
 namespace scabo::contact::solvers {
@@ -29,6 +31,7 @@ using LocalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 
 struct Control {
   double small = 1e-12;  ///< force: a largest residual below this is the end
   int iterations = 50;   ///< of Newton's kind; each road says what it makes of it
+  Deadline deadline;     ///< no iteration begins after it
 };
 
 struct End {
@@ -49,9 +52,6 @@ PairLaw pair_law(const Problem& problem, Eigen::Index i);
 
 /// r_n and r_t of every pair, 2 x N. Where W_ii is nearly 0: of the mean.
 Matrix pair_stiffness(const Problem& problem);
-
-/// q + W p + G a.
-Vector motion_of(const Problem& problem, const Vector& p, const Vector& a);
 
 /// The vector of the residual above, dN + m: last G'p + f.
 Vector residual_of(const Problem& problem, const Matrix& r, const Vector& p, const Vector& a);

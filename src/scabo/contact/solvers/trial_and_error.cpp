@@ -56,17 +56,17 @@ std::optional<Vector> solve(const Problem& problem, const Trials& trials) {
     const Eigen::Index row = rows[static_cast<std::size_t>(k)], i = row / d;
     const Trial& trial = trials[static_cast<std::size_t>(i)];
     columns.col(k) = W.col(row);
-    couplings.row(k) = problem.G.row(row);
+    couplings.row(k) = problem.G.dense().row(row);
     if (trial.state != ContactState::slip) continue;
     columns.col(k) += problem.mu[i] * W.middleCols(row + 1, t) * trial.direction;
-    couplings.row(k) += problem.mu[i] * trial.direction.transpose() * problem.G.middleRows(row + 1, t);
+    couplings.row(k) += problem.mu[i] * trial.direction.transpose() * problem.G.dense().middleRows(row + 1, t);
   }
   Matrix A = Matrix::Zero(n + m, n + m);
   A.topLeftCorner(n, n) = columns(rows, Eigen::all);
   Vector b(n + m);
   b.head(n) = -problem.q(rows);
   if (m > 0) {
-    A.topRightCorner(n, m) = problem.G(rows, Eigen::all);
+    A.topRightCorner(n, m) = problem.G.dense()(rows, Eigen::all);
     A.bottomLeftCorner(m, n) = couplings.transpose();
     b.tail(m) = -problem.f;
   }
@@ -159,10 +159,10 @@ End trial_and_error(const Problem& problem, Vector p_start, Vector a_start, cons
   std::vector<int> before;
   while (true) {
     if (!tried.insert(key_of(trials)).second) {
-      end.reason = "it goes around: the states tried now were tried before";
+      end.reason = "it cycles: the states tried now were tried before";
       return end;
     }
-    if (end.iterations >= 4 * control.iterations) {
+    if (end.iterations >= 4 * control.iterations || control.deadline.passed()) {
       end.reason = "the limit of iterations was reached";
       return end;
     }

@@ -1,0 +1,172 @@
+#include "startup.hpp"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "exit_status.hpp"
+#include "terminal.hpp"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SCABO_ADDRESS_SANITIZER 1
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__)
+#define SCABO_ADDRESS_SANITIZER 1
+#endif
+
+// OpenBLAS's own memory; weak, so that any BLAS links.
+extern "C" {
+[[gnu::weak]] void* blas_memory_alloc(int position);
+[[gnu::weak]] void blas_memory_free(void* buffer);
+}
+
+namespace scabo::app {
+
+namespace {
+
+constexpr std::size_t megabyte = 1 << 20;
+constexpr std::size_t blas_buffer = 128 * megabyte;  // OpenBLAS 0.3 on x86-64
+/// Of each thread: buffer of BLAS, stack, and what malloc reserves for it.
+constexpr std::size_t of_a_thread = blas_buffer + 8 * megabyte + 64 * megabyte;
+/// What a small model takes besides: the heap, and tables that libraries make when they start.
+constexpr std::size_t for_work = 32 * megabyte;
+
+/// Whether so much could be allocated now, under the limits of this process. Nothing is used.
+bool is_free(std::size_t bytes) {
+  void* const probe = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (probe == MAP_FAILED) return false;
+  munmap(probe, bytes);
+  return true;
+}
+
+bool room_for_threads(int count) { return is_free(static_cast<std::size_t>(count) * of_a_thread + 2 * for_work); }
+
+/// Processors this process may run on: so many threads OpenBLAS makes.
+int processors() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+void keep_open(int descriptor, int mode) {
+  if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) return;
+  // The lowest free number is this one, as those below are open by now.
+  [[maybe_unused]] const int opened = open("/dev/null", mode);
+}
+
+[[noreturn]] void end_after_an_exception() {
+  const char* message = "scabo: the program ended in a way it should not: a bug, please report it\n";
+  try {
+    if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+    message = "scabo: not enough memory: make the mesh coarser, or raise the limit (`ulimit -v`)\n";
+  } catch (...) {
+  }
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
+  _exit(ExitStatus::failure);
+}
+
+/// The stack grows by itself only while there is address space; without, the program would end by SIGSEGV.
+[[gnu::noinline]] void take_stack() {
+  std::array<volatile char, megabyte> stack;
+  for (std::size_t i = 0; i < stack.size(); i += 4096) stack[i] = 0;
+}
+
+}  // namespace
+
+int threads_that_fit(int wanted) { return wanted > 1 && !room_for_threads(wanted) ? 1 : wanted; }
+
+void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
+
+void prepare_process() {
+  keep_open(STDIN_FILENO, O_WRONLY);
+  keep_open(STDOUT_FILENO, O_RDONLY);
+  keep_open(STDERR_FILENO, O_RDONLY);
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(end_after_an_exception);
+  if (room_for_threads(std::max(4, processors()))) return;
+  take_stack();
+  if (blas_memory_alloc && blas_memory_free) blas_memory_free(blas_memory_alloc(0));
+}
+
+}  // namespace scabo::app
+
+#if defined(__linux__) && !defined(SCABO_ADDRESS_SANITIZER)
+
+namespace {
+
+using scabo::app::blas_buffer;
+using scabo::app::for_work;
+using scabo::app::is_free;
+using scabo::app::processors;
+
+bool is_set(char* const* environment, const char* assignment) {
+  for (; *environment; ++environment)
+    if (std::strcmp(*environment, assignment) == 0) return true;
+  return false;
+}
+
+void refuse() {
+  char message[320] = "scabo: not enough memory: about 200 MB of address space must be free to start";
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    // No stdio here: libraries are not initialised.
+    char digits[24];
+    int count = 0;
+    for (rlim_t kilobytes = limit.rlim_cur / 1024; count == 0 || kilobytes > 0; kilobytes /= 10)
+      digits[count++] = static_cast<char>('0' + kilobytes % 10);
+    std::strcat(message, ", and the limit is ");
+    std::size_t end = std::strlen(message);
+    while (count > 0) message[end++] = digits[--count];
+    message[end] = '\0';
+    std::strcat(message, " kB: raise it, as in `ulimit -v 500000`");
+  }
+  std::strcat(message, "\n");
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
+  _exit(scabo::app::ExitStatus::failure);
+}
+
+/// See prepare_process. Standard streams and the environment of the C library are not there yet.
+void check_memory(int, char** arguments, char** environment) {
+  constexpr const char* one_thread = "OPENBLAS_NUM_THREADS=1";
+  if (scabo::app::room_for_threads(processors())) return;
+  if (!is_set(environment, one_thread)) {
+    int count = 0;
+    while (environment[count]) ++count;
+    constexpr int most = 4000;
+    char* with_one_thread[most + 2];
+    int kept = 0;
+    with_one_thread[kept++] = const_cast<char*>(one_thread);
+    for (int i = 0; i < count && kept <= most; ++i)
+      if (std::strncmp(environment[i], one_thread, std::strlen(one_thread) - 1) != 0)
+        with_one_thread[kept++] = environment[i];
+    with_one_thread[kept] = nullptr;
+    char program[4096];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length > 0) {
+      program[length] = '\0';
+      execve(program, arguments, with_one_thread);
+    }
+  }
+  if (!is_free(blas_buffer + for_work)) refuse();
+}
+
+}  // namespace
+
+// Functions listed here run before the initialisers of shared libraries.
+[[gnu::section(".preinit_array"), gnu::used]] static void (*const check_memory_first)(int, char**,
+                                                                                      char**) = check_memory;
+
+#endif

@@ -1,0 +1,215 @@
+#include "scabo/analysis/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scabo::analysis {
+
+namespace {
+
+constexpr double most_overlap = 0.01;   // over the size of the body: a strain
+constexpr double most_pressure = 0.05;  // over Young's modulus: a strain
+constexpr int fewest_pairs = 5;         // two quadratic edges
+constexpr std::size_t most_names = 3;
+
+/// A contact and how far it is from what was expected.
+struct Finding {
+  std::size_t contact = 0;
+  double figure = 0.0;
+};
+
+/// `contact 'joint'`, or `contacts 'a', 'b' and 7 more`.
+std::string contacts_of(const StaticSolution& solution, const std::vector<Finding>& findings) {
+  std::string text = findings.size() == 1 ? "contact " : "contacts ";
+  const std::size_t named = findings.size() <= most_names + 1 ? findings.size() : most_names;
+  for (std::size_t i = 0; i < named; ++i) {
+    if (i > 0) text += i + 1 == findings.size() ? " and " : ", ";
+    text += fmt::format("'{}'", solution.model.contacts[findings[i].contact].name);
+  }
+  return named == findings.size() ? text : text + fmt::format(" and {} more", findings.size() - named);
+}
+
+const Finding& worst_of(const std::vector<Finding>& findings) {
+  return *std::max_element(findings.begin(), findings.end(),
+                           [](const Finding& a, const Finding& b) { return a.figure < b.figure; });
+}
+
+std::string in_worst(const StaticSolution& solution, const std::vector<Finding>& findings) {
+  if (findings.size() == 1) return "";
+  return fmt::format(" in '{}'", solution.model.contacts[worst_of(findings).contact].name);
+}
+
+/// Smallest stiffness of a material against compression.
+double stiffness_of(const model::Material& material) {
+  if (!material.law) return material.young;
+  if (const auto* orthotropic = std::get_if<model::Orthotropic>(&*material.law))
+    return std::min(orthotropic->E1, orthotropic->E2);
+  const auto& anisotropic = std::get<model::Anisotropic>(*material.law);
+  return std::min(anisotropic.D11, anisotropic.D22);
+}
+
+/// The elastic bodies of a contact.
+std::vector<std::size_t> elastic_bodies(const StaticSolution& solution, std::size_t contact) {
+  std::vector<std::size_t> bodies;
+  for (const model::Place* side : {&solution.model.contacts[contact].a, &solution.model.contacts[contact].b}) {
+    const auto body = static_cast<std::size_t>(side->body);
+    if (!solution.model.bodies[body].rigid) bodies.push_back(body);
+  }
+  return bodies;
+}
+
+/// Deepest overlap at the start over the size, along the normal, of the smaller elastic body.
+struct Overlap {
+  double strain = 0.0, depth = 0.0;
+};
+Overlap overlap_of(const StaticSolution& solution, std::size_t contact) {
+  Overlap overlap;
+  for (const mesh::ContactPair& pair : solution.mesh.interfaces[contact].pairs) {
+    if (pair.gap >= 0.0) continue;
+    double size = std::numeric_limits<double>::infinity();
+    for (const std::size_t body : elastic_bodies(solution, contact)) {
+      if (solution.model.bodies[body].outside) continue;
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Vec2& x : solution.mesh.bodies[body].nodes) {
+        low = std::min(low, x.dot(pair.normal));
+        high = std::max(high, x.dot(pair.normal));
+      }
+      size = std::min(size, high - low);
+    }
+    overlap.strain = std::max(overlap.strain, -pair.gap / size);
+    overlap.depth = std::max(overlap.depth, -pair.gap);
+  }
+  return overlap;
+}
+
+/// Largest pressure of all increments over the smaller Young's modulus of the two sides.
+double pressure_strain(const StaticSolution& solution, std::size_t contact, double& pressure) {
+  pressure = 0.0;
+  for (const IncrementResult& increment : solution.increments)
+    if (increment.converged) pressure = std::max(pressure, increment.contacts[contact].max_pressure);
+  double stiffness = std::numeric_limits<double>::infinity();
+  for (const std::size_t body : elastic_bodies(solution, contact))
+    stiffness = std::min(
+        stiffness,
+        stiffness_of(solution.model.materials[static_cast<std::size_t>(solution.model.bodies[body].material)]));
+  return pressure / stiffness;
+}
+
+void warn_of_large_strains(const StaticSolution& solution, std::vector<std::string>& warnings) {
+  std::vector<Finding> overlapping, pressed;
+  for (std::size_t c = 0; c < solution.model.contacts.size(); ++c) {
+    double pressure = 0.0;
+    const double strain = overlap_of(solution, c).strain, by_pressure = pressure_strain(solution, c, pressure);
+    if (strain > most_overlap)
+      overlapping.push_back({c, strain});
+    else if (by_pressure > most_pressure)
+      pressed.push_back({c, by_pressure});
+  }
+  if (!overlapping.empty()) {
+    const Finding& worst = worst_of(overlapping);
+    double pressure = 0.0;
+    pressure_strain(solution, worst.contact, pressure);
+    const std::string pressing = pressure > 0.0 ? fmt::format(", which presses with {:.3g} there", pressure) : "";
+    warnings.push_back(fmt::format(
+        "{}: the bodies overlap at the start by up to {:.3g}{}, {:.3g} % of the smaller body's size{}; small strains "
+        "are assumed: check the shapes, 'gap' and the units",
+        contacts_of(solution, overlapping), overlap_of(solution, worst.contact).depth, in_worst(solution, overlapping),
+        100.0 * worst.figure, pressing));
+  }
+  if (!pressed.empty()) {
+    const Finding& worst = worst_of(pressed);
+    double pressure = 0.0;
+    pressure_strain(solution, worst.contact, pressure);
+    warnings.push_back(
+        fmt::format("{}: the pressure reaches {:.3g}{}, {:.3g} % of Young's modulus; small strains are assumed: check "
+                    "loads, stiffness and their units",
+                    contacts_of(solution, pressed), pressure, in_worst(solution, pressed), 100.0 * worst.figure));
+  }
+}
+
+/// Smallest gap of a contact that is open at every pair in every increment; nothing for others.
+std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t contact) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const IncrementResult& increment : solution.increments) {
+    if (!increment.converged) continue;
+    const ContactResult& of = increment.contacts[contact];
+    if (of.first_in_contact) return {};
+    for (const PairResult& pair : of.pairs) smallest = std::min(smallest, pair.gap);
+  }
+  return std::isfinite(smallest) ? std::optional(smallest) : std::nullopt;
+}
+
+void warn_of_open_contacts(const StaticSolution& solution, std::vector<std::string>& warnings) {
+  std::vector<Finding> open;
+  for (std::size_t c = 0; c < solution.model.contacts.size(); ++c)
+    if (const auto gap = smallest_gap(solution, c)) open.push_back({c, -*gap});
+  if (open.empty()) return;
+  warnings.push_back(
+      fmt::format("{} never {}: the smallest gap is {:.3g}{}; check 'between', 'gap' and the direction "
+                  "of the loads, or leave {} out",
+                  contacts_of(solution, open), open.size() == 1 ? "closes" : "close", -worst_of(open).figure,
+                  in_worst(solution, open), open.size() == 1 ? "it" : "them"));
+}
+
+void warn_of_coarse_zones(const StaticSolution& solution, std::vector<std::string>& warnings) {
+  const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
+                                 [](const IncrementResult& increment) { return increment.converged; });
+  if (last == solution.increments.rend()) return;
+  std::vector<Finding> coarse;
+  for (std::size_t c = 0; c < last->contacts.size(); ++c) {
+    const int closed = last->contacts[c].stick + last->contacts[c].slip;
+    if (closed > 0 && closed < fewest_pairs) coarse.push_back({c, -static_cast<double>(closed)});
+  }
+  if (coarse.empty()) return;
+  const auto fewest = static_cast<int>(-worst_of(coarse).figure);
+  warnings.push_back(fmt::format(
+      "{}: only {} pair{} {} in contact at the end{}, too coarse to trust the pressure (forces are not concerned): use "
+      "a smaller mesh.size or a higher mesh.order, so that five or more are",
+      contacts_of(solution, coarse), fewest, fewest == 1 ? "" : "s", fewest == 1 ? "is" : "are",
+      in_worst(solution, coarse)));
+}
+
+}  // namespace
+
+std::vector<std::string> load_warnings(const model::Model& model, const system::Structure& structure) {
+  std::vector<std::string> warnings;
+  for (std::size_t load = 0; load < model.loads.size(); ++load) {
+    double largest = 0.0, moving = 0.0;
+    bool inside = false;
+    for (std::size_t b = 0; b < structure.bodies.size(); ++b) {
+      const element::InteriorLoads& interior = structure.interior[load][b];
+      inside = inside || !interior.loads.empty() || !interior.temperature.is_zero();
+      Vector forces = structure.loads[load][b];
+      if (forces.size() == 0) continue;
+      largest = std::max(largest, forces.lpNorm<Eigen::Infinity>());
+      const system::BodySystem& body = *structure.bodies[b];
+      if (model.bodies[b].rigid) {
+        const Matrix& motions = body.rigid_motions();
+        if (motions.cols() > 0) moving = std::max(moving, (motions.transpose() * forces).lpNorm<Eigen::Infinity>());
+        continue;
+      }
+      for (const system::Constraint& constraint : body.constraints()) forces[constraint.dof] = 0.0;
+      moving = std::max(moving, forces.lpNorm<Eigen::Infinity>());
+    }
+    if (inside || moving > 1e-12 * largest) continue;
+    warnings.push_back(largest == 0.0
+                           ? fmt::format("load '{}' is zero: it moves nothing", model.loads[load].name)
+                           : fmt::format("load '{}' moves nothing: all its forces act where supports hold; move the "
+                                         "load or free the support there",
+                                         model.loads[load].name));
+  }
+  return warnings;
+}
+
+std::vector<std::string> contact_warnings(const StaticSolution& solution) {
+  std::vector<std::string> warnings;
+  warn_of_large_strains(solution, warnings);
+  warn_of_open_contacts(solution, warnings);
+  warn_of_coarse_zones(solution, warnings);
+  return warnings;
+}
+
+}  // namespace scabo::analysis

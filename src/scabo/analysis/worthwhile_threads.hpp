@@ -1,0 +1,17 @@
+// The number of threads that is useful for a model. Threads that share small matrices wait for each other longer than
+// they compute, and on a busy machine each wait lasts until the other thread is scheduled again
+// (docs/decisions/0005-threads.md has the measurements).
+#pragma once
+
+#include "scabo/mesh/mesh.hpp"
+
+namespace scabo::analysis {
+
+/// Operations of an analysis, roughly: 30 n^3 for super-elements of n degrees of freedom, those of one size counted
+/// once; 3 k^3 for k contact components; and 600 n^1.5 for n degrees of freedom in finite elements, ordering included.
+double dense_work(const model::Model& model, const mesh::Mesh& mesh);
+
+/// `wanted` where dense_work takes more than about half a second of one processor, else 1.
+int worthwhile_threads(const model::Model& model, const mesh::Mesh& mesh, int wanted);
+
+}  // namespace scabo::analysis

@@ -1,0 +1,32 @@
+// Factorisation of a sparse square matrix without symmetry: P R A Q = L U by UMFPACK (Davis, ACM Trans. Math. Softw. 30
+// (2004) 196), ordered by METIS on the pattern of A + A'.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+
+#include "scabo/base/types.hpp"
+
+namespace scabo::linalg {
+
+class SparseGeneralSolver {
+ public:
+  SparseGeneralSolver();
+  ~SparseGeneralSolver();
+  SparseGeneralSolver(SparseGeneralSolver&&) noexcept;
+  SparseGeneralSolver& operator=(SparseGeneralSolver&&) noexcept;
+
+  /// Of `A`, n x n and compressed, which must outlive the solves. False where a pivot is zero.
+  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& A);
+  /// Smallest over largest pivot: a coarse estimate of 1 / (|A| |A^-1|).
+  double reciprocal_condition() const { return reciprocal_condition_; }
+  /// x = A^-1 b.
+  void solve(const Vector& b, Vector& x) const;
+
+ private:
+  struct Factor;
+  std::unique_ptr<Factor> factor_;
+  double reciprocal_condition_ = 0.0;
+};
+
+}  // namespace scabo::linalg

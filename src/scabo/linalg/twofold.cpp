@@ -1,0 +1,38 @@
+#include "scabo/linalg/twofold.hpp"
+
+namespace scabo::linalg {
+
+namespace {
+
+/// sum <- sum + a x; the low part is brought into order at the end.
+void add_product(Twofold& sum, double a, const Twofold& x) {
+  const Twofold product = exact_product(a, x.high), high = exact_sum(sum.high, product.high);
+  sum.high = high.high;
+  sum.low += high.low + product.low + a * x.low;
+}
+
+void in_order(TwofoldVector& y) {
+  for (Twofold& value : y) value = exact_sum(value.high, value.low);
+}
+
+}  // namespace
+
+TwofoldVector product(const Matrix& A, const TwofoldVector& x) {
+  TwofoldVector y(static_cast<std::size_t>(A.rows()));
+  for (Eigen::Index column = 0; column < A.cols(); ++column)
+    for (Eigen::Index row = 0; row < A.rows(); ++row)
+      add_product(y[static_cast<std::size_t>(row)], A(row, column), x[static_cast<std::size_t>(column)]);
+  in_order(y);
+  return y;
+}
+
+TwofoldVector product(const SparseMatrix& A, const TwofoldVector& x) {
+  TwofoldVector y(static_cast<std::size_t>(A.rows()));
+  for (Eigen::Index column = 0; column < A.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry)
+      add_product(y[static_cast<std::size_t>(entry.row())], entry.value(), x[static_cast<std::size_t>(column)]);
+  in_order(y);
+  return y;
+}
+
+}  // namespace scabo::linalg

@@ -1,0 +1,32 @@
+// The contacts after an increment as lines, for ParaView: one point for each pair, at its undeformed place on A, and a
+// line between neighbours of one contact (a contact of one pair is a point).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scabo/analysis/static_analysis.hpp"
+
+namespace scabo::result {
+
+/// In the arrays that the file holds.
+struct ContactLines {
+  std::vector<double> points;              // 3 per pair, z = 0
+  std::vector<std::int32_t> connectivity;  // points of the cells, one cell after the other
+  std::vector<std::int32_t> offsets;       // one per cell: where its points end in `connectivity`
+  std::vector<std::uint8_t> types;         // one per cell: VTK's number
+  std::vector<std::int32_t> cell_contact;  // number of the contact from 1, in the order of the model
+
+  // One per pair
+  std::vector<std::int32_t> contact, pair;             // numbers from 1
+  std::vector<std::uint8_t> state;                     // 0 open, 1 stick, 2 slip
+  std::vector<double> pressure, shear;                 // force / length^2
+  std::vector<double> gap, slip;                       // length
+  std::vector<double> normal_force, tangential_force;  // on B
+  std::vector<double> traction;                        // 3 per pair: pressure along n and shear along t, on B
+  std::vector<double> displacement;                    // 3 per pair, of A
+};
+
+ContactLines contact_lines(const analysis::IncrementResult& increment);
+
+}  // namespace scabo::result

@@ -1,0 +1,64 @@
+#include "scabo/system/tributary_lengths.hpp"
+
+#include <map>
+
+#include "scabo/mesh/lobatto.hpp"
+
+namespace scabo::system {
+
+namespace {
+
+/// Eq. (1) of the nodes of one elastic side, in the order given.
+std::vector<double> lengths_of_side(const model::Place& place, const mesh::Mesh& mesh, const std::vector<int>& paired) {
+  const std::vector<Vec2>& nodes = mesh.bodies[static_cast<std::size_t>(place.body)].nodes;
+  std::vector<bool> takes_part(nodes.size(), false);
+  for (const int node : paired) takes_part[static_cast<std::size_t>(node)] = true;
+  std::vector<Vec2> whole(nodes.size(), Vec2::Zero()), covered = whole;
+  std::map<int, mesh::LobattoBasis> bases;
+  for (const mesh::LineElement& element : mesh::nodes_of(place, mesh).elements) {
+    const int order = static_cast<int>(element.nodes.size()) - 1;
+    const mesh::LobattoBasis& basis = bases.try_emplace(order, order).first->second;
+    bool is_covered = true;
+    for (const int node : element.nodes) is_covered = is_covered && takes_part[static_cast<std::size_t>(node)];
+    for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+      Vec2 along = Vec2::Zero();
+      for (std::size_t j = 0; j < element.nodes.size(); ++j)
+        along += basis.derivative(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+                 nodes[static_cast<std::size_t>(element.nodes[j])];
+      const auto node = static_cast<std::size_t>(element.nodes[i]);
+      whole[node] += basis.weights[i] * along;
+      if (is_covered) covered[node] += basis.weights[i] * along;
+    }
+  }
+  std::vector<double> lengths;
+  for (const int node : paired) {
+    const auto i = static_cast<std::size_t>(node);
+    lengths.push_back((covered[i].norm() > 0.0 ? covered[i] : whole[i]).norm());
+  }
+  return lengths;
+}
+
+}  // namespace
+
+std::vector<double> tributary_lengths(int contact, const model::Model& model, const mesh::Mesh& mesh) {
+  const model::Contact& named = model.contacts[static_cast<std::size_t>(contact)];
+  const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(contact)];
+  std::vector<double> lengths(interface.pairs.size(), 0.0);
+  int sides = 0;
+  for (const bool on_b : {false, true}) {
+    const model::Place& place = on_b ? named.b : named.a;
+    if (model.bodies[static_cast<std::size_t>(place.body)].rigid) continue;
+    std::vector<int> paired;
+    for (const mesh::ContactPair& pair : interface.pairs) paired.push_back(on_b ? pair.node_b : pair.node_a);
+    const std::vector<double> of_side = lengths_of_side(place, mesh, paired);
+    for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] += of_side[i];
+    ++sides;
+  }
+  for (double& length : lengths) {
+    length /= sides;
+    ensure(length > 0.0, "a node of a contact has no tributary length");
+  }
+  return lengths;
+}
+
+}  // namespace scabo::system

@@ -1,0 +1,27 @@
+// Tributary lengths: the part of the length of an edge that is assigned to a node.
+//
+// Contact acts from node to node. The traction that belongs to a force is the force over the node's tributary length
+// (times the thickness), both for displayed pressures and for comparison with strengths. For a node i of an edge
+//
+//     w_i = | sum over its elements of the Gauss-Lobatto weight of the node times x,eta |                      (1)
+//
+// on a straight quadratic element 1/6, 4/6 and 1/6 of its length. The sum is one of vectors: turned by 90 degrees, it
+// is the integral of N_i n along which contact presses (mesh/contact_side.hpp), so that a uniform pressure p has the
+// nodal forces p w_i exactly, on curved edges too.
+//
+// Of a contact, only its own edges count, and of them only elements all of whose nodes take part: under the corner of a
+// block that stands in the middle of a floor, the floor's elements beside the block do not count. A node without such
+// an element keeps the lengths of all its elements. Where both sides are elastic, the mean of both is taken: it is the
+// same when they are swapped, and where elements match they agree but for the gap between curved sides.
+#pragma once
+
+#include <vector>
+
+#include "scabo/mesh/mesh.hpp"
+
+namespace scabo::system {
+
+/// One for each pair of the interface of `contact` (index into Model::contacts); all are > 0.
+std::vector<double> tributary_lengths(int contact, const model::Model& model, const mesh::Mesh& mesh);
+
+}  // namespace scabo::system

@@ -1,0 +1,249 @@
+"""What a run does when the machine denies it something: memory, streams, a directory, the disk; and when it is told to end."""
+import os
+import resource
+import signal
+import subprocess
+import unittest
+
+import support
+from support import BEAM, rows_of, scabo, summary_of
+
+SOLVED, WRONG_INPUT, FAILURE = 0, 1, 3
+LOADER = 127  # of the system, where shared libraries do not fit: before the program begins
+LONG = 240  # seconds that no test needs, also on a busy machine
+
+LONG_RUN = ("--set", "steps=[{name: press, increments: 100000}]")
+
+
+def limited(kind, value):
+    return lambda: resource.setrlimit(kind, (value, value))
+
+
+def run(*arguments, before=None, **options):
+    return subprocess.run([support.SCABO, *map(str, arguments)], preexec_fn=before, stdin=subprocess.DEVNULL, text=True,
+                          timeout=LONG, **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
+
+
+@unittest.skipIf("SCABO_SANITIZED" in os.environ, "the address sanitizer reserves terabytes of address space")
+class Memory(support.InTemporaryDirectory):
+    def test_every_limit_ends_with_success_or_a_sentence(self):
+        solved = []
+        for kilobytes in [20_000, 50_000, 80_000, *range(90_000, 320_000, 15_000), 350_000, 450_000, 700_000, 1_000_000]:
+            with self.subTest(kilobytes=kilobytes):
+                ended = run("run", BEAM, "-q", "-o", self.directory / "out",
+                            before=limited(resource.RLIMIT_AS, kilobytes * 1024))
+                self.assertIn(ended.returncode, (SOLVED, FAILURE, LOADER), ended.stderr)
+                if ended.returncode == FAILURE:
+                    self.assertRegex(ended.stderr, r"^scabo: not enough memory.*\n$")
+                elif ended.returncode == LOADER:
+                    self.assertIn("error while loading shared libraries", ended.stderr)
+                    self.assertFalse(solved)
+                else:
+                    solved.append(kilobytes)
+        self.assertIn(1_000_000, solved)
+
+    def test_a_model_that_is_too_large_says_so(self):
+        ended = run("run", BEAM, "-q", "-o", self.directory / "out", "--set", "bodies.lower.mesh.size=0.01",
+                    "--set", "bodies.upper.mesh.size=0.01", before=limited(resource.RLIMIT_AS, 600_000 * 1024))
+        self.assertEqual(ended.returncode, FAILURE, ended.stderr)
+        self.assertRegex(ended.stderr, r"^scabo: not enough memory.*coarser.*\n$")
+        summary = summary_of(self.directory / "out")
+        self.assertEqual((summary["status"], summary["increments"]), ("failed", []))
+        self.assertIn("not enough memory", summary["reason"])
+
+
+class Streams(support.InTemporaryDirectory):
+    def shell(self, command):
+        """`command` in a shell where $SCABO is the program; its exit status is that of the program."""
+        return subprocess.run(["bash", "-c", "set -o pipefail; " + command], cwd=self.directory, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=LONG,
+                              env={**os.environ, "SCABO": support.SCABO, "BEAM": str(BEAM)})
+
+    def files(self, name):
+        return {path.name: path.read_bytes() for path in (self.directory / name).iterdir()
+                if path.suffix in (".csv", ".vtu", ".pvd")}
+
+    def test_closed_streams_put_nothing_into_files(self):
+        self.assertEqual(self.shell('"$SCABO" run "$BEAM" -o whole').returncode, SOLVED)
+        for closing in (">&-", "2>&-", "<&-", ">&- 2>&-", "<&- >&- 2>&-"):
+            with self.subTest(closing=closing):
+                ended = self.shell(f'"$SCABO" run "$BEAM" -o out {closing}')
+                self.assertEqual(ended.returncode, SOLVED, ended.stderr)
+                self.assertEqual(self.files("out"), self.files("whole"))
+                self.assertEqual(summary_of(self.directory / "out")["status"], "solved")
+
+    def test_a_text_that_is_the_answer_must_be_written(self):
+        for command in ('schema', 'check "$BEAM"', 'exponents "$BEAM"'):
+            with self.subTest(command=command):
+                ended = self.shell(f'"$SCABO" {command} >&-')
+                self.assertEqual(ended.returncode, FAILURE)
+                self.assertIn("cannot write to standard output", ended.stderr)
+
+    def test_errors_keep_their_status_without_a_standard_error(self):
+        self.assertEqual(self.shell('"$SCABO" check no_such.yaml 2>&-').returncode, WRONG_INPUT)
+        self.assertEqual(self.shell('"$SCABO" check no_such.yaml 2>/dev/full').returncode, WRONG_INPUT)
+
+    def test_a_reader_that_has_gone_ends_no_run(self):
+        for pipe in ("| true", "2>&1 | head -1"):
+            with self.subTest(pipe=pipe):
+                ended = self.shell(f'"$SCABO" run "$BEAM" -o out --set "steps=[{{name: press, increments: 20}}]" {pipe}')
+                self.assertEqual(ended.returncode, SOLVED, ended.stderr)
+                summary = summary_of(self.directory / "out")
+                self.assertEqual((summary["status"], len(summary["increments"])), ("solved", 20))
+
+    def test_a_full_screen_file_is_a_warning_of_a_run(self):
+        ended = self.shell('"$SCABO" run "$BEAM" -o out > /dev/full')
+        self.assertEqual(ended.returncode, SOLVED)
+        self.assertIn("warning: cannot write to standard output", ended.stderr)
+
+
+class LongRuns(support.InTemporaryDirectory):
+    def start(self, *arguments, before=None):
+        """A run of very many increments, some of which are finished."""
+        process = subprocess.Popen([support.SCABO, "run", str(BEAM), "-o", str(self.directory / "out"), *LONG_RUN,
+                                    *map(str, arguments)],
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   preexec_fn=before)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        for line in process.stderr:
+            if line.startswith("increment 3 of"):
+                return process
+        self.fail(f"ended by itself with {process.wait()}")
+
+    def assert_readable(self):
+        """Whole rows, and totals of no increment that has none."""
+        directory = self.directory / "out"
+        for name in ("contact.csv", "convergence.csv"):
+            text = (directory / name).read_text()
+            self.assertTrue(text.endswith("\n"), name)
+            columns = {line.count(",") for line in text.splitlines()}
+            self.assertEqual(len(columns), 1, name)
+        numbers = [increment["increment"] for increment in summary_of(directory)["increments"]]
+        self.assertEqual(numbers, list(range(1, len(numbers) + 1)))
+        return numbers
+
+    def test_the_end_of_the_terminal_keeps_what_is_finished(self):
+        process = self.start()
+        process.send_signal(signal.SIGHUP)
+        process.send_signal(signal.SIGHUP)  # shell and system send one each
+        _, errors = process.communicate(timeout=LONG)
+        self.assertEqual(process.returncode, 128 + signal.SIGHUP, errors)
+        numbers = self.assert_readable()
+        self.assertGreaterEqual(len(numbers), 3)
+        self.assertEqual(summary_of(self.directory / "out")["status"], "interrupted")
+        self.assertEqual(sorted({int(row["increment"]) for row in rows_of(self.directory / "out")}), numbers)
+
+    def test_the_summary_is_valid_at_every_moment(self):
+        process = self.start()
+        for _ in range(200):
+            self.assertEqual(summary_of(self.directory / "out")["status"], "running")
+        process.kill()
+        process.communicate(timeout=LONG)
+        self.assert_readable()
+        self.assertEqual(summary_of(self.directory / "out")["status"], "running")
+
+    def test_the_second_run_in_a_directory_is_told(self):
+        self.start()
+        second = scabo("run", BEAM, "-o", self.directory / "out")
+        self.assertEqual((second.returncode, second.stdout), (FAILURE, ""))
+        self.assertRegex(second.stderr, r"^scabo: cannot write results to .*out: another run is writing there.*\n$")
+        self.assert_readable()
+
+    def test_a_killed_run_blocks_nobody(self):
+        process = self.start()
+        process.kill()
+        process.communicate(timeout=LONG)
+        ended = scabo("run", BEAM, "-o", self.directory / "out")
+        self.assertEqual(ended.returncode, SOLVED, ended.stderr)
+
+    def test_a_limit_on_files_keeps_what_is_finished(self):
+        """As on a full disk: writing fails from some increment on."""
+        for kilobytes in (40, 100):
+            with self.subTest(kilobytes=kilobytes):
+                ended = run("run", BEAM, "-q", "-o", self.directory / "out", *LONG_RUN,
+                            before=limited(resource.RLIMIT_FSIZE, kilobytes * 1024))
+                self.assertEqual(ended.returncode, FAILURE)
+                self.assertRegex(ended.stderr, r"^scabo: cannot write .*: File too large\n$")
+                numbers = self.assert_readable()
+                self.assertIn(summary_of(self.directory / "out")["status"], ("failed", "running"))
+                self.assertGreaterEqual(len(numbers), 1)
+
+
+class Places(support.InTemporaryDirectory):
+    def test_places_that_cannot_be(self):
+        (self.directory / "loop").symlink_to("loop")
+        (self.directory / "nowhere").symlink_to("gone")
+        (self.directory / "file").write_text("mine")
+        for place, status, text in (("", WRONG_INPUT, "--output: the name of the directory is empty"),
+                                    ("loop", FAILURE, "lead in a circle"), ("loop/out", FAILURE, "lead in a circle"),
+                                    ("nowhere", FAILURE, "a directory that does not exist"),
+                                    ("n" * 300, FAILURE, "name is too long"), ("a/" * 3000, FAILURE, "name is too long"),
+                                    ("file", FAILURE, "it is a file, not a directory"),
+                                    ("file/out", FAILURE, "is a file, not a directory")):
+            with self.subTest(place=place[:20]):
+                ended = scabo("run", BEAM, "-o", place, cwd=self.directory)
+                self.assertEqual((ended.returncode, ended.stdout), (status, ""), ended.stderr)
+                self.assertIn(text, ended.stderr)
+                self.assertEqual(len(ended.stderr.splitlines()), 1, ended.stderr)
+        self.assertEqual((self.directory / "file").read_text(), "mine")
+
+    def test_model_files_that_cannot_be(self):
+        (self.directory / "loop.yaml").symlink_to("loop.yaml")
+        for name, text in (("loop.yaml", "lead in a circle"), ("n" * 300 + ".yaml", "name is longer")):
+            with self.subTest(name=name[:20]):
+                ended = scabo("check", name, cwd=self.directory)
+                self.assertEqual((ended.returncode, ended.stdout), (WRONG_INPUT, ""))
+                self.assertIn(text, ended.stderr)
+
+
+class LargeFiles(support.InTemporaryDirectory):
+    """None may take minutes: each took a multiple of the limit here when its time grew with the square of its length."""
+
+    def check(self, text):
+        (self.directory / "model.yaml").write_text(text)
+        return run("check", self.directory / "model.yaml")
+
+    def test_many_mistakes_are_counted(self):
+        ended = self.check("scabo: 1\n" + "".join(f"frictoin_{i}: 1\n" for i in range(200_000)))
+        self.assertEqual(ended.returncode, WRONG_INPUT)
+        self.assertEqual(len(ended.stderr.splitlines()), 201)
+        self.assertIn("and 199800 more mistakes", ended.stderr)
+
+    def test_a_text_without_end(self):
+        for text in ('title: "' + "a" * 20_000_000 + '"\n', "title: " + "a b, " * 4_000_000 + "\n",
+                     "title: |\n" + "  text\n" * 3_000_000, "# note\n" * 3_000_000, "title: {" + "a" * 5_000_000):
+            with self.subTest(text=text[:12]):
+                ended = self.check("scabo: 1\n" + text + "bodies: {}\n")
+                self.assertEqual(ended.returncode, WRONG_INPUT)
+                self.assertRegex(ended.stderr, r"^.*model\.yaml:\d:\d+: more than 1 MB of text or comment follow here")
+
+    def test_many_names(self):
+        count = 12_000
+        model = ["scabo: 1", "materials:", *(f"  m{i}: {{young: 1e9, poisson: 0.2}}" for i in range(count)), "bodies:"]
+        model += [f"  b{i}: {{material: m{i}, shape: {{rectangle: {{corner: [{2 * i}, 0], size: [1, 1]}}}}, mesh: {{size: 1}}}}"
+                  for i in range(count)]
+        model += ["supports:", *(f"  - {{on: b{i}.bottom, fix: [x, y], name: s{i}}}" for i in range(count))]
+        model += ["loads:", *(f"  l{i}: {{on: b{i}.top, traction: [0, -1]}}" for i in range(count))]
+        model += ["steps:", "- loads:", *(f"    l{i}: 1" for i in range(count))]
+        ended = self.check("\n".join(model) + "\n")
+        self.assertEqual((ended.returncode, ended.stderr), (SOLVED, ""))
+        self.assertIn(f"{count} bodies", ended.stdout)
+
+    def test_many_supports_of_one_body(self):
+        supports = "".join(f"  - {{on: {{body: a, near: [{i * 1e-5}, 0]}}, fix: y}}\n" for i in range(20_000))
+        again = "".join("  - {on: a.left, fix: [x, y]}\n" for i in range(20_000))
+        model = ("scabo: 1\nmaterials: {m: {young: 1e9, poisson: 0.2}}\nbodies:\n  a: {material: m, shape: {rectangle: "
+                 "{corner: [0, 0], size: [1, 1]}}, mesh: {size: 0.1}}\nsupports:\n" + supports + again + "%s"
+                 "loads: {l: {on: a.top, traction: [0, -1]}}\n")
+        ended = self.check(model % "")
+        self.assertEqual((ended.returncode, ended.stderr), (SOLVED, ""))
+        ended = self.check(model % "  - {on: a.bottom_left, displacement: [1, null]}\n")
+        self.assertEqual(ended.returncode, WRONG_INPUT)
+        self.assertIn("prescribes another x of a.bottom_left than the support of a.left in line 20006", ended.stderr)
+
+
+if __name__ == "__main__":
+    support.main()

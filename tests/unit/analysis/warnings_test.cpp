@@ -1,0 +1,100 @@
+// Models that are solved as they are written, and are probably not what was meant.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/model/read_model.hpp"
+
+namespace scabo::analysis {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A frictionless block of 2 m x 1 m on another, on rollers above and below, free to widen: `overlap` presses them with
+/// E overlap / (1 m + 1 m).
+std::string stack(double overlap, const std::string& rest = "", const std::string& size = "0.25") {
+  return "scabo: 1\n"
+         "materials: {steel: {young: 210e9, poisson: 0.3}}\n"
+         "bodies:\n"
+         "  lower: {material: steel, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: " +
+         size +
+         "}}\n"
+         "  upper: {material: steel, shape: {rectangle: {corner: [0, " +
+         std::to_string(1.0 - overlap) + "], size: [2, 1]}}, mesh: {size: " + size +
+         "}}\n"
+         "supports:\n"
+         "  - {on: lower.bottom, fix: [y]}\n"
+         "  - {on: lower.bottom_left, fix: [x]}\n"
+         "  - {on: upper.top, displacement: [null, -1e-9], name: roller}\n"
+         "  - {on: upper.top_left, fix: [x]}\n"
+         "contacts:\n"
+         "  joint: {between: [lower.top, upper.bottom]}\n" +
+         rest;
+}
+
+StaticSolution solve(const std::string& text) { return solve_static(model::parse_model(text, "model.yaml")); }
+
+TEST(Warnings, AnOrdinaryModelHasNone) {
+  EXPECT_THAT(solve(stack(1e-4)).warnings, IsEmpty());
+  EXPECT_THAT(solve(stack(0.0, "steps: [{loads: {roller: 1e5}}]\n")).warnings, IsEmpty());
+}
+
+TEST(Warnings, OfADeepOverlapWithItsPressure) {
+  const StaticSolution solution = solve(stack(0.2));
+  ASSERT_NEAR(solution.increments.back().contacts[0].max_pressure, 21e9, 1e6);
+  EXPECT_THAT(solution.warnings,
+              ElementsAre(AllOf(HasSubstr("contact 'joint': the bodies overlap at the start by up to 0.2, 20 %"),
+                                HasSubstr("presses with 2.1e+10"))));
+}
+
+TEST(Warnings, OfPressureThatTheTheoryDoesNotCover) {
+  const StaticSolution solution = solve(stack(0.0, "steps: [{loads: {roller: 2e8}}]\n"));  // 0.2 m as well
+  EXPECT_THAT(solution.warnings, Contains(HasSubstr("contact 'joint': the pressure reaches 2.1e+10, 10 % of Young's")));
+}
+
+TEST(Warnings, OfAContactThatNeverCloses) {
+  const StaticSolution solution = solve(stack(-1e-3));
+  EXPECT_THAT(solution.warnings, ElementsAre(HasSubstr("contact 'joint' never closes: the smallest gap is 0.001")));
+}
+
+TEST(Warnings, OfAContactZoneOfThreePairs) {
+  EXPECT_THAT(solve(stack(1e-4, "", "2")).warnings,
+              ElementsAre(HasSubstr("contact 'joint': only 3 pairs are in contact at the end, too coarse to trust")));
+  EXPECT_THAT(solve(stack(1e-4, "", "1")).warnings, IsEmpty());  // five pairs
+}
+
+TEST(Warnings, OfLoadsThatMoveNothing) {
+  const StaticSolution solution = solve(stack(1e-4,
+                                              "loads:\n"
+                                              "  down: {on: lower.bottom_left, force: [5, -3]}\n"
+                                              "  none: {on: upper.left, pressure: 0}\n"
+                                              "  some: {on: lower.bottom, force: [1, -3]}\n"));
+  EXPECT_THAT(solution.warnings, ElementsAre(HasSubstr("load 'down' moves nothing"), HasSubstr("load 'none' is zero")));
+}
+
+TEST(Warnings, ContactsWithTheSameFaultShareOneSentence) {
+  std::string text = stack(-1e-3), bodies, supports, contacts;
+  for (int i = 1; i <= 6; ++i) {
+    const std::string name = "floating_" + std::to_string(i), corner = std::to_string(10 * i);
+    bodies += "  " + name + "_a: {rigid: true, shape: {rectangle: {corner: [" + corner + ", -1], size: [2, 1]}}}\n";
+    bodies += "  " + name + "_b: {material: steel, shape: {rectangle: {corner: [" + corner +
+              ", 0.001], size: [2, 1]}}, mesh: {size: 1}}\n";
+    supports += "  - {on: " + name + "_a, fix: [x, y]}\n  - {on: " + name + "_b.top, fix: [x, y]}\n";
+    contacts += "  " + name + ": {between: [" + name + "_a.top, " + name + "_b.bottom]}\n";
+  }
+  text.insert(text.find("contacts:\n") + 10, contacts);
+  text.insert(text.find("supports:\n") + 10, supports);
+  text.insert(text.find("bodies:\n") + 8, bodies);
+  EXPECT_THAT(solve(text).warnings,
+              ElementsAre(HasSubstr("contacts 'floating_1', 'floating_2', 'floating_3' and 4 more never close")));
+}
+
+}  // namespace
+}  // namespace scabo::analysis

@@ -1,0 +1,119 @@
+// Every figure of the certificate by hand: one pair that breaks one condition by a known amount, and no other.
+#include "scabo/contact/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace scabo::contact {
+namespace {
+
+constexpr Scales scales{10.0, 0.1};  // force, length
+constexpr double unlimited = HUGE_VAL;
+
+/// One pair with forces p, whose motions are u: q is what W p leaves of them.
+Certificate judged(Problem problem, const Vector& p, const Vector& u) {
+  const Eigen::Index d = u.size();
+  problem.dimension = static_cast<int>(d);
+  problem.W = Matrix(0.01 * Matrix::Identity(d, d));
+  problem.q = u - 0.01 * p;
+  if (problem.G.rows() == 0) problem.G.resize(d, 0);
+  return certify(problem, p, Vector::Zero(problem.G.cols()), scales);
+}
+
+Problem with_friction(double mu) {
+  Problem problem;
+  problem.mu = Vector::Constant(1, mu);
+  return problem;
+}
+
+Problem bonded() {
+  Problem problem = with_friction(0.0);
+  problem.cohesion = problem.tension = Vector::Constant(1, unlimited);
+  return problem;
+}
+
+Problem with_strength(double mu, double cohesion, double tension) {
+  Problem problem = with_friction(mu);
+  problem.cohesion = Vector::Constant(1, cohesion);
+  problem.tension = Vector::Constant(1, tension);
+  return problem;
+}
+
+/// Compares all figures with those expected; the others must be 0, or below it (a gap, a force within its bound).
+void expect_figures(const Certificate& found, const Certificate& expected) {
+  const auto check = [](const char* name, double a, double b) { EXPECT_NEAR(std::max(a, 0.0), b, 1e-13) << name; };
+  check("equilibrium", found.equilibrium, expected.equilibrium);
+  check("penetration", found.penetration, expected.penetration);
+  check("tension", found.tension, expected.tension);
+  check("friction_excess", found.friction_excess, expected.friction_excess);
+  check("complementarity", found.complementarity, expected.complementarity);
+  check("slip_direction", found.slip_direction, expected.slip_direction);
+  check("rigid_balance", found.rigid_balance, expected.rigid_balance);
+}
+
+Vector plane(double normal, double tangential) { return Eigen::Vector2d(normal, tangential); }
+Vector space(double normal, double first, double second) { return Eigen::Vector3d(normal, first, second); }
+
+TEST(Certificate, IsZeroWhereEveryConditionHolds) {
+  expect_figures(judged(with_friction(0.5), plane(4.0, -1.0), plane(0.0, 0.0)), {});    // sticks
+  expect_figures(judged(with_friction(0.5), plane(4.0, -2.0), plane(0.0, 0.03)), {});   // slips
+  expect_figures(judged(with_friction(0.5), plane(0.0, 0.0), plane(0.02, -0.03)), {});  // open
+  expect_figures(judged(bonded(), plane(-7.0, 90.0), plane(0.0, 0.0)), {});             // pulled and sheared
+  expect_figures(judged(with_strength(0.5, 3.0, 2.0), plane(-2.0, 1.0), plane(0.0, 0.0)), {});
+  expect_figures(judged(with_friction(0.5), space(4.0, 1.2, -1.6), space(0.0, -0.03, 0.04)), {});
+}
+
+TEST(Certificate, ABondedPairMustNotSlip) {
+  expect_figures(judged(bonded(), plane(4.0, -2.0), plane(0.0, 0.03)), {.slip_direction = 0.3});
+  expect_figures(judged(bonded(), plane(-4.0, 2.0), plane(0.0, -0.03)), {.slip_direction = 0.3});
+  expect_figures(judged(bonded(), space(4.0, 0.0, 0.0), space(0.0, 0.03, -0.04)), {.slip_direction = 0.5});
+}
+
+TEST(Certificate, ABondedPairMustNotOpen) {
+  expect_figures(judged(bonded(), plane(-4.0, 0.0), plane(0.02, 0.0)), {.complementarity = 0.2});
+  expect_figures(judged(bonded(), plane(4.0, 0.0), plane(-0.02, 0.0)), {.penetration = 0.2, .complementarity = 0.2});
+}
+
+TEST(Certificate, OfAPairWithFriction) {
+  const Problem pair = with_friction(0.5);
+  expect_figures(judged(pair, plane(0.0, 0.0), plane(-0.02, 0.0)), {.penetration = 0.2});
+  expect_figures(judged(pair, plane(-3.0, 0.0), plane(0.0, 0.0)), {.tension = 0.3});
+  expect_figures(judged(pair, plane(4.0, -3.0), plane(0.0, 0.0)), {.friction_excess = 0.1});  // bound 2
+  expect_figures(judged(pair, plane(4.0, 0.0), plane(0.02, 0.0)), {.complementarity = 0.08});
+  expect_figures(judged(pair, plane(4.0, 2.0), plane(0.0, 0.03)), {.slip_direction = 0.06});   // drives its slip
+  expect_figures(judged(pair, plane(4.0, -1.0), plane(0.0, 0.03)), {.slip_direction = 0.03});  // slips below its bound
+  // In space: |p_t| |ds| + p_t.ds, here across the slip and along it.
+  expect_figures(judged(pair, space(4.0, 2.0, 0.0), space(0.0, 0.0, 0.03)), {.slip_direction = 0.06});
+  expect_figures(judged(pair, space(4.0, 0.0, 2.0), space(0.0, 0.0, 0.03)), {.slip_direction = 0.12});
+}
+
+TEST(Certificate, OfAPairWithStrength) {
+  const Problem pair = with_strength(0.5, 3.0, 2.0);
+  expect_figures(judged(pair, plane(-3.0, 0.0), plane(0.0, 0.0)), {.tension = 0.1});
+  expect_figures(judged(pair, plane(-1.0, 3.5), plane(0.0, 0.0)), {.friction_excess = 0.05});  // no friction under pull
+  expect_figures(judged(pair, plane(4.0, -5.5), plane(0.0, 0.0)), {.friction_excess = 0.05});
+  expect_figures(judged(pair, plane(-1.0, 0.0), plane(0.02, 0.0)), {.complementarity = 0.02});  // pulls less, and opens
+}
+
+TEST(Certificate, OfABodyThatContactAloneHolds) {
+  Problem problem = with_friction(0.5);
+  problem.G = plane(1.0, 0.0);  // it moves along the normal
+  problem.f = Vector::Constant(1, -4.5);
+  expect_figures(judged(problem, plane(4.0, 0.0), plane(0.0, 0.0)), {.rigid_balance = 0.05});
+  problem.f[0] = -4.0;
+  expect_figures(judged(problem, plane(4.0, 0.0), plane(0.0, 0.0)), {});
+}
+
+TEST(Certificate, WorstIsTheLargestOfItsFigures) {
+  for (double Certificate::*figure :
+       {&Certificate::equilibrium, &Certificate::penetration, &Certificate::tension, &Certificate::friction_excess,
+        &Certificate::complementarity, &Certificate::slip_direction, &Certificate::rigid_balance}) {
+    Certificate certificate{1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+    certificate.*figure = 0.5;
+    EXPECT_EQ(certificate.worst(), 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace scabo::contact

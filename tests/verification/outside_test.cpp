@@ -1,0 +1,153 @@
+// Bodies that reach to infinity under forces out of balance. Closed forms: statics of a circle around the loaded hole,
+// and Boussinesq's strip load on a half-plane (Johnson, Contact Mechanics, 1985, section 2.5a).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "run.hpp"
+#include "scabo/result/probe.hpp"
+#include "scabo/result/recovery.hpp"
+
+namespace scabo::verification {
+namespace {
+
+/// Force that the inside of a circle about the origin exerts on what is outside, from the stresses along it.
+Vec2 resultant(const analysis::StaticSolution& solution, double radius) {
+  const result::Probe probe(solution, last(solution), 0);
+  constexpr int points = 360;  // strains jump between elements: good to 1e-4
+  Vec2 force = Vec2::Zero();
+  for (int i = 0; i < points; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + 0.5) / points;
+    const Vec2 n(std::cos(angle), std::sin(angle));
+    const auto values = probe.at(radius * n);
+    EXPECT_TRUE(values.has_value());
+    if (!values) return force;
+    const element::Vec3& s = values->stress;
+    force -=
+        Vec2(s[0] * n.x() + s[2] * n.y(), s[2] * n.x() + s[1] * n.y()) * (2.0 * std::numbers::pi * radius / points);
+  }
+  return force;
+}
+
+// A hole in the infinite plane, loaded on one side: 2 MN/m to the right and 1 MN/m downwards.
+const char* const loaded_hole = R"(
+scabo: 1
+analysis: {plane: strain}
+materials: {rock: {young: 2e9, poisson: 0.25}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape:
+      outline:
+        - {arc: {from: [1, 0], to: [0, 1], centre: [0, 0]}, name: right}
+        - {arc: {to: [0, -1], centre: [0, 0]}}
+        - {arc: {to: [1, 0], centre: [0, 0]}}
+    mesh: {size: 0.4, order: 2}
+    reference: [5, -20]
+loads:
+  push: {on: ground.right, force: [2e6, -1e6]}
+)";
+
+TEST(Outside, StressesOverACircleBalanceTheLoad) {
+  const Vec2 load(2e6, -1e6);
+  for (const double size : {0.4, 0.2}) {
+    const auto solution = run(loaded_hole, {fmt::format("bodies.ground.mesh.size={}", size)});
+    for (const double radius : {1.5, 3.0, 10.0, 100.0})
+      EXPECT_LE((resultant(solution, radius) - load).norm(), 2e-4 * load.norm()) << size << ", radius " << radius;
+  }
+}
+
+TEST(Outside, TheReferencePointStandsStillAndStressesDoNotDependOnIt) {
+  const auto near = run(loaded_hole), far = run(loaded_hole, {"bodies.ground.reference=[-300, 40]"});
+  const result::Probe of_near(near, last(near), 0), of_far(far, last(far), 0);
+  const double largest = of_near.at({1.0, 0.0})->displacement.norm();
+  EXPECT_GT(largest, 1e-4);
+  EXPECT_LE(of_near.at({5.0, -20.0})->displacement.norm(), 1e-12 * largest);
+  EXPECT_LE(of_far.at({-300.0, 40.0})->displacement.norm(), 1e-12 * largest);
+  const Vec2 shift = of_far.at({5.0, -20.0})->displacement;
+  for (const Vec2& x : {Vec2(1.0, 0.0), Vec2(0.0, 3.0), Vec2(-2.0, -2.0), Vec2(-30.0, 70.0)}) {
+    const element::PointValues one = *of_near.at(x), other = *of_far.at(x);
+    EXPECT_LE((one.stress - other.stress).norm(), 1e-9 * one.stress.norm());
+    EXPECT_LE((one.displacement + shift - other.displacement).norm(), 1e-9 * largest);
+  }
+}
+
+// A block in a trench and the ground around it, bonded, are a half-plane under a strip load q from x = -1 to 1.
+const char* const strip = R"(
+scabo: 1
+analysis: {plane: strain}
+materials: {rock: {young: 2e9, poisson: 0.25}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape:
+      polygon:
+        vertices: [[0, 0], [-2, 0], [-2, -2], [2, -2], [2, 0]]
+        names: {west: edge_2, bottom: edge_3, east: edge_4}
+    mesh: {size: 0.5, order: 2, centre: [0, 0]}
+    reference: [0, -50]
+  block:
+    material: rock
+    shape:
+      polygon:
+        vertices: [[-2, -2], [2, -2], [2, 0], [1, 0], [-1, 0], [-2, 0]]
+        names: {bottom: edge_1, east: edge_2, strip: edge_4, west: edge_6}
+    mesh: {size: 0.5, order: 2}
+loads:
+  strip: {on: block.strip, pressure: 1e6}
+contacts:
+  bottom: {between: [ground.bottom, block.bottom], bond: true}
+  east: {between: [ground.east, block.east], bond: true}
+  west: {between: [ground.west, block.west], bond: true}
+)";
+
+/// [xx, yy, xy] at (x, y), y < 0, of the strip load q on |x| < a.
+element::Vec3 boussinesq(double q, double a, const Vec2& x) {
+  const double one = std::atan2(-x.y(), x.x() - a), two = std::atan2(-x.y(), x.x() + a);
+  const double turn = 2.0 * (one - two), sine = std::sin(2.0 * one) - std::sin(2.0 * two),
+               cosine = std::cos(2.0 * one) - std::cos(2.0 * two);
+  const double factor = -q / (2.0 * std::numbers::pi);
+  // Johnson's z points downwards: the shear changes its sign.
+  return {factor * (turn + sine), factor * (turn - sine), factor * cosine};
+}
+
+TEST(Outside, AStripLoadHasBoussinesqsStresses) {
+  double before = HUGE_VAL;
+  for (const double size : {0.5, 0.25, 0.125}) {
+    const auto solution =
+        run(strip, {fmt::format("bodies.ground.mesh.size={}", size), fmt::format("bodies.block.mesh.size={}", size)});
+    const result::Probe ground(solution, last(solution), 0);
+    double worst = 0.0;
+    for (const Vec2& x : {Vec2(0.0, -3.0), Vec2(3.0, -1.0), Vec2(-3.0, -3.0), Vec2(1.0, -6.0), Vec2(-8.0, -2.0)})
+      worst = std::max(worst, (ground.at(x)->stress - boussinesq(1e6, 1.0, x)).lpNorm<Eigen::Infinity>() / 1e6);
+    EXPECT_LE(worst, size == 0.5 ? 6e-3 : 0.3 * before) << size;
+    before = worst;
+    EXPECT_LE(ground.at({0.0, -50.0})->displacement.norm(), 1e-12 * ground.at({0.0, -2.0})->displacement.norm());
+  }
+}
+
+// Everything that is shown is shown relative to the same point: tables of points, fields and contact.
+TEST(Outside, BlockAndContactAreShownRelativeToTheReferencePointToo) {
+  const auto solution = run(strip);
+  const analysis::IncrementResult& increment = last(solution);
+  const result::Probe ground(solution, increment, 0), block(solution, increment, 1);
+  const double largest = ground.at({0.0, -2.0})->displacement.norm();
+  EXPECT_LE((ground.at({0.0, -2.0})->displacement - block.at({0.0, -2.0})->displacement).norm(), 1e-8 * largest);
+  for (const analysis::PairResult& pair : increment.contacts.front().pairs) {
+    const Vec2 n(0.0, 1.0), u = ground.at(pair.position)->displacement;
+    EXPECT_LE((pair.displacement_a - Vec2(u.dot(n), u.dot(tangent_of(n)))).norm(), 1e-8 * largest);
+    EXPECT_LE((pair.displacement_b - pair.displacement_a).norm(), 1e-8 * largest);
+  }
+  const result::Recovery recovery(solution);
+  const result::Fields fields = recovery.fields(solution, increment);
+  const std::size_t first = recovery.grid().first_point[1];
+  const Vec2 node = solution.mesh.bodies[1].nodes[0],
+             shown(fields.displacement[3 * first], fields.displacement[3 * first + 1]);
+  EXPECT_LE((shown - block.at(node)->displacement).norm(), 1e-8 * largest);
+}
+
+}  // namespace
+}  // namespace scabo::verification

@@ -1,0 +1,87 @@
+// Slender beams: rounding of K u is (L / h)^3 times the unit of rounding of the load. Closed forms of beams.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "run.hpp"
+#include "scabo/result/probe.hpp"
+
+namespace scabo::verification {
+namespace {
+
+/// A cantilever of depth 1, thickness 1, under a tip force of 1; everything in units of `length` and `force`. Poisson's
+/// ratio is 0, so that the built-in end does not stiffen it.
+std::string cantilever(double ratio, const std::string& mesh, double length = 1.0, double force = 1.0) {
+  return fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress, thickness: {1}}}
+materials: {{m: {{young: {2}, poisson: 0}}}}
+bodies: {{beam: {{material: m, shape: {{rectangle: {{corner: [0, 0], size: [{0}, {1}]}}}}, mesh: {3}}}}}
+supports: [{{on: beam.left, fix: [x, y]}}]
+loads: {{tip: {{on: beam.right, force: [0, {4}]}}}}
+)",
+                     ratio * length, length, 1e9 * force / (length * length), mesh, -force);
+}
+
+/// Timoshenko's beam, shear coefficient 5/6.
+double deflection(double ratio) { return (4.0 * std::pow(ratio, 3) + ratio * 1.2 * 2.0) / 1e9; }
+
+double tip(const analysis::StaticSolution& solution, double ratio, double length = 1.0) {
+  return -result::Probe(solution, last(solution), 0).at({ratio * length, 0.5 * length})->displacement.y() / length;
+}
+
+struct Beam {
+  double ratio;
+  bool fem;
+  std::string mesh(double length) const {
+    return fem ? fmt::format("{{kind: fem, size: {}}}", length)
+               : fmt::format("{{order: 3, size: {}}}", ratio * length / 20.0);
+  }
+};
+constexpr Beam beams[] = {{10.0, false}, {100.0, false}, {300.0, false}, {100.0, true}, {500.0, true}};
+
+TEST(SlenderBeam, BendsAsABeamAndItsReactionsBalanceTheLoad) {
+  for (const Beam& beam : beams) {
+    const auto solution = run(cantilever(beam.ratio, beam.mesh(1.0)));
+    const analysis::IncrementResult& increment = last(solution);
+    EXPECT_NEAR(tip(solution, beam.ratio) / deflection(beam.ratio), 1.0, 1e-4) << beam.ratio;
+    EXPECT_NEAR(increment.reactions[0].y(), 1.0, 1e-10) << beam.ratio;
+    EXPECT_NEAR(increment.reactions[0].x(), 0.0, 1e-10) << beam.ratio;
+    EXPECT_NEAR(2.0 * increment.energy.elastic / tip(solution, beam.ratio), 1.0, 1e-4) << beam.ratio;
+  }
+}
+
+TEST(SlenderBeam, UnitsDoNotMatter) {
+  for (const Beam& beam : beams) {
+    const auto metres = run(cantilever(beam.ratio, beam.mesh(1.0))),
+               millimetres = run(cantilever(beam.ratio, beam.mesh(1000.0), 1000.0, 1.0)),
+               centimetres = run(cantilever(beam.ratio, beam.mesh(100.0), 100.0, 1e-3));
+    const double expected = tip(metres, beam.ratio);
+    EXPECT_NEAR(tip(millimetres, beam.ratio, 1000.0) / expected, 1.0, 1e-4) << beam.ratio;
+    EXPECT_NEAR(tip(centimetres, beam.ratio, 100.0) / expected, 1.0, 1e-4) << beam.ratio;
+  }
+}
+
+// Two beams, one on the other without friction, built in at the left, the upper one pressed at its tip: they bend alike
+// and share the load, so that the tip contact carries half of it.
+TEST(SlenderBeam, TwoCantileversInContactShareTheLoad) {
+  const auto solution = run(R"(
+scabo: 1
+materials: {m: {young: 1e9, poisson: 0}}
+bodies:
+  lower: {material: m, shape: {rectangle: {corner: [0, 0], size: [100, 1]}}, mesh: {size: 5, order: 3}}
+  upper: {material: m, shape: {rectangle: {corner: [0, 1], size: [100, 1]}}, mesh: {size: 5, order: 3}}
+supports: [{on: lower.left, fix: [x, y]}, {on: upper.left, fix: [x, y]}]
+loads: {tip: {on: upper.top_right, force: [0, -1]}}
+contacts: {joint: {between: [lower.top, upper.bottom], friction: 0}}
+)");
+  const analysis::IncrementResult& increment = last(solution);
+  EXPECT_NEAR(increment.reactions[0].y() + increment.reactions[1].y(), 1.0, 1e-9);
+  EXPECT_NEAR(increment.reactions[0].y(), increment.contacts[0].normal_force, 1e-9);
+  EXPECT_NEAR(increment.contacts[0].normal_force, 0.5, 2e-3);
+  const double down = -result::Probe(solution, increment, 0).at({100.0, 0.5})->displacement.y();
+  EXPECT_NEAR(down / (0.5 * deflection(100.0)), 1.0, 1e-2);
+}
+
+}  // namespace
+}  // namespace scabo::verification
