@@ -2,6 +2,7 @@
 
 #include <Eigen/Jacobi>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace scabo::contact {
@@ -22,7 +23,8 @@ double gmres(const std::function<void(const Vector&, Vector&)>& multiply,
   while (true) {
     multiply(x, product);
     residual = b - product;
-    double norm = residual.norm();
+    const double norm = residual.norm();
+    if (!std::isfinite(norm)) return HUGE_VAL;
     if (norm <= options.tolerance * size || products >= options.iterations) return norm / size;
     basis.col(0) = residual / norm;
     g.setZero();

@@ -56,6 +56,8 @@ class Ladder {
   NewtonEnd after_sweeps(const Vector& p, const Vector& a);
   NewtonEnd after_pivoting(const Problem& held);
   bool may_sweep() const;
+  /// Whether `content` decides on every point: problems of others. Newton on elastic bodies ends by |H|.
+  bool judges_all() const { return options_.judge == Judge::natural_map; }
   bool late() const { return options_.deadline.passed(); }
 
   const Problem& problem_;

@@ -140,13 +140,12 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
   const double small =
       by_map ? epsilon * reference
              : std::max(0.01 * options.tolerance * reference, 4.0 * epsilon * largest_of(scaled_problem.problem.q));
-  std::function<bool(const Vector&, const Vector&)> content;
-  if (by_map)
-    content = [&, in_forces = measure.of_forces()](const Vector& p, const Vector& motion) {
-      const double asked = 0.9 * options.tolerance;
-      return in_forces.natural_map(problem, p, motion) <= asked &&
-             judge(scaled_problem.problem, p, motion, in_forces, options.judge).solved(asked);
-    };
+  const double asked = 0.9 * options.tolerance;
+  std::function<bool(const Vector&, const Vector&)> content =
+      [&, in_forces = measure.of_forces()](const Vector& p, const Vector& motion) {
+        return in_forces.natural_map(problem, p, motion) <= asked &&
+               judge(scaled_problem.problem, p, motion, in_forces, options.judge).solved(asked);
+      };
   Ladder ladder(scaled_problem.problem, options, small, std::move(content));
   NewtonEnd end;
   if (solution.status != Status::mechanism) {

@@ -2,6 +2,7 @@
 
 #include <umfpack.h>
 
+#include <algorithm>
 #include <new>
 
 #include "scabo/base/error.hpp"
@@ -10,7 +11,8 @@ namespace scabo::linalg {
 
 struct SparseGeneralSolver::Factor {
   const Eigen::SparseMatrix<double>* A = nullptr;
-  void* numeric = nullptr;
+  void *symbolic = nullptr, *numeric = nullptr;
+  std::vector<int> outer, inner;  // pattern that `symbolic` is of
   double control[UMFPACK_CONTROL];
   std::vector<int> indices;
   std::vector<double> room;
@@ -22,10 +24,22 @@ struct SparseGeneralSolver::Factor {
   }
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
-  ~Factor() { forget(); }
+  ~Factor() {
+    forget_pattern();
+    forget();
+  }
   void forget() {
     if (numeric != nullptr) umfpack_di_free_numeric(&numeric);
     numeric = nullptr;
+  }
+  void forget_pattern() {
+    if (symbolic != nullptr) umfpack_di_free_symbolic(&symbolic);
+    symbolic = nullptr;
+  }
+  bool same_pattern(const Eigen::SparseMatrix<double>& other) const {
+    return symbolic != nullptr && std::equal(outer.begin(), outer.end(), other.outerIndexPtr(),
+                                             other.outerIndexPtr() + other.outerSize() + 1) &&
+           std::equal(inner.begin(), inner.end(), other.innerIndexPtr(), other.innerIndexPtr() + other.nonZeros());
   }
 };
 
@@ -42,13 +56,17 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A) {
   if (A.rows() == 0) return true;
   const auto n = static_cast<int>(A.rows());
   double info[UMFPACK_INFO];
-  void* symbolic = nullptr;
-  int status = umfpack_di_symbolic(n, n, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), &symbolic,
-                                   factor_->control, info);
+  int status = UMFPACK_OK;
+  if (!factor_->same_pattern(A)) {
+    factor_->forget_pattern();
+    factor_->outer.assign(A.outerIndexPtr(), A.outerIndexPtr() + n + 1);
+    factor_->inner.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    status = umfpack_di_symbolic(n, n, A.outerIndexPtr(), A.innerIndexPtr(), nullptr, &factor_->symbolic,
+                                 factor_->control, info);
+  }
   if (status == UMFPACK_OK)
-    status = umfpack_di_numeric(A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), symbolic, &factor_->numeric,
+    status = umfpack_di_numeric(A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), factor_->symbolic, &factor_->numeric,
                                 factor_->control, info);
-  if (symbolic != nullptr) umfpack_di_free_symbolic(&symbolic);
   if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
   reciprocal_condition_ = status == UMFPACK_OK ? info[UMFPACK_RCOND] : 0.0;
   return status == UMFPACK_OK;
