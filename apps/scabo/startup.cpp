@@ -14,6 +14,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <vector>
 
 #include "exit_status.hpp"
 #include "terminal.hpp"
@@ -54,6 +55,10 @@ bool is_free(std::size_t bytes) {
 
 bool room_for_threads(int count) { return is_free(static_cast<std::size_t>(count) * of_a_thread + 2 * for_work); }
 
+/// Each thread of BLAS keeps a buffer, each thread that calls BLAS needs one, and one more is in use while their number
+/// changes.
+int buffers_of(int threads) { return 2 * threads + 1; }
+
 /// Processors this process may run on: so many threads OpenBLAS makes.
 int processors() {
   cpu_set_t set;
@@ -84,9 +89,23 @@ void keep_open(int descriptor, int mode) {
   for (std::size_t i = 0; i < stack.size(); i += 4096) stack[i] = 0;
 }
 
+/// BLAS keeps its buffers, and needs as many as threads are in it at once. A thread that comes first when the matrices have
+/// taken the memory would wait for its buffer for ever.
+void take_blas_buffers(int count) {
+  if (!blas_memory_alloc || !blas_memory_free) return;
+  std::vector<void*> buffers;
+  for (int i = 0; i < count; ++i) buffers.push_back(blas_memory_alloc(0));
+  for (void* buffer : buffers) blas_memory_free(buffer);
+}
+
 }  // namespace
 
-int threads_that_fit(int wanted) { return wanted > 1 && !room_for_threads(wanted) ? 1 : wanted; }
+int threads_that_fit(int wanted) {
+  if (wanted <= 1) return wanted;
+  if (!room_for_threads(buffers_of(wanted))) return 1;
+  take_blas_buffers(buffers_of(wanted));
+  return wanted;
+}
 
 void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 
@@ -96,9 +115,9 @@ void prepare_process() {
   keep_open(STDERR_FILENO, O_RDONLY);
   std::signal(SIGXFSZ, SIG_IGN);
   std::set_terminate(end_after_an_exception);
-  if (room_for_threads(std::max(4, processors()))) return;
+  if (room_for_threads(buffers_of(std::max(4, processors())))) return;
   take_stack();
-  if (blas_memory_alloc && blas_memory_free) blas_memory_free(blas_memory_alloc(0));
+  take_blas_buffers(1);
 }
 
 }  // namespace scabo::app
@@ -141,7 +160,7 @@ void refuse() {
 /// See prepare_process. Standard streams and the environment of the C library are not there yet.
 void check_memory(int, char** arguments, char** environment) {
   constexpr const char* one_thread = "OPENBLAS_NUM_THREADS=1";
-  if (scabo::app::room_for_threads(processors())) return;
+  if (scabo::app::room_for_threads(scabo::app::buffers_of(processors()))) return;
   if (!is_set(environment, one_thread)) {
     int count = 0;
     while (environment[count]) ++count;

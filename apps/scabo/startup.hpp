@@ -14,12 +14,13 @@ namespace scabo::app {
 /// - Where memory is scarce, the buffer of BLAS and a part of the stack are taken now.
 ///
 /// The check of memory itself runs before main, and before the initialisers of shared libraries: OpenBLAS maps a buffer
-/// of 128 MB for each of its threads while it is loaded, and tries again for ever where it gets none. Then its
+/// of 128 MB for each of its threads while it is loaded and more when they change, and tries again for ever where it gets none. Then its
 /// threads are limited to one, for which the program starts itself again; where that does not fit either, it ends
 /// with status 3 and says what is needed.
 void prepare_process();
 
-/// `wanted`, or 1 where the limit on memory leaves no room for the buffers and stacks of so many threads.
+/// `wanted`, whose buffers are taken then, or 1 where the limit on memory leaves no room for the buffers and stacks of so
+/// many threads.
 int threads_that_fit(int wanted);
 
 /// Text on standard output or error may be read by a program that ends early (`| head`): writing then fails, and

@@ -8,7 +8,7 @@
 namespace scabo::analysis {
 
 /// Operations of an analysis, roughly: 30 n^3 for super-elements of n degrees of freedom, those of one size counted
-/// once; 3 k^3 for k contact components; and 600 n^1.5 for n degrees of freedom in finite elements, ordering included.
+/// once; 1.5 k^3 for k contact components of a body; and 600 n^1.5 for n degrees of freedom in finite elements, ordering included.
 double dense_work(const model::Model& model, const mesh::Mesh& mesh);
 
 /// `wanted` where dense_work takes more than about half a second of one processor, else 1.

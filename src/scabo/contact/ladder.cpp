@@ -7,6 +7,7 @@
 #include "scabo/contact/cold_start.hpp"
 #include "scabo/contact/gauss_seidel.hpp"
 #include "scabo/contact/interior_point.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/lemke.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 
@@ -42,7 +43,8 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.regularisation = how.regularisation;
   options.stage = how.stage;
   options.deadline = options_.deadline;
-  if (&problem == &problem_ && judges_all()) options.content = content_;
+  if (&problem == &problem_) options.content = content_;
+  options.ask_when_stuck = !judges_all();
   NewtonEnd end = newton(equations, p, a, options);
   for (Iteration& iteration : end.trace) {
     iteration.iteration += iterations_ + coarse_iterations_;
@@ -176,10 +178,12 @@ NewtonEnd Ladder::inside() {
   // Walls near their collapse load (mu 1, 8 x 8 blocks, 0.80 to 0.92 of it) are solved from one of these and not from the
   // others; the same holds for piles of rigid bodies.
   const bool held = problem_.G.cols() == 0;
+  const double force = Measure(problem_).reference();
   for (const double factor : {1.0, held ? 0.1 : 10.0, held ? 10.0 : 1000.0}) {
     InteriorPointEnd reached = interior_points(problem_, content_, options_.deadline, factor);
     for (Iteration& iteration : reached.trace) {
       iteration.iteration += iterations_ + coarse_iterations_;
+      iteration.residual *= force;
       trace_.push_back(std::move(iteration));
     }
     iterations_ += reached.iterations;

@@ -92,15 +92,26 @@ class Newton {
 
   void keep_best() {
     const double merit = at_.merit();
-    const bool content = options_.content && options_.content(p_, at_.motion);
+    const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit));
+    const bool content = asked && options_.content(p_, at_.motion);
     if (merit < best_merit_ || content) {
       best_merit_ = merit;
       end_.p = p_;
       end_.a = a_;
       end_.residual = at_.largest();
     }
+    end_.converged = content || end_.residual <= aim();
+  }
+
+  /// |H| is near its aim and was not halved: what is left may be rounding.
+  bool no_longer_falls(double merit) const {
+    constexpr double near = 1e3, halved = 0.25;
+    return at_.largest() <= near * aim() && merit > halved * best_merit_;
+  }
+
+  double aim() const {
     const double largest = end_.p.size() > 0 ? end_.p.lpNorm<Eigen::Infinity>() : 0.0;
-    end_.converged = content || end_.residual <= std::max(options_.small, options_.relative * largest);
+    return std::max(options_.small, options_.relative * largest);
   }
 
   void record() {

@@ -23,6 +23,7 @@ struct NewtonOptions {
   Deadline deadline;  ///< no iteration begins after it
   /// Converged as well when this says so of forces and motions; may be empty.
   std::function<bool(const Vector& p, const Vector& motion)> content;
+  bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small and no longer falls
 };
 
 struct NewtonEnd {

@@ -141,9 +141,11 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
       by_map ? epsilon * reference
              : std::max(0.01 * options.tolerance * reference, 4.0 * epsilon * largest_of(scaled_problem.problem.q));
   const double asked = 0.9 * options.tolerance;
+  // The certificate knows complementarity as a product, p_n g; where it decides, the natural map must be small as well.
+  const double asked_of_map = by_map ? asked : 100.0 * asked;
   std::function<bool(const Vector&, const Vector&)> content =
       [&, in_forces = measure.of_forces()](const Vector& p, const Vector& motion) {
-        return in_forces.natural_map(problem, p, motion) <= asked &&
+        return in_forces.natural_map(problem, p, motion) <= asked_of_map &&
                judge(scaled_problem.problem, p, motion, in_forces, options.judge).solved(asked);
       };
   Ladder ladder(scaled_problem.problem, options, small, std::move(content));
