@@ -236,6 +236,19 @@ void add(element::InteriorLoads& to, const element::InteriorLoads& loads, double
   to.temperature.per_y += factor * loads.temperature.per_y;
 }
 
+/// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
+/// stress.
+double lost_to_rounding(const Prepared& prepared, const State& state) {
+  double energy = 0.0, lost = 0.0, resisting = 0.0;
+  for (std::size_t b = 0; b < state.u.size(); ++b) {
+    const system::BodySystem& body = *prepared.structure.bodies[b];
+    energy += body.elastic_energy(state.u[b]);
+    lost += body.energy_lost(state.u[b]);
+    if (state.u[b].size() > 0) resisting += body.stiff_force(state.u[b]) * state.u[b].lpNorm<Eigen::Infinity>();
+  }
+  return energy > 1e-22 * resisting ? lost / energy : 0.0;
+}
+
 }  // namespace
 
 Factors between(const Factors& from, const Factors& to, double part) {
@@ -354,6 +367,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   result.contacts = contact_results(prepared, state);
   result.energy = state.energy;
   result.largest_force = largest_force(state);
+  result.lost_to_rounding = lost_to_rounding(prepared, state);
   result.displacements = state.u;
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
   result.interior.resize(state.u.size());

@@ -207,6 +207,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     if (super_elements[b]) {
       stiffness.dense =
           std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
+      stiffness.rounding = super_elements[b]->rounding;
     } else {
       const auto D =
           element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)], model.analysis.plane);
