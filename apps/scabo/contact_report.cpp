@@ -77,11 +77,14 @@ std::string forces_table(const contact::SavedProblem& saved, const contact::Solu
     sum.normal += p_n;
     sum.largest = std::max(sum.largest, p_n);
   }
+  // As in the tables of a run (result/report.hpp), a figure that is nothing but rounding is 0.
+  const double rounding = solution.p.size() > 0 ? 1e-12 * solution.p.lpNorm<Eigen::Infinity>() : 0.0;
+  const auto shown = [&](double force) { return fmt::format("{:.6g}", std::abs(force) <= rounding ? 0.0 : force); };
   std::vector<std::vector<std::string>> rows = {{"contact", "open", "stick", "slip", "normal force", "largest"}};
   for (std::size_t k = 0; k < sums.size(); ++k)
     rows.push_back({saved.contacts.empty() ? "all pairs" : saved.contacts[k], fmt::format("{}", sums[k].open),
-                    fmt::format("{}", sums[k].stick), fmt::format("{}", sums[k].slip),
-                    fmt::format("{:.6g}", sums[k].normal), fmt::format("{:.6g}", sums[k].largest)});
+                    fmt::format("{}", sums[k].stick), fmt::format("{}", sums[k].slip), shown(sums[k].normal),
+                    shown(sums[k].largest)});
   return result::table(rows);
 }
 

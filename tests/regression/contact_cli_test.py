@@ -174,6 +174,17 @@ class Trust(Contact):
                 for key in ("status", "iterations", "natural_map_residual", "rounding", "certificate"):
                     self.assertEqual(other[key], first[key], key)
 
+    def test_powers_of_two_change_no_bit_of_other_solvers(self):
+        W, q, mu = random_problem(8, 2, seed=24)
+        for solver in ("newton_only", "trial_and_error", "lemke", "fischer_burmeister", "alart_curnier", "gauss_seidel",
+                       "tresca", "proximal_point"):
+            first = self.solve(self.write(W, q, mu), "--solver", solver, status=None)
+            for s, t in ((2.0**100, 1.0), (2.0**-100, 2.0**100)):
+                other = self.solve(self.write(s * W, t * q, mu), "--solver", solver, status=None)
+                np.testing.assert_array_equal(other["r"], np.array(first["r"]) * (t / s), solver)
+                for key in ("status", "iterations", "natural_map_residual"):
+                    self.assertEqual(other[key], first[key], solver)
+
     def test_other_units_do_not_make_it_solved(self):
         # An elastic problem whose W is 1e12 times its forces' unit: the natural map in file units is 1e-13 for anything.
         W, q, mu = random_problem(30, 2, seed=31, mu=1.5)

@@ -80,6 +80,23 @@ TEST(Pressure, OfAPressFitOfFourBondedPiecesIsLames) {
   }
 }
 
+// The same whichever side is named first, and with friction, which carries nothing: all motion is radial.
+TEST(Pressure, OfAPressFitDoesNotDependOnTheOrderOfSidesOrOnFriction) {
+  const double lame = 2534.0 * 1e-3 / (2.0 * 4.0 / 3.0);
+  for (const bool swapped : {false, true})
+    for (const char* fit : {"friction: 0, gap: -1e-3", "friction: 0.3, gap: -1e-3"}) {
+      const auto solution = run(cut_ring("bond: true", fit, "", 0.4, swapped));
+      int pairs = 0;
+      for (const analysis::ContactResult& contact : last(solution).contacts)
+        if (contact.name.starts_with("fit"))
+          for (const analysis::PairResult& pair : contact.pairs) {
+            EXPECT_NEAR(pair.pressure / lame, 1.0, 2e-2) << contact.name << ", pair " << pair.pair << ", " << fit;
+            ++pairs;
+          }
+      EXPECT_GE(pairs, 20);
+    }
+}
+
 // A block glued to another is pulled off-centre: the joint opens from one side, and no pair carries more than the
 // strength at any time.
 TEST(Pressure, MeetsATensileStrengthExactly) {

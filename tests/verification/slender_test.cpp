@@ -1,5 +1,6 @@
 // Slender beams: rounding of K u is (L / h)^3 times the unit of rounding of the load. Closed forms of beams.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -38,7 +39,8 @@ struct Beam {
                : fmt::format("{{order: 3, size: {}}}", ratio * length / 20.0);
   }
 };
-constexpr Beam beams[] = {{10.0, false}, {100.0, false}, {300.0, false}, {100.0, true}, {500.0, true}};
+constexpr Beam beams[] = {{10.0, false}, {100.0, false}, {300.0, false}, {1000.0, false},
+                          {100.0, true}, {500.0, true},  {1000.0, true}};
 
 TEST(SlenderBeam, BendsAsABeamAndItsReactionsBalanceTheLoad) {
   for (const Beam& beam : beams) {
@@ -48,6 +50,7 @@ TEST(SlenderBeam, BendsAsABeamAndItsReactionsBalanceTheLoad) {
     EXPECT_NEAR(increment.reactions[0].y(), 1.0, 1e-10) << beam.ratio;
     EXPECT_NEAR(increment.reactions[0].x(), 0.0, 1e-10) << beam.ratio;
     EXPECT_NEAR(2.0 * increment.energy.elastic / tip(solution, beam.ratio), 1.0, 1e-4) << beam.ratio;
+    EXPECT_THAT(solution.warnings, testing::IsEmpty()) << beam.ratio;
   }
 }
 
@@ -59,6 +62,47 @@ TEST(SlenderBeam, UnitsDoNotMatter) {
     const double expected = tip(metres, beam.ratio);
     EXPECT_NEAR(tip(millimetres, beam.ratio, 1000.0) / expected, 1.0, 1e-4) << beam.ratio;
     EXPECT_NEAR(tip(centimetres, beam.ratio, 100.0) / expected, 1.0, 1e-4) << beam.ratio;
+  }
+}
+
+// Finer meshes, a scaling centre that is not in the middle, and directions in which no coordinate is exact.
+TEST(SlenderBeam, MeshCentreAndDirectionDoNotMatter) {
+  for (const char* mesh : {"{order: 3, size: 100}", "{order: 4, size: 25}", "{order: 3, size: 50, centre: [400, 0.5]}"})
+    EXPECT_NEAR(tip(run(cantilever(1000.0, mesh)), 1000.0) / deflection(1000.0), 1.0, 1e-4) << mesh;
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  const auto at = [&](double x, double y) { return Vec2(100.0 + c * x - s * y, 77.0 + s * x + c * y); };
+  std::string vertices;
+  for (const Vec2& x : {at(0, 0), at(1000, 0), at(1000, 1), at(0, 1)})
+    vertices += fmt::format("{}[{:.17g}, {:.17g}]", vertices.empty() ? "" : ", ", x.x(), x.y());
+  const auto solution = run(fmt::format(R"(
+scabo: 1
+materials: {{m: {{young: 1e9, poisson: 0}}}}
+bodies: {{beam: {{material: m, shape: {{polygon: {{vertices: [{}]}}}}, mesh: {{order: 3, size: 50}}}}}}
+supports: [{{on: beam.edge_4, fix: [x, y]}}]
+loads: {{tip: {{on: beam.edge_2, force: [{:.17g}, {:.17g}]}}}}
+)",
+                                        vertices, s, -c));
+  const Vec2 moved = result::Probe(solution, last(solution), 0).at(at(1000.0, 0.5))->displacement;
+  EXPECT_NEAR(moved.dot(Vec2(s, -c)) / deflection(1000.0), 1.0, 1e-4);
+}
+
+// Where digits run out, the warning states the order of the error.
+TEST(SlenderBeam, SaysWhatRoundingOfItsStiffnessCosts) {
+  for (const double ratio : {2000.0, 3000.0}) {
+    const auto solution = run(cantilever(ratio, fmt::format("{{order: 3, size: {}}}", ratio / 20.0)));
+    EXPECT_THAT(solution.warnings, testing::Contains(testing::HasSubstr("rounding of the stiffness"))) << ratio;
+    const double error = std::abs(tip(solution, ratio) / deflection(ratio) - 1.0);
+    EXPECT_LE(error, 6.0 * last(solution).lost_to_rounding) << ratio;
+    EXPECT_LE(last(solution).lost_to_rounding, 1e-2) << ratio;
+  }
+}
+
+TEST(SlenderBeam, IsRefusedAsTooSlender) {
+  try {
+    const auto solution = run(cantilever(1e5, "{order: 3, size: 5000}"));
+    EXPECT_NE(solution.outcome, analysis::Outcome::solved);
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("slender"));
   }
 }
 

@@ -24,6 +24,22 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const std::vector<d
   return forces;
 }
 
+/// Resultants of the loads on body `b` along its free rigid motions. Loads in equilibrium, as two equal opposite forces
+/// or the forces of a temperature, leave rounding of their sum, which nothing could balance where neither supports nor
+/// friction hold the body: it is zero, whatever the unit of length makes of the last digits.
+Vector loads_on_motions(const Prepared& prepared, std::size_t b, const Vector& forces,
+                        const std::vector<double>& factors) {
+  constexpr double rounding_of_sums = 1e-12;  // far below the tolerance of the certificate, 1e-10
+  double acting = 0.0;
+  for (std::size_t load = 0; load < factors.size(); ++load)
+    if (prepared.structure.loads[load][b].size() > 0)
+      acting += std::abs(factors[load]) * prepared.structure.loads[load][b].lpNorm<1>();
+  Vector f = prepared.structure.bodies[b]->rigid_motions().transpose() * forces;
+  for (double& resultant : f)
+    if (std::abs(resultant) <= rounding_of_sums * acting) resultant = 0.0;
+  return f;
+}
+
 std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vector<double>& factors) {
   std::vector<Vector> values;
   for (const auto& body : prepared.structure.bodies) {
@@ -63,7 +79,8 @@ std::vector<bool> touching_pairs(const Prepared& prepared) {
   constexpr double rounding_of_points = 1e-9;  // of a body's size
   std::vector<bool> touching;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
-    const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
+    const model::Contact& contact =
+        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
     const double size = std::max(prepared.structure.bodies[static_cast<std::size_t>(contact.a.body)]->lever(),
                                  prepared.structure.bodies[static_cast<std::size_t>(contact.b.body)]->lever());
     touching.push_back(prepared.contact.gap[static_cast<Eigen::Index>(i)] <= rounding_of_points * size);
@@ -219,6 +236,19 @@ void add(element::InteriorLoads& to, const element::InteriorLoads& loads, double
   to.temperature.per_y += factor * loads.temperature.per_y;
 }
 
+/// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
+/// stress.
+double lost_to_rounding(const Prepared& prepared, const State& state) {
+  double energy = 0.0, lost = 0.0, resisting = 0.0;
+  for (std::size_t b = 0; b < state.u.size(); ++b) {
+    const system::BodySystem& body = *prepared.structure.bodies[b];
+    energy += body.elastic_energy(state.u[b]);
+    lost += body.energy_lost(state.u[b]);
+    if (state.u[b].size() > 0) resisting += body.stiff_force(state.u[b]) * state.u[b].lpNorm<Eigen::Infinity>();
+  }
+  return energy > 1e-22 * resisting ? lost / energy : 0.0;
+}
+
 }  // namespace
 
 Factors between(const Factors& from, const Factors& to, double part) {
@@ -278,8 +308,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
     problem.q.noalias() += system.motion[b] * free[b];
-    const Matrix& rigid = bodies[b]->rigid_motions();
-    problem.f.segment(system.first_rigid[b], rigid.cols()) = rigid.transpose() * to.forces[b];
+    problem.f.segment(system.first_rigid[b], bodies[b]->rigid_motions().cols()) =
+        loads_on_motions(prepared, b, to.forces[b], factors.loads);
   }
   check_held_pairs(prepared, free);
 
@@ -337,6 +367,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   result.contacts = contact_results(prepared, state);
   result.energy = state.energy;
   result.largest_force = largest_force(state);
+  result.lost_to_rounding = lost_to_rounding(prepared, state);
   result.displacements = state.u;
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
   result.interior.resize(state.u.size());

@@ -142,6 +142,12 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
     if (at.contacts[c].open > 0)
       add(open, open + " carry shear: a prescribed shear strength does not ask for pressure");
   }
+  constexpr double worth_saying = 3e-5;  // errors of three times the estimate were seen
+  if (at.lost_to_rounding > worth_saying)
+    add("rounding of the stiffness",
+        fmt::format("rounding of the stiffness of a body this slender may change its displacements by a part of about "
+                    "{:.0e}: give it mesh {{kind: fem}}, or longer elements",
+                    at.lost_to_rounding));
   if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
     add("reaches to infinity", relative);

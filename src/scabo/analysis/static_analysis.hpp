@@ -102,6 +102,7 @@ struct IncrementResult {
   double largest_force =
       0.0;  ///< at a node or a pair, applied, of contact or of a support: what others are small beside
   contact::Certificate certificate;
+  double lost_to_rounding = 0.0;  ///< estimated relative error of displacements, of the rounding of stiffness
   Energy energy;
   std::optional<ErrorEstimate> error;  ///< when asked for
   /// Per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid. As the stiffness of a body that

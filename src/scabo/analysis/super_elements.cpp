@@ -31,8 +31,8 @@ Diagnostic ill_posed(const model::Body& body, const element::IllPosed& error) {
   return {
       body.source,
       fmt::format("{}; the constants of its material are too far apart for the digits there are (Poisson's ratio too "
-                  "close to 1/2, or moduli that differ by a factor of 1e12 or more), or the scaling centre is too "
-                  "close to the boundary",
+                  "close to 1/2, or moduli that differ by a factor of 1e12 or more), the body is too slender (3000:1 or "
+                  "more), or the scaling centre is too close to the boundary",
                   error.what())};
 }
 

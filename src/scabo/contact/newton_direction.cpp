@@ -250,7 +250,7 @@ bool NewtonDirection::solve_dense(double regularisation) {
   auto residual = work_->residual.head(n);
   const auto matrix = A.topLeftCorner(n, n);
   work_->factor.topLeftCorner(n, n) = matrix;
-  const double scale = 1e-9 * (right.lpNorm<Eigen::Infinity>() + 1e-30 * matrix.cwiseAbs().maxCoeff());
+  const double scale = 1e-9 * right.lpNorm<Eigen::Infinity>();
   if (work_->solver.factorise(work_->factor, n) && work_->solver.reciprocal_condition() > 1e-13) {
     y = right;
     work_->solver.solve_in_place(y_);

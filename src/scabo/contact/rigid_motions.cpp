@@ -154,8 +154,13 @@ std::optional<Vector> mechanism_of(const Problem& problem);
 
 bool has_many_motions(const Problem& problem) { return problem.G.cols() > most_dense; }
 
-std::optional<Vector> find_mechanism(const Problem& problem) {
-  if (problem.G.cols() == 0 || problem.f.isZero(0.0)) return std::nullopt;
+std::optional<Vector> find_mechanism(const Problem& in_its_unit) {
+  if (in_its_unit.G.cols() == 0 || in_its_unit.f.isZero(0.0)) return std::nullopt;
+  Problem problem = in_its_unit;  // loads of size 1 beside the columns of G, by a power of two
+  const double scale = std::exp2(-std::ilogb(problem.f.norm()));
+  problem.f *= scale;
+  problem.cohesion *= scale;
+  problem.tension *= scale;
   const Problem less = moderate(problem);
   const bool same = less.mu == problem.mu && less.cohesion == problem.cohesion && less.tension == problem.tension;
   if (!same && !mechanism_of(less)) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <string>
+#include <type_traits>
 
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/line_basis.hpp"
@@ -62,6 +63,7 @@ StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& elemen
 namespace {
 
 /// Three matrices with the pattern of the ring: 2 x 2 blocks for every two nodes of one element.
+template <typename Real>
 class Assembly {
  public:
   explicit Assembly(const Ring& ring) : neighbours_(ring.nodes.size()) {
@@ -71,7 +73,7 @@ class Assembly {
         list.insert(list.end(), element.nodes.begin(), element.nodes.end());
       }
     const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
-    Eigen::SparseMatrix<double> pattern(n, n);
+    Eigen::SparseMatrix<Real> pattern(n, n);
     Eigen::Index entries = 0;
     for (auto& list : neighbours_) {
       std::sort(list.begin(), list.end());
@@ -87,11 +89,12 @@ class Assembly {
           for (int r = 0; r < 2; ++r) pattern.innerIndexPtr()[at++] = 2 * row + r;
       }
     pattern.outerIndexPtr()[n] = at;
-    std::fill(pattern.valuePtr(), pattern.valuePtr() + entries, 0.0);
+    std::fill(pattern.valuePtr(), pattern.valuePtr() + entries, Real(0));
     matrices_ = {pattern, pattern, pattern};
   }
 
-  void add(int row, int column, const Mat2& e0, const Mat2& e1, const Mat2& e2) {
+  using Block = Eigen::Matrix<Real, 2, 2>;
+  void add(int row, int column, const Block& e0, const Block& e1, const Block& e2) {
     const auto& list = neighbours_[static_cast<std::size_t>(column)];
     const auto place = 2 * (std::lower_bound(list.begin(), list.end(), row) - list.begin());
     for (Eigen::Index c = 0; c < 2; ++c) {
@@ -104,11 +107,11 @@ class Assembly {
     }
   }
 
-  CoefficientMatrices take() { return std::move(matrices_); }
+  CoefficientMatricesOf<Real> take() { return std::move(matrices_); }
 
  private:
   std::vector<std::vector<int>> neighbours_;  // of each node, itself among them
-  CoefficientMatrices matrices_;
+  CoefficientMatricesOf<Real> matrices_;
 };
 
 /// Throws what is wrong where |J| is not positive.
@@ -122,36 +125,49 @@ class Assembly {
 }
 
 /// int over one element, 2 x 2 blocks e[i * count + j] for its nodes i, j.
+template <typename Real>
 struct ElementBlocks {
-  std::vector<Mat2> e0, e1, e2;
+  std::vector<Eigen::Matrix<Real, 2, 2>> e0, e1, e2;
 };
 
-void integrate(const Ring& ring, std::size_t e, const Mat3& D, double thickness, ElementBlocks& blocks) {
+/// A row of shape functions or of their derivatives, whose sum (1 or 0) is exact.
+template <typename Real, typename Row>
+Eigen::Matrix<Real, 1, Eigen::Dynamic> with_sum(const Row& row, Real sum) {
+  Eigen::Matrix<Real, 1, Eigen::Dynamic> values = row.template cast<Real>();
+  if constexpr (!std::is_same_v<Real, double>) values[0] += sum - values.sum();
+  return values;
+}
+
+template <typename Real>
+void integrate(const Ring& ring, std::size_t e, const Mat3& D, double thickness, ElementBlocks<Real>& blocks) {
+  using Vec = Eigen::Matrix<Real, 2, 1>;
+  using Strain = Eigen::Matrix<Real, 3, 2>;
+  using Block = Eigen::Matrix<Real, 2, 2>;
   const mesh::LineElement& element = ring.elements[e];
   const LineBasis& basis = basis_of(element);
   const auto count = static_cast<Eigen::Index>(element.nodes.size());
   for (auto* part : {&blocks.e0, &blocks.e1, &blocks.e2})
-    part->assign(static_cast<std::size_t>(count * count), Mat2::Zero());
+    part->assign(static_cast<std::size_t>(count * count), Block::Zero());
   for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
-    const auto N = basis.values_at_rule().row(static_cast<Eigen::Index>(q));
-    const auto N_eta = basis.derivatives_at_rule().row(static_cast<Eigen::Index>(q));
-    BoundaryPoint point;
+    const auto N = with_sum<Real>(basis.values_at_rule().row(static_cast<Eigen::Index>(q)), 1);
+    const auto N_eta = with_sum<Real>(basis.derivatives_at_rule().row(static_cast<Eigen::Index>(q)), 0);
+    Vec point = Vec::Zero(), along = Vec::Zero();
     for (Eigen::Index i = 0; i < count; ++i) {
-      const Vec2& node = ring.nodes[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)])];
-      point.x += N[i] * node;
-      point.x_eta += N_eta[i] * node;
+      const Vec node = ring.nodes[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)])].cast<Real>();
+      point += N[i] * node;
+      along += N_eta[i] * node;
     }
-    const double J = point.jacobian();
-    if (!(J > 0.0)) refuse_element(ring, e);
-    const auto [x, y] = std::pair(point.x.x(), point.x.y());
-    const auto [x_eta, y_eta] = std::pair(point.x_eta.x(), point.x_eta.y());
-    Eigen::Matrix<double, 3, 2> b1, b2;  // times |J|
-    b1 << y_eta, 0.0, 0.0, -x_eta, -x_eta, y_eta;
-    b2 << -y, 0.0, 0.0, x, x, -y;
-    const Mat3 weighted = D * (basis.rule().weights[q] * thickness / J);
-    const Eigen::Matrix<double, 3, 2> Db1 = weighted * b1, Db2 = weighted * b2;
-    Mat2 c0 = b1.transpose() * Db1, c2 = b2.transpose() * Db2;
-    const Mat2 c1 = b2.transpose() * Db1;
+    const auto [x, y] = std::pair(point.x(), point.y());
+    const auto [x_eta, y_eta] = std::pair(along.x(), along.y());
+    const Real J = x * y_eta - y * x_eta;
+    if (!(J > 0)) refuse_element(ring, e);
+    Strain b1, b2;  // times |J|
+    b1 << y_eta, 0, 0, -x_eta, -x_eta, y_eta;
+    b2 << -y, 0, 0, x, x, -y;
+    const Eigen::Matrix<Real, 3, 3> weighted = D.cast<Real>() * (Real(basis.rule().weights[q]) * thickness / J);
+    const Strain Db1 = weighted * b1, Db2 = weighted * b2;
+    Block c0 = b1.transpose() * Db1, c2 = b2.transpose() * Db2;
+    const Block c1 = b2.transpose() * Db1;
     c0(1, 0) = c0(0, 1), c2(1, 0) = c2(0, 1);  // exactly symmetric: they differ in the last digit
     for (Eigen::Index i = 0; i < count; ++i)
       for (Eigen::Index j = 0; j < count; ++j) {
@@ -163,13 +179,12 @@ void integrate(const Ring& ring, std::size_t e, const Mat3& D, double thickness,
   }
 }
 
-}  // namespace
-
-CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness) {
+template <typename Real>
+CoefficientMatricesOf<Real> integrated(const Ring& ring, const Elasticity& D, double thickness) {
   ensure(D.fits(ring), "a super-element has one elasticity, or one for each boundary element");
   if (!(thickness > 0.0)) throw IllPosed("the thickness is not positive");
-  Assembly assembly(ring);
-  ElementBlocks blocks;
+  Assembly<Real> assembly(ring);
+  ElementBlocks<Real> blocks;
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
     if (!D.of(e).allFinite() || Eigen::LLT<Mat3>(D.of(e)).info() != Eigen::Success)
       throw IllPosed("the elasticity of boundary element " + std::to_string(e) + " is not positive definite");
@@ -182,6 +197,16 @@ CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, 
       }
   }
   return assembly.take();
+}
+
+}  // namespace
+
+CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness) {
+  return integrated<double>(ring, D, thickness);
+}
+
+ExactCoefficientMatrices exact_coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness) {
+  return integrated<long double>(ring, D, thickness);
 }
 
 }  // namespace scabo::element

@@ -58,13 +58,20 @@ struct StrainMatrices {
 StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& element, const Vector& N,
                                const Vector& N_eta);
 
-struct CoefficientMatrices {
-  Eigen::SparseMatrix<double> E0, E1, E2;  // n x n, n = 2 nodes
+template <typename Real>
+struct CoefficientMatricesOf {
+  Eigen::SparseMatrix<Real> E0, E1, E2;  // n x n, n = 2 nodes
 };
+using CoefficientMatrices = CoefficientMatricesOf<double>;
+using ExactCoefficientMatrices = CoefficientMatricesOf<long double>;
 
 /// `thickness` multiplies all three. Throws IllPosed, with the number of the boundary element, where it has no length,
 /// the centre does not see it (|J| <= 0), or its elasticity is not positive definite.
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
+
+/// The same with 64-bit significands, at the points of the same quadrature: E1'R = 0 and E2 R = 0 for translations R,
+/// and no strain under rotation, hold to as many digits.
+ExactCoefficientMatrices exact_coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
 
 /// Position of a boundary point and its derivative along eta, by values and derivatives of the shape functions.
 struct BoundaryPoint {

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/ill_posed.hpp"
@@ -153,42 +154,73 @@ IllPosed digits_lost(double residual) {
   return IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual));
 }
 
-/// What ring doubling made of a bounded block, with its last digits where they are needed and the block is not too
-/// large for them; sets K.
-void finish_bounded(Block& block, const Matrix& E1, const Matrix& E2, const Matrix& motions, bool contrast, Matrix& K,
-                    RingStiffness& ring) {
-  const auto finished = [&] {
+/// A super-element as its blocks see it.
+struct Whole {
+  const Ring& ring;
+  const Elasticity& D;
+  double thickness;
+  const Domain& domain;
+  const CoefficientMatrices& matrices;
+  const Matrix& motions;        // n x 3: two translations, the rotation
+  Eigen::Index all_digits = 0;  // rows of a block up to which K has its last digits without being asked
+};
+
+/// What is found of a block besides itself.
+struct BlockResult {
+  Matrix K;  // in the coordinates of the block
+  RingStiffness ring;
+  bool all_digits = false;
+};
+
+/// K of a bounded block from what ring doubling made of it, with its last digits where they are needed and the block is
+/// not too large for them.
+void finish_bounded(const Whole& whole, Block& block, BlockResult& result) {
+  auto& [K, ring, all_digits] = result;
+  const auto is_right = [&] { return ring.residual <= too_much && is_definite(block, K, whole.motions); };
+  const Eigen::Index rows = block.E0.rows();
+  if (rows > whole.all_digits) {
     K = with_translations(block, ring.K);
-    return ring.residual <= too_much && is_definite(block, K, motions);
-  };
-  const bool affordable = block.E0.rows() <= most_exact_rows;
-  if (!(contrast && affordable) && finished()) return;
-  if (affordable) {
-    correct_last_digits({block.E0, E1, E2, block.R, block.I}, ring);
-    if (finished()) return;
+    if (is_right()) return;
+  }
+  if (rows <= std::max(whole.all_digits, most_exact_rows)) {
+    K = correct_last_digits(whole.ring, whole.D, whole.thickness, block, ring);
+    all_digits = true;
+    if (is_right()) return;
   }
   if (!(ring.residual <= too_much)) throw digits_lost(ring.residual);
   throw IllPosed("its stiffness is not positive definite: digits were lost");
 }
 
-/// Solves one block; sets its stiffness `K` in the coordinates of the block.
-Block solve_block(Eigen::SparseMatrix<double> T, const CoefficientMatrices& matrices, const Matrix& motions,
-                  const Domain& domain, bool contrast, Matrix& K, RingStiffness& ring) {
+Block solve_block(const Whole& whole, Eigen::SparseMatrix<double> T, BlockResult& result) {
+  const CoefficientMatrices& matrices = whole.matrices;
+  const Domain& domain = whole.domain;
+  RingStiffness& ring = result.ring;
   Block block;
   block.T = std::move(T);
   const Eigen::SparseMatrix<double> transposed = block.T.transpose();
   block.E0 = symmetrised(in_block(transposed, matrices.E0));
-  find_translations(motions.leftCols(2), block);
+  find_translations(whole.motions.leftCols(2), block);
   const Matrix E1 = in_block(transposed, matrices.E1), E2 = symmetrised(in_block(transposed, matrices.E2));
   const Deflated d = deflate(block, E1, E2);
   ring = ring_doubling(d.E0, d.E1, d.E2, domain.unbounded ? Side::outside : Side::inside);
   if (domain.unbounded && !(ring.residual <= too_much)) throw digits_lost(ring.residual);
-  if (!domain.unbounded) finish_bounded(block, E1, E2, motions, contrast, K, ring);
+  if (!domain.unbounded) finish_bounded(whole, block, result);
   block.S = std::move(ring.S);
   block.A = -(Matrix(d.G(Eigen::all, block.I)) * block.S + Matrix(d.H(Eigen::all, block.I)));
-  if (domain.unbounded) K = unbounded_stiffness(block, d, ring.K, domain.far);
+  if (domain.unbounded) result.K = unbounded_stiffness(block, d, ring.K, domain.far);
   ring.K.resize(0, 0);  // large ones: no copy of what is no longer needed
   return block;
+}
+
+/// Largest distance of the boundary from the scaling centre over the smallest.
+double slenderness(const Ring& ring) {
+  double largest = 0.0, smallest = HUGE_VAL;
+  for (const mesh::LineElement& element : ring.elements) {
+    const Vec2 &from = ring.node(element.nodes.front()), &to = ring.node(element.nodes.back());
+    largest = std::max(largest, from.norm());
+    smallest = std::min(smallest, std::abs(cross(from, to)) / (to - from).norm());
+  }
+  return largest / smallest;
 }
 
 /// K <- K + T K_k T', the lower triangle.
@@ -243,24 +275,31 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   SuperElementSolution solution;
   solution.domain = domain;
   solution.blocks.resize(bases.size());
-  std::vector<Matrix> stiffness(bases.size());
-  const bool contrast = D.contrast() > great_contrast;
-  std::vector<RingStiffness> rings(bases.size());
+  Whole whole{ring, D, thickness, domain, matrices, motions};
+  if (D.contrast() > great_contrast) whole.all_digits = most_exact_rows;
+  if (slenderness(ring) > great_slenderness) whole.all_digits = most_slender_rows;
+  std::vector<BlockResult> results(bases.size());
   const auto solve = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    solution.blocks[i] = solve_block(std::move(bases[i]), matrices, motions, domain, contrast, stiffness[i], rings[i]);
+    solution.blocks[i] = solve_block(whole, std::move(bases[i]), results[i]);
   };
   linalg::parallel_for(static_cast<int>(bases.size()), threads, solve);
-  for (const RingStiffness& of_block : rings) {
-    solution.doublings = std::max(solution.doublings, of_block.doublings);
-    solution.residual = std::max(solution.residual, of_block.residual);
+  bool all_digits = true;
+  for (const BlockResult& of_block : results) {
+    solution.doublings = std::max(solution.doublings, of_block.ring.doublings);
+    solution.residual = std::max(solution.residual, of_block.ring.residual);
+    all_digits = all_digits && of_block.all_digits;
   }
   if (bases.size() == 1) {  // T = 1
-    solution.K = std::move(stiffness.front());
+    solution.K = std::move(results.front().K);
   } else {
     solution.K = Matrix::Zero(n, n);
-    for (std::size_t i = 0; i < bases.size(); ++i) add_block(solution.blocks[i].T, stiffness[i], solution.K);
+    for (std::size_t i = 0; i < bases.size(); ++i) add_block(solution.blocks[i].T, results[i].K, solution.K);
   }
+  // Otherwise rounding of E2 counts, whose entries are far larger where the boundary is close to the centre.
+  solution.rounding = std::numeric_limits<double>::epsilon();
+  if (!all_digits)
+    solution.rounding *= std::max(1.0, matrices.E2.diagonal().cwiseQuotient(solution.K.diagonal()).maxCoeff());
   if (!domain.unbounded) take_rotation_out(ring, solution.K);  // what is unbounded resists rotation
   solution.K.triangularView<Eigen::StrictlyUpper>() = solution.K.transpose();
   return solution;

@@ -54,6 +54,7 @@ struct SuperElementSolution {
   Domain domain;
   int doublings = 0;      ///< largest number over the blocks
   double residual = 0.0;  ///< of the Riccati equation, RiccatiResidual::size, largest over the blocks
+  double rounding = 0.0;  ///< estimated error of an entry of K, over the root of the product of its diagonal entries
 };
 
 /// Solves the super-element. Throws IllPosed where the centre does not see the boundary, an elasticity is not positive

@@ -17,6 +17,18 @@ void in_order(TwofoldVector& y) {
 
 }  // namespace
 
+TwofoldVector twofold(const Vector& x) {
+  TwofoldVector y;
+  for (const double value : x) y.push_back({value, 0.0});
+  return y;
+}
+
+Vector rounded(const TwofoldVector& x) {
+  Vector high(static_cast<Eigen::Index>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) high[static_cast<Eigen::Index>(i)] = x[i].high;
+  return high;
+}
+
 TwofoldVector product(const Matrix& A, const TwofoldVector& x) {
   TwofoldVector y(static_cast<std::size_t>(A.rows()));
   for (Eigen::Index column = 0; column < A.cols(); ++column)

@@ -47,6 +47,9 @@ inline Twofold operator/(const Twofold& a, const Twofold& b) {
 
 using TwofoldVector = std::vector<Twofold>;
 
+TwofoldVector twofold(const Vector& x);
+Vector rounded(const TwofoldVector& x);
+
 /// A x, A n x n.
 TwofoldVector product(const Matrix& A, const TwofoldVector& x);
 TwofoldVector product(const SparseMatrix& A, const TwofoldVector& x);

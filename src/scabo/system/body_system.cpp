@@ -103,7 +103,7 @@ class ElasticBody final : public BodySystem {
       const Vector load = f - internal_forces(u);
       u(dofs_) += solver_.solve(load(dofs_)).col(0);
     }
-    if (rounding_matters(u, f)) u += refined(u, f).missing;
+    if (rounding_matters(u, f)) u = linalg::rounded(refined(u, f).u);
     return u;
   }
 
@@ -125,7 +125,7 @@ class ElasticBody final : public BodySystem {
         force[dofs[static_cast<std::size_t>(at[j])]] = 1.0;
         Vector u = none;
         u(dofs_) = solver_.solve(force(dofs_)).col(0);
-        u += refined(u, force).missing;
+        u = linalg::rounded(refined(u, force).u);
         for (std::size_t i = 0; i < at.size(); ++i) A(at[i], at[j]) = u[dofs[static_cast<std::size_t>(at[i])]];
       }
       A = 0.5 * (A + A.transpose()).eval();
@@ -152,8 +152,15 @@ class ElasticBody final : public BodySystem {
   double elastic_energy(const Vector& u) const override {
     const Vector plain = internal_forces(u);
     if (!rounding_matters(u, plain)) return 0.5 * u.dot(plain);
-    const Vector nothing = Vector::Zero(size());
-    return 0.5 * u.dot(forces_left(u, nothing, nothing));
+    return 0.5 * u.dot(forces_left(linalg::twofold(u), Vector::Zero(size())));
+  }
+  double energy_lost(const Vector& u) const override {
+    linalg::TwofoldVector strained = linalg::twofold(u);
+    if (!stiffness_.unbounded) take_out_rigid_motions(strained);
+    const Vector square = linalg::rounded(strained).cwiseAbs2();
+    const double sum = stiffness_.dense ? square.dot(stiffness_.dense->cwiseAbs2() * square)
+                                        : square.dot(Vector(stiffness_.sparse.cwiseAbs2() * square));
+    return 0.5 * stiffness_.rounding * std::sqrt(sum);  // errors of single entries, independent of each other
   }
   double stiff_force(const Vector& u) const override {
     return stiffness_.largest_diagonal() * u.lpNorm<Eigen::Infinity>();
@@ -177,17 +184,12 @@ class ElasticBody final : public BodySystem {
     return unit * stiff_force(u) > 1e-12 * f.lpNorm<Eigen::Infinity>();
   }
 
-  /// K (u + missing) - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out
-  /// (translations and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that
-  /// come from rounding have no resultant this way.
-  Vector forces_left(const Vector& u, const Vector& missing, const Vector& f) const {
-    linalg::TwofoldVector moved(static_cast<std::size_t>(size()));
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      moved[i] = linalg::exact_sum(u[row], missing[row]);
-    }
-    if (!stiffness_.unbounded) take_out_rigid_motions(moved);
-    linalg::TwofoldVector forces = stiffness_.times(moved);
+  /// K u - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out (translations
+  /// and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that come from
+  /// rounding have no resultant this way.
+  Vector forces_left(linalg::TwofoldVector u, const Vector& f) const {
+    if (!stiffness_.unbounded) take_out_rigid_motions(u);
+    linalg::TwofoldVector forces = stiffness_.times(u);
     if (!stiffness_.unbounded) take_out_rigid_motions(forces);
     Vector left(size());
     for (std::size_t i = 0; i < forces.size(); ++i) {
@@ -214,36 +216,55 @@ class ElasticBody final : public BodySystem {
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = v[i] - angle * turn_[i];
   }
 
-  /// What u lacks of the displacement under f, too small to be added to it, and the forces that are left with it.
+  /// The displacement under f in twice the working precision, refined from u, and the forces that are left with it.
   struct Refined {
-    Vector missing, left;
+    linalg::TwofoldVector u;
+    Vector left;
   };
+  /// By conjugate gradients, whose preconditioner is the factor of K: exact but for few directions, the bending of a
+  /// slender body, in which rounding of the factor counts. Plain refinement is their first step.
   Refined refined(const Vector& u, const Vector& f) const {
-    Refined best{Vector::Zero(size()), {}};
-    best.left = forces_left(u, best.missing, f);
-    const auto size_of = [&](const Vector& left) {
-      return dofs_.empty() ? 0.0 : Vector(left(dofs_)).lpNorm<Eigen::Infinity>();
-    };
-    constexpr int most = 8;
-    for (int round = 0; round < most && size_of(best.left) > 1e-14 * f.lpNorm<Eigen::Infinity>(); ++round) {
-      Refined next = best;
-      next.missing(dofs_) -= solver_.solve(best.left(dofs_)).col(0);
-      next.left = forces_left(u, next.missing, f);
-      if (!(size_of(next.left) < 0.5 * size_of(best.left))) break;
-      best = std::move(next);
+    Refined best{linalg::twofold(u), {}};
+    best.left = forces_left(best.u, f);
+    if (dofs_.empty()) return best;
+    const auto size_of = [&](const Vector& left) { return Vector(left(dofs_)).lpNorm<Eigen::Infinity>(); };
+    const Vector nothing = Vector::Zero(size());
+    Refined now = best;
+    Vector direction = nothing;
+    double before = 0.0;
+    constexpr int most = 40, patience = 5;
+    int since_best = 0;
+    for (int k = 0; k < most && since_best < patience && size_of(best.left) > 1e-14 * f.lpNorm<Eigen::Infinity>();
+         ++k) {
+      const Vector left = now.left(dofs_), correction = solver_.solve(left).col(0);
+      const double decrease = left.dot(correction);
+      direction *= before > 0.0 ? decrease / before : 0.0;
+      direction(dofs_) -= correction;
+      before = decrease;
+      const double curvature = direction.dot(forces_left(linalg::twofold(direction), nothing));
+      if (!(curvature > 0.0)) break;
+      const linalg::Twofold step{-left.dot(Vector(direction(dofs_))) / curvature, 0.0};
+      for (const int dof : dofs_) {
+        linalg::Twofold& component = now.u[static_cast<std::size_t>(dof)];
+        component = component + step * linalg::Twofold{direction[dof], 0.0};
+      }
+      now.left = forces_left(now.u, f);
+      ++since_best;
+      if (size_of(now.left) < size_of(best.left)) best = now, since_best = 0;
     }
     return best;
   }
 
   /// K u - f. Where rounding u matters, of the displacement that u is the rounded value of, if it is one: u must not
-  /// lack more than its last digits.
+  /// differ from it in more than its last digits.
   Vector unbalanced(const Vector& u, const Vector& f) const {
     Vector plain = internal_forces(u) - f;
     if (!u.allFinite() || !rounding_matters(u, f)) return plain;
-    Refined with_missing = refined(u, f);
+    Refined exact = refined(u, f);
     constexpr double last_digits = 256 * std::numeric_limits<double>::epsilon();
-    if (!(with_missing.missing.lpNorm<Eigen::Infinity>() <= last_digits * u.lpNorm<Eigen::Infinity>())) return plain;
-    return std::move(with_missing.left);
+    if (!((linalg::rounded(exact.u) - u).lpNorm<Eigen::Infinity>() <= last_digits * u.lpNorm<Eigen::Infinity>()))
+      return plain;
+    return std::move(exact.left);
   }
 
   void find_turn(const std::vector<Vec2>& nodes) {
@@ -274,8 +295,8 @@ class ElasticBody final : public BodySystem {
   std::vector<int> further_dofs() const {
     std::vector<int> chosen;
     if (rigid_motions_.cols() == 0) return chosen;
-    // Equal pivots are common, of equal corners for one. Rounded, they are equal in every unit of length, and the choice,
-    // on which W and the iterations depend, is the same.
+    // Equal pivots are common, of equal corners for one. Rounded, they are equal in every unit of length, and the
+    // choice, on which W and the iterations depend, is the same.
     const Matrix rounded = (rigid_motions_.transpose().array() * 0x1p30).round() * 0x1p-30;
     const Eigen::ColPivHouseholderQR<Matrix> qr(rounded);
     for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) chosen.push_back(qr.colsPermutation().indices()[k]);
@@ -349,6 +370,7 @@ class RigidBody final : public BodySystem {
   }
 
   double elastic_energy(const Vector&) const override { return 0.0; }
+  double energy_lost(const Vector&) const override { return 0.0; }
   double stiff_force(const Vector&) const override { return 0.0; }
 
   /// Largest amount by which the constraints contradict each other at factor 1, and the constraint.

@@ -15,6 +15,7 @@
 // and reactions and imbalance are those of the displacement that u is the rounded value of.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ namespace scabo::system {
 struct Stiffness {
   std::shared_ptr<const Matrix> dense;
   linalg::SparseMatrix sparse;
+  double rounding = std::numeric_limits<double>::epsilon();  ///< relative error of its entries
   bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
 
   Eigen::Index size() const { return dense ? dense->rows() : sparse.rows(); }
@@ -67,6 +69,9 @@ class BodySystem {
   virtual double imbalance(const Vector& u, const Vector& f) const = 0;
   /// 1/2 u'K u.
   virtual double elastic_energy(const Vector& u) const = 0;
+  /// Estimated error of elastic_energy(u) by the rounding of the entries of K. Its ratio to the energy is the relative
+  /// error of the displacement under the load.
+  virtual double energy_lost(const Vector& u) const = 0;
   /// Force by which K would answer if one component of u were alone: max_i K_ii max_i |u_i|; 0 of a rigid body.
   virtual double stiff_force(const Vector& u) const = 0;
 

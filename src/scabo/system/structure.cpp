@@ -207,6 +207,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     if (super_elements[b]) {
       stiffness.dense =
           std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
+      stiffness.rounding = super_elements[b]->rounding;
     } else {
       const auto D =
           element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)], model.analysis.plane);
@@ -217,8 +218,9 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     } catch (const linalg::NotPositiveDefinite&) {
       throw InputError(model.file,
                        {{body.source,
-                         "its stiffness matrix is not positive definite to working precision: the constants of "
-                         "its materials are too far apart (by a factor of 1e12 or so), or its elements are"}});
+                         "its stiffness matrix is not positive definite to working precision: the body is too "
+                         "slender (3000:1 or more), or the constants of its materials (by a factor of 1e12 or so) or "
+                         "the sizes of its elements are too far apart"}});
     }
   }
   return structure;
