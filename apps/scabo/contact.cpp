@@ -29,7 +29,7 @@ contact::Method method_of(const std::string& name) {
   const std::string nearest = model::nearest_name(name, names);
   throw InputError("--solver",
                    {{{},
-                     fmt::format("no solver is called {}{}; there are {}", model::quoted_name(name),
+                     fmt::format("there is no solver called {}{}; available are {}", model::quoted_name(name),
                                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
 }
 

@@ -148,7 +148,7 @@ class BadProblems(unittest.TestCase):
         self.expect("is empty", folder / "empty.dat")
         with h5py.File(self.file, "w") as file:
             file["temperature"] = [20.0]
-        self.expect("has neither fclib_local nor fclib_global, so it is no problem in FCLIB's layout (there is: temperature)")
+        self.expect("has neither fclib_local nor fclib_global, so it is no problem in FCLIB's layout (available: temperature)")
 
     def test_text_has_line_and_column(self):
         text = self.file.parent / "problem.dat"

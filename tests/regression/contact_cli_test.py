@@ -308,8 +308,8 @@ class Manners(Contact):
     def test_unknown_solver(self):
         run = scabo("contact", "no_such.hdf5", "--solver", "gaus_seidel")
         self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
-        self.assertIn("no solver is called 'gaus_seidel' (did you mean 'gauss_seidel'?); there are b_differentiable, ",
-                      run.stderr)
+        self.assertIn("there is no solver called 'gaus_seidel' (did you mean 'gauss_seidel'?); available are "
+                      "b_differentiable, ", run.stderr)
 
     def test_wrong_command_lines(self):
         for arguments in ([], ["a.hdf5", "b.hdf5"], ["a.hdf5", "--tolerance", "0"], ["a.hdf5", "--tolerance", "tight"],

@@ -82,7 +82,7 @@ class Replacement {
       copy->items[index] = inner;
       return copy;
     }
-    why_ = path.empty() ? std::string("the model file is empty") : fmt::format("{} has nothing inside it", path);
+    why_ = path.empty() ? std::string("the model file is empty") : fmt::format("{} is empty", path);
     return nullptr;
   }
 
@@ -125,7 +125,7 @@ Override parse_override(std::string_view text) {
   const std::vector<std::string> keys = split_path(result.path);
   if (result.path.empty()) fail("has no path before '='");
   if (std::find(keys.begin(), keys.end(), "") != keys.end()) fail("has an empty key in its path");
-  if (keys.size() > 50) fail("has too long a path");
+  if (keys.size() > 50) fail("has a path that is too long");
   return result;
 }
 

@@ -50,8 +50,8 @@ void check_centre(Reading& reading, const Source& at, const Outline& outline, co
   if (unseen.empty()) return;
   if (crack != nullptr) {
     reading.report.error(crack->source,
-                         fmt::format("the tip {} of crack '{}', the scaling centre, does not see {}: move the tip, or "
-                                     "divide the body into several",
+                         fmt::format("from the tip {} of crack '{}', which is the scaling centre, not every point of "
+                                     "{} is visible: move the tip, or divide the body into several bodies",
                                      point_text(centre), crack->name, edge_names(outline, unseen)));
     return;
   }
@@ -59,12 +59,13 @@ void check_centre(Reading& reading, const Source& at, const Outline& outline, co
   const std::string remedy =
       better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
                            given ? "use" : "give", better->x(), better->y())
-             : "no point sees the whole boundary: divide the body into several bodies";
+             : "the whole boundary is visible from no point: divide the body into several bodies";
   const std::string who = fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
   if (corner < 0 && !is_inside(outline, centre)) {
     reading.report.error(at, fmt::format("{} is not inside the body: {}", who, remedy));
   } else {
-    reading.report.error(at, fmt::format("{} does not see {}: {}", who, edge_names(outline, unseen), remedy));
+    reading.report.error(
+        at, fmt::format("not every point of {} is visible from {}: {}", edge_names(outline, unseen), who, remedy));
   }
 }
 
@@ -81,7 +82,8 @@ void check_side_faces(Reading& reading, const Value& at, const Outline& outline,
   const auto c = static_cast<std::size_t>(corner);
   for (const std::size_t edge : {c, (c + count - 1) % count})
     if (outline.edges[edge].arc)
-      reading.report.error(at, fmt::format("{} meets the scaling centre and is an arc: side faces are straight",
+      reading.report.error(at, fmt::format("{} is an arc that ends at the scaling centre, where side faces must be "
+                                           "straight: use a line there, or move the scaling centre",
                                            shown_name(outline.edges[edge])));
 }
 
@@ -94,16 +96,15 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   MeshOptions mesh;
   mesh.source = value.source();
   if (const auto kind = map.get("kind")) {
-    const Later later{{"polygons", "use superelement, one for the whole body"},
-                      {"quadtree", "use superelement, one for the whole body"}};
+    const Later later{{"polygons", "use superelement"}, {"quadtree", "use superelement"}};
     const auto choice = read_choice(report, *kind, {"superelement", "fem"}, later);
     if (choice && *choice == "fem") mesh.kind = MeshKind::fem;
     if (mesh.kind == MeshKind::fem && outline != nullptr && !outline->rectangle) {
-      report.error(*kind, "fem divides only a shape given as rectangle: use superelement");
+      report.error(*kind, "fem is available only for a shape given as rectangle: use superelement");
     }
   }
   const bool fem = mesh.kind == MeshKind::fem;
-  if (fem) map.refuse("tolerance", "only a superelement is refined: leave it out for fem");
+  if (fem) map.refuse("tolerance", "only super-elements are refined: leave 'tolerance' out for fem");
   if (const auto tolerance = fem ? std::nullopt : map.get("tolerance")) {
     const auto number = read_number(report, *tolerance);
     if (number && *number >= 1e-5 && *number <= 0.5) mesh.tolerance = *number;
@@ -120,14 +121,15 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   if (const auto order = map.get("order")) {
     mesh.order = static_cast<int>(read_integer(report, *order, 1, 16).value_or(2));
     if (fem && mesh.order != 2) {
-      report.error(*order, "fem has 8-node elements, of order 2: leave order out");
+      report.error(*order, "fem uses 8-node elements of order 2: leave 'order' out");
     }
   }
-  if (fem) map.refuse("centre", "a scaling centre belongs to a superelement: leave it out for fem");
-  if (fem && crack != nullptr) report.error(crack->source, "a crack belongs to a superelement: leave it out for fem");
+  if (fem) map.refuse("centre", "only a super-element has a scaling centre: leave 'centre' out for fem");
+  if (fem && crack != nullptr)
+    report.error(crack->source, "only a super-element can have a crack: leave the crack out, or use superelement");
   if (outline != nullptr) mesh.centre = crack != nullptr ? crack->tip : outline->centroid();
   if (crack != nullptr)
-    map.refuse("centre", "the scaling centre of a body with a crack is the crack's tip: leave it out");
+    map.refuse("centre", "the scaling centre of a body with a crack is the tip of the crack: leave 'centre' out");
   const auto centre = fem ? std::nullopt : map.get("centre");
   if (centre) {
     const auto point = read_vector(report, *centre);
@@ -138,10 +140,10 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   const double dofs = estimated_dofs(*outline, mesh.kind, mesh.size, mesh.order);
   const double most = fem ? most_fem_dofs : most_superelement_dofs;
   if (dofs > most) {
-    report.error(
-        size ? *size : value,
-        fmt::format("gives {:.6g} degrees of freedom, {} take at most {:.6g}: use a larger size{}", dofs,
-                    fem ? "finite elements" : "one super-element can", most, fem ? "" : " or divide the body"));
+    report.error(size ? *size : value,
+                 fmt::format("gives {:.6g} degrees of freedom, but {} at most {:.6g}: use a larger size{}", dofs,
+                             fem ? "finite elements may have" : "one super-element may have", most,
+                             fem ? "" : " or divide the body"));
     return {};
   }
   if (centre) {
@@ -168,7 +170,7 @@ std::optional<int> read_material_name(Reading& reading, const Value& value) {
   const auto found = reading.index_of_material.find(*name);
   if (found == reading.index_of_material.end()) {
     const std::string hint = reading.report.full() ? "" : suggestion(*name, reading.material_names);
-    reading.report.error(value, fmt::format("no material named {}{}", quoted_name(*name), hint));
+    reading.report.error(value, fmt::format("there is no material named {}{}", quoted_name(*name), hint));
     return {};
   }
   return reading.material_index[static_cast<std::size_t>(found->second)];
@@ -182,19 +184,19 @@ void read_outside(Reading& reading, const MapReader& map, Body& body, bool shape
   if (outside) body.outside = read_flag(reading.report, *outside).value_or(false);
   const auto reference = map.get("reference");
   if (reference && !body.outside) {
-    map.refuse("reference", "a reference point belongs to a body with outside: true");
+    map.refuse("reference", "only a body with outside: true has a reference point: leave it out");
   } else if (reference) {
     body.reference = read_vector(reading.report, *reference);
     if (body.reference && shape_known && is_inside(body.outline, *body.reference)) {
-      reading.report.error(*reference,
-                           fmt::format("{} lies in the hole, not in the body", point_text(*body.reference)));
+      reading.report.error(*reference, fmt::format("{} lies in the hole, not in the body: choose a point of the body",
+                                                   point_text(*body.reference)));
       body.reference.reset();
     }
   }
   if (!body.outside) return;
-  map.refuse("cracks", "a body with outside: true has no cracks in this version");
+  map.refuse("cracks", "cracks in a body with outside: true are not available in this version: leave them out");
   if (body.mesh.kind == MeshKind::fem)
-    map.refuse("outside", "finite elements do not reach to infinity: use superelement");
+    map.refuse("outside", "finite elements cannot model an unbounded body: use superelement");
 }
 
 /// An outside body's outline runs the other way round: its material is on the left again.
@@ -227,7 +229,7 @@ void read_body(Reading& reading, const Entry& entry) {
   }
   if (body.rigid) {
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference"}) {
-      map.refuse(key, "a rigid body has neither material nor mesh: leave it out");
+      map.refuse(key, "does not apply to a rigid body: leave it out");
     }
   } else if (rigid) {  // otherwise nobody knows what it needs
     if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
@@ -249,7 +251,7 @@ void read_body(Reading& reading, const Entry& entry) {
     }
     if (const auto sectors = map.get("sectors"); sectors && state.shape) {
       if (body.mesh.kind == MeshKind::fem)
-        map.refuse("sectors", "sectors belong to a superelement: leave them out for fem");
+        map.refuse("sectors", "only a super-element has sectors: leave them out for fem");
       else
         body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
     }
@@ -277,7 +279,7 @@ void read_bodies(Reading& reading, const Value& value) {
   // A body whose name is no name is not in the list, but others may speak of it.
   if (reading.report.count() > before) reading.bodies_known = false;
   if (value.node->kind == Node::Kind::map && value.node->entries.empty()) {
-    reading.report.error(value, "holds no body");
+    reading.report.error(value, "contains no body: define at least one");
   }
   for (const Entry& entry : entries) read_body(reading, entry);
   const bool all_rigid = std::all_of(reading.model.bodies.begin(), reading.model.bodies.end(),

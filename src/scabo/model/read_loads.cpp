@@ -39,29 +39,29 @@ bool check_place(Reading& reading, const Value& on, const Place& place, const st
     if (place.kind != Place::Kind::body) {
       why = fmt::format("{} acts on a whole body: write on: {}", kind, body);
     } else if (rigid) {
-      why =
-          fmt::format("'{}' is rigid: {}", body,
-                      kind == "temperature" ? "temperature does nothing to it" : "it has no weight, use a force on it");
+      why = fmt::format(
+          "'{}' is rigid: {}", body,
+          kind == "temperature" ? "temperature has no effect on it" : "it has no weight; apply a force to it instead");
     } else if (outside) {
-      why = fmt::format("'{}' reaches to infinity: loads act on its boundary only", body);
+      why = fmt::format("'{}' is unbounded: loads can act only on its boundary", body);
     } else if (kind != "gravity" && reading.body(place.body).mesh.kind == MeshKind::fem) {
       why = fmt::format("{} is not available for finite elements: use kind superelement", kind);
     }
   } else if (place.kind == Place::Kind::face && outside) {
-    why = fmt::format("'{}' reaches to infinity: loads act on its inner boundary only, not on its side faces", body);
+    why = fmt::format("'{}' is unbounded: loads can act only on its inner boundary, not on its side faces", body);
   } else if (place.kind == Place::Kind::face && kind == "force") {
-    why = "a side face carries a traction or a pressure: divide the force by its length and the thickness";
+    why = "a force cannot act on a side face: use a traction, which is the force divided by length and thickness";
   } else if (place.kind == Place::Kind::face) {
   } else if (kind == "force") {
     if (rigid && place.kind == Place::Kind::edge) {
-      why = fmt::format("'{}' is rigid: put the force on the body or on a corner", body);
+      why = fmt::format("'{}' is rigid: apply the force to the body or to a corner", body);
     } else if (!rigid && place.kind == Place::Kind::body) {
-      why = "a force acts on a corner, a point or an edge of an elastic body: name one, or use gravity";
+      why = "a force on an elastic body acts on a corner, a point or an edge: name one of these, or use gravity";
     }
   } else if (rigid) {
-    why = fmt::format("'{}' is rigid: put a force on the body instead", body);
+    why = fmt::format("'{}' is rigid: apply a force to the body instead", body);
   } else if (place.kind != Place::Kind::edge) {
-    why = fmt::format("{} acts on an edge, and this is {}", kind, kind_text(place.kind));
+    why = fmt::format("{} acts on an edge, but this is {}: name an edge", kind, kind_text(place.kind));
   }
   if (why.empty()) return true;
   reading.report.error(on, why);
@@ -74,8 +74,9 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
   if (kind == "temperature") return read_temperature(reading, value);
   if (on_face) return read_face_traction(reading, value, kind == "pressure");
   if ((kind == "traction" || kind == "pressure") && value.node->kind == Node::Kind::map) {
-    reading.report.error(value,
-                         fmt::format("powers and points of xi belong to side faces: on an edge, {} is constant", kind));
+    reading.report.error(
+        value,
+        fmt::format("powers and points of xi are available only on side faces: on an edge, give a constant {}", kind));
     return {};
   }
   if (kind == "pressure") {
@@ -107,14 +108,15 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   if (kinds.size() > 1) {
     report.error(
         entry.key_source,
-        fmt::format("needs one of force, traction, pressure, gravity, body_force and temperature, not both {} and "
-                    "{}",
-                    kinds[0], kinds[1]));
+        fmt::format(
+            "needs exactly one of force, traction, pressure, gravity, body_force and temperature, not both {} and {}",
+            kinds[0], kinds[1]));
     return {};
   }
   if (kinds.empty()) {
     if (report.count() == before)
-      report.error(entry.key_source, "needs one of force, traction, pressure, gravity, body_force and temperature");
+      report.error(entry.key_source,
+                   "needs exactly one of force, traction, pressure, gravity, body_force and temperature");
     return {};
   }
   const std::string& kind = kinds.front();
@@ -158,8 +160,9 @@ void read_loads(Reading& reading, const Value& value) {
     reading.load_names.push_back(entry.key);
     int& index = reading.index_of_load[entry.key] = -1;
     if (reading.own_support_names.contains(entry.key)) {
-      reading.report.error(entry.key_source,
-                           fmt::format("a support is named '{}' as well: steps could mean either", entry.key));
+      reading.report.error(
+          entry.key_source,
+          fmt::format("a support is also named '{}', and a step could mean either: rename one of them", entry.key));
     }
     if (auto load = read_load(reading, entry)) {
       index = static_cast<int>(reading.model.loads.size());
@@ -181,10 +184,9 @@ void check_expansion(Reading& reading) {
       const Body& body = reading.model.bodies[i];
       if (body.material < 0 || body.outside) continue;
       if (!load.on && body.mesh.kind == MeshKind::fem)
-        reading.report.error(load.source,
-                             fmt::format("temperature is not available for finite elements, as in body '{}': name "
-                                         "a body with 'on'",
-                                         body.name));
+        reading.report.error(load.source, fmt::format("temperature is not available for finite elements, of which body "
+                                                      "'{}' consists: name another body with 'on'",
+                                                      body.name));
       for (const int index : materials_of(body)) {
         const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
         if (material.expansion || !told.insert(index).second) continue;
@@ -203,9 +205,8 @@ void check_density_of_modal_analysis(Reading& reading) {
   std::set<int> told;
   for (const Body& body : reading.model.bodies) {
     if (body.outside)
-      reading.report.error(
-          body.source,
-          "this body reaches to infinity and has no natural frequencies: leave it out of a modal analysis");
+      reading.report.error(body.source,
+                           "an unbounded body has no natural frequencies: leave it out of a modal analysis");
     if (body.material < 0 || body.outside) continue;
     for (const int index : materials_of(body)) {
       const Material& material = reading.model.materials[static_cast<std::size_t>(index)];

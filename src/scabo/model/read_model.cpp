@@ -137,14 +137,15 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
       list += i + 1 < parts.size() ? ", " : " and ";
       list += parts[i];
     }
-    model.warnings.push_back(fmt::format("a modal analysis leaves out the model's {}{}", list,
-                                         model.contacts.empty() ? "" : ": every body vibrates by itself"));
+    model.warnings.push_back(fmt::format("a modal analysis ignores the model's {}{}", list,
+                                         model.contacts.empty() ? "" : ": each body vibrates by itself"));
   }
   for (const Support& support : model.supports)
     if (std::any_of(support.displacement.begin(), support.displacement.end(),
                     [](const auto& u) { return u.value_or(0.0) != 0.0; }))
-      model.warnings.push_back(fmt::format(
-          "a modal analysis holds support '{}' where it is, whatever displacement it prescribes", support.name));
+      model.warnings.push_back(
+          fmt::format("a modal analysis takes support '{}' as fixed and ignores the displacement that it prescribes",
+                      support.name));
 }
 
 /// Edges that lie on each other everywhere have neither gap nor interference.
@@ -181,7 +182,7 @@ void check_something_loads(Reading& reading, const Value& root) {
   if (const MapEntry* loads = root.node->find("loads"); loads != nullptr && loads->line > 0) {
     at = {loads->line, loads->column, "loads"};
   }
-  reading.report.error(at, "nothing loads the model: give a load, a displacement or an interference");
+  reading.report.error(at, "the model has no loading: give a load, a prescribed displacement or an interference fit");
 }
 
 void check_bodies_held(Reading& reading) {
@@ -190,7 +191,10 @@ void check_bodies_held(Reading& reading) {
     const Body& body = reading.model.bodies[i];
     const BodyState& state = reading.bodies[i];
     if (body.rigid && !state.touched) {
-      reading.report.error(body.source, fmt::format("rigid body '{}' is in no contact: it has no effect", body.name));
+      reading.report.error(
+          body.source,
+          fmt::format("rigid body '{}' is in no contact and has no effect: add a contact, or remove the body",
+                      body.name));
     } else if (!state.held && !state.touched) {
       reading.report.error(
           body.source,

@@ -19,7 +19,7 @@ std::optional<int> read_body_name(Reading& reading, const Value& at, std::string
   std::vector<std::string> known;
   if (!reading.report.full())
     for (const Body& candidate : reading.model.bodies) known.push_back(candidate.name);
-  reading.report.error(at, fmt::format("no body named {}{}", quoted_name(name), suggestion(name, known)));
+  reading.report.error(at, fmt::format("there is no body named {}{}", quoted_name(name), suggestion(name, known)));
   return {};
 }
 
@@ -85,7 +85,8 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
     if (has_name(outline.corners[i].names, part)) {
       if (static_cast<int>(i) == reading.body(body).mesh.centre_corner) {
         reading.report.error(
-            value, fmt::format("'{}' is the scaling centre, which has no node: nothing can be put there", text));
+            value,
+            fmt::format("'{}' is the scaling centre, which has no node: no load or support can act there", text));
         return result;
       }
       for (const Crack& crack : reading.body(body).cracks)
@@ -119,15 +120,18 @@ ReadPlace read_near(Reading& reading, const Value& value) {
   ReadPlace result{{}, *body};
   if (!near || !reading.state(*body).shape) return result;
   if (reading.body(*body).rigid) {
-    reading.report.error(*near_value, "a rigid body has no nodes to be near to: name a corner, or the body");
+    reading.report.error(*near_value,
+                         "a rigid body has no nodes, so that 'near' does not apply: name a corner or the body");
     return result;
   }
   const Outline& outline = reading.body(*body).outline;
   double distance = (outline.edges.front().start - *near).norm();
   for (const Edge& edge : outline.edges) distance = std::min(distance, (edge.at(0.5) - *near).norm());
   if (distance > 2.0 * outline_size(outline)) {
-    reading.report.error(*near_value,
-                         fmt::format("{} is not near '{}': farther away than its size", point_text(*near), *name));
+    reading.report.error(
+        *near_value,
+        fmt::format("{} is not near '{}': its distance is greater than the size of the body; check the coordinates",
+                    point_text(*near), *name));
     return result;
   }
   const std::string text = fmt::format("{} near {}", *name, point_text(*near));

@@ -48,7 +48,8 @@ void set_factor(Reading& reading, const Index& supports, Step& step, const MapEn
   if (const auto found = supports.find(entry.key); found != supports.end()) {
     const auto i = static_cast<std::size_t>(found->second);
     if (is_fixed(reading.model.supports[i])) {
-      reading.report.error(at, fmt::format("support '{}' stays where it is: a factor has no effect", entry.key));
+      reading.report.error(at,
+                           fmt::format("support '{}' is fixed, so that a factor has no effect: remove it", entry.key));
     } else if (factor) {
       step.support_factors[i] = *factor;
     }
@@ -62,8 +63,8 @@ void set_factor(Reading& reading, const Index& supports, Step& step, const MapEn
   }
   std::vector<std::string> known = reading.load_names;
   known.insert(known.end(), reading.own_support_names.begin(), reading.own_support_names.end());
-  reading.report.error(
-      at, fmt::format("no load or named support is called {}{}", quoted_name(entry.key), suggestion(entry.key, known)));
+  reading.report.error(at, fmt::format("there is no load or named support called {}{}", quoted_name(entry.key),
+                                       suggestion(entry.key, known)));
 }
 
 void read_factors(Reading& reading, const Index& supports, Step& step, const Value& value) {
@@ -127,10 +128,9 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
   }
   const std::size_t factors = reading.model.loads.size() + reading.model.supports.size();
   if (factors * items->size() > most_factors) {
-    reading.report.error(*value,
-                         fmt::format("{} steps of {} loads and supports are more than can be kept ({} factors): "
-                                     "put loads that change together into fewer steps",
-                                     items->size(), factors, most_factors));
+    reading.report.error(*value, fmt::format("{} steps of {} loads and supports need more than the {} factors that can "
+                                             "be stored: use fewer steps, or combine loads",
+                                             items->size(), factors, most_factors));
     return;
   }
   Index supports;  // those that have their name from the user
@@ -140,7 +140,8 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
   for (std::size_t i = 0; i < items->size(); ++i) {
     step = read_step(reading, supports, (*items)[i], step, i + 1);
     if (!names.insert(step.name).second) {
-      reading.report.error((*items)[i], fmt::format("another step is named '{}' already", step.name));
+      reading.report.error((*items)[i],
+                           fmt::format("another step is already named '{}': rename one of them", step.name));
     }
     reading.model.steps.push_back(step);
   }

@@ -56,7 +56,7 @@ std::optional<Displacement> read_fix(Reading& reading, const Value& value) {
     }
     auto& component = displacement[x ? 0 : 1];
     if (component) {
-      reading.report.error(item, fmt::format("{} is named twice", node.text));
+      reading.report.error(item, fmt::format("{} is given twice: remove one of the two", node.text));
       return {};
     }
     component = 0.0;
@@ -69,7 +69,7 @@ std::optional<Displacement> read_displacement(Reading& reading, const Value& val
   const Node& node = *value.node;
   if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
     reading.report.error(value,
-                         fmt::format("must be [ux, uy], null where it is free, not {}",
+                         fmt::format("must be [ux, uy], with null for a free component, not {}",
                                      node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size())
                                                                        : describe(node)));
     return {};
@@ -83,7 +83,7 @@ std::optional<Displacement> read_displacement(Reading& reading, const Value& val
   }
   if (!good) return {};
   if (!displacement[0] && !displacement[1]) {
-    reading.report.error(value, "prescribes nothing: give x or y a number");
+    reading.report.error(value, "prescribes no displacement: give a number for x or y");
     return {};
   }
   return displacement;
@@ -101,7 +101,7 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
     if (text && check_name(report, name->source(), *text)) {
       support.name = *text;
       if (!reading.own_support_names.insert(*text).second) {
-        report.error(*name, fmt::format("another support is named '{}' already", *text));
+        report.error(*name, fmt::format("another support is already named '{}': rename one of them", *text));
       }
     }
   }
@@ -111,9 +111,11 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
   if (place.place && place.place->kind == Place::Kind::face) {
-    report.error(*on,
-                 fmt::format("'{}' is a side face, which is not divided: a support holds edges, corners and points",
-                             place.place->text));
+    report.error(
+        *on,
+        fmt::format(
+            "'{}' is a side face, which has no nodes between its ends: support an edge, a corner or a point instead",
+            place.place->text));
     return {};
   }
   std::optional<Displacement> displacement;
@@ -251,8 +253,8 @@ std::vector<const First*> candidates(const Places& places, const Place& place, c
 void report_conflict(Reading& reading, std::size_t first, std::size_t second, std::size_t component) {
   const Support& a = reading.model.supports[first];
   const Support& b = reading.model.supports[second];
-  reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}: they share "
-                                             "a point; remove one, or free the component there",
+  reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}, although they "
+                                             "share a point: remove one, or free the component there",
                                              component == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
 }
 

@@ -160,7 +160,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
   const std::string nearest = nearest_name(name, known);
   if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
   if (known.empty()) return "";
-  return fmt::format(" (there is: {})", name_list(known));
+  return fmt::format(" (available: {})", name_list(known));
 }
 
 std::string one_line(std::string_view text) {

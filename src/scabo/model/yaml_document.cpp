@@ -62,7 +62,7 @@ std::string clean_text(std::string_view text) {
     const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7f;
     if (length == 0 || control) {
       throw Diagnostic{{at.line, at.column, ""},
-                       fmt::format("byte 0x{:02x} is no text: a model file is YAML in UTF-8", byte)};
+                       fmt::format("byte 0x{:02x} is not text: a model file must be YAML in UTF-8", byte)};
     }
     if (byte == '\n' || byte == '\r') {
       const bool pair = byte == '\r' && text.size() > 1 && text[1] == '\n';
@@ -82,16 +82,16 @@ std::string clean_text(std::string_view text) {
 std::string explain(const std::string& message) {
   static const std::array<std::pair<const char*, const char*>, 13> known{{
       {YAML::ErrorMsg::MAP_VALUE, "a ':' cannot stand here: check the indentation, or quote a text with ': ' in it"},
-      {YAML::ErrorMsg::END_OF_MAP, "this line fits to no key above: check the indentation"},
-      {YAML::ErrorMsg::END_OF_SEQ, "this line fits to no list above: check the indentation and the '- '"},
+      {YAML::ErrorMsg::END_OF_MAP, "this line belongs to none of the keys above: check the indentation"},
+      {YAML::ErrorMsg::END_OF_SEQ, "this line belongs to none of the lists above: check the indentation and the '- '"},
       {YAML::ErrorMsg::END_OF_MAP_FLOW, "the '{' before this is not closed, or a ',' is missing"},
       {YAML::ErrorMsg::END_OF_SEQ_FLOW, "the '[' before this is not closed, or a ',' is missing"},
-      {YAML::ErrorMsg::FLOW_END, "this bracket closes nothing"},
+      {YAML::ErrorMsg::FLOW_END, "this bracket was never opened"},
       {YAML::ErrorMsg::BLOCK_ENTRY, "a '- ' cannot stand here: check the indentation"},
       {YAML::ErrorMsg::MAP_KEY, "a '? ' cannot stand here"},
-      {YAML::ErrorMsg::TAB_IN_INDENTATION, "a tab cannot indent: use spaces"},
+      {YAML::ErrorMsg::TAB_IN_INDENTATION, "tabs are not allowed in the indentation: use spaces"},
       {YAML::ErrorMsg::UNKNOWN_TOKEN, "this character cannot start a value: put the text in quotes"},
-      {YAML::ErrorMsg::UNKNOWN_ANCHOR, "no anchor of this name stands before"},
+      {YAML::ErrorMsg::UNKNOWN_ANCHOR, "no anchor of this name is defined before"},
       {YAML::ErrorMsg::EOF_IN_SCALAR, "the quote before this is not closed"},
       {YAML::ErrorMsg::DOC_IN_SCALAR, "the quote before this is not closed"},
   }};
@@ -164,7 +164,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (root_) fail(mark, "a second document starts here: a model file holds one");
+    if (root_) fail(mark, "a second document starts here, but a model file must contain only one");
   }
   void OnDocumentEnd() override {}
 
@@ -186,7 +186,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     source_.value_came();
     const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) fail(mark, "this alias stands inside its own anchor");
+    if (found == anchors_.end()) fail(mark, "this alias refers to a value that contains it");
     add(found->second, position(mark));
   }
 
@@ -229,12 +229,12 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
-    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags ('!...') have no meaning here: leave it out");
+    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags ('!...') are not supported: leave the tag out");
   }
 
   void check_depth(const YAML::Mark& mark) const {
     if (static_cast<int>(open_.size()) > limits_.depth) {
-      fail(mark, fmt::format("nested deeper than {} levels", limits_.depth));
+      fail(mark, fmt::format("values are nested deeper than {} levels", limits_.depth));
     }
   }
 
@@ -355,10 +355,10 @@ class TreeBuilder : public YAML::EventHandler {
     parent.depth = std::max(parent.depth, child.depth + 1);
     if (parent.expanded > limits_.nodes) {
       throw Diagnostic{{at.line, at.column, ""},
-                       fmt::format("more than {} values, aliases counted in full", limits_.nodes)};
+                       fmt::format("the file has more than {} values, aliases counted in full", limits_.nodes)};
     }
     if (parent.depth > limits_.depth) {
-      throw Diagnostic{{at.line, at.column, ""}, fmt::format("nested deeper than {} levels", limits_.depth)};
+      throw Diagnostic{{at.line, at.column, ""}, fmt::format("values are nested deeper than {} levels", limits_.depth)};
     }
   }
 
@@ -425,8 +425,8 @@ std::string read_text_file(const std::string& file, const YamlLimits& limits) {
   const auto fail = [&](const std::string& message) { refuse_file(file, message); };
   std::error_code code;
   const auto status = std::filesystem::status(file, code);
-  if (code == std::errc::too_many_symbolic_link_levels) fail("symbolic links on the way to it lead in a circle");
-  if (code == std::errc::filename_too_long) fail("no such file: the name is longer than any file's");
+  if (code == std::errc::too_many_symbolic_link_levels) fail("the symbolic links in its path form a loop");
+  if (code == std::errc::filename_too_long) fail("no such file: the name is too long");
   if (!std::filesystem::exists(status) && code && code != std::errc::no_such_file_or_directory &&
       code != std::errc::not_a_directory)
     fail(fmt::format("cannot be read: {}", code.message()));
@@ -441,10 +441,10 @@ std::string read_text_file(const std::string& file, const YamlLimits& limits) {
   while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) || stream.gcount() > 0) {
     text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
     if (static_cast<long>(text.size()) > limits.bytes) {
-      fail(fmt::format("larger than {} MB: this is no model file", limits.bytes >> 20));
+      fail(fmt::format("the file is larger than {} MB, which is too large for a model file", limits.bytes >> 20));
     }
   }
-  if (stream.bad()) fail("cannot be read to its end");
+  if (stream.bad()) fail("cannot be read completely");
   return text;
 }
 

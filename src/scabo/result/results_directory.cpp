@@ -59,7 +59,7 @@ bool written_by_scabo(const fs::path& file, std::string_view mark) {
 /// The system's words, and what to do where they do not say it.
 std::string reason_of(const std::error_code& error) {
   if (error == std::errc::too_many_symbolic_link_levels)
-    return "symbolic links on the way lead in a circle: remove them, or choose another directory";
+    return "the symbolic links in its path form a loop: remove them, or choose another directory";
   if (error == std::errc::filename_too_long) return "the name is too long: choose a shorter one";
   if (error == std::errc::permission_denied || error == std::errc::read_only_file_system)
     return error.message() + ": choose a directory that you may write to";
