@@ -70,7 +70,7 @@ void refuse_files_of_others(const std::filesystem::path& file, std::string_view 
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   if (stream.gcount() > 0 && beginning.find(mark) == std::string::npos)
     throw InputError(file.string(),
-                     {{{}, "exists, and is no trace that Scabo wrote: name another file, as in --trace=FILE.csv"}});
+                     {{{}, "exists and is not a trace written by Scabo: name another file, as in --trace=FILE.csv"}});
 }
 
 /// Where the iterations go, and the picture of them.
@@ -83,7 +83,8 @@ TraceFiles trace_files(const ContactOptions& options) {
   files.table = files.picture = options.trace.empty() ? options.file + ".trace.csv" : options.trace;
   files.picture.replace_extension("svg");
   if (files.picture == files.table)
-    throw InputError(options.trace, {{{}, "is the name of the picture: name the table, as in --trace=FILE.csv"}});
+    throw InputError(options.trace,
+                     {{{}, "is the name of the plot: give the name of the table, as in --trace=FILE.csv"}});
   refuse_files_of_others(files.table, trace_header);
   refuse_files_of_others(files.picture, result::convergence_plot_mark);
   return files;

@@ -27,7 +27,7 @@ extern "C" void request_stop(int signal) {
   // but for SIGHUP, of which the shell and the system send one each when a terminal is closed
   std::signal(SIGHUP, SIG_IGN);
   constexpr std::string_view message =
-      "\nInterrupted: ending after the increment at work (Ctrl-C again ends at once)\n";
+      "\nInterrupted: the run ends after the current increment (Ctrl-C again ends it immediately)\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
 }
 

@@ -59,8 +59,7 @@ With `# yaml-language-server: $schema=model.schema.json` as its first line, edit
 
 constexpr const char* model_help = "Model file (YAML or JSON)";
 constexpr const char* set_help =
-    "Replaces a value of the model file, or adds it, as in\n"
-    "contacts.joint.friction=0.5; may be repeated";
+    "Replaces or adds a value of the model file, as in\ncontacts.joint.friction=0.5; may be repeated";
 
 /// `--set a=1 b=2` becomes `--set a=1 --set b=2`, so that a model file may stand after the settings as well.
 std::vector<std::string> spread_settings(const std::vector<std::string>& words) {
@@ -124,7 +123,7 @@ class CommandLine {
         ->check(CLI::Range(1, 100'000'000));
     contact_
         ->add_option("--time-limit", contact_options_.time_limit,
-                     "Ends the solve after this time with the best point so far")
+                     "Ends the solve after this time and reports the best iterate")
         ->option_text("SECONDS")
         ->check(CLI::PositiveNumber);
     contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
@@ -175,8 +174,8 @@ class CommandLine {
     std::string message = error.what();
     if (chosen.empty() && error.get_name() == "RequiredError") {
       const bool named = !words.empty() && !words.front().starts_with("-");
-      message = (named ? fmt::format("no command '{}'", words.front()) : "no command given") +
-                ": there are run, check, exponents, contact, schema";
+      message = (named ? fmt::format("there is no command '{}'", words.front()) : "no command given") +
+                ": available are run, check, exponents, contact, schema";
     }
     print_error(fmt::format("{} (see `{} --help`)", message, command));
     return ExitStatus::wrong_input;

@@ -67,7 +67,7 @@ void keep_open(int descriptor, int mode) {
 }
 
 [[noreturn]] void end_after_an_exception() {
-  const char* message = "scabo: the program ended in a way it should not: a bug, please report it\n";
+  const char* message = "scabo: the program ended unexpectedly: this is a bug, please report it\n";
   try {
     if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::bad_alloc&) {
@@ -119,7 +119,7 @@ bool is_set(char* const* environment, const char* assignment) {
 }
 
 void refuse() {
-  char message[320] = "scabo: not enough memory: about 200 MB of address space must be free to start";
+  char message[320] = "scabo: not enough memory: about 200 MB of address space must be available to start";
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
     // No stdio here: libraries are not initialised.

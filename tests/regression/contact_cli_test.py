@@ -339,7 +339,7 @@ class Manners(Contact):
         shutil.copy(file, self.directory / "precious.hdf5")
         run = scabo("contact", file, "--trace", "precious.hdf5", cwd=self.directory)
         self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
-        self.assertIn("precious.hdf5: exists, and is no trace", run.stderr)
+        self.assertIn("precious.hdf5: exists and is not a trace", run.stderr)
         self.assertEqual((self.directory / "precious.hdf5").read_bytes(), file.read_bytes())
 
 

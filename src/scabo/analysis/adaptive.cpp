@@ -166,8 +166,8 @@ void warn_of_frozen(StaticSolution& solution) {
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
   for (const std::string& place : places)
     solution.warnings.push_back(
-        fmt::format("stress under the point force at {} is infinite: the estimated error takes the force "
-                    "as spread over the elements beside it, which are not refined",
+        fmt::format("stress under the point force at {} is infinite: for the estimated error the force is distributed "
+                    "over the adjacent elements, which are not refined",
                     place));
 }
 
@@ -265,8 +265,8 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
     const std::string edge = body.name + "." + body.outline.edges[static_cast<std::size_t>(at.edge)].names.back();
     mistakes.push_back(
         {body.mesh.source,
-         fmt::format("element {} of {} faces no element like it in its contact, so that the two sides cannot be "
-                     "refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
+         fmt::format("element {} of {} has no matching element on the other side of its contact, so that the two sides "
+                     "cannot be refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
                      "shorter edge fall on ends of elements of the longer one",
                      at.element + 1, edge)});
   }
@@ -382,7 +382,7 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     };
     const auto back = static_cast<std::size_t>(limits.without_progress);
     if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
-      return stuck(at() + ", and more of them do not help");
+      return stuck(at() + ", and further refinement does not reduce it");
     if (static_cast<int>(passes.size()) == limits.passes)
       return stuck(fmt::format("after {} passes {}", limits.passes, at()));
     const RefinementPass refined =

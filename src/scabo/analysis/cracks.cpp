@@ -58,17 +58,17 @@ std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks) 
   for (const CrackResult& crack : cracks) {
     if (std::isnan(crack.factors.K_I))
       warnings.push_back(
-          fmt::format("the load on the faces of '{}' grows towards the tip just as the singular stress does, which "
-                      "makes that grow like ln(r) times it: its stress intensity factors have no value",
+          fmt::format("the load on the faces of '{}' has the same singularity at the tip as the stress (resonance), so "
+                      "that the stress has an additional factor ln(r): the stress intensity factors are undefined",
                       crack.name));
     if (resolved(crack.factors)) continue;
     std::string list;
     for (const std::complex<double>& exponent : crack.factors.exponents)
       list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
     warnings.push_back(
-        fmt::format("the boundary of '{}' is too coarse for its singular stress: the exponents came out as {}, and are "
-                    "0.5 twice; its stress intensity factors are wrong by as much: use a smaller mesh size, a higher "
-                    "order, or a tip farther from the boundary",
+        fmt::format("the boundary of '{}' is too coarse to resolve its singular stress: the computed exponents are {} "
+                    "instead of 0.5 twice, and the stress intensity factors have errors of the same size; use a "
+                    "smaller mesh size, a higher order, or a tip farther from the boundary",
                     crack.name, list));
   }
   return warnings;

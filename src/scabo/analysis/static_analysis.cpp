@@ -47,11 +47,11 @@ bool breaks(const Prepared& prepared) {
 std::string above_tolerance(const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
   std::string reason =
-      fmt::format("the certificate's worst figure, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
+      fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
   if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason +=
-        "; rounding of the displacements alone can be as much beside parts this stiff, or in a body this slender: make "
-        "the parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
+        "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
+        "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
   return reason;
 }
 
@@ -97,8 +97,8 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
                                                  : std::nullopt) {
           reached.mechanism = true;
           reached.reason = fmt::format(
-              "mechanism: {}, which only the joints' strengths could hold; no forces were found with what is left of "
-              "them after {} halvings",
+              "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
+              "remaining strength after {} halvings",
               describe_motions(prepared, *motion), reached.halvings);
           return reached;
         }
@@ -126,25 +126,24 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   };
   for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
     const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
-    add(motion,
-        fmt::format("neither supports, friction nor load fix {}; the smallest such motion was taken: add a support if "
-                    "the position matters",
-                    motion));
+    add(motion, fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
+                            "add a support if the position matters",
+                            motion));
   }
   if (reached.uniqueness && reached.uniqueness->others > 0)
-    add("solutions as well",
-        fmt::format("there are other solutions as well ({} found); the one nearest to the increment before "
-                    "was taken: see uniqueness in summary.json",
-                    reached.uniqueness->others));
+    add("other solutions exist", fmt::format("other solutions exist ({} found); the one closest to the previous "
+                                             "increment was chosen: see 'uniqueness' in summary.json",
+                                             reached.uniqueness->others));
   for (std::size_t c = 0; c < at.contacts.size(); ++c) {
     if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
     const std::string open = fmt::format("open pairs of contact '{}'", at.contacts[c].name);
     if (at.contacts[c].open > 0)
-      add(open, open + " carry shear: a prescribed shear strength does not ask for pressure");
+      add(open, open + " carry shear: a prescribed shear strength does not depend on pressure");
   }
-  if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
+  if (const std::string large = too_large(prepared, reached.state); !large.empty())
+    add("small displacements only", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
-    add("reaches to infinity", relative);
+    add("only up to a translation", relative);
   for (const std::string& warning : crack_warnings(at.cracks)) add(warning, warning);
 }
 
@@ -175,7 +174,8 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       if (there && !std::isfinite(result.energy.elastic)) {
         there = false;
         reached.reason =
-            "the elastic energy is beyond the range of numbers: check the units of stiffness, loads and temperature";
+            "the elastic energy exceeds the range of floating-point numbers: check the units of stiffness, loads and "
+            "temperature";
       }
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;

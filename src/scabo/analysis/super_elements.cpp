@@ -28,12 +28,11 @@ bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
 
 /// What is wrong with a super-element, in the words of the model file.
 Diagnostic ill_posed(const model::Body& body, const element::IllPosed& error) {
-  return {
-      body.source,
-      fmt::format("{}; the constants of its material are too far apart for the digits there are (Poisson's ratio too "
-                  "close to 1/2, or moduli that differ by a factor of 1e12 or more), or the scaling centre is too "
-                  "close to the boundary",
-                  error.what())};
+  return {body.source,
+          fmt::format(
+              "{}; its material constants differ too much for double precision (Poisson's ratio too close to 1/2, or "
+              "moduli that differ by a factor of 1e12 or more), or the scaling centre is too close to the boundary",
+              error.what())};
 }
 
 /// Many are shared out among the threads; of few, the blocks of each. `bodies`: the first body of each.

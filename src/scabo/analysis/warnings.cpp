@@ -166,8 +166,8 @@ void warn_of_coarse_zones(const StaticSolution& solution, std::vector<std::strin
   if (coarse.empty()) return;
   const auto fewest = static_cast<int>(-worst_of(coarse).figure);
   warnings.push_back(fmt::format(
-      "{}: only {} pair{} {} in contact at the end{}, too coarse to trust the pressure (forces are not concerned): use "
-      "a smaller mesh.size or a higher mesh.order, so that five or more are",
+      "{}: only {} pair{} {} in contact at the end{}, too few for a reliable pressure (total forces are not affected): "
+      "use a smaller mesh.size or a higher mesh.order, so that five or more pairs are in contact",
       contacts_of(solution, coarse), fewest, fewest == 1 ? "" : "s", fewest == 1 ? "is" : "are",
       in_worst(solution, coarse)));
 }
@@ -195,11 +195,10 @@ std::vector<std::string> load_warnings(const model::Model& model, const system::
       moving = std::max(moving, forces.lpNorm<Eigen::Infinity>());
     }
     if (inside || moving > 1e-12 * largest) continue;
-    warnings.push_back(largest == 0.0
-                           ? fmt::format("load '{}' is zero: it moves nothing", model.loads[load].name)
-                           : fmt::format("load '{}' moves nothing: all its forces act where supports hold; move the "
-                                         "load or free the support there",
-                                         model.loads[load].name));
+    warnings.push_back(largest == 0.0 ? fmt::format("load '{}' is zero and has no effect", model.loads[load].name)
+                                      : fmt::format("load '{}' has no effect because all its forces act on supported "
+                                                    "nodes: move the load, or free the support there",
+                                                    model.loads[load].name));
   }
   return warnings;
 }

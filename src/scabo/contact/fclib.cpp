@@ -83,9 +83,10 @@ Sparse read_matrix(const Hdf5Reader& file, const std::string& group) {
   for (std::size_t k = 0; k < entries.row.size(); ++k) {
     const std::int64_t row = entries.row[k], column = entries.column[k];
     if (row < 0 || row >= m || column < 0 || column >= n)
-      file.fail(group,
-                fmt::format("entry {} stands in row {} and column {} (from 0) of a matrix of {} x {}: i or p is wrong",
-                            k, row, column, m, n));
+      file.fail(
+          group,
+          fmt::format("entry {} is in row {} and column {} (counted from 0) of a matrix of {} x {}: i or p is wrong", k,
+                      row, column, m, n));
     const double value = x[static_cast<Index>(k)];
     if (!std::isfinite(value))
       file.fail(group + "/x", fmt::format("entry {} is {}: must be a finite number", k, value));
@@ -114,15 +115,16 @@ int read_dimension(const Hdf5Reader& file, const std::string& path) {
 /// Number of pairs of `rows` rows.
 Index pairs_of(const Hdf5Reader& file, const std::string& path, Index rows, int dimension) {
   if (rows % dimension != 0)
-    file.fail(path, fmt::format("is {}, no multiple of spacedim, {}: every pair has a normal and {}", rows, dimension,
-                                dimension == 3 ? "two tangents" : "a tangent"));
+    file.fail(path, fmt::format("is {}, which is not a multiple of spacedim, {}: every pair has a normal and {}", rows,
+                                dimension, dimension == 3 ? "two tangents" : "a tangent"));
   return rows / dimension;
 }
 
 Vector read_mu(const Hdf5Reader& file, const std::string& path, Index pairs) {
   Vector mu = read_vector(file, path, pairs, "one for each pair");
   for (Index k = 0; k < pairs; ++k)
-    if (mu[k] < 0.0) file.fail(path, fmt::format("entry {} is {}: a coefficient of friction is 0 or more", k, mu[k]));
+    if (mu[k] < 0.0)
+      file.fail(path, fmt::format("entry {} is {}: a coefficient of friction must be 0 or more", k, mu[k]));
   return mu;
 }
 
@@ -270,7 +272,7 @@ void write_matrix(Hdf5Writer& file, const std::string& group, Sparse A) {
 Sparse all_entries(const Matrix& A) {
   if (A.size() > std::numeric_limits<int>::max())
     throw std::runtime_error(
-        fmt::format("a matrix of {} x {} has more entries than FCLIB's layout can count", A.rows(), A.cols()));
+        fmt::format("a matrix of {} x {} has more entries than FCLIB's layout can store", A.rows(), A.cols()));
   Sparse S(A.rows(), A.cols());
   S.reserve(Eigen::VectorXi::Constant(A.cols(), static_cast<int>(A.rows())));
   for (Index j = 0; j < A.cols(); ++j)
@@ -301,11 +303,12 @@ SavedProblem read_fclib(const std::string& name) {
   if (!local && !file.has("fclib_global")) {
     std::string there;
     for (const std::string& group : file.names("/")) there += (there.empty() ? "" : ", ") + group.substr(0, 60);
-    throw InputError(name,
-                     {{{},
-                       fmt::format("has neither fclib_local nor fclib_global, so it is no problem in FCLIB's layout "
-                                   "(there is: {})",
-                                   there.empty() ? "nothing" : there.substr(0, 300))}});
+    throw InputError(
+        name,
+        {{{},
+          fmt::format(
+              "has neither fclib_local nor fclib_global, so that it is not a problem in FCLIB's layout (available: {})",
+              there.empty() ? "nothing" : there.substr(0, 300))}});
   }
   SavedProblem saved = local ? read_local(file) : read_global(file);
   const std::string form = local ? "fclib_local" : "fclib_global";

@@ -163,8 +163,8 @@ std::optional<Infeasibility> of_single_pairs(const Problem& problem) {
     char text[300];
     std::snprintf(
         text, sizeof text,
-        "pair %lld is wedged: forces r in its friction cone move nothing (W r = 0) while q.r < 0, and neither "
-        "open, nor stick, nor slip along any direction obeys the law, so no forces solve the problem",
+        "pair %lld is wedged: forces r in its friction cone cause no motion (W r = 0) while q.r < 0, and neither the "
+        "open state nor stick nor slip in any direction satisfies the contact law, so that the problem has no solution",
         static_cast<long long>(i) + 1);
     result.reason = text;
     return result;
@@ -186,11 +186,10 @@ std::optional<Infeasibility> along(const Problem& problem, bool with_friction) {
   std::snprintf(
       text, sizeof text,
       with_friction
-          ? "forces r in the friction cones of %lld pairs move nothing (W r = 0) while q.r < 0: no motion lies "
-            "in the dual cone, so it is not known whether a solution exists"
-          : "normal forces r of %lld pairs move nothing (W r = 0) while q.r < 0: bodies are squeezed that "
-            "cannot yield, and whatever forces act one of these gaps stays negative, so no forces solve the "
-            "problem",
+          ? "forces r in the friction cones of %lld pairs cause no motion (W r = 0) while q.r < 0: no motion lies in "
+            "the dual cone, so that it is not known whether a solution exists"
+          : "normal forces r of %lld pairs cause no motion (W r = 0) while q.r < 0: bodies are compressed that cannot "
+            "deform, and one of these gaps stays negative whatever forces act, so that the problem has no solution",
       static_cast<long long>(pairs));
   result.reason = text;
   return result;

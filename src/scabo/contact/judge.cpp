@@ -137,11 +137,11 @@ std::string reason_of(const Judgement& judgement, Judge by, double tolerance, co
   char text[400];
   if (judgement.rounding > tolerance)
     std::snprintf(text, sizeof text,
-                  "; the best point leaves a %s of %.2g, but double precision leaves %.2g uncertain in the motions of "
-                  "forces so much larger than those at work, so it is not known to be a solution",
+                  "; the best iterate has a %s of %.2g, but the contact forces are so large that rounding makes the "
+                  "motions uncertain by %.2g, so that it is not known to be a solution",
                   figure, judgement.figure, judgement.rounding);
   else
-    std::snprintf(text, sizeof text, "; the best point leaves a %s of %.2g, above the tolerance %.2g", figure,
+    std::snprintf(text, sizeof text, "; the best iterate has a %s of %.2g, above the tolerance %.2g", figure,
                   judgement.figure, tolerance);
   return story + text;
 }

@@ -57,7 +57,8 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
     std::snprintf(text, sizeof text, "the time limit of %g s ended the search after %d iterations",
                   options.deadline.seconds(), solution.iterations);
   else if (singular)
-    std::snprintf(text, sizeof text, "contact forces could not balance the loads on any branch tried (%d iterations)",
+    std::snprintf(text, sizeof text,
+                  "no contact forces that balance the loads were found on any branch tried (%d iterations)",
                   solution.iterations);
   else
     std::snprintf(text, sizeof text, "the Newton iterations stalled from every start tried (%d iterations)",

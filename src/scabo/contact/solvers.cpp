@@ -88,7 +88,7 @@ End newton_only(const Problem& problem, const Vector& p, const Vector& a, const 
           end.converged,
           end.iterations,
           end.residual,
-          end.singular ? "no direction exists" : "Newton's iterations stalled",
+          end.singular ? "the Newton matrix is singular" : "Newton's iterations stalled",
           std::move(end.trace)};
 }
 
@@ -96,7 +96,7 @@ End pivoted(const Problem& problem, const Vector& p_start, const Control& contro
   End end;
   const std::optional<Vector> p = lemke(problem);
   end.p = p.value_or(p_start);
-  end.reason = p ? "rounding of the pivots" : "the pivots end on a ray";
+  end.reason = p ? "rounding of the pivots" : "the pivoting ends on a ray";
   end.iterations = 1;
   end.residual = largest(solvers::residual_of(problem, solvers::pair_stiffness(problem), end.p, Vector()));
   end.converged = end.residual <= control.small;

@@ -126,7 +126,7 @@ RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
     }
     joiner.double_ring(ring);
   }
-  throw IllPosed("ring doubling did not end: an exponent is 0");
+  throw IllPosed("ring doubling did not converge because an exponent is 0");
 }
 
 }  // namespace

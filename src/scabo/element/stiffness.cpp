@@ -150,7 +150,7 @@ bool is_definite(const Block& block, const Matrix& K, const Matrix& motions) {
 constexpr double too_much = 1e-9;  // of a Riccati residual
 
 IllPosed digits_lost(double residual) {
-  return IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual));
+  return IllPosed(fmt::format("loss of precision: the Riccati residual remains at {:.0e}", residual));
 }
 
 /// What ring doubling made of a bounded block, with its last digits where they are needed and the block is not too
@@ -168,7 +168,7 @@ void finish_bounded(Block& block, const Matrix& E1, const Matrix& E2, const Matr
     if (finished()) return;
   }
   if (!(ring.residual <= too_much)) throw digits_lost(ring.residual);
-  throw IllPosed("its stiffness is not positive definite: digits were lost");
+  throw IllPosed("loss of precision: its stiffness is not positive definite");
 }
 
 /// Solves one block; sets its stiffness `K` in the coordinates of the block.
@@ -223,7 +223,8 @@ void take_rotation_out(const Ring& ring, Matrix& K) {
   }
   const auto lower = K.selfadjointView<Eigen::Lower>();
   const Vector force = lower * r, w = D.cwiseProduct(r) / D.cwiseProduct(r).dot(r);
-  if (!(force.norm() <= 1e-8 * D.norm() * r.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
+  if (!(force.norm() <= 1e-8 * D.norm() * r.norm()))
+    throw IllPosed("loss of precision: its stiffness resists rigid rotation");
   const Vector half = force - 0.5 * r.dot(force) * w;
   K.selfadjointView<Eigen::Lower>().rankUpdate(w, half, -1.0);
 }

@@ -37,7 +37,7 @@ Matrix sylvester(char operation, const Matrix& A, const Matrix& B, Matrix C, int
   const int info = LAPACKE_dtrsyl(LAPACK_COL_MAJOR, operation, 'N', sign, length(A.rows()), length(B.rows()), A.data(),
                                   length(A.rows()), B.data(), length(B.rows()), C.data(), length(C.rows()), &scale);
   ensure(info >= 0, "dtrsyl refused its arguments");
-  ensure(info == 0, "two groups of exponents are too close to be told apart");
+  ensure(info == 0, "two groups of exponents are too close to be separated");
   return C / scale;
 }
 
@@ -89,7 +89,7 @@ OrderedSchur::OrderedSchur(const Matrix& S, const GroupOf& group_of) : schur_(re
       lapack_int from = best + 1, to = done + 1;  // LAPACK counts from 1
       const int info = LAPACKE_dtrexc(LAPACK_COL_MAJOR, 'V', n, T.data(), n, schur_.U.data(), n, &from, &to);
       if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
-      ensure(info == 0, "two groups of exponents are too close to be told apart");
+      ensure(info == 0, "two groups of exponents are too close to be separated");
     }
     for (int i = 0; i < size; ++i) groups_.push_back(best_rank);
     done += size;

@@ -206,12 +206,12 @@ std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& me
     mistakes.push_back(
         {body.mesh.source,
          body.outline.edges[e].arc
-             ? fmt::format("the arc {} in {} {} of order {} is not wholly seen from the scaling centre {}: use a "
+             ? fmt::format("the arc {} in {} {} of order {} is not entirely visible from the scaling centre {}: use a "
                            "smaller 'size' or a higher 'order', or set 'centre'",
                            name, mesh.edges[e].size(), mesh.edges[e].size() == 1 ? "element" : "elements",
                            body.mesh.order, centre)
-             : fmt::format("the edge {} is not seen from the scaling centre {}: set 'centre' to a point that sees "
-                           "the whole boundary, or cut the body in two",
+             : fmt::format("the edge {} is not entirely visible from the scaling centre {}: set 'centre' to a point "
+                           "from which the whole boundary is visible, or divide the body",
                            name, centre)});
   }
   return mistakes;

@@ -77,7 +77,7 @@ class Matching {
   }
 
   Diagnostic not_overlapping() const {
-    return mistake(fmt::format("{} and {} do not lie over each other anywhere: move a body, or name other edges",
+    return mistake(fmt::format("{} and {} are nowhere opposite each other: move a body, or name other edges",
                                contact_.a.text, contact_.b.text));
   }
 
@@ -140,10 +140,9 @@ class Matching {
     }
     if (!over) {
       const auto& [elastic, rigid] = a_is_rigid ? std::tie(contact_.b, contact_.a) : std::tie(contact_.a, contact_.b);
-      return mistake(
-          fmt::format("no node of {} lies over the rigid {}: move a body, name other edges, or use "
-                      "a smaller mesh size",
-                      elastic.text, rigid.text));
+      return mistake(fmt::format(
+          "no node of {} lies opposite the rigid {}: move a body, name other edges, or use a smaller mesh size",
+          elastic.text, rigid.text));
     }
     if (!facing) return not_facing();
 
@@ -193,8 +192,7 @@ class Matching {
       if (holds(body_a_, point) && holds(body_b_, point)) return std::nullopt;
     }
     return mistake(
-        fmt::format("{} and {} face away from each other, {:.3g} back to back: name the two edges that "
-                    "touch",
+        fmt::format("{} and {} face away from each other at a distance of {:.3g}: name the two edges that touch",
                     contact_.a.text, contact_.b.text, depth));
   }
 

@@ -20,12 +20,11 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
   const bool fem = body.mesh.kind == model::MeshKind::fem;
   if (fem && !body.outline.rectangle) {
     return {{body.mesh.source,
-             "'kind: fem' divides rectangles only: give the body a 'rectangle' shape, or leave "
-             "out 'kind'"}};
+             "'kind: fem' is available only for rectangles: give the body a 'rectangle' shape, or leave out 'kind'"}};
   }
   if (fem && body.mesh.order != 2) {
     return {{body.mesh.source,
-             fmt::format("'kind: fem' has elements of order 2, not {}: leave out 'order'", body.mesh.order)}};
+             fmt::format("'kind: fem' uses elements of order 2, not {}: leave out 'order'", body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
   if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {
@@ -34,9 +33,9 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
                                            nodes_before + nodes, most_nodes)}};
   }
   if (!(nodes <= most_nodes)) {
-    return {{body.mesh.source, fmt::format("size {:.6g} would make {:.3g} nodes, more than the {:.7g} allowed: use "
-                                           "a larger 'size'",
-                                           body.mesh.size, nodes, most_nodes)}};
+    return {{body.mesh.source,
+             fmt::format("size {:.6g} would give {:.3g} nodes, more than the {:.7g} allowed: use a larger 'size'",
+                         body.mesh.size, nodes, most_nodes)}};
   }
   return {};
 }
@@ -52,11 +51,9 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
     if (body.cracks.empty() || nodes.empty()) return;
     const int node = nodes_of(place, mesh).nodes.front();
     if (node != 0 && node + 1 != static_cast<int>(nodes.size())) return;
-    mistakes.push_back(
-        {source,
-         fmt::format("the nearest node is the mouth of crack '{1}', where there are two: write {0}.{1}.mouth_left "
-                     "or {0}.{1}.mouth_right",
-                     body.name, body.cracks.front().name)});
+    mistakes.push_back({source, fmt::format("the nearest node is the mouth of crack '{1}', where there are two nodes: "
+                                            "write {0}.{1}.mouth_left or {0}.{1}.mouth_right",
+                                            body.name, body.cracks.front().name)});
   };
   for (const model::Support& support : model.supports) look(support.on, support.on.source);
   for (const model::Load& load : model.loads)

@@ -187,7 +187,7 @@ void add_grid(const model::Model& model, const std::vector<Box>& boxes, const mo
   for (const double y : axes[1])
     for (const double x : axes[0])
       for (const int body : bodies_at(model, boxes, {x, y}, grid.body)) points.push_back({"grid", body, {x, y}, 0.0});
-  if (points.empty()) mistakes.push_back({grid.source, "no point of the grid lies in a body: give other coordinates"});
+  if (points.empty()) mistakes.push_back({grid.source, "no point of the grid lies in a body: change its coordinates"});
 }
 
 }  // namespace

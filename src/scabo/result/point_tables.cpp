@@ -83,8 +83,7 @@ PointEvaluation::PointEvaluation(const analysis::StaticSolution& solution, std::
         body.infinite.push_back(infinite);
         if (infinite)
           warnings_.push_back(fmt::format(
-              "stress of body '{}' is infinite at ({:.6g}, {:.6g}), its scaling centre: '{}' has "
-              "no stress there",
+              "stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
               solution.model.bodies[index].name, points_[row].at.x(), points_[row].at.y(), points_[row].name));
       }
       const double bytes =

@@ -97,7 +97,7 @@ linalg::EigenPairs elastic_modes(const Sparse& K, const Sparse& M, const Matrix&
     if (pairs.values.size() < all || !none_missed(K, M, pairs.values, count, static_cast<int>(N.cols()))) continue;
     return {pairs.values.head(count), pairs.vectors.leftCols(count)};
   }
-  throw BrokenInvariant("natural modes were missed: Lanczos did not find as many as there are");
+  throw BrokenInvariant("natural modes were missed: the Lanczos iterations did not find all of them");
 }
 
 template <typename Symmetric>

@@ -83,8 +83,8 @@ class ConstraintCollector {
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
     const Vec2& x = mesh_.bodies[body].nodes[static_cast<std::size_t>(node)];
     diagnostics_.push_back(
-        {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), which support '{}' (line {}) prescribes "
-                                     "otherwise: give the two the same value there, or hold one of them elsewhere",
+        {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
+                                     "another value: give both the same value there, or move one of them",
                                      component_name[component], x.x(), x.y(),
                                      model_.supports[static_cast<std::size_t>(other.support)].name,
                                      model_.supports[static_cast<std::size_t>(other.support)].source.line)});
@@ -103,11 +103,10 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   const int last_support = constraints.empty() ? -1 : constraints.back().support;
   auto system = rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), contradiction);
   if (!contradiction.empty())
-    throw InputError(model.file,
-                     {{model.supports[static_cast<std::size_t>(last_support)].source,
-                       fmt::format("the supports of rigid body '{}' contradict each other: a rigid body can "
-                                   "only move and turn as a whole",
-                                   body.name)}});
+    throw InputError(model.file, {{model.supports[static_cast<std::size_t>(last_support)].source,
+                                   fmt::format("the supports of rigid body '{}' contradict each other: a rigid body "
+                                               "can only translate and rotate as a whole",
+                                               body.name)}});
   return system;
 }
 
@@ -215,10 +214,9 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     try {
       structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
     } catch (const linalg::NotPositiveDefinite&) {
-      throw InputError(model.file,
-                       {{body.source,
-                         "its stiffness matrix is not positive definite to working precision: the constants of "
-                         "its materials are too far apart (by a factor of 1e12 or so), or its elements are"}});
+      throw InputError(model.file, {{body.source,
+                                     "its stiffness matrix is not positive definite to working precision: its material "
+                                     "constants or its element sizes differ too much (by a factor of about 1e12)"}});
     }
   }
   return structure;

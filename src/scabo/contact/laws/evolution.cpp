@@ -203,8 +203,8 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   result.problem = std::move(problem);
   result.solution.trace = std::move(total.trace);
   result.solution.status = Status::not_converged;
-  result.solution.reason = "the strengths of the joints did not settle within " + std::to_string(result.rounds) +
-                           " rounds; the increment may be too large, or failure runs away";
+  result.solution.reason = "the failure states of the joints did not converge within " + std::to_string(result.rounds) +
+                           " iterations; the increment may be too large, or failure propagates without limit";
   return result;
 }
 

@@ -152,7 +152,7 @@ End alart_curnier(const Problem& problem, Vector p, Vector a, const Control& con
     for (double alpha : {0.0, 1e-10, 1e-6})
       if ((found = newton.direction(at, alpha, d))) break;
     if (!found) {
-      end.reason = "the Jacobian is singular: no direction exists";
+      end.reason = "the Jacobian is singular, so that there is no search direction";
       return end;
     }
     ++end.iterations;

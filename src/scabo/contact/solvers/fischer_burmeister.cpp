@@ -131,7 +131,7 @@ End fischer_burmeister(const Problem& problem, Vector p, Vector a, const Control
     }
     Vector d;
     if (!direction(problem, now, d)) {
-      end.reason = "the Jacobian is singular: no direction exists";
+      end.reason = "the Jacobian is singular, so that there is no search direction";
       return end;
     }
     ++end.iterations;

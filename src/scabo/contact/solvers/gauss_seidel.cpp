@@ -26,7 +26,8 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
     }
     iteration.sweep(p);
   }
-  end.reason = p.allFinite() ? "the sweeps did not reach the tolerance in their limit" : "the sweeps went to infinity";
+  end.reason =
+      p.allFinite() ? "the sweeps did not reach the tolerance within the limit of iterations" : "the sweeps diverged";
   return end;
 }
 

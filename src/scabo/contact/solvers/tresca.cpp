@@ -22,7 +22,7 @@ End tresca(const Problem& problem, Vector p, Vector a, const Control& control) {
     end.converged = largest(H) <= control.small;
     if (end.converged) return end;
     if (round >= 4 * control.iterations || control.deadline.passed()) {
-      end.reason = "the rounds on the friction bound did not settle in their limit";
+      end.reason = "the iterations on the friction bounds did not converge within the limit of iterations";
       return end;
     }
     Vector bound(N);

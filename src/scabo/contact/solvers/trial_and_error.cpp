@@ -159,7 +159,7 @@ End trial_and_error(const Problem& problem, Vector p_start, Vector a_start, cons
   std::vector<int> before;
   while (true) {
     if (!tried.insert(key_of(trials)).second) {
-      end.reason = "it cycles: the states tried now were tried before";
+      end.reason = "the iterations cycle: these states were tried before";
       return end;
     }
     if (end.iterations >= 4 * control.iterations || control.deadline.passed()) {
@@ -169,7 +169,7 @@ End trial_and_error(const Problem& problem, Vector p_start, Vector a_start, cons
     ++end.iterations;
     const std::optional<Vector> solved = solve(problem, trials);
     if (!solved) {
-      end.reason = "on the states tried, no forces exist that balance loads and close gaps";
+      end.reason = "in the states tried, no forces exist that balance the loads and close the gaps";
       return end;
     }
     const Vector p = solved->head(size), a = solved->tail(m);
