@@ -10,7 +10,7 @@ namespace scabo::app {
 class Interrupt {
  public:
   Interrupt();   ///< starts to catch signals
-  ~Interrupt();  ///< restores the previous handling
+  ~Interrupt();  ///< restores the default handlers
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 

@@ -15,7 +15,7 @@
 //
 // Groups: each pair forms a group with that free pair with which it is most strongly coupled, by the measure
 //
-//    kappa_ij = (W_nn)_ij / sqrt((W_nn)_ii (W_nn)_jj),
+//     kappa_ij = (W_nn)_ij / sqrt((W_nn)_ii (W_nn)_jj),
 //
 // if this is at least half of its strongest coupling; bonded pairs (infinite tension) are grouped only with bonded
 // pairs. A pair without such a neighbour remains single.
