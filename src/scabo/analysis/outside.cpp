@@ -39,7 +39,7 @@ std::string without_reference(const Prepared& prepared, const State& state) {
 
 namespace {
 
-/// Takes a translation off the displacements of the pairs, which are along [n, t].
+/// Subtracts a translation from the displacements of the pairs, which are in [n, t].
 void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vector<ContactResult>& contacts) {
   std::vector<std::size_t> next(contacts.size(), 0);
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
@@ -68,7 +68,7 @@ void refer_displacements(const Prepared& prepared, const StaticSolution& solutio
         element::point_values(super_element.ring, field.at(at->xi), super_element.sectors.D, at->element, at->eta)
             .displacement;
     take_off_pairs(prepared, result.reference_displacement, result.contacts);
-    return;  // one point fixes all
+    return;  // one point determines all bodies
   }
 }
 

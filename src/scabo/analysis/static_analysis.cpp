@@ -22,7 +22,7 @@ namespace scabo::analysis {
 
 namespace {
 
-/// Where the last increment went.
+/// Result of an attempt to reach the end of an increment.
 struct Reached {
   State state;
   contact::Certificate certificate;
@@ -31,9 +31,9 @@ struct Reached {
   Matrix undetermined;
   std::optional<UniquenessResult> uniqueness;
   bool mechanism = false;
-  std::string reason;  ///< empty: there
+  std::string reason;  ///< empty if the end was reached
   std::vector<AttemptResult> attempts;
-  std::vector<DiscreteProblem> problems;  ///< of the attempts, where they are asked for
+  std::vector<DiscreteProblem> problems;  ///< of the attempts, if requested
 };
 
 /// Whether the model has joints whose strength is lost when they fail.
@@ -43,7 +43,7 @@ bool breaks(const Prepared& prepared) {
                      [](const model::Contact& contact) { return contact.cohesion > 0.0; });
 }
 
-/// Why an increment whose contact was solved is not accepted.
+/// Reason why an increment with a contact solution is not accepted.
 std::string above_tolerance(const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
   std::string reason =
@@ -55,8 +55,8 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
   return reason;
 }
 
-/// From `from` to `target`, halving the way where an attempt is not accepted; every part starts from the last accepted
-/// state.
+/// Proceeds from `from` to `target`, halving the step if an attempt is not accepted; every part starts from the last
+/// accepted state.
 Reached reach(const Prepared& prepared, const State& from, const Factors& target, const Options& options) {
   Reached reached;
   reached.state = from;
@@ -78,7 +78,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       done = next;
       continue;
     }
-    const bool mechanism = tried.solution.status == contact::Status::mechanism;  // no smaller step helps
+    const bool mechanism = tried.solution.status == contact::Status::mechanism;  // a smaller step does not help
     if (mechanism || reached.halvings == prepared.model.solver.halvings || (options.stop && *options.stop)) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
@@ -116,7 +116,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
   return reached;
 }
 
-/// Each kind of warning once, from the increment where it first applies.
+/// Adds each kind of warning once, for the increment where it first applies.
 void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
                   std::vector<std::string>& warnings) {
   const auto add = [&](const std::string& kind, const std::string& sentence) {
@@ -222,7 +222,7 @@ std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolut
 }  // namespace
 
 mesh::Mesh check(const model::Model& model) {
-  if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free, and do not touch
+  if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free and do not interact
     model::Model apart = model;
     apart.contacts.clear();
     mesh::Mesh mesh = mesh::make_mesh(apart);

@@ -10,12 +10,12 @@ namespace scabo::analysis {
 
 namespace {
 
-constexpr double most_overlap = 0.01;   // over the size of the body: a strain
-constexpr double most_pressure = 0.05;  // over Young's modulus: a strain
+constexpr double most_overlap = 0.01;   // relative to the size of the body: a strain
+constexpr double most_pressure = 0.05;  // relative to Young's modulus: a strain
 constexpr int fewest_pairs = 5;         // two quadratic edges
 constexpr std::size_t most_names = 3;
 
-/// A contact and how far it is from what was expected.
+/// A contact and a measure of its deviation.
 struct Finding {
   std::size_t contact = 0;
   double figure = 0.0;
@@ -61,7 +61,7 @@ std::vector<std::size_t> elastic_bodies(const StaticSolution& solution, std::siz
   return bodies;
 }
 
-/// Deepest overlap at the start over the size, along the normal, of the smaller elastic body.
+/// Largest initial overlap relative to the size, along the normal, of the smaller elastic body.
 struct Overlap {
   double strain = 0.0, depth = 0.0;
 };
@@ -85,7 +85,7 @@ Overlap overlap_of(const StaticSolution& solution, std::size_t contact) {
   return overlap;
 }
 
-/// Largest pressure of all increments over the smaller Young's modulus of the two sides.
+/// Largest pressure of all increments relative to the smaller Young's modulus of the two sides.
 double pressure_strain(const StaticSolution& solution, std::size_t contact, double& pressure) {
   pressure = 0.0;
   for (const IncrementResult& increment : solution.increments)
@@ -130,7 +130,7 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<std::stri
   }
 }
 
-/// Smallest gap of a contact that is open at every pair in every increment; nothing for others.
+/// Smallest gap of a contact that is open at every pair in every increment; nothing for other contacts.
 std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t contact) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const IncrementResult& increment : solution.increments) {

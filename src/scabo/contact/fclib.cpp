@@ -31,7 +31,7 @@ void expect_at_least(const Hdf5Reader& file, const std::string& path, std::size_
     file.fail(path, fmt::format("must hold {} values ({}), not {}", least, why, size));
 }
 
-/// From pointers of compressed columns (or rows) to one index for each entry.
+/// Expands pointers of compressed columns (or rows) to one index for each entry.
 Integers spread(const Hdf5Reader& file, const std::string& path, const Integers& p, std::size_t values) {
   Integers index;
   index.reserve(values);
@@ -93,7 +93,7 @@ Sparse read_matrix(const Hdf5Reader& file, const std::string& group) {
     triplets.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
   }
   Sparse A(m, n);
-  A.setFromTriplets(triplets.begin(), triplets.end());  // entries given twice are added, as CSparse does
+  A.setFromTriplets(triplets.begin(), triplets.end());  // repeated entries are added, as in CSparse
   return A;
 }
 
@@ -128,7 +128,7 @@ Vector read_mu(const Hdf5Reader& file, const std::string& path, Index pairs) {
   return mu;
 }
 
-/// `cohesion` and `tension` of our own files; tension may be infinite.
+/// `cohesion` and `tension` in files of Scabo; tension may be infinite.
 Vector read_strength(const Hdf5Reader& file, const std::string& path, Index pairs) {
   if (!file.has(path)) return {};
   Vector values = file.numbers(path);
@@ -139,7 +139,7 @@ Vector read_strength(const Hdf5Reader& file, const std::string& path, Index pair
   return values;
 }
 
-/// V, R, s: rigid motions where R = 0; otherwise l = -R^-1 (V' r + s) is put into W and q.
+/// V, R, s: rigid motions if R = 0; otherwise l = -R^-1 (V' r + s) is eliminated into W and q.
 void read_constraints(const Hdf5Reader& file, Problem& problem) {
   const std::string V_path = "fclib_local/V", R_path = "fclib_local/R";
   problem.G.resize(problem.q.size(), 0);
@@ -165,7 +165,7 @@ void read_constraints(const Hdf5Reader& file, Problem& problem) {
   problem.q -= V * Vector(lu.solve(s));
 }
 
-/// `guesses/1` and `solution`: r and l where they are.
+/// `guesses/1` and `solution`: r and l, if present.
 void read_known(const Hdf5Reader& file, const std::string& group, const Problem& problem, Vector& r, Vector& l) {
   if (!file.has(group + "/r")) return;
   r = read_vector(file, group + "/r", problem.q.size(), "as many as q");
@@ -174,7 +174,7 @@ void read_known(const Hdf5Reader& file, const std::string& group, const Problem&
     l = read_vector(file, group + "/l", problem.G.cols(), "one for each column of V");
 }
 
-/// Which pair is which in contact.csv: only in files that a run of Scabo left.
+/// Correspondence of the pairs to contact.csv: only in files written by a run of Scabo.
 void read_origin(const Hdf5Reader& file, SavedProblem& saved) {
   const Index pairs = saved.problem.pairs();
   if (file.has("scabo/force_scale")) {
@@ -213,7 +213,7 @@ SavedProblem read_local(const Hdf5Reader& file) {
   problem.mu = read_mu(file, "fclib_local/vectors/mu", pairs);
   problem.cohesion = read_strength(file, "fclib_local/vectors/cohesion", pairs);
   problem.tension = read_strength(file, "fclib_local/vectors/tension", pairs);
-  if (2 * W.nonZeros() >= W.rows() * W.cols())  // dense is smaller and faster then
+  if (2 * W.nonZeros() >= W.rows() * W.cols())  // dense storage is then smaller and faster
     problem.W = Delassus(Matrix(W));
   else
     problem.W = Delassus(std::move(W));
@@ -268,7 +268,7 @@ void write_matrix(Hdf5Writer& file, const std::string& group, Sparse A) {
   file.numbers(group + "/x", A.valuePtr(), entries);
 }
 
-/// Every entry of a dense matrix, zeros too: what is read back is dense again.
+/// Every entry of a dense matrix, including zeros, so that it is read back as dense.
 Sparse all_entries(const Matrix& A) {
   if (A.size() > std::numeric_limits<int>::max())
     throw std::runtime_error(

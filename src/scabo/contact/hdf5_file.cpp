@@ -12,11 +12,10 @@ namespace scabo::contact {
 
 namespace {
 
-// More than any contact problem that fits in memory; a broken file may claim it.
+// More values than any contact problem that fits in memory; a damaged file may claim more.
 constexpr hssize_t most_values = hssize_t{1} << 29;
 
-/// HDF5 as Debian builds it is for one thread at a time, and prints a page for every error that it also
-/// returns.
+/// The HDF5 library of Debian is not thread-safe, and it prints a page for every error that it also returns.
 class Quiet {
  public:
   Quiet() : lock_(mutex()) {
@@ -37,7 +36,7 @@ class Quiet {
   void* data_ = nullptr;
 };
 
-/// An identifier of HDF5 and how it is closed.
+/// An identifier of HDF5 and the function that closes it.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -54,7 +53,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// H5Lexists() fails where a group on the way is missing, so each is asked for.
+/// H5Lexists() fails if a group in the path is missing; therefore each level is checked.
 bool exists(hid_t file, const std::string& path) {
   for (std::size_t end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1))
     if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
@@ -74,7 +73,7 @@ const char* kind_of(H5T_class_t type) {
   }
 }
 
-/// A dataset opened for reading, its number of values known.
+/// A dataset opened for reading, with its number of values.
 struct Dataset {
   Dataset(const Hdf5Reader& reader, hid_t file, const std::string& path)
       : id(open(reader, file, path), H5Dclose), type(H5Dget_type(id), H5Tclose), space(H5Dget_space(id), H5Sclose) {
@@ -174,7 +173,7 @@ std::string Hdf5Reader::text(const std::string& path) const {
   const Quiet quiet;
   if (!exists(id_, path)) return {};
   const Dataset dataset(*this, id_, path);
-  if (dataset.kind() != H5T_STRING || dataset.count != 1) return {};  // a remark of others, whatever it is
+  if (dataset.kind() != H5T_STRING || dataset.count != 1) return {};  // a remark by another program
   if (H5Tis_variable_str(dataset.type) > 0) {
     const Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(memory, H5T_VARIABLE);

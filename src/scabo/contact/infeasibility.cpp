@@ -18,9 +18,9 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr Index most_pairs = 1500, most_dense_pairs = 500;  // of the search along normals: 18 MB
 constexpr Index most_rays = 800;                            // of the search in the cones
-constexpr double beyond_all = 1e10;  // times k |q|: forces that large are not known to obey anything
-constexpr double stands_out = 1e-8;  // of sum |q_i| |r_i|
-constexpr double excluded = 1e-9;    // least distance, relative to |q|, at which a case of a pair is excluded
+constexpr double beyond_all = 1e10;                         // times k |q|: larger forces are not considered
+constexpr double stands_out = 1e-8;                         // of sum |q_i| |r_i|
+constexpr double excluded = 1e-9;  // least distance, relative to |q|, at which a case of a pair is excluded
 
 Vector transposed_product(const Delassus& W, const Vector& r) {
   return W.is_sparse() ? Vector(W.sparse().transpose() * r) : Vector(W.dense().transpose() * r);
@@ -68,7 +68,7 @@ Sparse rays_of(const Problem& problem, bool with_friction) {
   return rays;
 }
 
-/// Whether the columns combine, with factors of zero or more, to b.
+/// Whether b is a combination of the columns with factors of zero or more.
 bool combine(const Matrix& columns, const Vector& b) {
   Matrix A = columns;
   for (Index j = 0; j < A.cols(); ++j)
@@ -90,7 +90,7 @@ bool may_slip(const Matrix& W, const Vector& q, double mu, double from, double t
   return depth == 0 || may_slip(W, q, mu, from, middle, depth - 1) || may_slip(W, q, mu, middle, to, depth - 1);
 }
 
-/// Whether no force of the pair alone obeys Coulomb's law, where r with W r = 0, q.r < 0 excludes that it sticks.
+/// Whether no force of the pair alone satisfies Coulomb's law, given r with W r = 0, q.r < 0, which excludes stick.
 bool no_force_obeys(const Matrix& W, const Vector& q, double mu) {
   if (!(q[0] < 0.0)) return false;  // open
   if (q.size() == 2) {
@@ -108,7 +108,7 @@ bool no_force_obeys(const Matrix& W, const Vector& q, double mu) {
   return true;
 }
 
-/// The pair's own problem; its only neighbour is itself where `alone`.
+/// The problem of the pair; `alone` if no other pair moves it.
 struct OnePair {
   Problem problem;
   bool alone = true;
@@ -205,7 +205,7 @@ bool proves_no_motion(const Problem& problem, const Vector& r) {
       return false;
   const double work = -problem.q.dot(r), all = problem.q.cwiseAbs().dot(r.cwiseAbs());
   if (!(work > stands_out * all)) return false;
-  // Forces p that part the pairs have (W'r).p >= work, hence |p|_1 >= work / largest of W'r.
+  // Forces p that separate the pairs have (W'r).p >= work, hence |p|_1 >= work / largest entry of W'r.
   const double moved = transposed_product(problem.W, r).lpNorm<Eigen::Infinity>();
   return work >= beyond_all * moved * stiffness_of(problem) * problem.q.lpNorm<Eigen::Infinity>();
 }

@@ -19,7 +19,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr long most_rows = 100'000'000;
 constexpr long most_entries = std::numeric_limits<int>::max();
 
-/// Words of a text, with their places.
+/// Words of a text with their positions.
 class Words {
  public:
   Words(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -75,10 +75,10 @@ class Words {
         "kind (rolling friction, global form)");
   }
 
-  /// At the word read last.
+  /// Position of the last word read.
   [[noreturn]] void fail(std::string message) const { throw InputError(file_, {{at_, std::move(message)}}); }
 
-  /// More values than bytes left cannot come: found before memory is taken for them.
+  /// Checks that there cannot be more values than remaining bytes, before memory is allocated for them.
   void expect_room(double values) const {
     if (values > static_cast<double>(text_.size() - position_))
       fail(
@@ -120,7 +120,7 @@ Matrix read_dense(Words& words, Index size) {
   return W;
 }
 
-/// 0, then where each of `count` block rows ends, the last at `size`.
+/// 0, then the end of each of `count` block rows, the last of which is `size`.
 std::vector<long> read_ends(Words& words, const char* what, long count, long size) {
   std::vector<long> ends{0};
   for (long k = 0; k < count; ++k) ends.push_back(words.integer(what, ends.back() + 1, size));

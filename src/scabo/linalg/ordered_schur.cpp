@@ -41,14 +41,14 @@ Matrix sylvester(char operation, const Matrix& A, const Matrix& B, Matrix C, int
   return C / scale;
 }
 
-/// A cut near the middle that parts no pair.
+/// A position near the middle that does not split a pair.
 Eigen::Index middle_of(const Matrix& T) {
   const Eigen::Index half = T.rows() / 2;
   return T(half, half - 1) != 0.0 ? half + 1 : half;
 }
 
-/// X of A'X + X B = C. dtrsyl works column by column; halving the longer side leaves it small blocks and makes the rest
-/// products of matrices.
+/// Solves A'X + X B = C. dtrsyl works column by column; halving the longer side leaves small blocks for it and turns
+/// the remaining work into products of matrices.
 Matrix halved_sylvester(const Matrix& A, const Matrix& B, const Matrix& C) {
   constexpr Eigen::Index small = 48;
   const Eigen::Index m = A.rows(), n = B.rows();
@@ -134,7 +134,7 @@ std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, 
     for (int& cluster : of)
       if (cluster == b) cluster = a;
   };
-  // The upper half plane stands for both: a pair is one.
+  // The eigenvalue in the upper half plane represents a pair.
   const auto folded = [&](std::size_t i) {
     return std::complex<double>(eigenvalues[i].real(), std::abs(eigenvalues[i].imag()));
   };

@@ -12,10 +12,10 @@ namespace scabo::mesh {
 
 namespace {
 
-/// More than this in one model is taken for a mistyped size.
+/// A larger number in one model is taken as a mistyped size.
 constexpr double most_nodes = 1e6;
 
-/// What forbids to divide the body, found before anything is allocated.
+/// Reason why the body cannot be divided, found before memory is allocated.
 std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) {
   const bool fem = body.mesh.kind == model::MeshKind::fem;
   if (fem && !body.outline.rectangle) {
@@ -40,7 +40,7 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
   return {};
 }
 
-/// Places `near` the mouth of a crack, where two nodes are equally near.
+/// Places `near` the mouth of a crack, where two nodes are equally close.
 std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& mesh) {
   std::vector<Diagnostic> mistakes;
   const auto look = [&](const model::Place& place, const Source& source) {
@@ -92,7 +92,7 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
     const model::Contact& contact = model.contacts[c];
     ensure(is_edge(contact.a) && is_edge(contact.b), "a contact is between two edges");
     const auto has_mesh = [&](int b) { return model.bodies[b].rigid || !mesh.bodies[b].nodes.empty(); };
-    if (!has_mesh(contact.a.body) || !has_mesh(contact.b.body)) continue;  // its mistake is reported already
+    if (!has_mesh(contact.a.body) || !has_mesh(contact.b.body)) continue;  // its mistake has been reported
     auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
     if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched)) {
       mistakes.push_back(*wrong);

@@ -15,7 +15,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Length of the longest decimal number at the start of `text`; 0 when there is none.
+/// Length of the longest decimal number at the start of `text`; 0 if there is none.
 std::size_t number_length(std::string_view text) {
   std::size_t i = 0;
   const auto digits = [&] {
@@ -46,7 +46,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// What `text`, which is no number, was probably meant to be.
+/// Message for `text`, which is not a number, according to what was probably meant.
 std::string why_no_number(std::string_view text, std::size_t length) {
   std::string bare = lower(text);
   bare.erase(std::remove_if(bare.begin(), bare.end(), [](char c) { return c == '.' || c == '+' || c == '-'; }),
@@ -82,7 +82,7 @@ std::string why_no_number(std::string_view text, std::size_t length) {
 
 std::variant<double, std::string> parse_number(std::string_view text) {
   const std::size_t length = number_length(text);
-  // A whole text of kilobytes in a message helps nobody.
+  // A text of kilobytes in a message would not be helpful.
   if (length != text.size() || text.empty()) {
     if (text.size() > 60) return std::string("must be a number, not a long text");
     return why_no_number(one_line(text), length);
@@ -93,7 +93,7 @@ std::variant<double, std::string> parse_number(std::string_view text) {
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const std::string shown(text.substr(0, 60));
   if (code == std::errc::result_out_of_range) {
-    // from_chars does not say which end of the range was left.
+    // from_chars does not report which end of the range was exceeded.
     const auto exponent = lower(digits).find("e-");
     if (exponent != std::string::npos)
       return fmt::format("'{}' is smaller in size than 1e-100: write 0, or check the units", shown);

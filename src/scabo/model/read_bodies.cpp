@@ -18,10 +18,10 @@ constexpr double most_fem_dofs = 1e6;
 
 constexpr const char* body_example = "{material: concrete, shape: {...}, mesh: {size: 0.1}}";
 
-/// Pieces of at most `size` on `length`, without a piece more for the rounding of their quotient.
+/// Number of pieces of at most `size` on `length`, without an additional piece due to rounding of their quotient.
 double pieces(double length, double size) { return std::max(1.0, std::ceil(length / size * (1.0 - 1e-12))); }
 
-/// Degrees of freedom that a mesh size leads to; in floating point, since 1e30 is a possible answer.
+/// Number of degrees of freedom for a mesh size; in floating point, since it may be as large as 1e30.
 double estimated_dofs(const Outline& outline, MeshKind kind, double size, int order) {
   if (kind == MeshKind::fem) {
     const double nx = pieces(outline.edges[0].length(), size);
@@ -40,7 +40,7 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
   return name_list(names);
 }
 
-/// Reports a scaling centre that does not see the whole boundary, with a better one where there is one.
+/// Reports a scaling centre from which the boundary is not entirely visible, with a better one if there is one.
 void check_centre(Reading& reading, const Source& at, const Outline& outline, const Vec2& centre, bool given,
                   int corner, const Crack* crack) {
   std::vector<int> unseen = unseen_edges(outline, centre);
@@ -69,14 +69,14 @@ void check_centre(Reading& reading, const Source& at, const Outline& outline, co
   }
 }
 
-/// Corner of the outline at a point; -1 when there is none.
+/// Corner of the outline at a point; -1 if there is none.
 int corner_at(const Outline& outline, const Vec2& point) {
   for (std::size_t i = 0; i < outline.corners.size(); ++i)
     if ((outline.corners[i].position - point).norm() <= 1e-9 * outline_size(outline)) return static_cast<int>(i);
   return -1;
 }
 
-/// The two edges at the scaling centre must be straight, and not all there is.
+/// The two edges at the scaling centre must be straight.
 void check_side_faces(Reading& reading, const Value& at, const Outline& outline, int corner) {
   const auto count = outline.edges.size();
   const auto c = static_cast<std::size_t>(corner);
@@ -154,7 +154,7 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
     }
   }
   if (!fem) {
-    // Without mesh.centre the remedy is to give one: the body's mesh is where it goes.
+    // Without mesh.centre the remedy is to give one; the position is that of the mesh of the body.
     check_centre(reading, centre ? centre->source() : mesh.source, *outline, mesh.centre, centre.has_value(),
                  mesh.centre_corner, crack);
     if (report.count() > before) return {};
@@ -178,7 +178,7 @@ std::optional<int> read_material_name(Reading& reading, const Value& value) {
 
 namespace {
 
-/// What makes a body's super-element open or unbounded: read after the shape, before and after the mesh.
+/// Reads whether the super-element of a body is unbounded, after its shape and mesh.
 void read_outside(Reading& reading, const MapReader& map, Body& body, bool shape_known) {
   const auto outside = map.get("outside");
   if (outside) body.outside = read_flag(reading.report, *outside).value_or(false);
@@ -199,7 +199,7 @@ void read_outside(Reading& reading, const MapReader& map, Body& body, bool shape
     map.refuse("outside", "finite elements cannot model an unbounded body: use superelement");
 }
 
-/// An outside body's outline runs the other way round: its material is on the left again.
+/// Reverses the outline of an unbounded body, so that its material is again on the left.
 void turn_outside(Body& body) {
   const int count = static_cast<int>(body.outline.edges.size());
   turn_round(body.outline);
@@ -216,7 +216,7 @@ void read_body(Reading& reading, const Entry& entry) {
   BodyState state;
   body.name = entry.key;
   body.source = entry.key_source;
-  state.held = !map.is_map();  // said already; whether it is held is not the question then
+  state.held = !map.is_map();  // reported already; supports are then not checked
   const auto rigid_value = map.get("rigid");
   const auto rigid = rigid_value ? read_flag(report, *rigid_value) : std::optional(false);
   body.rigid = rigid.value_or(false);
@@ -231,7 +231,7 @@ void read_body(Reading& reading, const Entry& entry) {
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference"}) {
       map.refuse(key, "does not apply to a rigid body: leave it out");
     }
-  } else if (rigid) {  // otherwise nobody knows what it needs
+  } else if (rigid) {  // otherwise the required keys are not known
     if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
     state.material = body.material >= 0;
     if (const auto cracks = map.get("cracks"); cracks && state.shape) {
@@ -247,7 +247,7 @@ void read_body(Reading& reading, const Entry& entry) {
       if (options)
         body.mesh = *options;
       else if (mesh->node->kind == Node::Kind::map && mesh->node->find("centre"))
-        state.shape = false;  // faces are not known
+        state.shape = false;  // side faces are not known
     }
     if (const auto sectors = map.get("sectors"); sectors && state.shape) {
       if (body.mesh.kind == MeshKind::fem)
@@ -276,7 +276,7 @@ int Reading::body_index(std::string_view name) const {
 void read_bodies(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
   const auto entries = read_named(reading.report, value, "bodies", fmt::format("{{beam: {}}}", body_example));
-  // A body whose name is no name is not in the list, but others may speak of it.
+  // A body with an invalid name is not in the list, but others may refer to it.
   if (reading.report.count() > before) reading.bodies_known = false;
   if (value.node->kind == Node::Kind::map && value.node->entries.empty()) {
     reading.report.error(value, "contains no body: define at least one");

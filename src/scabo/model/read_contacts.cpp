@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* contact_example = "{between: [lower.top, upper.bottom], friction: 0.2}";
 
-/// One side; nothing when it is broken or no edge.
+/// One side; nothing if it is broken or not an edge.
 std::optional<Place> read_side(Reading& reading, const Value& value, int& body) {
   const ReadPlace read = read_place(reading, value);
   body = read.body;
@@ -40,7 +40,7 @@ std::optional<Place> read_side(Reading& reading, const Value& value, int& body) 
   return read.place;
 }
 
-/// Both sides; nothing when one is broken or they cannot touch each other.
+/// Both sides; nothing if one is broken or they cannot touch each other.
 std::optional<std::pair<Place, Place>> read_between(Reading& reading, const Value& value) {
   if (value.node->kind != Node::Kind::sequence || value.node->items.size() != 2) {
     reading.places_known = false;

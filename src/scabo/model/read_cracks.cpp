@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* crack_example = "{tip: [0.5, 0], mouth: [0, 0], name: flaw}";
 
-/// Where a point of the boundary lies along an edge.
+/// Position of a point of the boundary along an edge.
 struct OnEdge {
   int edge = -1;
   double at = 0.0;
 };
 
-/// Fraction of the edge's length at the point of it that is closest to `x`.
+/// Position, as a fraction of the length of the edge, of its point closest to `x`.
 double closest_fraction(const Edge& edge, const Vec2& x) {
   if (!edge.arc) {
     const Vec2 along = edge.end - edge.start;
@@ -44,7 +44,7 @@ std::optional<OnEdge> find_on_outline(const Outline& outline, const Vec2& x) {
   return {};
 }
 
-/// The middle of an edge or a corner of this body by name, `left` or `plate.left`.
+/// The middle of an edge, or a corner, of this body by its name, `left` or `plate.left`.
 std::optional<OnEdge> mouth_named(Reading& reading, const Value& value, const Body& body) {
   const auto text = read_text(reading.report, value);
   if (!text) return {};
@@ -64,7 +64,7 @@ std::optional<OnEdge> mouth_named(Reading& reading, const Value& value, const Bo
   return {};
 }
 
-/// `mouth`: a point of the outline, a corner, or an edge, of which the middle is meant.
+/// `mouth`: a point of the outline, a corner, or an edge, which stands for its middle.
 std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Body& body) {
   if (value.node->kind == Node::Kind::scalar) return mouth_named(reading, value, body);
   const auto point = read_vector(reading.report, value);

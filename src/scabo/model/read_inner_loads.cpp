@@ -1,4 +1,4 @@
-// Loads that act where nothing is divided: tractions on side faces, body forces, temperature.
+// Loads on side faces and inside bodies: tractions on side faces, body forces, temperature.
 #include "scabo/model/read_inner_loads.hpp"
 
 #include <fmt/format.h>

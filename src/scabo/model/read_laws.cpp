@@ -1,4 +1,4 @@
-// What a contact carries: friction, cohesion, tensile strength, bond, prescribed bound.
+// Contact laws: friction, cohesion, tensile strength, bond, prescribed bound.
 #include <fmt/format.h>
 
 #include "scabo/model/numbers.hpp"
@@ -11,7 +11,7 @@ namespace {
 constexpr const char* friction_example =
     "0.3, {static: 0.5, dynamic: 0.3, slip_distance: 1e-4} or {along: [[0, 0.3], [1, 0.5]]}";
 
-constexpr double largest_coefficient = 1e6;  // beyond, forces that balance drown in rounding
+constexpr double largest_coefficient = 1e6;  // for larger values the forces in balance are lost in rounding
 
 double read_coefficient(Report& report, const Value& value) {
   const double friction = read_not_negative(report, value).value_or(0.0);

@@ -29,7 +29,7 @@ const char* kind_text(Place::Kind kind) {
   return "";
 }
 
-/// Whether a load of this kind can act on a place; reports what to write instead.
+/// Whether a load of this kind can act on a place; otherwise reports an alternative.
 bool check_place(Reading& reading, const Value& on, const Place& place, const std::string& kind) {
   const bool rigid = reading.body(place.body).rigid;
   const std::string& body = reading.body(place.body).name;
@@ -126,7 +126,8 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
     if (place && check_place(reading, *on, *place, kind)) load.on = place;
   }
   const bool on_face = load.on && load.on->kind == Place::Kind::face;
-  const bool value_known = !on || load.on || map.get(kind)->node->kind != Node::Kind::map;  // powers of what?
+  // A map cannot be read if the place is not known: it may contain powers of xi or coefficients of x and y.
+  const bool value_known = !on || load.on || map.get(kind)->node->kind != Node::Kind::map;
   const auto value = value_known ? read_kind(reading, *map.get(kind), kind, on_face) : std::nullopt;
   if (on && !load.on) return {};
   if (report.count() > before || !value) return {};
@@ -134,7 +135,7 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   return load;
 }
 
-/// Indices of the materials of a body, -1 for broken ones left out.
+/// Indices of the materials of a body, without -1 for broken ones.
 std::set<int> materials_of(const Body& body) {
   std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
   if (materials.empty()) materials.insert(body.material);
@@ -142,7 +143,7 @@ std::set<int> materials_of(const Body& body) {
   return materials;
 }
 
-/// First and last + 1 of the bodies on which a load acts that acts on whole ones.
+/// First and last + 1 of the bodies on which a load on whole bodies acts.
 std::pair<std::size_t, std::size_t> bodies_under(const Reading& reading, const Load& load) {
   if (!load.on) return {0, reading.model.bodies.size()};
   const auto body = static_cast<std::size_t>(load.on->body);
@@ -153,7 +154,7 @@ std::pair<std::size_t, std::size_t> bodies_under(const Reading& reading, const L
 
 void read_loads(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
-  // A load on an unknown body says nothing about which bodies are held.
+  // A load on an unknown body gives no information about which bodies are held.
   const bool places_known = reading.places_known;
   for (const Entry& entry :
        read_named(reading.report, value, "loads", "{tip: {on: upper.top_right, force: [0, -100e3]}}")) {

@@ -51,7 +51,7 @@ std::optional<Orthotropic> read_orthotropic(Reading& reading, const Value& value
   if (const auto angle = map.get("angle"))
     o.angle = read_number(reading.report, *angle).value_or(0.0) * std::numbers::pi / 180.0;
   if (reading.report.count() > before) return {};
-  // The compliance is positive definite when its leading minors are.
+  // The compliance is positive definite if its leading minors are positive.
   const double minor = 1.0 - o.nu12 * o.nu12 * o.E2 / o.E1;
   if (!(minor > 0.0)) {
     reading.report.error(
@@ -150,7 +150,7 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
   if (const auto value = map.get("density")) material.density = read_not_negative(reading.report, *value);
   if (const auto value = map.get("expansion")) {
     material.expansion = read_expansion(reading, *value);
-    // Of an anisotropic law the third is the shear strain.
+    // For an anisotropic law the third is the shear strain.
     if (anisotropic && material.expansion &&
         (value->node->kind == Node::Kind::scalar || value->node->items.size() == 2))
       (*material.expansion)[2] = 0.0;
@@ -164,7 +164,7 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
 void read_materials(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
   const auto entries = read_named(reading.report, value, "materials", "{concrete: {young: 10e9, poisson: 0.3}}");
-  // A material whose name is no name is not in the list, but bodies may speak of it.
+  // A material with an invalid name is not in the list, but bodies may refer to it.
   if (reading.report.count() > before) reading.materials_known = false;
   for (const Entry& entry : entries) {
     const auto material = read_material(reading, entry);

@@ -1,4 +1,4 @@
-// The journey of a model file: text, tree, sections, checks of the whole.
+// Reading of a model file: text, tree, sections, checks of the whole model.
 #include "scabo/model/read_model.hpp"
 
 #include <fmt/format.h>
@@ -84,7 +84,7 @@ void check_version(Reading& reading, const MapReader& map) {
   }
 }
 
-/// Reads all sections; each relies on those before it.
+/// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "steps",
@@ -113,11 +113,12 @@ void read_sections(Reading& reading, const Value& root) {
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
   if (const auto output = map.get("output")) read_output(reading, *output);
-  // A misspelt section may be the one that is missing.
+  // A misspelt section may be the missing one.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
 }
 
-/// Says of a modal analysis what of the file plays no part in it, so that one file serves both kinds of analysis.
+/// Warns about parts of the file that have no effect in a modal analysis, so that one file can be used for both kinds
+/// of analysis.
 void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
@@ -148,13 +149,13 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
                       support.name));
 }
 
-/// Edges that lie on each other everywhere have neither gap nor interference.
+/// Edges that coincide everywhere have neither gap nor interference.
 bool coincide(const Edge& a, const Edge& b, double tolerance) {
   return (a.start - b.end).norm() <= tolerance && (a.end - b.start).norm() <= tolerance &&
          (a.at(0.5) - b.at(0.5)).norm() <= tolerance;
 }
 
-/// Whether a contact may press its bodies together by itself.
+/// Whether a contact alone may press its bodies together.
 bool may_interfere(const Reading& reading, const Contact& contact) {
   if (contact.gap < 0.0) return true;
   const Outline& a = reading.body(contact.a.body).outline;

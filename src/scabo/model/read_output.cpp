@@ -1,5 +1,4 @@
-// `output`: points, lines and a grid whose values are wanted, the arrays of the .vtu files, and the estimate of the
-// error.
+// `output`: points, lines and a grid for results, the arrays of the .vtu files, and the error estimate.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,14 +12,14 @@ namespace scabo::model {
 namespace {
 
 constexpr long most_points = 1'000'000;
-constexpr long largest_every = 100'000;  // as many as a step has increments at most
+constexpr long largest_every = 100'000;  // the largest number of increments of a step
 
 constexpr const char* output_example = "{points: [[1, 0.5]], grid: {spacing: 0.1}}";
 constexpr const char* point_example = "[1, 0.5] or {at: [1, 0.5], name: crest}";
 constexpr const char* line_example = "{from: [0, 0], to: [1, 0], points: 101, name: axis}";
 constexpr const char* grid_example = "{spacing: 0.1} or {x: [0, 1, 11], y: [0, 2, 21]}";
 
-/// `body`: its index, or -1 without the key; nothing when it is broken.
+/// `body`: its index, or -1 without the key; nothing if it is broken.
 std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
   const auto value = map.get("body");
   if (!value) return -1;
@@ -37,7 +36,7 @@ std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
   return {};
 }
 
-/// `name`, or `what_3`; every name once.
+/// `name`, or `what_3`; names must be unique.
 std::string read_name_of(Reading& reading, const MapReader& map, const char* what, std::size_t number,
                          std::set<std::string>& names) {
   std::string name = fmt::format("{}_{}", what, number);
@@ -157,7 +156,7 @@ void read_grid(Reading& reading, const Value& value) {
   reading.model.output.grid = grid;
 }
 
-/// `fields`: those that are named, no others.
+/// `fields`: only those that are named.
 void read_fields(Reading& reading, const Value& value) {
   const auto items = read_list(reading.report, value, "[displacement, stress]");
   if (!items) return;

@@ -27,8 +27,8 @@ bool has_name(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Side face of a notch or corner that an edge is, 0 at the beginning of the boundary, 1 at its end; -1 for other
-/// edges.
+/// Number of the side face that an edge forms at a notch or corner: 0 at the start of the boundary, 1 at its end; -1
+/// for other edges.
 int face_of_edge(const Body& body, int edge) {
   const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
   if (corner < 0) return -1;
@@ -36,7 +36,7 @@ int face_of_edge(const Body& body, int edge) {
   return edge == (corner + count - 1) % count ? (body.outside ? 0 : 1) : -1;
 }
 
-/// Faces and mouths of a crack: seen from the mouth towards the tip, `left` is the end of the boundary.
+/// Faces and mouths of a crack: looking from the mouth towards the tip, `left` is the end of the boundary.
 void add_crack_places(const Crack& crack, std::vector<std::pair<std::string, Place>>& places) {
   const auto add = [&](const char* part, Place::Kind kind, int index) {
     Place place;

@@ -63,7 +63,7 @@ void turn_round(Outline& outline) {
 
 namespace {
 
-/// Where the mistakes of the outline as a whole are reported.
+/// Checks the extent of the outline; `at`: position of messages about the outline as a whole.
 bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
   const double size = outline_size(outline);
   double farthest = 0.0;
@@ -94,7 +94,7 @@ bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
   return true;
 }
 
-/// Checks that the outline is simple and has an area, and turns it counter-clockwise.
+/// Checks that the outline is simple and has an area, and makes it counter-clockwise.
 bool finish_outline(Reading& reading, const Value& at, Outline& outline) {
   if (!check_extent(reading, at, outline)) return false;
   const double size = outline_size(outline);
@@ -121,7 +121,7 @@ bool finish_outline(Reading& reading, const Value& at, Outline& outline) {
   return true;
 }
 
-/// `names: {crest: edge_3}`: more names for edges and corners.
+/// `names: {crest: edge_3}`: additional names for edges and corners.
 void read_names(Reading& reading, const Value& value, Outline& outline) {
   std::unordered_map<std::string, std::vector<std::string>*> owners;
   std::vector<std::string> known;
@@ -212,7 +212,7 @@ std::optional<Outline> read_polygon(Reading& reading, const Value& value) {
   return outline;
 }
 
-/// A piece of an outline before the points that it leaves out are known.
+/// A piece of an outline before omitted points are filled in.
 struct Piece {
   Value at;
   std::optional<Vec2> from;
@@ -260,7 +260,7 @@ std::optional<Piece> read_piece(Reading& reading, const Value& value) {
   return piece;
 }
 
-/// The edge of a piece that starts at `start`; nothing when its arc is none.
+/// The edge of a piece that starts at `start`; nothing if its arc is invalid.
 std::optional<Edge> make_edge(Reading& reading, const Piece& piece, const Vec2& start, std::size_t number) {
   Edge edge;
   edge.names = piece.names;
@@ -299,8 +299,7 @@ bool check_piece_names(Reading& reading, const Outline& outline) {
       if (is_new) continue;
       Source at = edge.source;
       at.path += ".name";
-      reading.report.error(
-          at, fmt::format("'{}' already names {}: choose another name", edge.names[k], owner->second));
+      reading.report.error(at, fmt::format("'{}' already names {}: choose another name", edge.names[k], owner->second));
       return false;
     }
   }
@@ -334,7 +333,7 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
       reading.report.error(pieces[i].at, why + (i == 0 ? ": the outline is not closed" : ""));
       return {};
     }
-    // Exactly the same point, so that the edges share their corner.
+    // Exactly the same point, so that neighbouring edges share their corner.
     const auto edge = make_edge(reading, pieces[i], before, i + 1);
     if (!edge) return {};
     outline.edges.push_back(*edge);

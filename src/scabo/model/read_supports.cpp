@@ -21,7 +21,7 @@ using Displacement = std::array<std::optional<double>, 2>;
 
 constexpr const char* support_example = "{on: lower.left, fix: [x, y]}";
 
-/// What other programs call the components: a remedy for `fix`, or nothing.
+/// Component names of other programs: a remedy for `fix`, or nothing.
 std::string meant_components(std::string_view text) {
   std::string plain;
   for (const char c : text)
@@ -89,7 +89,7 @@ std::optional<Displacement> read_displacement(Reading& reading, const Value& val
   return displacement;
 }
 
-/// One support; nothing when it is broken. A name the user gave is known afterwards in any case.
+/// One support; nothing if it is broken. A name given by the user is recorded in any case.
 std::optional<Support> read_support(Reading& reading, const Value& value) {
   Report& report = reading.report;
   const std::size_t before = report.count();
@@ -134,14 +134,14 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   return support;
 }
 
-/// Names without a user's: the place, made unique.
+/// Names of supports without a given name: the place, made unique.
 void name_supports(Reading& reading) {
   std::set<std::string> taken = reading.own_support_names;
   std::map<std::string, int> last;
   for (Support& support : reading.model.supports) {
     if (!support.name.empty()) continue;
     std::string name = support.on.text;
-    int& k = last[name];  // numbers before it are taken
+    int& k = last[name];  // smaller numbers are in use
     for (k = std::max(k, 1); !taken.insert(name).second;) name = fmt::format("{} ({})", support.on.text, ++k);
     support.name = name;
   }
@@ -177,12 +177,12 @@ bool includes_corner(const Place& place, int corner, int corners) {
     case Place::Kind::face:
     case Place::Kind::mouth:
     case Place::Kind::near:
-      return false;  // only the mesh knows
+      return false;  // known only after meshing
   }
   return false;
 }
 
-/// Whether two places of the same body surely share a point.
+/// Whether two places of the same body certainly share a point.
 bool share_a_point(const Place& a, const Place& b, const Body& body) {
   const int corners = static_cast<int>(body.outline.corners.size());
   const auto is_point = [](const Place& p) { return p.kind == Place::Kind::near || p.kind == Place::Kind::mouth; };
@@ -191,7 +191,7 @@ bool share_a_point(const Place& a, const Place& b, const Body& body) {
     return a.kind == Place::Kind::body || b.kind == Place::Kind::body;
   }
   if (a.kind == Place::Kind::edge && b.kind == Place::Kind::edge && a.index == b.index) return true;
-  // A body and an edge share the edge's ends; a corner shares itself; two edges may share a corner.
+  // A body and an edge share the ends of the edge; a corner shares itself; two edges may share a corner.
   const Place& smaller = a.kind == Place::Kind::body ? b : a;
   const Place& larger = a.kind == Place::Kind::body ? a : b;
   if (smaller.kind == Place::Kind::body) return true;
@@ -214,18 +214,18 @@ bool differ(const Reading& reading, std::size_t first, std::size_t second, std::
          });
 }
 
-/// Places that are the same have the same key.
+/// Equal places have equal keys.
 using PlaceKey = std::tuple<Place::Kind, int, double, double>;
 PlaceKey key_of(const Place& place) { return {place.kind, place.index, place.near.x(), place.near.y()}; }
 
-/// Of the supports of one place: the first that prescribes x and the first that prescribes y. Those after it move
-/// alike, or were reported.
+/// For the supports of one place: the first that prescribes x and the first that prescribes y. Later ones have the same
+/// motion or were reported.
 using First = std::array<std::optional<std::size_t>, 2>;
 using Places = std::map<PlaceKey, First>;
 
-/// The supports of the body so far with which a new one can be at odds: those at its own place, and those at places
-/// that share a point with it. A point near which something is shares one with itself and with the whole body only, and
-/// there may be many of them.
+/// The previous supports of the body that a new one can contradict: those at its own place, and those at places that
+/// share a point with it. A `near` place shares a point only with itself and with the whole body, and there may be many
+/// of them.
 std::vector<const First*> candidates(const Places& places, const Place& place, const Body& body) {
   std::vector<const First*> found;
   const auto add = [&](const Place& other) {
@@ -266,7 +266,7 @@ void check_conflicting_supports(Reading& reading) {
     const Support& support = reading.model.supports[i];
     Places& places = of_body[static_cast<std::size_t>(support.on.body)];
     const auto at = places.find(key_of(support.on));
-    // A whole body shares points with everything; where one was compared already, another like it brings nothing new.
+    // A whole body shares points with all places; once one was compared, another like it adds nothing.
     const bool known = at != places.end() && (!support.displacement[0] || at->second[0]) &&
                        (!support.displacement[1] || at->second[1]);
     std::optional<std::pair<std::size_t, std::size_t>> conflict;  // the first other support, component

@@ -20,7 +20,7 @@ std::string join_path(const std::string& path, std::string_view key) {
 constexpr std::size_t longest_path = 300;
 
 Source source_of(const Node& node, const std::string& path) {
-  // A value from the command line has no line; it is found by the path it was given with.
+  // A value from the command line has no line; its position is the path with which it was given.
   if (!node.override_path.empty()) {
     const bool inside = path.size() > node.override_path.size();
     const std::string rest = inside ? path.substr(node.override_path.size()) : "";
@@ -184,7 +184,7 @@ Source source_of_key(const Value& map, const MapEntry& entry) {
   return {entry.line, entry.column, path};
 }
 
-/// What a writer of YAML 1.1 makes of the key `on`, which it takes for a truth value.
+/// What writers of YAML 1.1 turn the key `on` into, because they treat it as a truth value.
 constexpr std::string_view written_for_on = "true";
 
 }  // namespace
@@ -230,7 +230,7 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
     return;
   }
   is_map_ = true;
-  std::vector<std::string> absent;  // a key that is there already was not meant
+  std::vector<std::string> absent;  // a key that is present was not meant
   for (const std::string& key : known) {
     if (entry_of(key) == nullptr) absent.push_back(key);
   }

@@ -32,7 +32,7 @@ struct Position {
   int column = 1;
 };
 
-/// Length of the UTF-8 character at the start of `text`; 0 when it is not valid.
+/// Length of the UTF-8 character at the start of `text`; 0 if it is not valid.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -49,8 +49,8 @@ std::size_t character_length(std::string_view text) {
   return length;
 }
 
-/// The text as yaml-cpp and editors agree on it: no byte order mark, lines end with \n. Throws a Diagnostic
-/// for bytes that no text has: yaml-cpp would read on and report something else.
+/// The text in the form on which yaml-cpp and editors agree: no byte order mark, lines end with \n. Throws a Diagnostic
+/// for bytes that are not text: yaml-cpp would continue and report something else.
 std::string clean_text(std::string_view text) {
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   std::string clean;
@@ -78,7 +78,7 @@ std::string clean_text(std::string_view text) {
   return clean;
 }
 
-/// yaml-cpp's sentences, said for someone who writes a model.
+/// Messages of yaml-cpp in the terms of someone who writes a model.
 std::string explain(const std::string& message) {
   static const std::array<std::pair<const char*, const char*>, 13> known{{
       {YAML::ErrorMsg::MAP_VALUE, "a ':' cannot stand here: check the indentation, or quote a text with ': ' in it"},
@@ -101,8 +101,8 @@ std::string explain(const std::string& message) {
   return fmt::format("not valid YAML: {}", message);
 }
 
-/// Hands the text to yaml-cpp piece by piece, and ends it where no value came for too long: yaml-cpp would first read a
-/// text of any length to its end.
+/// Passes the text to yaml-cpp in pieces, and ends it if there was no value for too long: yaml-cpp would otherwise read
+/// a text of any length to its end.
 class BoundedText : public std::streambuf {
  public:
   BoundedText(const std::string& text, long most) : text_(text), most_(static_cast<std::size_t>(most)) {}
@@ -213,7 +213,7 @@ class TreeBuilder : public YAML::EventHandler {
     std::string key;                             // of a map: the last one read
     bool has_key = false;                        // of a map: the next node is the value of that key
     bool merges = false;                         // of a map: that key is `<<`
-    bool repeats = false;                        // of a map: that key stood before; its value is dropped
+    bool repeats = false;                        // of a map: that key occurred before; its value is dropped
     std::unordered_map<std::string, int> lines;  // of the keys of a map
     std::vector<NodePtr> merged;
   };
@@ -223,7 +223,7 @@ class TreeBuilder : public YAML::EventHandler {
     throw Diagnostic{{at.line, at.column, ""}, message};
   }
 
-  /// Bytes in front of `end` that do not start a character.
+  /// Number of bytes before `end` that do not start a character.
   long continuations_before(std::size_t end) const {
     return std::lower_bound(continuations_.begin(), continuations_.end(), end) - continuations_.begin();
   }
@@ -238,7 +238,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  /// yaml-cpp takes the end of the file for a closing quote.
+  /// yaml-cpp accepts the end of the file as a closing quote.
   void check_closed_quote(const YAML::Mark& mark) const {
     if (mark.pos < 0 || mark.pos >= static_cast<int>(text_.size())) return;
     const char quote = text_[static_cast<std::size_t>(mark.pos)];
@@ -287,7 +287,7 @@ class TreeBuilder : public YAML::EventHandler {
     add(open.node, at);
   }
 
-  /// Puts a finished node where it belongs: the root, an item, a key or a value.
+  /// Adds a finished node to its parent: as the root, an item, a key or a value.
   void add(const NodePtr& node, const Position& at) {
     if (open_.empty()) {
       root_ = node;
@@ -368,7 +368,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Diagnostic>& diagnostics_;
   const YamlLimits& limits_;
   std::vector<std::size_t> line_starts_;
-  std::vector<std::size_t> continuations_;  // a file may be one line of megabytes: columns are looked up here
+  std::vector<std::size_t> continuations_;  // for the columns of files with very long lines
   std::vector<Open> open_;
   std::unordered_map<YAML::anchor_t, NodePtr> anchors_;
   NodePtr root_;
@@ -405,7 +405,7 @@ NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics, 
   } catch (const YAML::Exception& error) {
     if (cut()) return nullptr;
     const Position at = builder.position(error.mark);
-    // What a tab breaks is reported further on, as a fault of the indentation.
+    // An error caused by a tab is reported later, as an error of indentation.
     const bool tab = builder.indentation(error.mark).find('\t') != std::string_view::npos;
     diagnostics.push_back({{at.line, at.column, ""}, explain(tab ? YAML::ErrorMsg::TAB_IN_INDENTATION : error.msg)});
     return nullptr;
@@ -435,7 +435,7 @@ std::string read_text_file(const std::string& file, const YamlLimits& limits) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-  // Read in pieces: pipes have no size.
+  // Read in pieces, because pipes have no size.
   std::string text;
   std::vector<char> piece(1 << 16);
   while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) || stream.gcount() > 0) {

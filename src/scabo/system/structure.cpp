@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* component_name[2] = {"x", "y"};
 
-/// The two supports move alike in every step.
+/// Whether the two supports have the same motion in every step.
 bool same_history(const model::Model& model, int a, int b) {
   for (const model::Step& step : model.steps)
     if (step.support_factors[static_cast<std::size_t>(a)] != step.support_factors[static_cast<std::size_t>(b)])
@@ -110,7 +110,7 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   return system;
 }
 
-/// Of each body: whether it has a contact with pairs.
+/// For each body: whether it has a contact with pairs.
 std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<bool> found(model.bodies.size(), false);
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
@@ -135,7 +135,7 @@ std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& bod
       return {place.near};
     case model::Place::Kind::face:
     case model::Place::Kind::mouth:
-      break;  // of elastic bodies
+      break;  // only for elastic bodies
   }
   return {};
 }
@@ -205,7 +205,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     stiffness.unbounded = body.outside;
     if (super_elements[b]) {
       stiffness.dense =
-          std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
+          std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // owned by the caller
     } else {
       const auto D =
           element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)], model.analysis.plane);

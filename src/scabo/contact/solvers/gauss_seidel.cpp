@@ -13,7 +13,7 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
   const int sweeps = 400 * control.iterations;
   for (int sweep = 0;; ++sweep) {
     if (sweep % 10 == 0 || sweep == sweeps) {
-      iteration.start(p);  // afresh: rounding piles up
+      iteration.start(p);  // anew, because rounding accumulates
       const Vector H = residual_of(problem, r, p, Vector());
       best.offer(p, Vector(), largest(H));
       const std::vector<int> states = states_at(problem, r, p, iteration.motion());

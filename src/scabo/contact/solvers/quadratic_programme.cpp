@@ -8,8 +8,8 @@ namespace scabo::contact::solvers {
 
 namespace {
 
-/// Where the forces of the set want to go: to the minimum on the set, or, where it has none, along a force
-/// that moves nothing but lowers the value for ever.
+/// Step for the forces of the active set: to the minimum on the set or, if it has none, along a force that causes no
+/// motion and decreases the objective without limit.
 struct Way {
   Vector d;
   bool endless = false;
