@@ -66,7 +66,7 @@ struct CoefficientMatrices {
 /// no length or is not entirely visible from the centre (|J| <= 0), or if its elasticity is not positive definite.
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
 
-/// Position of a boundary point and its derivative along eta, from values and derivatives of the shape functions.
+/// Position of a boundary point and its derivative along eta, by values and derivatives of the shape functions.
 struct BoundaryPoint {
   Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
   double jacobian() const { return cross(x, x_eta); }  ///< |J|
