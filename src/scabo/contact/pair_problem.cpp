@@ -40,7 +40,7 @@ void PairProblem<d>::solve(const double* free, double* force) {
   if (force[0] < -tension_) open(free, force);
 }
 
-/// At full tension, cohesion holds the tangential motion. False if that compresses the pair.
+/// The open state: full tension, with tangential motion held by cohesion. False if the sides would then overlap.
 template <int d>
 bool PairProblem<d>::open(const double* free, double* force) {
   const double u_n = free[0] - W_[0] * tension_;

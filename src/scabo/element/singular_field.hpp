@@ -1,6 +1,6 @@
 // The singular part of the field of an open super-element: at a crack, a notch, or a corner where materials meet.
 //
-// The exponents of S (modal_solution.hpp) form three groups: below 1 (singular stress), equal to 1 (rotation,
+// The exponents of S (modal_solution.hpp) are of three kinds: below 1 (singular stress), equal to 1 (rotation,
 // T-stress), and the rest. For a group, with the spectral projections of linalg/ordered_schur.hpp,
 //
 //     u(xi) = Phi xi^T c,   c = Q u(1)                                                                              (1)

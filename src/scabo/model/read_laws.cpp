@@ -16,9 +16,10 @@ constexpr double largest_coefficient = 1e6;  // for larger values the forces in 
 double read_coefficient(Report& report, const Value& value) {
   const double friction = read_not_negative(report, value).value_or(0.0);
   if (friction <= largest_coefficient) return friction;
-  report.error(value, fmt::format("a coefficient of friction must be at most 1e6, not {}: that prevents slip as well, "
-                                  "and 'bond: true' prevents both slip and opening",
-                                  number_text(friction)));
+  report.error(value,
+               fmt::format("a coefficient of friction must be at most 1e6, not {}: 1e6 already prevents slip, and "
+                           "'bond: true' prevents both slip and opening",
+                           number_text(friction)));
   return 0.0;
 }
 
