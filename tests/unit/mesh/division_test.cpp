@@ -125,7 +125,7 @@ TEST(BoundaryDivision, NamesAnEdgeThatTheCentreDoesNotSee) {
   EXPECT_THAT(message_of(with({block})),
               HasSubstr("the edge block.right is not entirely visible from the scaling centre"));
   block.mesh.centre = {1.0, 0.5};  // on the edge itself
-  EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not seen"));
+  EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not entirely visible"));
 }
 
 TEST(BoundaryDivision, RefusesMeshesTooLargeToBeMeant) {
