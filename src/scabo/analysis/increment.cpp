@@ -363,8 +363,8 @@ std::string too_large(const Prepared& prepared, const State& state) {
     const double largest = state.u[b].lpNorm<Eigen::Infinity>();
     if (largest > 0.1 * size)
       return fmt::format(
-          "displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory is valid for small "
-          "displacements only; check the units of stiffness and loads",
+          "displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory is valid for small ones "
+          "only; check the units of stiffness and loads",
           prepared.model.bodies[b].name, largest);
   }
   return {};

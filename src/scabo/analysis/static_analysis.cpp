@@ -140,8 +140,7 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
     if (at.contacts[c].open > 0)
       add(open, open + " carry shear: a prescribed shear strength does not depend on pressure");
   }
-  if (const std::string large = too_large(prepared, reached.state); !large.empty())
-    add("small displacements only", large);
+  if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
     add("only up to a translation", relative);
   for (const std::string& warning : crack_warnings(at.cracks)) add(warning, warning);

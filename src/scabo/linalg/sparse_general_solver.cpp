@@ -18,7 +18,7 @@ struct SparseGeneralSolver::Factor {
   Factor() {
     umfpack_di_defaults(control);
     control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-    control[UMFPACK_IRSTEP] = 0;  // iterative refinement is left to the caller
+    control[UMFPACK_IRSTEP] = 0;  // who calls refines with the matrix that he means
   }
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
@@ -35,8 +35,7 @@ SparseGeneralSolver::SparseGeneralSolver(SparseGeneralSolver&&) noexcept = defau
 SparseGeneralSolver& SparseGeneralSolver::operator=(SparseGeneralSolver&&) noexcept = default;
 
 bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A) {
-  ensure(A.rows() == A.cols() && A.isCompressed(),
-         "SparseGeneralSolver: a square matrix in compressed columns is wanted");
+  ensure(A.rows() == A.cols() && A.isCompressed(), "SparseGeneralSolver: a square matrix in compressed columns is wanted");
   factor_->forget();
   factor_->A = &A;
   reciprocal_condition_ = 1.0;
@@ -44,8 +43,8 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A) {
   const auto n = static_cast<int>(A.rows());
   double info[UMFPACK_INFO];
   void* symbolic = nullptr;
-  int status =
-      umfpack_di_symbolic(n, n, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), &symbolic, factor_->control, info);
+  int status = umfpack_di_symbolic(n, n, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), &symbolic,
+                                   factor_->control, info);
   if (status == UMFPACK_OK)
     status = umfpack_di_numeric(A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), symbolic, &factor_->numeric,
                                 factor_->control, info);
@@ -62,8 +61,8 @@ void SparseGeneralSolver::solve(const Vector& b, Vector& x) const {
   if (b.size() == 0) return;
   factor_->indices.resize(static_cast<std::size_t>(b.size()));
   factor_->room.resize(static_cast<std::size_t>(b.size()));
-  umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), x.data(), b.data(), factor_->numeric,
-                    factor_->control, nullptr, factor_->indices.data(), factor_->room.data());
+  umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), x.data(), b.data(),
+                    factor_->numeric, factor_->control, nullptr, factor_->indices.data(), factor_->room.data());
 }
 
 }  // namespace scabo::linalg

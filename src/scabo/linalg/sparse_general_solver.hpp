@@ -16,7 +16,7 @@ class SparseGeneralSolver {
   SparseGeneralSolver(SparseGeneralSolver&&) noexcept;
   SparseGeneralSolver& operator=(SparseGeneralSolver&&) noexcept;
 
-  /// Factorises `A`, n x n and compressed, which must outlive the solves. False if a pivot is zero.
+  /// Of `A`, n x n and compressed, which must outlive the solves. False where a pivot is zero.
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& A);
   /// Smallest over largest pivot: a coarse estimate of 1 / (|A| |A^-1|).
   double reciprocal_condition() const { return reciprocal_condition_; }

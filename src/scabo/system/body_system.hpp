@@ -28,7 +28,7 @@ namespace scabo::system {
 struct Stiffness {
   std::shared_ptr<const Matrix> dense;
   linalg::SparseMatrix sparse;
-  bool unbounded = false;  ///< unbounded domain, which is held at infinity: no rigid motion is free
+  bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
 
   Eigen::Index size() const { return dense ? dense->rows() : sparse.rows(); }
   Vector times(const Vector& u) const;
@@ -67,7 +67,7 @@ class BodySystem {
   virtual double imbalance(const Vector& u, const Vector& f) const = 0;
   /// 1/2 u'K u.
   virtual double elastic_energy(const Vector& u) const = 0;
-  /// Force that a single component of u would cause: max_i K_ii max_i |u_i|; 0 for a rigid body.
+  /// Force by which K would answer if one component of u were alone: max_i K_ii max_i |u_i|; 0 of a rigid body.
   virtual double stiff_force(const Vector& u) const = 0;
 
   const std::vector<Constraint>& constraints() const { return constraints_; }

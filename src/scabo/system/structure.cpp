@@ -205,7 +205,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     stiffness.unbounded = body.outside;
     if (super_elements[b]) {
       stiffness.dense =
-          std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // owned by the caller
+          std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
     } else {
       const auto D =
           element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)], model.analysis.plane);
