@@ -1,4 +1,4 @@
-// `scabo check` and `scabo schema`: what can be said of a model without solving it.
+// `scabo check` and `scabo schema`: information about a model without solving it.
 #include <fmt/format.h>
 
 #include "commands.hpp"

@@ -1,5 +1,5 @@
-// What the program does, one function for each subcommand. They throw what the library throws; main.cpp turns
-// that into messages and exit statuses.
+// The commands of the program, one function for each. They throw the exceptions of the library, which main.cpp turns
+// into messages and exit statuses.
 #pragma once
 
 #include <algorithm>
@@ -36,17 +36,17 @@ struct ContactOptions {
   std::string file;                         ///< a discrete problem: HDF5 in FCLIB's layout, or Siconos's text
   std::string solver = "b_differentiable";  ///< one of contact::method_names()
   double tolerance = 1e-10;                 ///< of natural-map residual and certificate, > 0
-  int iterations = 0;                       ///< of one attempt, > 0; 0: the solver's own
+  int iterations = 0;                       ///< in one attempt, > 0; 0: default of the solver
   double time_limit = 0.0;                  ///< seconds of the solve, > 0; 0: none
   bool json = false;
-  bool uniqueness = false;  ///< looks for other solutions
+  bool uniqueness = false;  ///< search for other solutions
   bool write_trace = false;
   std::string trace;  ///< empty: `file.trace.csv`
-  std::string save;   ///< where problem and solution go; empty: nowhere
+  std::string save;   ///< file for problem and solution; empty: none
 };
 
 ExitStatus run(const RunOptions& options);
-/// `run` of a model with `type: modal` that took `reading` seconds to read.
+/// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
                      double reading);
 ExitStatus check(const CheckOptions& options);

@@ -1,4 +1,4 @@
-// `scabo contact`: a discrete problem that somebody saved, solved alone.
+// `scabo contact`: solution of a saved discrete problem.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -29,7 +29,7 @@ contact::Method method_of(const std::string& name) {
   const std::string nearest = model::nearest_name(name, names);
   throw InputError("--solver",
                    {{{},
-                     fmt::format("no solver is called {}{}; there are {}", model::quoted_name(name),
+                     fmt::format("there is no solver called {}{}; available are {}", model::quoted_name(name),
                                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
 }
 
@@ -40,7 +40,7 @@ Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) 
   contact::SolverOptions solver;
   solver.tolerance = options.tolerance;
   solver.force_scale = saved.force_scale;
-  // Increments of ours are judged as in their run. Other problems are judged as they are among others.
+  // Problems saved by Scabo are judged as in their run, those of other programs by the natural map.
   const bool by_certificate = saved.force_scale > 0.0 || saved.problem.G.cols() > 0;
   solver.judge = by_certificate ? contact::Judge::certificate : contact::Judge::natural_map;
   judged.by_certificate = by_certificate;
@@ -53,7 +53,7 @@ Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) 
   return judged;
 }
 
-/// Of what was judged solved.
+/// For a solution that was judged solved.
 contact::UniquenessReport uniqueness_of(const contact::SavedProblem& saved, const Judged& judged) {
   contact::SolverOptions solver;
   solver.tolerance = judged.tolerance;
@@ -61,7 +61,8 @@ contact::UniquenessReport uniqueness_of(const contact::SavedProblem& saved, cons
   return contact::examine_uniqueness(saved.problem, saved.start, judged.solution, solver);
 }
 
-/// Throws InputError where `file` is there and does not begin as `mark`: it is not ours to replace.
+/// Throws InputError if `file` exists and does not begin with `mark`: it was not written by Scabo and must not be
+/// replaced.
 void refuse_files_of_others(const std::filesystem::path& file, std::string_view mark) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return;  // a new one, or a device
@@ -70,10 +71,10 @@ void refuse_files_of_others(const std::filesystem::path& file, std::string_view 
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   if (stream.gcount() > 0 && beginning.find(mark) == std::string::npos)
     throw InputError(file.string(),
-                     {{{}, "exists, and is no trace that Scabo wrote: name another file, as in --trace=FILE.csv"}});
+                     {{{}, "exists and is not a trace written by Scabo: name another file, as in --trace=FILE.csv"}});
 }
 
-/// Where the iterations go, and the picture of them.
+/// Files for the iterations and their plot.
 struct TraceFiles {
   std::filesystem::path table, picture;
 };
@@ -83,7 +84,8 @@ TraceFiles trace_files(const ContactOptions& options) {
   files.table = files.picture = options.trace.empty() ? options.file + ".trace.csv" : options.trace;
   files.picture.replace_extension("svg");
   if (files.picture == files.table)
-    throw InputError(options.trace, {{{}, "is the name of the picture: name the table, as in --trace=FILE.csv"}});
+    throw InputError(options.trace,
+                     {{{}, "is the name of the plot: give the name of the table, as in --trace=FILE.csv"}});
   refuse_files_of_others(files.table, trace_header);
   refuse_files_of_others(files.picture, result::convergence_plot_mark);
   return files;
@@ -103,7 +105,7 @@ void refuse_to_overwrite(const std::string& file) {
     throw InputError(file, {{{}, "exists: remove it, or name another file after --save"}});
 }
 
-/// The local form, also of a problem that was read in the global one; as text where the name says so.
+/// Writes the local form, also for a problem that was read in the global form; as text if the name of the file says so.
 void save(const std::string& file, contact::SavedProblem saved, const Judged& judged) {
   if (std::filesystem::path(file).extension() == ".dat") {
     try {
@@ -115,7 +117,7 @@ void save(const std::string& file, contact::SavedProblem saved, const Judged& ju
   }
   saved.r = is_solved(judged) ? judged.solution.p : Vector();
   saved.a = is_solved(judged) ? judged.solution.a : Vector();
-  // What is no solution is where a later solve may go on.
+  // If the problem was not solved, the best iterate is saved as a start for a later solve.
   if (judged.solution.status == contact::Status::not_converged) saved.start = {judged.solution.p, judged.solution.a};
   contact::write_fclib(file, saved);
 }

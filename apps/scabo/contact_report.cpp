@@ -40,7 +40,7 @@ Json list(const Vector& values) {
   return json;
 }
 
-/// Figures of the certificate that the discrete problem has, in the order in which they are told.
+/// Figures of the certificate that follow from the discrete problem, in the order of the report.
 std::vector<std::pair<const char*, double>> figures(const contact::Certificate& certificate) {
   return {{"penetration", certificate.penetration},         {"tension", certificate.tension},
           {"friction_excess", certificate.friction_excess}, {"complementarity", certificate.complementarity},
@@ -62,7 +62,7 @@ Vector motion_of(const contact::Problem& problem, const contact::Solution& solut
   return u;
 }
 
-/// One line for each contact where the file names them, else one for all pairs.
+/// One line for each contact if the file names them, otherwise one for all pairs.
 std::string forces_table(const contact::SavedProblem& saved, const contact::Solution& solution) {
   struct Sum {
     int open = 0, stick = 0, slip = 0;

@@ -1,5 +1,4 @@
-// What `scabo contact` says of a solved problem: a table for people, JSON for programs, CSV of the
-// iterations.
+// Output of `scabo contact`: a table for people, JSON for programs, and the iterations as CSV.
 #pragma once
 
 #include <optional>
@@ -11,17 +10,17 @@
 
 namespace scabo::app {
 
-/// A solution, which the library judged (contact/judge.hpp), and how it was asked for.
+/// A solution as judged by the library (contact/judge.hpp), and the options it was computed with.
 struct Judged {
   contact::Solution solution;
-  bool by_certificate = false;  ///< the certificate was judged, otherwise the natural map
+  bool by_certificate = false;  ///< the certificate was decisive, otherwise the natural map
   std::string solver;
   double tolerance = 1e-10;
   double seconds = 0.0;
-  std::optional<contact::UniquenessReport> uniqueness;  ///< where asked for and solved
+  std::optional<contact::UniquenessReport> uniqueness;  ///< if requested and solved
 };
 inline bool is_solved(const Judged& judged) { return judged.solution.status == contact::Status::solved; }
-/// As a message says it: `did not converge`.
+/// The status in the words of a message: `did not converge`.
 std::string_view spoken_name_of(contact::Status status);
 
 std::string report_table(const std::string& file, const contact::SavedProblem& saved, const Judged& judged);

@@ -1,4 +1,4 @@
-// What a run leaves when an error ends it.
+// The results of a run that is ended by an error.
 #pragma once
 
 #include <exception>
@@ -10,7 +10,8 @@
 
 namespace scabo::app {
 
-/// What the function gives; where it throws, summary.json in `directory` says so before the error goes on.
+/// Returns the result of the function. If it throws, the failure is recorded in summary.json in `directory` before the
+/// exception is passed on.
 template <typename Function>
 auto marking_failures(const std::filesystem::path& directory, Function function) {
   try {

@@ -9,7 +9,7 @@ namespace scabo::app {
 
 namespace {
 
-// Signal handlers reach only what is global and lock-free.
+// Signal handlers may use only global, lock-free variables.
 std::atomic<bool> stop_requested{false};
 std::atomic<int> received{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
@@ -23,11 +23,11 @@ void restore_default_handlers() {
 extern "C" void request_stop(int signal) {
   received = signal;
   stop_requested = true;
-  restore_default_handlers();  // the second signal ends the program at once
-  // but for SIGHUP, of which the shell and the system send one each when a terminal is closed
+  restore_default_handlers();  // a second signal ends the program immediately
+  // Except for SIGHUP: the shell and the system both send one when a terminal is closed.
   std::signal(SIGHUP, SIG_IGN);
   constexpr std::string_view message =
-      "\nInterrupted: ending after the increment at work (Ctrl-C again ends at once)\n";
+      "\nInterrupted: the run ends after the current increment (Ctrl-C again ends it immediately)\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
 }
 
@@ -39,7 +39,7 @@ Interrupt::Interrupt() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction current {};
     sigaction(signal, nullptr, &current);
-    if (current.sa_handler == SIG_IGN) continue;  // nohup and background jobs of a shell ask for that
+    if (current.sa_handler == SIG_IGN) continue;  // requested by nohup and for background jobs of a shell
     struct sigaction action {};
     action.sa_handler = request_stop;
     action.sa_flags = SA_RESTART;  // files being written must not fail with EINTR

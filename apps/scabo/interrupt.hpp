@@ -1,5 +1,6 @@
-// Ctrl-C (SIGINT), SIGTERM and SIGHUP (the terminal was closed). The first asks the run to end after the increment at
-// work, so that everything finished lies on disk whole; a second SIGINT or SIGTERM ends the program at once.
+// Ctrl-C (SIGINT), SIGTERM and SIGHUP (the terminal was closed). The first signal requests the run to end after the
+// current increment, so that all finished results are complete on disk; a second SIGINT or SIGTERM ends the program
+// immediately.
 #pragma once
 
 #include <atomic>
@@ -8,14 +9,14 @@ namespace scabo::app {
 
 class Interrupt {
  public:
-  Interrupt();   ///< from here on signals are caught
-  ~Interrupt();  ///< and from here on no more
+  Interrupt();   ///< starts to catch signals
+  ~Interrupt();  ///< restores the default handlers
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// True once a signal has come; what analysis::Options::stop points to.
+  /// True after a signal has arrived; analysis::Options::stop points to this.
   const std::atomic<bool>& requested() const;
-  /// The signal that came, or 0.
+  /// The signal that has arrived, or 0.
   int signal() const;
 };
 

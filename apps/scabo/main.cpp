@@ -59,10 +59,9 @@ With `# yaml-language-server: $schema=model.schema.json` as its first line, edit
 
 constexpr const char* model_help = "Model file (YAML or JSON)";
 constexpr const char* set_help =
-    "Replaces a value of the model file, or adds it, as in\n"
-    "contacts.joint.friction=0.5; may be repeated";
+    "Replaces or adds a value of the model file, as in\ncontacts.joint.friction=0.5; may be repeated";
 
-/// `--set a=1 b=2` becomes `--set a=1 --set b=2`, so that a model file may stand after the settings as well.
+/// `--set a=1 b=2` becomes `--set a=1 --set b=2`, so that a model file may also follow the settings.
 std::vector<std::string> spread_settings(const std::vector<std::string>& words) {
   std::vector<std::string> spread;
   bool in_settings = false;  // the last word was the value of a --set
@@ -124,7 +123,7 @@ class CommandLine {
         ->check(CLI::Range(1, 100'000'000));
     contact_
         ->add_option("--time-limit", contact_options_.time_limit,
-                     "Ends the solve after this time with the best point so far")
+                     "Ends the solve after this time and reports the best iterate")
         ->option_text("SECONDS")
         ->check(CLI::PositiveNumber);
     contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
@@ -145,13 +144,13 @@ class CommandLine {
   }
 
   void parse(std::vector<std::string> words) {
-    std::reverse(words.begin(), words.end());  // as CLI11 wants them
+    std::reverse(words.begin(), words.end());  // the order that CLI11 expects
     app_.parse(std::move(words));
     if (*run_ && output_->count() > 0 && run_options_.output.empty())
       throw CLI::ValidationError("--output: the name of the directory is empty: name one, or leave the option out");
     if (!*contact_) return;
     contact_options_.write_trace = trace_->count() > 0;
-    // `--trace problem.hdf5` names the problem, not where its trace goes.
+    // In `--trace problem.hdf5` the file is the problem, not the trace.
     if (contact_options_.file.empty()) std::swap(contact_options_.file, contact_options_.trace);
     if (contact_options_.file.empty()) throw CLI::RequiredError("FILE");
   }
@@ -164,7 +163,7 @@ class CommandLine {
     return print_schema();
   }
 
-  /// Prints the help or version asked for; a mistake in one line, with its remedy.
+  /// Prints the requested help or version, or a mistake in one line with its remedy.
   ExitStatus explain(const CLI::ParseError& error, const std::vector<std::string>& words) const {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
       app_.exit(error);
@@ -175,8 +174,8 @@ class CommandLine {
     std::string message = error.what();
     if (chosen.empty() && error.get_name() == "RequiredError") {
       const bool named = !words.empty() && !words.front().starts_with("-");
-      message = (named ? fmt::format("no command '{}'", words.front()) : "no command given") +
-                ": there are run, check, exponents, contact, schema";
+      message = (named ? fmt::format("there is no command '{}'", words.front()) : "no command given") +
+                ": available are run, check, exponents, contact, schema";
     }
     print_error(fmt::format("{} (see `{} --help`)", message, command));
     return ExitStatus::wrong_input;
@@ -237,8 +236,8 @@ ExitStatus main_program(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   scabo::app::prepare_process();
 #if defined(__GLIBC__)
-  // Matrices come and go by the hundred. Handing each back to the system and having it cleared again took a third of
-  // the time of a small super-element (17 ms against 12 ms at 320 degrees of freedom).
+  // Hundreds of matrices are allocated and freed. Returning each to the system and having it cleared again took a third
+  // of the time of a small super-element (17 ms against 12 ms at 320 degrees of freedom).
   mallopt(M_MMAP_THRESHOLD, 256 << 20);
   mallopt(M_TRIM_THRESHOLD, 512 << 20);
 #endif

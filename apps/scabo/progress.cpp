@@ -11,7 +11,7 @@ namespace scabo::app {
 
 namespace {
 
-// More than this many lines a second nobody can read, and a terminal takes its time for each.
+// More lines per second cannot be read, and a terminal needs time for each.
 constexpr std::chrono::milliseconds shortest_between_lines{50};
 
 /// `4 iterations, 27 open, 0 stick, 5 slip`
@@ -40,7 +40,7 @@ Progress::Progress(bool quiet)
 Progress::~Progress() { clear(); }
 
 void Progress::stage(const std::string& name) {
-  if (style_ != Style::terminal) return;  // piped, stages would be more lines than news
+  if (style_ != Style::terminal) return;  // if piped, stages would only add lines
   if (increments_ == 0) {
     show(name);
     return;

@@ -1,5 +1,4 @@
-// What a user sees of a run at work, on standard error. On a terminal one line that is rewritten; piped, one
-// plain line for every increment.
+// Progress of a run on standard error: one line that is rewritten on a terminal, or one line per increment otherwise.
 #pragma once
 
 #include <chrono>
@@ -13,7 +12,7 @@ class Progress {
  public:
   enum class Style { silent, lines, terminal };
 
-  /// Silent when `quiet`, else as standard error is.
+  /// Shows nothing if `quiet`; otherwise adapts to standard error.
   explicit Progress(bool quiet);
   ~Progress();  ///< clears the line
   Progress(const Progress&) = delete;
@@ -22,7 +21,7 @@ class Progress {
   void stage(const std::string& name);
   void meshed(const analysis::StaticSolution& solution);
   void increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result);
-  /// Takes the rewritten line away, so that other messages can be printed.
+  /// Clears the rewritten line, so that other messages can be printed.
   void clear();
 
  private:
@@ -31,9 +30,9 @@ class Progress {
 
   Style style_;
   bool line_shown_ = false;
-  int increments_ = 0;  ///< of all steps; 0 until they begin
+  int increments_ = 0;  ///< of all steps; 0 until the first begins
   int done_ = 0;
-  std::string before_;  ///< what the last finished increment came to
+  std::string before_;  ///< result of the last finished increment
   std::chrono::steady_clock::time_point last_shown_;
 };
 

@@ -31,8 +31,8 @@ std::filesystem::path default_output(const std::string& model) {
   return path.replace_extension("results");
 }
 
-/// One file for each attempt, with the solution where it was accepted. Not in result/, which knows no files of
-/// problems.
+/// One file for each attempt, with the solution if it was accepted. Not in result/, which has no access to problem
+/// files.
 void write_problems(const result::ResultsDirectory& directory, const model::Model& model,
                     const analysis::IncrementResult& increment,
                     const std::vector<analysis::DiscreteProblem>& problems) {
@@ -57,7 +57,7 @@ void write_problems(const result::ResultsDirectory& directory, const model::Mode
   }
 }
 
-/// Totals of the last converged increment, and where everything lies.
+/// Totals of the last converged increment, and the location of the results.
 std::string summary_text(const analysis::StaticSolution& solution, const std::filesystem::path& directory) {
   int converged = 0;
   double certificate = 0.0;
@@ -88,7 +88,7 @@ ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {
     case analysis::Outcome::mechanism:
       break;
   }
-  // A signal also ends the halving of an increment; what stopped the run is the signal all the same.
+  // A signal also ends the halving of an increment; the run was then stopped by the signal.
   return signal != 0 ? static_cast<ExitStatus>(ExitStatus::signalled + signal) : ExitStatus::not_converged;
 }
 
@@ -116,8 +116,8 @@ ExitStatus run(const RunOptions& options) {
   if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);
 
   ignore_broken_pipes();
-  // Looked through before the directory is made or cleared, and the directory made before the long work: a
-  // mistake in either costs seconds and no results. Meshing twice is a hundredth of a solve.
+  // The model is checked before the directory is created or cleared, and the directory is created before the solve: a
+  // mistake in either then costs seconds and no results. Meshing twice takes a hundredth of the time of a solve.
   mesh::Mesh mesh = analysis::check(model);
   const Interrupt interrupt;
   result::ResultsDirectory directory(output, model, std::move(mesh));

@@ -12,7 +12,7 @@ namespace scabo::app {
 
 namespace {
 
-/// What supports hold of one body.
+/// Degrees of freedom of one body that are held by supports.
 class Held {
  public:
   Held(const model::Body& body, const mesh::BodyMesh& mesh, const std::vector<system::Constraint>& constraints)
@@ -20,7 +20,7 @@ class Held {
     if (body.rigid) return;
     for (const system::Constraint& constraint : constraints) dofs_[constraint.dof] = true;
   }
-  /// True where the body cannot move along `normal`; `node` counts for an elastic body only.
+  /// True if the body cannot move along `normal`; `node` is used only for an elastic body.
   bool at(int node, const Vec2& normal) const {
     if (node < 0) return whole_;
     const auto moves = [&](int k) { return std::abs(normal[k]) > 1e-12 && !dofs_[2 * node + k]; };

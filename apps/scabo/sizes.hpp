@@ -1,4 +1,4 @@
-// Sizes of a model, known before anything is solved.
+// Sizes of a model, before anything is solved.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct Sizes {
   int contact_pairs = 0;
 };
 
-/// Pairs of every contact, without those that supports hold on both sides: they can do nothing.
+/// Number of pairs of every contact, without those that supports hold on both sides, which cannot move.
 std::vector<int> moving_pairs(const model::Model& model, const mesh::Mesh& mesh);
 
 Sizes sizes_of(const model::Model& model, const mesh::Mesh& mesh);

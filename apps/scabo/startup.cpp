@@ -28,7 +28,7 @@
 #define SCABO_ADDRESS_SANITIZER 1
 #endif
 
-// OpenBLAS's own memory; weak, so that any BLAS links.
+// Memory management of OpenBLAS; weak, so that any BLAS can be linked.
 extern "C" {
 [[gnu::weak]] void* blas_memory_alloc(int position);
 [[gnu::weak]] void blas_memory_free(void* buffer);
@@ -40,12 +40,12 @@ namespace {
 
 constexpr std::size_t megabyte = 1 << 20;
 constexpr std::size_t blas_buffer = 128 * megabyte;  // OpenBLAS 0.3 on x86-64
-/// Of each thread: buffer of BLAS, stack, and what malloc reserves for it.
+/// Memory of each thread: buffer of BLAS, stack, and the reserve of malloc.
 constexpr std::size_t of_a_thread = blas_buffer + 8 * megabyte + 64 * megabyte;
-/// What a small model takes besides: the heap, and tables that libraries make when they start.
+/// Other memory of a small model: the heap, and tables that libraries create at their start.
 constexpr std::size_t for_work = 32 * megabyte;
 
-/// Whether so much could be allocated now, under the limits of this process. Nothing is used.
+/// Whether this amount could be allocated now, under the limits of this process. Nothing remains allocated.
 bool is_free(std::size_t bytes) {
   void* const probe = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (probe == MAP_FAILED) return false;
@@ -59,7 +59,7 @@ bool room_for_threads(int count) { return is_free(static_cast<std::size_t>(count
 /// changes.
 int buffers_of(int threads) { return 2 * threads + 1; }
 
-/// Processors this process may run on: so many threads OpenBLAS makes.
+/// Number of processors that this process may use, which is the number of threads that OpenBLAS creates.
 int processors() {
   cpu_set_t set;
   return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
@@ -67,12 +67,12 @@ int processors() {
 
 void keep_open(int descriptor, int mode) {
   if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) return;
-  // The lowest free number is this one, as those below are open by now.
+  // The lowest free descriptor is this one, because all lower ones are open at this point.
   [[maybe_unused]] const int opened = open("/dev/null", mode);
 }
 
 [[noreturn]] void end_after_an_exception() {
-  const char* message = "scabo: the program ended in a way it should not: a bug, please report it\n";
+  const char* message = "scabo: the program ended unexpectedly: this is a bug, please report it\n";
   try {
     if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::bad_alloc&) {
@@ -83,7 +83,7 @@ void keep_open(int descriptor, int mode) {
   _exit(ExitStatus::failure);
 }
 
-/// The stack grows by itself only while there is address space; without, the program would end by SIGSEGV.
+/// The stack can grow only while there is address space; otherwise the program would end with SIGSEGV.
 [[gnu::noinline]] void take_stack() {
   std::array<volatile char, megabyte> stack;
   for (std::size_t i = 0; i < stack.size(); i += 4096) stack[i] = 0;
@@ -138,10 +138,10 @@ bool is_set(char* const* environment, const char* assignment) {
 }
 
 void refuse() {
-  char message[320] = "scabo: not enough memory: about 200 MB of address space must be free to start";
+  char message[320] = "scabo: not enough memory: about 200 MB of address space must be available to start";
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-    // No stdio here: libraries are not initialised.
+    // stdio cannot be used here, because libraries are not initialised.
     char digits[24];
     int count = 0;
     for (rlim_t kilobytes = limit.rlim_cur / 1024; count == 0 || kilobytes > 0; kilobytes /= 10)
@@ -157,7 +157,7 @@ void refuse() {
   _exit(scabo::app::ExitStatus::failure);
 }
 
-/// See prepare_process. Standard streams and the environment of the C library are not there yet.
+/// See prepare_process. Standard streams and the environment of the C library do not exist yet.
 void check_memory(int, char** arguments, char** environment) {
   constexpr const char* one_thread = "OPENBLAS_NUM_THREADS=1";
   if (scabo::app::room_for_threads(scabo::app::buffers_of(processors()))) return;

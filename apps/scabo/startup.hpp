@@ -1,5 +1,5 @@
-// The state of the process before any work: enough address space for BLAS, three open standard streams, and signals
-// that would end a run in the middle of a file.
+// Preparation of the process before any work: sufficient address space for BLAS, three open standard streams, and
+// handling of signals that would end a run in the middle of a file.
 #pragma once
 
 namespace scabo::app {
@@ -7,24 +7,24 @@ namespace scabo::app {
 /// To be called first in main.
 ///
 /// - Standard input, output and error are open afterwards. Where the caller closed one, the next file that is opened
-///   would get its number, and text for the screen would go into it. What stands in for a closed stream refuses to be
-///   written, so that the error is seen.
-/// - SIGXFSZ is ignored: a file that reaches the limit of `ulimit -f` is then an error with a name.
-/// - std::bad_alloc where no exception may pass ends the program with status 3 and a sentence.
-/// - Where memory is scarce, the buffer of BLAS and a part of the stack are taken now.
+///   would get its number, and text for the screen would go into it. The replacement of a closed stream cannot be
+///   written to, so that the error is noticed.
+/// - SIGXFSZ is ignored: a file that reaches the limit of `ulimit -f` is then an error that names the file.
+/// - std::bad_alloc that cannot be caught elsewhere ends the program with status 3 and a message.
+/// - If memory is scarce, the buffer of BLAS and a part of the stack are allocated now.
 ///
-/// The check of memory itself runs before main, and before the initialisers of shared libraries: OpenBLAS maps a buffer
-/// of 128 MB for each of its threads while it is loaded and more when they change, and tries again for ever where it gets none. Then its
-/// threads are limited to one, for which the program starts itself again; where that does not fit either, it ends
-/// with status 3 and says what is needed.
+/// The check of memory itself runs before main and before the initialisers of shared libraries: OpenBLAS allocates a
+/// buffer of 128 MB for each of its threads while it is loaded, more when their number changes, and retries forever if it
+/// gets none. In that case its threads are limited to one, and the program restarts itself; if memory is still
+/// insufficient, it ends with status 3 and states the amount needed.
 void prepare_process();
 
-/// `wanted`, whose buffers are taken then, or 1 where the limit on memory leaves no room for the buffers and stacks of so
-/// many threads.
+/// `wanted`, whose buffers are then allocated, or 1 if the limit on memory leaves no room for the buffers and stacks of
+/// so many threads.
 int threads_that_fit(int wanted);
 
-/// Text on standard output or error may be read by a program that ends early (`| head`): writing then fails, and
-/// does not end this program. For runs, whose results are files.
+/// The reader of standard output or error may end early (`| head`): writing then fails, but does not end this program.
+/// For runs, whose results are files.
 void ignore_broken_pipes();
 
 constexpr const char* not_enough_memory =

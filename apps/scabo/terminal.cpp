@@ -69,7 +69,7 @@ void print_summary(std::string_view text) {
     print_output(text);
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::broken_pipe && error.code() != std::errc::bad_file_descriptor)
-      print_warning(fmt::format("{}; the results are complete all the same", error.what()));
+      print_warning(fmt::format("{}; the results are nevertheless complete", error.what()));
   }
 }
 

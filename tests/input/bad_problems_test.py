@@ -31,7 +31,7 @@ def replaced(name, value):
 
 LOCAL = [
     ("fclib_local/spacedim", np.int32([5]), "fclib_local/spacedim: must be 2 or 3, not 5"),
-    ("fclib_local/spacedim", np.int32([3]), "fclib_local/W/m: is 4, no multiple of spacedim, 3"),
+    ("fclib_local/spacedim", np.int32([3]), "fclib_local/W/m: is 4, which is not a multiple of spacedim, 3"),
     ("fclib_local/spacedim", np.int32([2, 2]), "fclib_local/spacedim: must be one whole number, not 2"),
     ("fclib_local/spacedim", [2.5], "fclib_local/spacedim: must hold whole numbers, not numbers"),
     ("fclib_local/spacedim", None, "fclib_local/spacedim: is missing"),
@@ -52,14 +52,14 @@ LOCAL = [
     ("fclib_local/W/p", np.int32([0, 3, 2, 3, 4]), "fclib_local/W/p: entry 2 is 2: must be from 3 (the one before) to 4"),
     ("fclib_local/W/p", np.int32([1, 1, 2, 3, 4]), "fclib_local/W/p: must start with 0, not 1"),
     ("fclib_local/W/p", np.int32([]), "fclib_local/W/p: must hold 5 values"),
-    ("fclib_local/W/i", np.int32([0, 1, 2, 4]), "fclib_local/W: entry 3 stands in row 4 and column 3 (from 0) of a matrix of 4 x 4"),
-    ("fclib_local/W/i", np.int32([0, 1, -2, 3]), "fclib_local/W: entry 2 stands in row -2"),
+    ("fclib_local/W/i", np.int32([0, 1, 2, 4]), "fclib_local/W: entry 3 is in row 4 and column 3 (counted from 0) of a matrix of 4 x 4"),
+    ("fclib_local/W/i", np.int32([0, 1, -2, 3]), "fclib_local/W: entry 2 is in row -2"),
     ("fclib_local/W/i", np.int32([0, 1]), "fclib_local/W/i: must hold 4 values (the last of p), not 2"),
     ("fclib_local/vectors/q", None, "fclib_local/vectors/q: is missing"),
     ("fclib_local/vectors/q", [1.0, 2.0], "fclib_local/vectors/q: must hold 4 values (as many as rows of W), not 2"),
     ("fclib_local/vectors/q", [1.0, 2.0, np.nan, 3.0], "fclib_local/vectors/q: entry 2 is nan: must be a finite number"),
     ("fclib_local/vectors/mu", [0.3], "fclib_local/vectors/mu: must hold 2 values (one for each pair), not 1"),
-    ("fclib_local/vectors/mu", [0.3, -0.1], "fclib_local/vectors/mu: entry 1 is -0.1: a coefficient of friction is 0 or more"),
+    ("fclib_local/vectors/mu", [0.3, -0.1], "fclib_local/vectors/mu: entry 1 is -0.1: a coefficient of friction must be 0 or more"),
     ("fclib_local/vectors", None, "fclib_local/vectors/q: is missing"),
     ("fclib_local", None, "has neither fclib_local nor fclib_global"),
 ]
@@ -141,14 +141,14 @@ class BadProblems(unittest.TestCase):
     def test_files_that_are_no_problem(self):
         folder = self.file.parent
         self.expect("no such file", folder / "missing.hdf5")
-        self.expect("is a directory: name a problem file in it", folder)
+        self.expect("is a directory: name a problem file", folder)
         (folder / "text.hdf5").write_text("2\n1\n")
         self.expect("is not an HDF5 file", folder / "text.hdf5")
         (folder / "empty.dat").write_text("")
         self.expect("is empty", folder / "empty.dat")
         with h5py.File(self.file, "w") as file:
             file["temperature"] = [20.0]
-        self.expect("has neither fclib_local nor fclib_global, so it is no problem in FCLIB's layout (there is: temperature)")
+        self.expect("has neither fclib_local nor fclib_global, so that it is not a problem in FCLIB's layout (available: temperature)")
 
     def test_text_has_line_and_column(self):
         text = self.file.parent / "problem.dat"

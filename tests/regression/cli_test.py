@@ -72,7 +72,8 @@ class Input(support.InTemporaryDirectory):
             self.assertEqual(len(lines), 3, run.stderr)
             for line in lines:
                 self.assertRegex(line, r"^model\.yaml:\d+:\d+: [a-z_.]+: .+")
-            self.assertIn("bodies.lower.material: no material named 'concreet' (did you mean 'concrete'?)", lines[0])
+            self.assertIn("bodies.lower.material: there is no material named 'concreet' (did you mean 'concrete'?)",
+                          lines[0])
 
     def test_set_replaces_a_value(self):
         for arguments in (["--set", "contacts.joint.friction=0.5", BEAM],

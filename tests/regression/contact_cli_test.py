@@ -319,8 +319,8 @@ class Manners(Contact):
     def test_unknown_solver(self):
         run = scabo("contact", "no_such.hdf5", "--solver", "gaus_seidel")
         self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
-        self.assertIn("no solver is called 'gaus_seidel' (did you mean 'gauss_seidel'?); there are b_differentiable, ",
-                      run.stderr)
+        self.assertIn("there is no solver called 'gaus_seidel' (did you mean 'gauss_seidel'?); available are "
+                      "b_differentiable, ", run.stderr)
 
     def test_wrong_command_lines(self):
         for arguments in ([], ["a.hdf5", "b.hdf5"], ["a.hdf5", "--tolerance", "0"], ["a.hdf5", "--tolerance", "tight"],
@@ -350,7 +350,7 @@ class Manners(Contact):
         shutil.copy(file, self.directory / "precious.hdf5")
         run = scabo("contact", file, "--trace", "precious.hdf5", cwd=self.directory)
         self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
-        self.assertIn("precious.hdf5: exists, and is no trace", run.stderr)
+        self.assertIn("precious.hdf5: exists and is not a trace", run.stderr)
         self.assertEqual((self.directory / "precious.hdf5").read_bytes(), file.read_bytes())
 
 

@@ -58,7 +58,7 @@ class NaturalFrequencies(support.InTemporaryDirectory):
 
     def test_what_plays_no_part_is_said(self):
         summary = self.solve("analysis.type=modal", "materials.concrete.density=2400", model=support.BEAM)
-        self.assertEqual(summary["warnings"], ["a modal analysis leaves out the model's loads, contacts and steps: every "
+        self.assertEqual(summary["warnings"], ["a modal analysis ignores the model's loads, contacts and steps: each "
                                                "body vibrates by itself"])
         self.assertIn(summary["warnings"][0], self.said)
 

@@ -181,7 +181,7 @@ class Places(support.InTemporaryDirectory):
         (self.directory / "nowhere").symlink_to("gone")
         (self.directory / "file").write_text("mine")
         for place, status, text in (("", WRONG_INPUT, "--output: the name of the directory is empty"),
-                                    ("loop", FAILURE, "lead in a circle"), ("loop/out", FAILURE, "lead in a circle"),
+                                    ("loop", FAILURE, "form a loop"), ("loop/out", FAILURE, "form a loop"),
                                     ("nowhere", FAILURE, "a directory that does not exist"),
                                     ("n" * 300, FAILURE, "name is too long"), ("a/" * 3000, FAILURE, "name is too long"),
                                     ("file", FAILURE, "it is a file, not a directory"),
@@ -195,7 +195,7 @@ class Places(support.InTemporaryDirectory):
 
     def test_model_files_that_cannot_be(self):
         (self.directory / "loop.yaml").symlink_to("loop.yaml")
-        for name, text in (("loop.yaml", "lead in a circle"), ("n" * 300 + ".yaml", "name is longer")):
+        for name, text in (("loop.yaml", "form a loop"), ("n" * 300 + ".yaml", "name is too long")):
             with self.subTest(name=name[:20]):
                 ended = scabo("check", name, cwd=self.directory)
                 self.assertEqual((ended.returncode, ended.stdout), (WRONG_INPUT, ""))

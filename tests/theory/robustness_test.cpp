@@ -249,7 +249,7 @@ TEST(Robustness, IllPosedOnesAreNamed) {
 
   Ring hidden = good;  // the centre lies outside: the far edges are seen from behind
   for (Vec2& x : hidden.nodes) x += Vec2(3.0, 0.0);
-  expect_refused(hidden, D, 1.0, "the scaling centre does not see boundary element");
+  expect_refused(hidden, D, 1.0, "is not entirely visible from the scaling centre");
 
   Ring grazed = good;  // the centre lies on element 3
   const Vec2 middle = grazed.nodes[7];
@@ -258,7 +258,7 @@ TEST(Robustness, IllPosedOnesAreNamed) {
 
   Ring turned = good;
   for (Vec2& x : turned.nodes) x.y() = -x.y();  // clockwise
-  expect_refused(turned, D, 1.0, "the scaling centre does not see boundary element 0");
+  expect_refused(turned, D, 1.0, "boundary element 0 is not entirely visible from the scaling centre");
 
   Ring without_length = good;
   for (std::size_t i : {4u, 5u, 6u}) without_length.nodes[i] = good.nodes[4];  // element 2

@@ -215,7 +215,7 @@ TEST(Refinement, OfTwoBeamsKeepsTheirNodesMatching) {
     };
     EXPECT_TRUE(tells("upper.top_right is infinite"));
     const bool coarse = increment.contacts[0].stick + increment.contacts[0].slip < 5;  // at the coarsest tolerance
-    EXPECT_EQ(tells("too coarse to trust the pressure"), coarse);
+    EXPECT_EQ(tells("too few for a reliable pressure"), coarse);
     EXPECT_EQ(solution.warnings.size(), coarse ? 2u : 1u);
   }
 }

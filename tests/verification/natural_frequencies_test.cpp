@@ -218,8 +218,7 @@ contacts: {joint: {between: [beam.top, other.bottom]}}
     EXPECT_EQ(two.modes[k].body, static_cast<int>(k % 2));
   }
   ASSERT_EQ(two.warnings.size(), 2u);
-  EXPECT_EQ(two.warnings[0],
-            "a modal analysis leaves out the model's loads and contacts: every body vibrates by itself");
+  EXPECT_EQ(two.warnings[0], "a modal analysis ignores the model's loads and contacts: each body vibrates by itself");
   EXPECT_NE(two.warnings[1].find("'settle'"), std::string::npos);
 }
 

@@ -14,10 +14,10 @@ namespace scabo::analysis {
 
 namespace {
 
-/// Part of the tolerance that the estimate, which falls short of the error, is to stay below; 0.77 is the least
-/// effectivity measured on meshes that refinement made.
+/// Fraction of the tolerance that the estimate must reach, because it is smaller than the error; 0.77 is the least
+/// effectivity measured on meshes produced by refinement.
 constexpr double aim = 0.7;
-/// Of the largest nodal force: a reaction below it is rounding.
+/// Fraction of the largest nodal force below which a reaction is rounding.
 constexpr double some_reaction = 1e-6;
 
 using Frozen = std::vector<std::vector<bool>>;  // [body][boundary element]
@@ -57,8 +57,8 @@ Reactions reactions_of(const StaticSolution& solution) {
   return reactions;
 }
 
-/// Elements beside point forces and the like (adaptive.hpp), and those that cannot change without parting pairs of
-/// nodes.
+/// Elements beside point forces and similar places (adaptive.hpp), and those that cannot be changed without separating
+/// pairs of nodes.
 Frozen frozen_elements(const StaticSolution& solution) {
   const mesh::Mesh& mesh = solution.mesh;
   Frozen frozen(mesh.bodies.size());
@@ -92,7 +92,7 @@ Frozen frozen_elements(const StaticSolution& solution) {
     const bool divided_a = !frozen[static_cast<std::size_t>(a.body)].empty(),
                divided_b = !frozen[static_cast<std::size_t>(b.body)].empty();
     if (divided_a != divided_b)
-      flag(divided_a ? a : b) = true;  // finite elements stay as they are
+      flag(divided_a ? a : b) = true;  // finite elements are not changed
     else if (divided_a && (flag(a) || flag(b)))
       flag(a) = flag(b) = true;
   }
@@ -115,7 +115,8 @@ std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, con
   return elements;
 }
 
-/// `near` places as the nodes they mean on this mesh, so that they mean the same point on the next.
+/// Replaces `near` places by the position of their nodes on this mesh, so that they refer to the same point on the next
+/// mesh.
 void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
   const auto hold = [&](model::Place& place) {
     if (place.kind != model::Place::Kind::near) return;
@@ -137,7 +138,8 @@ Options quiet(const Options& options, const std::string& what) {
   return silent;
 }
 
-/// The analysis on the wider mesh; nothing, with the reason in `why`, where it has not the same increments.
+/// The analysis on the mesh of higher order; nothing, with the reason in `why`, if it does not have the same
+/// increments.
 std::optional<StaticSolution> solve_wider(const StaticSolution& solution, const Options& options,
                                           const std::string& what, std::string& why) {
   try {
@@ -166,12 +168,12 @@ void warn_of_frozen(StaticSolution& solution) {
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
   for (const std::string& place : places)
     solution.warnings.push_back(
-        fmt::format("stress under the point force at {} is infinite: the estimated error takes the force "
-                    "as spread over the elements beside it, which are not refined",
+        fmt::format("stress under the point force at {} is infinite: for the estimated error the force is distributed "
+                    "over the adjacent elements, which are not refined",
                     place));
 }
 
-/// Reports a solution that is complete already, as if its increments came one by one.
+/// Reports a complete solution as if its increments were computed one by one.
 void replay(StaticSolution& solution, const Options& options) {
   if (options.on_mesh) options.on_mesh(solution);
   std::vector<IncrementResult> increments = std::move(solution.increments);
@@ -189,7 +191,7 @@ int largest_body(const mesh::Mesh& mesh) {
   return 2 * static_cast<int>(nodes);
 }
 
-/// What refinement goes by.
+/// Error measures that control refinement.
 struct Judgement {
   double sum = 0.0;    ///< eq. (1) of the worst increment
   double error = 0.0;  ///< largest relative error of the whole model
@@ -210,7 +212,7 @@ Judgement judge(const StaticSolution& solution) {
   return judgement;
 }
 
-/// Parts of the sum that the elements hold in the worst increment.
+/// Contribution of every element to the sum in the worst increment.
 std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const StaticSolution& wider,
                                            std::size_t worst) {
   std::vector<std::vector<double>> shares(solution.model.bodies.size());
@@ -265,8 +267,8 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
     const std::string edge = body.name + "." + body.outline.edges[static_cast<std::size_t>(at.edge)].names.back();
     mistakes.push_back(
         {body.mesh.source,
-         fmt::format("element {} of {} faces no element like it in its contact, so that the two sides cannot be "
-                     "refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
+         fmt::format("element {} of {} has no matching element on the other side of its contact, so that the two sides "
+                     "cannot be refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
                      "shorter edge fall on ends of elements of the longer one",
                      at.element + 1, edge)});
   }
@@ -288,7 +290,7 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
                                               !loaded_inside(increment, b)});
     energy += U.dot(K * U);
   }
-  // FE bodies have energy too, though no estimate.
+  // Finite element bodies have energy too, although no error estimate.
   energy = std::max(energy, 2.0 * wider_increment.energy.elastic);
   const double norm = std::sqrt(energy);
   const auto relative = [&](double square) { return norm > 0.0 ? std::sqrt(square) / norm : 0.0; };
@@ -370,7 +372,7 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});
     sums.push_back(judgement.sum);
     if (judgement.sum <= aim * aim) return end(std::move(solution));
-    // Where there is no way on: an estimate between the aim and the tolerance is good enough.
+    // If refinement cannot continue, an estimate between the aim and the tolerance is accepted.
     const bool below = judgement.sum <= 1.0;
     const auto stuck = [&](const std::string& why_not) {
       return end(below ? std::move(solution) : not_reached(std::move(solution), why_not));
@@ -382,7 +384,7 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     };
     const auto back = static_cast<std::size_t>(limits.without_progress);
     if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
-      return stuck(at() + ", and more of them do not help");
+      return stuck(at() + ", and further refinement does not reduce it");
     if (static_cast<int>(passes.size()) == limits.passes)
       return stuck(fmt::format("after {} passes {}", limits.passes, at()));
     const RefinementPass refined =

@@ -1,4 +1,4 @@
-// The branch of solutions that is connected to the history, where there are several
+// Selection of the solution branch connected to the history if there are several solutions
 // (docs/methods/21_uniqueness.md).
 #pragma once
 
@@ -7,9 +7,8 @@
 
 namespace scabo::analysis {
 
-/// Looks for other solutions; where one is nearer to the accepted forces than the one at hand, the increment
-/// goes there, so that the branch connected to the history is followed. Nothing where `evolution` is not
-/// solved.
+/// Searches for other solutions. If one of them is closer to the accepted forces than the present one, the increment
+/// takes it, so that the branch connected to the history is followed. Returns nothing if `evolution` is not solved.
 std::optional<UniquenessResult> follow_history(const contact::Problem& problem, const contact::JointLaws& laws,
                                                const contact::History& history, const contact::Start& start,
                                                const contact::SolverOptions& options, contact::Evolution& evolution);

@@ -15,16 +15,16 @@ std::string name_of(const model::Body& body) {
   if (!body.cracks.empty()) return body.name + "." + body.cracks.front().name;
   if (body.mesh.centre_corner < 0) return body.name;
   const std::vector<std::string>& names = body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)].names;
-  return body.name + "." + (names.size() > 1 ? names[1] : names[0]);  // the user's name where there is one
+  return body.name + "." + (names.size() > 1 ? names[1] : names[0]);  // the name given by the user, if there is one
 }
 
-/// Of an exponent: as close, a load is in resonance with it.
+/// Distance from an exponent within which a load is in resonance with it.
 constexpr double resonance = 1e-4;
-/// A crack's exponents are 1/2; computed ones that are farther off come from a boundary too coarse for them.
+/// The exponents of a crack are 1/2; larger deviations of the computed ones show that the boundary is too coarse.
 constexpr double poor_exponent = 1e-3;
 
-/// Whether a load that acts has an exponent of a singular mode. The stress then grows like that of the mode times
-/// ln(xi): the factor of the mode has no limit.
+/// Whether an active load has the exponent of a singular mode. The stress then grows like that of the mode times
+/// ln(xi), and the factor of the mode has no limit.
 bool in_resonance(const element::StressIntensity& factors, const std::vector<element::RadialLoad>& loads) {
   return std::any_of(loads.begin(), loads.end(), [&](const element::RadialLoad& load) {
     return load.g.norm() + load.c.norm() > 0.0 &&
@@ -44,7 +44,7 @@ void take_back(element::StressIntensity& factors) {
 }
 
 bool resolved(const element::StressIntensity& factors) {
-  if (factors.kind == element::CornerKind::corner) return true;  // no exponent to hold against it
+  if (factors.kind == element::CornerKind::corner) return true;  // its theoretical exponents are not known
   return factors.exponents.size() == 2 &&
          std::all_of(factors.exponents.begin(), factors.exponents.end(), [](const std::complex<double>& exponent) {
            return std::abs(exponent.real() - 0.5) <= poor_exponent;
@@ -58,17 +58,17 @@ std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks) 
   for (const CrackResult& crack : cracks) {
     if (std::isnan(crack.factors.K_I))
       warnings.push_back(
-          fmt::format("the load on the faces of '{}' grows towards the tip just as the singular stress does, which "
-                      "makes that grow like ln(r) times it: its stress intensity factors have no value",
+          fmt::format("the load on the faces of '{}' has the same singularity at the tip as the stress (resonance), so "
+                      "that the stress has an additional factor ln(r): the stress intensity factors are undefined",
                       crack.name));
     if (resolved(crack.factors)) continue;
     std::string list;
     for (const std::complex<double>& exponent : crack.factors.exponents)
       list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
     warnings.push_back(
-        fmt::format("the boundary of '{}' is too coarse for its singular stress: the exponents came out as {}, and are "
-                    "0.5 twice; its stress intensity factors are wrong by as much: use a smaller mesh size, a higher "
-                    "order, or a tip farther from the boundary",
+        fmt::format("the boundary of '{}' is too coarse to resolve its singular stress: the computed exponents are {} "
+                    "instead of 0.5 twice, and the stress intensity factors have errors of the same size; use a "
+                    "smaller mesh size, a higher order, or a tip farther from the boundary",
                     crack.name, list));
   }
   return warnings;

@@ -5,11 +5,11 @@
 
 namespace scabo::analysis {
 
-/// One for each bounded open super-element, from its boundary displacements and the loads inside it. Factors are not
-/// numbers where a load has an exponent of a singular mode.
+/// One result for each bounded open super-element, from its boundary displacements and the loads inside it. Factors are
+/// not a number if a load has the exponent of a singular mode.
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment);
 
-/// What users must know of them: factors without a value, exponents that the boundary does not resolve.
+/// Warnings for users: undefined factors, exponents that the boundary does not resolve.
 std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks);
 
 }  // namespace scabo::analysis

@@ -12,9 +12,10 @@ namespace scabo::analysis {
 
 namespace {
 
-constexpr double alike = 1e-6;  // defective exponents move apart by about the root of rounding
+constexpr double alike = 1e-6;  // defective exponents are separated by about the root of rounding
 
-/// Fewer modes than exponents among those of one cluster. Exponents of different symmetry blocks do not couple.
+/// Whether the exponents of one cluster have fewer modes than their number. Exponents of different symmetry blocks do
+/// not couple.
 bool is_defective(const element::SuperElementSolution& solution, std::complex<double> value) {
   for (const element::Block& block : solution.blocks) {
     const linalg::OrderedSchur schur(block.S, [&](std::complex<double> z) {
@@ -57,7 +58,7 @@ BodyExponents of_super_element(const SolvedSuperElement& super_element) {
     if (found_in == 0) break;
     Exponent exponent;
     exponent.value = sum / static_cast<double>(upper);
-    // Equal real ones may come out as a pair a root of rounding apart.
+    // Equal real exponents may be computed as a complex pair, a root of rounding apart.
     const bool pairs = exponent.value.imag() > alike;
     if (!pairs) exponent.value = exponent.value.real();
     exponent.multiplicity = pairs ? upper : found_in;

@@ -1,7 +1,8 @@
-// The exponents of the super-elements of a model: u ~ xi^lambda, xi the distance from the scaling centre.
+// The exponents of the super-elements of a model: u ~ xi^lambda, where xi is the distance from the scaling centre.
 //
-// Bounded: 0 for the two translations, 1 for the rotation and for linear displacements; below 1 stress is infinite at
-// the scaling centre (open super-elements: cracks, notches, corners). Unbounded: negative real parts, and 0.
+// Bounded: 0 for the two translations, 1 for the rotation and for linear displacements; with an exponent below 1,
+// stress is infinite at the scaling centre (open super-elements: cracks, notches, corners). Unbounded: negative real
+// parts, and 0.
 #pragma once
 
 #include <complex>
@@ -13,11 +14,11 @@
 namespace scabo::analysis {
 
 struct Exponent {
-  std::complex<double> value;  ///< imaginary part 0 or more: a pair is one entry
-  int multiplicity = 1;        ///< equal ones (to 1e-6); of a complex pair, of each
+  std::complex<double> value;  ///< imaginary part >= 0: a complex pair is one entry
+  int multiplicity = 1;        ///< number of equal exponents (to 1e-6); complex pair: of each
   bool singular = false;       ///< 0 < real part < 1
-  bool defective = false;      ///< fewer modes than exponents: the field has a power of ln xi (power-logarithmic)
-  std::string meaning;         ///< `translations`, `rotation` ...; empty where there is nothing to say
+  bool defective = false;      ///< fewer modes than exponents: power-logarithmic, with a factor ln xi
+  std::string meaning;         ///< `translations`, `rotation` ..., or empty
 };
 
 struct BodyExponents {
@@ -27,7 +28,7 @@ struct BodyExponents {
   std::vector<Exponent> exponents;  ///< ascending real part
 };
 
-/// Meshes the model and solves its super-elements. Bodies without one (rigid, finite elements) are left out.
+/// Meshes the model and solves its super-elements. Bodies without super-elements (rigid, finite elements) are left out.
 std::vector<BodyExponents> exponents_of(const model::Model& model);
 
 }  // namespace scabo::analysis

@@ -68,8 +68,8 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
     const model::Contact& named = prepared.model.contacts[static_cast<std::size_t>(contact.held[i].contact)];
     throw InputError(
         prepared.model.file,
-        {{named.source, fmt::format("supports on both sides hold the pair at ({:.6g}, {:.6g}) {:.3g} inside "
-                                    "each other, and no force can part it: free one side there",
+        {{named.source, fmt::format("supports on both sides of the pair at ({:.6g}, {:.6g}) keep it at an overlap of "
+                                    "{:.3g}, which no contact force can remove: free one side there",
                                     pair.point_a.x(), pair.point_a.y(), -gap)}});
   }
 }
@@ -393,8 +393,8 @@ std::string too_large(const Prepared& prepared, const State& state) {
     const double largest = state.u[b].lpNorm<Eigen::Infinity>();
     if (largest > 0.1 * size)
       return fmt::format(
-          "displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory holds for small "
-          "ones; check the units of stiffness and loads",
+          "displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory is valid for small ones "
+          "only; check the units of stiffness and loads",
           prepared.model.bodies[b].name, largest);
   }
   return {};

@@ -1,4 +1,4 @@
-// One load increment: from an accepted state to the next, halved where contact does not converge.
+// One load increment: from an accepted state to the next, halved if contact does not converge.
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"
@@ -6,14 +6,14 @@
 
 namespace scabo::analysis {
 
-/// Everything an increment needs, made once.
+/// Data needed by all increments, computed once.
 struct Prepared {
   const model::Model& model;
   const mesh::Mesh& mesh;
   const system::Structure& structure;
   const system::ContactSystem& contact;
-  double force_scale = 0.0;  ///< largest nodal force of any load at factor 1: what a force is small against, also where
-                             ///< all loads are zero for a moment
+  /// Largest nodal force of any load at factor 1: the scale for judging forces, also while all loads are zero.
+  double force_scale = 0.0;
 };
 
 /// Factors of loads and supports at one time.
@@ -22,8 +22,8 @@ struct Factors {
 };
 Factors between(const Factors& from, const Factors& to, double part);
 
-/// An accepted state: the history that the next increment starts from. A value: an increment that fails leaves none of
-/// itself behind.
+/// An accepted state, which is the history from which the next increment starts. It is a value: an increment that fails
+/// does not change it.
 struct State {
   Factors factors;
   Vector p;                  // 2N, contact forces on B
@@ -35,33 +35,33 @@ struct State {
   std::vector<Vector> forces;      // per body: applied forces without contact
   std::vector<Vector> reactions;   // per body, one for each constraint
   std::vector<Vector> prescribed;  // per body, one for each constraint
-  double largest_force = 0.0;      ///< so far: what a force is small against once a joint broke and all is unloaded
+  double largest_force = 0.0;  ///< largest force so far, against which forces are judged after failure and unloading
   Energy energy;
 };
 State initial_state(const Prepared& prepared);
 
-/// Result of trying to reach `factors` from `from`, certificate included.
+/// Result of an attempt to reach `factors` from `from`, with its certificate.
 struct Attempt {
   State state;
   contact::Solution solution;
   contact::Certificate certificate;
-  double rounding = 0.0;  ///< what of equilibrium and rigid balance rounding of the displacements alone can be
+  double rounding = 0.0;  ///< possible share of rounding of the displacements in equilibrium and rigid balance
   bool accepted = false;
-  contact::Problem problem;  ///< what was solved, from `start`; W is shared, not copied
+  contact::Problem problem;  ///< the problem solved, from `start`; W is shared, not copied
   contact::Start start;
   double force_scale = 0.0;
   std::optional<UniquenessResult> uniqueness;
 };
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors);
 
-/// The problem of an attempt as others can solve it.
+/// The problem of an attempt in a form that other solvers can use.
 DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt);
 
-/// What users see of an accepted state.
+/// The results of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);
 
-/// Bodies whose displacements pass a tenth of their size, where small displacements are no longer small: a sentence for
-/// the first, empty where there is none.
+/// A sentence about the first body whose displacements exceed a tenth of its size, for which the theory of small
+/// displacements is not valid; empty if there is none.
 std::string too_large(const Prepared& prepared, const State& state);
 
 /// `body 'upper': translation along (1, 0)` for rigid motions `a`.

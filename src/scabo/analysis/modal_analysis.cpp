@@ -27,7 +27,7 @@ struct BodyMatrices {
   system::Stiffness K, M;
 };
 
-/// Super-elements that are alike share both.
+/// Identical super-elements share both.
 class Matrices {
  public:
   Matrices(const StaticSolution& structure, int threads) : structure_(structure), threads_(threads) {}
@@ -37,7 +37,7 @@ class Matrices {
     const double thickness = model.analysis.thickness;
     BodyMatrices matrices;
     if (const auto& super_element = structure_.super_elements[body]) {
-      std::vector<double> density;  // super-elements that are alike have the same materials
+      std::vector<double> density;  // identical super-elements have the same materials
       for (const int material : super_element->sectors.materials)
         density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
       std::shared_ptr<const Matrix>& mass = masses_[super_element.get()];

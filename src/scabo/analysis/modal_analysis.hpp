@@ -7,8 +7,8 @@
 namespace scabo::analysis {
 
 struct NaturalMode {
-  int body = 0;                        ///< index of the body that moves; the others are at rest
-  bool rigid = false;                  ///< the body moves without deformation: frequency 0 exactly
+  int body = 0;                        ///< index of the body that vibrates; the others are at rest
+  bool rigid = false;                  ///< rigid-body mode: its frequency is exactly 0
   double frequency = 0.0;              ///< 1 / time (SI: Hz)
   Vector shape;                        ///< 2 per node of the body; the largest displacement of a node is 1
   double modal_mass = 0.0;             ///< shape' M shape, mass
@@ -23,7 +23,7 @@ struct ModalTiming {
 };
 
 struct ModalResult {
-  /// Model (without contacts), mesh and super-elements, for fields: no increments.
+  /// Model (without contacts), mesh and super-elements, from which fields are recovered; without increments.
   StaticSolution structure;
   std::vector<NaturalMode> modes;  ///< ascending frequency
   double total_mass = 0.0;         ///< of all elastic bodies

@@ -14,11 +14,9 @@ void check_references(const model::Model& model, const mesh::Mesh& mesh) {
     const mesh::SuperElement& super_element = mesh.bodies[b].super_elements.front();
     if (!element::locate(element::ring_of(super_element, mesh.bodies[b].nodes), *body.reference - super_element.centre,
                          true))
-      mistakes.push_back(
-          {body.source,
-           fmt::format("the reference point ({:.6g}, {:.6g}) does not lie in this body: name a point of the "
-                       "ground, far from the hole",
-                       body.reference->x(), body.reference->y())});
+      mistakes.push_back({body.source, fmt::format("the reference point ({:.6g}, {:.6g}) does not lie in this body: "
+                                                   "choose a point of the body far from the hole",
+                                                   body.reference->x(), body.reference->y())});
   }
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
 }
@@ -31,9 +29,9 @@ std::string without_reference(const Prepared& prepared, const State& state) {
     const Vec2 sum = forces.reshaped(2, forces.size() / 2).rowwise().sum();
     if (sum.norm() > 1e-9 * forces.lpNorm<1>())
       return fmt::format(
-          "the forces on '{}', which reaches to infinity, are out of balance by ({:.4g}, {:.4g}): in the plane its "
-          "displacement is then relative. It is held a thousand radii away here; name a 'reference' point that stands "
-          "still",
+          "the forces on the unbounded body '{}' have a resultant ({:.4g}, {:.4g}): in the plane its displacement is "
+          "then determined only up to a translation. Here it is fixed at a distance of a thousand radii; give a "
+          "'reference' point where the displacement is to be zero",
           body.name, sum.x(), sum.y());
   }
   return {};
@@ -41,7 +39,7 @@ std::string without_reference(const Prepared& prepared, const State& state) {
 
 namespace {
 
-/// Takes a translation off the displacements of the pairs, which are along [n, t].
+/// Subtracts a translation from the displacements of the pairs, which are in [n, t].
 void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vector<ContactResult>& contacts) {
   std::vector<std::size_t> next(contacts.size(), 0);
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
@@ -70,7 +68,7 @@ void refer_displacements(const Prepared& prepared, const StaticSolution& solutio
         element::point_values(super_element.ring, field.at(at->xi), super_element.sectors.D, at->element, at->eta)
             .displacement;
     take_off_pairs(prepared, result.reference_displacement, result.contacts);
-    return;  // one point fixes all
+    return;  // one point determines all bodies
   }
 }
 

@@ -10,14 +10,14 @@ namespace scabo::analysis {
 namespace {
 
 constexpr int highest_order = 10;
-/// Part of the whole error that the elements refined in a pass hold.
+/// Fraction of the total error in the elements that are refined in a pass.
 constexpr double bulk = 0.8;
-/// Predicted part of the squared error that is left after an order more; Melenk and Wohlmuth's figures.
+/// Predicted reduction of the squared error by one more order; values of Melenk and Wohlmuth.
 constexpr double after_raise = 0.4, after_divide = 4.0;
-/// Length of the part at a corner over the whole, known to suit singularities.
+/// Length of the part at a corner relative to the whole, a value known to suit singularities.
 constexpr double grading = 0.15;
-/// Shorter elements, over their edge, are not divided: the stiffness loses about 1e-15 times the ratio of the lengths
-/// of its elements (5e-10 measured for 1e-5), and energies as many digits.
+/// Elements shorter than this, relative to their edge, are not divided: the stiffness loses about 1e-15 times the ratio
+/// of the lengths of its elements (5e-10 measured for 1e-5), and energies lose as many digits.
 constexpr double shortest = 1e-4;
 
 using Partners = std::map<mesh::EdgeElement, mesh::EdgeElement>;
@@ -110,7 +110,7 @@ RefinementPass Refinement::refine(const mesh::Mesh& mesh, const std::vector<std:
   }
   std::stable_sort(elements.begin(), elements.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
 
-  // The wanted changes, those of facing elements alike: dividing goes before raising.
+  // The requested changes, with equal changes for facing elements: division takes precedence over a higher order.
   const Partners partner = partners_of(model_, mesh);
   struct Wanted {
     Change change = Change::none;
@@ -132,7 +132,7 @@ RefinementPass Refinement::refine(const mesh::Mesh& mesh, const std::vector<std:
       here = {change, share_of.contains(at) ? share_of.at(at) : element.share, where};
     };
     const auto other = partner.find(element.at);
-    // An element that is divided already by its partner keeps that cut.
+    // An element that has already been divided because of its partner keeps that division.
     if (other != partner.end() && wanted.contains(other->second) && wanted[other->second].change == Change::divide)
       continue;
     want(element.at, cut);

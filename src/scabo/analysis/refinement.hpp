@@ -1,4 +1,4 @@
-// Which elements to refine and how: a division and what is known of its elements.
+// Which elements to refine and how: a division with the predicted errors of its elements.
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"
@@ -13,12 +13,12 @@ class Refinement {
 
   const mesh::Division& division() const { return division_; }
 
-  /// Divides elements that end at a corner, the small part at the corner; those that face them alike.
+  /// Divides elements that end at a corner, with the small part at the corner, and elements that face them alike.
   void divide_at_corners(const mesh::Mesh& mesh, const std::vector<mesh::EdgeElement>& elements);
 
-  /// Refines after a pass. `shares`: [body][boundary element], each element's part of the sum of eq. (1) of
-  /// adaptive.hpp; `frozen` elements stay. Returns how many were raised and divided; none: nothing can be refined any
-  /// more.
+  /// Refines after a pass. `shares`: [body][boundary element], the part of each element in the sum of eq. (1) of
+  /// adaptive.hpp; `frozen` elements are not changed. Returns how many were raised and divided; if none were, no
+  /// further refinement is possible.
   RefinementPass refine(const mesh::Mesh& mesh, const std::vector<std::vector<double>>& shares,
                         const std::vector<std::vector<bool>>& frozen);
 
@@ -31,7 +31,8 @@ class Refinement {
 
   const model::Model& model_;
   mesh::Division division_;
-  std::vector<std::vector<std::vector<double>>> predicted_;  // [body][edge][element], squared; infinite: nothing yet
+  /// [body][edge][element]: squared predicted error; infinite if not predicted yet.
+  std::vector<std::vector<std::vector<double>>> predicted_;
 };
 
 }  // namespace scabo::analysis

@@ -22,7 +22,7 @@ namespace scabo::analysis {
 
 namespace {
 
-/// Where the last increment went.
+/// Result of an attempt to reach the end of an increment.
 struct Reached {
   State state;
   contact::Certificate certificate;
@@ -31,9 +31,9 @@ struct Reached {
   Matrix undetermined;
   std::optional<UniquenessResult> uniqueness;
   bool mechanism = false;
-  std::string reason;  ///< empty: there
+  std::string reason;  ///< empty if the end was reached
   std::vector<AttemptResult> attempts;
-  std::vector<DiscreteProblem> problems;  ///< of the attempts, where they are asked for
+  std::vector<DiscreteProblem> problems;  ///< of the attempts, if requested
 };
 
 /// Whether the model has joints whose strength is lost when they fail.
@@ -43,20 +43,20 @@ bool breaks(const Prepared& prepared) {
                      [](const model::Contact& contact) { return contact.cohesion > 0.0; });
 }
 
-/// Why an increment whose contact was solved is not accepted.
+/// Reason why an increment with a contact solution is not accepted.
 std::string above_tolerance(const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
   std::string reason =
-      fmt::format("the certificate's worst figure, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
+      fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
   if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason +=
-        "; rounding of the displacements alone can be as much beside parts this stiff, or in a body this slender: make "
-        "the parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
+        "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
+        "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
   return reason;
 }
 
-/// From `from` to `target`, halving the way where an attempt is not accepted; every part starts from the last accepted
-/// state.
+/// Proceeds from `from` to `target`, halving the step if an attempt is not accepted; every part starts from the last
+/// accepted state.
 Reached reach(const Prepared& prepared, const State& from, const Factors& target, const Options& options) {
   Reached reached;
   reached.state = from;
@@ -78,7 +78,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       done = next;
       continue;
     }
-    const bool mechanism = tried.solution.status == contact::Status::mechanism;  // no smaller step helps
+    const bool mechanism = tried.solution.status == contact::Status::mechanism;  // a smaller step does not help
     if (mechanism || reached.halvings == prepared.model.solver.halvings || (options.stop && *options.stop)) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
@@ -97,8 +97,8 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
                                                  : std::nullopt) {
           reached.mechanism = true;
           reached.reason = fmt::format(
-              "mechanism: {}, which only the joints' strengths could hold; no forces were found with what is left of "
-              "them after {} halvings",
+              "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
+              "remaining strength after {} halvings",
               describe_motions(prepared, *motion), reached.halvings);
           return reached;
         }
@@ -116,7 +116,7 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
   return reached;
 }
 
-/// Each kind of warning once, from the increment where it first applies.
+/// Adds each kind of warning once, for the increment where it first applies.
 void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
                   std::vector<std::string>& warnings) {
   const auto add = [&](const std::string& kind, const std::string& sentence) {
@@ -126,21 +126,19 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   };
   for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
     const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
-    add(motion,
-        fmt::format("neither supports, friction nor load fix {}; the smallest such motion was taken: add a support if "
-                    "the position matters",
-                    motion));
+    add(motion, fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
+                            "add a support if the position matters",
+                            motion));
   }
   if (reached.uniqueness && reached.uniqueness->others > 0)
-    add("solutions as well",
-        fmt::format("there are other solutions as well ({} found); the one nearest to the increment before "
-                    "was taken: see uniqueness in summary.json",
-                    reached.uniqueness->others));
+    add("other solutions exist", fmt::format("other solutions exist ({} found); the one closest to the previous "
+                                             "increment was chosen: see 'uniqueness' in summary.json",
+                                             reached.uniqueness->others));
   for (std::size_t c = 0; c < at.contacts.size(); ++c) {
     if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
     const std::string open = fmt::format("open pairs of contact '{}'", at.contacts[c].name);
     if (at.contacts[c].open > 0)
-      add(open, open + " carry shear: a prescribed shear strength does not ask for pressure");
+      add(open, open + " carry shear: a prescribed shear strength does not depend on pressure");
   }
   constexpr double worth_saying = 3e-5;  // errors of three times the estimate were seen
   if (at.lost_to_rounding > worth_saying)
@@ -150,7 +148,7 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
                     at.lost_to_rounding));
   if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
-    add("reaches to infinity", relative);
+    add("only up to a translation", relative);
   for (const std::string& warning : crack_warnings(at.cracks)) add(warning, warning);
 }
 
@@ -181,7 +179,8 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       if (there && !std::isfinite(result.energy.elastic)) {
         there = false;
         reached.reason =
-            "the elastic energy is beyond the range of numbers: check the units of stiffness, loads and temperature";
+            "the elastic energy exceeds the range of floating-point numbers: check the units of stiffness, loads and "
+            "temperature";
       }
       result.step = static_cast<int>(s) + 1;
       result.step_name = step.name;
@@ -228,7 +227,7 @@ std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolut
 }  // namespace
 
 mesh::Mesh check(const model::Model& model) {
-  if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free, and do not touch
+  if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free and do not interact
     model::Model apart = model;
     apart.contacts.clear();
     mesh::Mesh mesh = mesh::make_mesh(apart);

@@ -1,5 +1,5 @@
-// The steps of a static analysis: Model -> Mesh -> super-elements -> systems -> contact -> results of every
-// increment. Nothing is written to files here (result/).
+// The steps of a static analysis: Model -> Mesh -> super-elements -> systems -> contact -> results of every increment.
+// No files are written here (result/).
 #pragma once
 
 #include <atomic>
@@ -19,32 +19,32 @@
 
 namespace scabo::analysis {
 
-/// One pair of contact points after an increment. Numbered from 1 along its contact.
+/// Results of a contact pair after an increment. Pairs are numbered from 1 along their contact.
 struct PairResult {
   int pair = 0;
-  Vec2 position = Vec2::Zero();   ///< undeformed, on A
+  Vec2 position = Vec2::Zero();   ///< undeformed position, on A
   Vec2 normal = Vec2::Zero();     ///< n, unit, out of A
-  double gap = 0.0;               ///< length, > 0 open
-  double slip = 0.0;              ///< length, since the start, of B relative to A along t
-  double normal_force = 0.0;      ///< on B along n, >= 0: compression
+  double gap = 0.0;               ///< length, > 0 if open
+  double slip = 0.0;              ///< length: motion of B relative to A along t since the start
+  double normal_force = 0.0;      ///< on B along n; compression is positive
   double tangential_force = 0.0;  ///< on B along t
-  double pressure = 0.0;          ///< force / length^2, over the pair's tributary length
+  double pressure = 0.0;          ///< force / length^2: normal force over tributary length and thickness
   double shear = 0.0;             ///< force / length^2, on B along t
   contact::ContactState state = contact::ContactState::open;
-  Vec2 displacement_a = Vec2::Zero();  ///< of the point of A, along [n, t]
-  Vec2 displacement_b = Vec2::Zero();  ///< of the point of B, along [n, t]
+  Vec2 displacement_a = Vec2::Zero();  ///< of the point on A, in [n, t]
+  Vec2 displacement_b = Vec2::Zero();  ///< of the point on B, in [n, t]
 };
 
 struct ContactResult {
   std::string name;
   std::vector<PairResult> pairs;
-  double normal_force = 0.0;      ///< sum of the pairs' normal forces
-  double tangential_force = 0.0;  ///< sum of the pairs' tangential forces
+  double normal_force = 0.0;      ///< sum over the pairs
+  double tangential_force = 0.0;  ///< sum over the pairs
   int open = 0, stick = 0, slip = 0;
-  std::optional<int> broken;  ///< pairs that lost cohesion and tensile strength; nothing where the contact has none
-  double max_gap = 0.0;       ///< of the open pairs; 0 when none is open
+  std::optional<int> broken;  ///< pairs that lost cohesion and tensile strength; empty if the contact has none
+  double max_gap = 0.0;       ///< of the open pairs; 0 if none is open
   double max_pressure = 0.0;
-  std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; nothing when all are open
+  std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; empty if all pairs are open
 };
 
 /// Work since the start, force times length.
@@ -60,28 +60,28 @@ struct CrackResult {
   element::StressIntensity factors;
 };
 
-/// How the contact solver went in one attempt at an increment, or at a part of it where it was halved.
+/// Convergence history of the contact solver in one attempt at an increment, or at a part of it if it was halved.
 struct AttemptResult {
   std::vector<contact::Iteration> iterations;
   bool accepted = false;
 };
 
-/// Estimated error of discretisation in the energy norm |u| = sqrt(u'K u) (element/two_orders.hpp).
+/// Estimated discretisation error in the energy norm |u| = sqrt(u'K u) (element/two_orders.hpp).
 struct BodyError {
   double absolute = 0.0;  ///< sqrt(force times length)
-  double relative = 0.0;  ///< to the norm of the whole model's displacement
+  double relative = 0.0;  ///< relative to the norm of the displacement of the whole model
 };
 
 struct ErrorEstimate {
   double relative = 0.0;                         ///< of the whole model
-  std::vector<std::optional<BodyError>> bodies;  ///< nothing for rigid and FE bodies
+  std::vector<std::optional<BodyError>> bodies;  ///< empty for rigid and finite element bodies
 };
 
-/// What is known of other solutions of an increment (contact/uniqueness.hpp), for `solver: {uniqueness: true}`.
+/// Information on other solutions of an increment (contact/uniqueness.hpp), for `solver: {uniqueness: true}`.
 struct UniquenessResult {
   std::string verdict;    ///< `proven`, `several found`, `not decided`
   int others = 0;         ///< other solutions found
-  bool complete = false;  ///< there are no more
+  bool complete = false;  ///< there are no other solutions than those found
   double bound = 0.0;     ///< below 1: proven; infinite where the condition does not apply
   int index = 0;          ///< sign of det H'; 0: on a kink or not computed
 };
@@ -90,39 +90,38 @@ struct IncrementResult {
   int step = 0;  ///< from 1
   std::string step_name;
   int increment = 0;                      ///< from 1 within the step
-  std::map<std::string, double> factors;  ///< of loads and of supports with prescribed displacements
+  std::map<std::string, double> factors;  ///< factors of loads and of supports with prescribed displacements
   bool converged = false;
   int newton_iterations = 0;
-  int coarse_iterations =
-      0;             ///< of problems of fewer pairs that made the start (contact/cold_start.hpp); not counted above
-  int halvings = 0;  ///< how often the increment was halved
+  /// On the problems of fewer pairs from which the start was computed (contact/cold_start.hpp); not counted above.
+  int coarse_iterations = 0;
+  int halvings = 0;  ///< number of times that the increment was halved
   double residual = 0.0;
   std::vector<ContactResult> contacts;
   std::vector<Vec2> reactions;  ///< one for each support of the model, in its order: force on the body
-  double largest_force =
-      0.0;  ///< at a node or a pair, applied, of contact or of a support: what others are small beside
+  /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces.
+  double largest_force = 0.0;
   contact::Certificate certificate;
   double lost_to_rounding = 0.0;  ///< estimated relative error of displacements, of the rounding of stiffness
   Energy energy;
-  std::optional<ErrorEstimate> error;  ///< when asked for
-  /// Per body: 2 per node; of a rigid body [u_x, u_y, rotation] about its centroid. As the stiffness of a body that
-  /// reaches to infinity knows them (element/stiffness.hpp, eq. 6): a translation would not leave its forces as they
-  /// are.
+  std::optional<ErrorEstimate> error;  ///< if requested
+  /// Per body: 2 per node; for a rigid body [u_x, u_y, rotation] about its centroid. For an unbounded body they are
+  /// those of its stiffness (element/stiffness.hpp, eq. 6), because a translation would change its forces.
   std::vector<Vector> displacements;
-  /// Displacement of the point that is said to stand still (analysis/outside.hpp). Results show all displacements less
-  /// this; those of the pairs above have it taken off already.
+  /// Displacement of the reference point (analysis/outside.hpp). Displacements shown in results are relative to it;
+  /// those of the pairs above are already relative.
   Vec2 reference_displacement = Vec2::Zero();
-  std::vector<element::InteriorLoads> interior;  ///< per body: what acts inside it
+  std::vector<element::InteriorLoads> interior;  ///< per body: loads inside it
   std::vector<CrackResult> cracks;               ///< of all bounded open super-elements
   std::string reason;                            ///< why it did not converge
-  std::optional<UniquenessResult> uniqueness;    ///< where asked for
-  std::vector<AttemptResult> attempts;           ///< one; more where the increment was halved
+  std::optional<UniquenessResult> uniqueness;    ///< if requested
+  std::vector<AttemptResult> attempts;           ///< one, or more if the increment was halved
 };
 
-/// The discrete problem of one attempt: a value that can be saved and solved alone (contact/fclib.hpp).
+/// The discrete problem of one attempt, as a value that can be saved and solved separately (contact/fclib.hpp).
 struct DiscreteProblem {
   contact::Problem problem;
-  contact::Start start;  ///< the accepted state before
+  contact::Start start;  ///< the previous accepted state
   contact::Solution solution;
   bool accepted = false;
   double force_scale = 0.0;          ///< contact::SolverOptions::force_scale
@@ -136,17 +135,17 @@ struct Timing {
          recover = 0.0, write = 0.0, total = 0.0;
 };
 
-/// A super-element solved once for all bodies that are alike.
+/// A super-element, solved once for all identical bodies.
 struct SolvedSuperElement {
   element::Ring ring;
   element::Sectors sectors;
   double thickness = 1.0;
   element::Domain domain;
-  int threads = 1;  ///< for its modes
+  int threads = 1;  ///< number of threads for its modes
   element::SuperElementSolution solution;
-  /// Modes for the interior, found when they are asked for first.
+  /// Modes of the interior, computed when first needed.
   const element::ModalSolution& modes() const;
-  /// The same for the factors of its crack or corner; the ring must be open.
+  /// Analysis of its crack or corner, computed when first needed; the ring must be open.
   const element::CornerAnalysis& corner() const;
 
  private:
@@ -157,45 +156,46 @@ struct SolvedSuperElement {
 /// One pass of refinement (adaptive.hpp).
 struct RefinementPass {
   int dofs = 0;
-  double error = 0.0;           ///< the largest of all increments
-  int raised = 0, divided = 0;  ///< elements changed after it
+  double error = 0.0;           ///< largest error of all increments
+  int raised = 0, divided = 0;  ///< number of elements changed after it
 };
 
-/// mechanism: the loads of an increment are more than supports, contact and friction can carry, which is proven and no
-/// failure of the solver.
+/// mechanism: the loads of an increment exceed what supports, contact and friction can carry. This is proven and is not
+/// a failure of the solver.
 enum class Outcome { solved, not_converged, mechanism, interrupted };
 
 struct StaticSolution {
   model::Model model;
   mesh::Mesh mesh;
-  std::vector<std::shared_ptr<const SolvedSuperElement>> super_elements;  ///< per body; null for rigid and FE bodies
-  std::vector<IncrementResult> increments;  ///< converged ones, then at most one that is not
-  std::vector<RefinementPass> passes;       ///< where the mesh was refined for a tolerance
+  /// Per body; null for rigid and finite element bodies.
+  std::vector<std::shared_ptr<const SolvedSuperElement>> super_elements;
+  std::vector<IncrementResult> increments;  ///< converged increments, then at most one that is not
+  std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
   std::vector<std::string> warnings;
   Outcome outcome = Outcome::solved;
-  std::string reason;  ///< when not solved
+  std::string reason;  ///< if not solved
   Timing timing;
 };
 
 struct Options {
-  int threads = 1;                          ///< at most: for BLAS and for super-elements that differ, where it pays
+  int threads = 1;                          ///< upper limit, for BLAS and for distinct super-elements
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
   /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.
   std::function<void(const IncrementResult&, const std::vector<DiscreteProblem>&)> on_problems;
-  std::function<void(const StaticSolution&)> on_mesh;      ///< once super-elements and systems stand
-  std::function<void(const std::string& stage)> on_stage;  ///< what is being done, for progress
+  std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
+  std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };
 
-/// Meshes the model and looks whether every body is held (modal: it need not be) and every output point lies in one,
-/// without solving anything. Throws InputError.
+/// Meshes the model and checks, without solving anything, that every body is held (not required for a modal analysis)
+/// and that every output point lies in a body. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of
 /// the result.
 StaticSolution solve_static(model::Model model, const Options& options = {});
 
-/// The same on a mesh of the model, once: without refinement or estimate of the error.
+/// The same on a given mesh, once: without refinement or error estimate.
 StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options);
 
 }  // namespace scabo::analysis

@@ -20,23 +20,24 @@ bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
     if (a.ring.elements[e].nodes != b.ring.elements[e].nodes) return false;
   double size = 0.0;
   for (const Vec2& x : a.ring.nodes) size = std::max(size, x.squaredNorm());
-  // Coordinates about their centres differ by rounding only.
+  // Coordinates relative to their centres differ only by rounding.
   for (std::size_t i = 0; i < a.ring.nodes.size(); ++i)
     if ((a.ring.nodes[i] - b.ring.nodes[i]).squaredNorm() > 1e-26 * size) return false;
   return true;
 }
 
-/// What is wrong with a super-element, in the words of the model file.
+/// The error of a super-element in the terms of the model file.
 Diagnostic ill_posed(const model::Body& body, const element::IllPosed& error) {
-  return {
-      body.source,
-      fmt::format("{}; the constants of its material are too far apart for the digits there are (Poisson's ratio too "
-                  "close to 1/2, or moduli that differ by a factor of 1e12 or more), the body is too slender (3000:1 or "
-                  "more), or the scaling centre is too close to the boundary",
-                  error.what())};
+  return {body.source,
+          fmt::format(
+              "{}; its material constants differ too much for double precision (Poisson's ratio too close to 1/2, or "
+              "moduli that differ by a factor of 1e12 or more), the body is too slender (3000:1 or more), or the scaling "
+              "centre is too close to the boundary",
+              error.what())};
 }
 
-/// Many are shared out among the threads; of few, the blocks of each. `bodies`: the first body of each.
+/// Many super-elements are distributed over the threads; of a few, the symmetry blocks of each. `bodies`: the first
+/// body of each.
 void solve_all(const model::Model& model, const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
                const std::vector<std::size_t>& bodies, int threads) {
   const auto count = static_cast<int>(distinct.size());
@@ -55,8 +56,8 @@ void solve_all(const model::Model& model, const std::vector<std::shared_ptr<Solv
   linalg::parallel_for(count, many ? threads : 1, solve);
 }
 
-/// An outside body's displacement vanishes, on average, as far away as its reference point; without one, a thousand
-/// radii away.
+/// The mean displacement of an unbounded body vanishes at the distance of its reference point, or at a thousand radii
+/// if there is none.
 element::Domain domain_of(const model::Body& body, const element::Ring& ring) {
   element::Domain domain;
   domain.unbounded = body.outside;

@@ -10,12 +10,12 @@ namespace scabo::analysis {
 
 namespace {
 
-constexpr double most_overlap = 0.01;   // over the size of the body: a strain
-constexpr double most_pressure = 0.05;  // over Young's modulus: a strain
+constexpr double most_overlap = 0.01;   // relative to the size of the body: a strain
+constexpr double most_pressure = 0.05;  // relative to Young's modulus: a strain
 constexpr int fewest_pairs = 5;         // two quadratic edges
 constexpr std::size_t most_names = 3;
 
-/// A contact and how far it is from what was expected.
+/// A contact and a measure of its deviation.
 struct Finding {
   std::size_t contact = 0;
   double figure = 0.0;
@@ -61,7 +61,7 @@ std::vector<std::size_t> elastic_bodies(const StaticSolution& solution, std::siz
   return bodies;
 }
 
-/// Deepest overlap at the start over the size, along the normal, of the smaller elastic body.
+/// Largest initial overlap relative to the size, along the normal, of the smaller elastic body.
 struct Overlap {
   double strain = 0.0, depth = 0.0;
 };
@@ -85,7 +85,7 @@ Overlap overlap_of(const StaticSolution& solution, std::size_t contact) {
   return overlap;
 }
 
-/// Largest pressure of all increments over the smaller Young's modulus of the two sides.
+/// Largest pressure of all increments relative to the smaller Young's modulus of the two sides.
 double pressure_strain(const StaticSolution& solution, std::size_t contact, double& pressure) {
   pressure = 0.0;
   for (const IncrementResult& increment : solution.increments)
@@ -130,7 +130,7 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<std::stri
   }
 }
 
-/// Smallest gap of a contact that is open at every pair in every increment; nothing for others.
+/// Smallest gap of a contact that is open at every pair in every increment; nothing for other contacts.
 std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t contact) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const IncrementResult& increment : solution.increments) {
@@ -166,8 +166,8 @@ void warn_of_coarse_zones(const StaticSolution& solution, std::vector<std::strin
   if (coarse.empty()) return;
   const auto fewest = static_cast<int>(-worst_of(coarse).figure);
   warnings.push_back(fmt::format(
-      "{}: only {} pair{} {} in contact at the end{}, too coarse to trust the pressure (forces are not concerned): use "
-      "a smaller mesh.size or a higher mesh.order, so that five or more are",
+      "{}: only {} pair{} {} in contact at the end{}, too few for a reliable pressure (total forces are not affected): "
+      "use a smaller mesh.size or a higher mesh.order, so that five or more pairs are in contact",
       contacts_of(solution, coarse), fewest, fewest == 1 ? "" : "s", fewest == 1 ? "is" : "are",
       in_worst(solution, coarse)));
 }
@@ -195,11 +195,10 @@ std::vector<std::string> load_warnings(const model::Model& model, const system::
       moving = std::max(moving, forces.lpNorm<Eigen::Infinity>());
     }
     if (inside || moving > 1e-12 * largest) continue;
-    warnings.push_back(largest == 0.0
-                           ? fmt::format("load '{}' is zero: it moves nothing", model.loads[load].name)
-                           : fmt::format("load '{}' moves nothing: all its forces act where supports hold; move the "
-                                         "load or free the support there",
-                                         model.loads[load].name));
+    warnings.push_back(largest == 0.0 ? fmt::format("load '{}' is zero and has no effect", model.loads[load].name)
+                                      : fmt::format("load '{}' has no effect because all its forces act on supported "
+                                                    "nodes: move the load, or free the support there",
+                                                    model.loads[load].name));
   }
   return warnings;
 }

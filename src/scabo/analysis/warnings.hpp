@@ -1,7 +1,7 @@
 // Warnings about models that were analysed as written but are probably not what was intended: a sentence for each,
 // with a remedy.
 //
-// - A load that moves nothing: it is zero, or all its forces act on supported degrees of freedom.
+// - A load without effect: it is zero, or all its forces act on supported degrees of freedom.
 // - Bodies that overlap at the start by more than a hundredth of the smaller one's size across the contact, or
 //   pressures beyond a twentieth of Young's modulus: the theory of small strains does not cover such strains.
 // - A contact that is open at every pair in every increment.
@@ -20,7 +20,7 @@ namespace scabo::analysis {
 
 std::vector<std::string> load_warnings(const model::Model& model, const system::Structure& structure);
 
-/// Of all increments so far.
+/// Warnings about all increments so far.
 std::vector<std::string> contact_warnings(const StaticSolution& solution);
 
 }  // namespace scabo::analysis

@@ -13,7 +13,7 @@ constexpr double least_work = 2e10;
 
 double dense_work(const model::Model& model, const mesh::Mesh& mesh) {
   double work = 0.0;
-  std::set<std::size_t> sizes;  // bodies of one size are mostly alike
+  std::set<std::size_t> sizes;  // bodies of one size are usually identical
   for (const mesh::BodyMesh& body : mesh.bodies) {
     const double n = 2.0 * static_cast<double>(body.nodes.size());
     if (!body.elements.empty())

@@ -7,11 +7,12 @@
 
 namespace scabo::analysis {
 
-/// Operations of an analysis, roughly: 30 n^3 for super-elements of n degrees of freedom, those of one size counted
-/// once; 1.5 k^3 for k contact components of a body; and 600 n^1.5 for n degrees of freedom in finite elements, ordering included.
+/// Approximate number of operations of an analysis: 30 n^3 for super-elements of n degrees of freedom, those of one
+/// size counted once; 1.5 k^3 for k contact components of a body; and 600 n^1.5 for n degrees of freedom in finite
+/// elements, ordering included.
 double dense_work(const model::Model& model, const mesh::Mesh& mesh);
 
-/// `wanted` where dense_work takes more than about half a second of one processor, else 1.
+/// `wanted` if dense_work takes more than about half a second on one processor, otherwise 1.
 int worthwhile_threads(const model::Model& model, const mesh::Mesh& mesh, int wanted);
 
 }  // namespace scabo::analysis

@@ -1,11 +1,11 @@
-// Wall-clock seconds of a block, added to a figure.
+// Wall-clock time of a block of code, added to a variable.
 #pragma once
 
 #include <chrono>
 
 namespace scabo {
 
-/// Adds the time it lives to `seconds`.
+/// Adds its lifetime, in seconds, to `seconds`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -18,7 +18,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What the function gives, its time added to `seconds`.
+/// Returns the result of the function and adds its run time to `seconds`.
 template <typename Function>
 auto timed(double& seconds, Function function) {
   const Stopwatch stopwatch(seconds);

@@ -1,4 +1,4 @@
-// Small types that every part of Scabo shares.
+// Basic types used throughout Scabo.
 #pragma once
 
 #include <Eigen/Core>

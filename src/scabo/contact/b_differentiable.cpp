@@ -7,8 +7,8 @@ namespace scabo::contact {
 
 namespace {
 
-/// Forces differing by less than this, relative to their size, are equal within rounding: a tie; so are forces that are
-/// small as this against the largest at work.
+/// Forces that differ by less than this, relative to their size, are equal within rounding (a tie), and so are forces
+/// as small as this relative to the largest force of the problem.
 constexpr double tie = 1e-12, rounding = 4e-14;
 
 bool tied(double a, double b, double scale, double smallest) {
@@ -25,11 +25,11 @@ void set_tangent_part(Vector& v, Eigen::Index i, Eigen::Index d, const Vec2& val
   if (d == 3) v[d * i + 2] = value[1];
 }
 
-/// What the branches of one pair are read from.
+/// Quantities that determine the branches of one pair.
 struct Pair {
   double p_n, opening;  ///< r u_n
   Vec2 p_t, trial;      ///< trial: p_t(r)
-  double smallest;      ///< forces below are rounding
+  double smallest;      ///< smaller forces are rounding
 };
 
 double evaluate_normal(const Pair& pair, double tension, Branch& branch) {
@@ -92,7 +92,7 @@ Vec2 projected_derivative(const Branch& branch, const Vec2& dt, double db) {
   return db * branch.along + branch.lambda * (dt - branch.along.dot(dt) * branch.along);
 }
 
-/// The branch that dt and db take at a tie of the tangential equation.
+/// The branch that dt and db select at a tie of the tangential equation.
 void follow_tangent(Branch& branch, const Vec2& dt, double db) {
   if (branch.edge) {
     branch.tangent = branch.along.dot(dt) > db ? Branch::Tangent::slip : Branch::Tangent::stick;
@@ -107,7 +107,7 @@ void follow_tangent(Branch& branch, const Vec2& dt, double db) {
   } else {
     branch.tangent = Branch::Tangent::slip;
     branch.along = dt / size;
-    branch.lambda = db / size;  // positively homogeneous: its own linearisation there is exact
+    branch.lambda = db / size;  // positively homogeneous, so that its linearisation is exact
   }
 }
 
@@ -210,7 +210,7 @@ int BDifferentiableEquations::follow(Residual& at, const Vector& direction) cons
     if (!branch.tied()) continue;
     const Branch before = branch;
     const double dg = r_[d * i] * du[d * i], dp_n = direction[d * i];
-    // Within rounding both branches are right, and the one at hand stays.
+    // Within rounding both branches are valid, and the present one is kept.
     const double room = 1e-9 * (std::abs(dg) + std::abs(dp_n));
     if (branch.normal_tie && std::abs(dg - dp_n) > room) branch.contact = dg < dp_n;
     if (branch.bound_tie && dp_n != 0.0) branch.slope = dp_n > 0.0 ? problem_.mu[i] : 0.0;

@@ -6,9 +6,10 @@
 //     H3 = p_t - lambda p_t(r), p_t(r) = p_t - r u_t, lambda = min(b / |p_t(r)|, 1)          (eq. 8)
 //     HR = G' p + f
 //
-// with the bound b = c + mu (p_n)+. In the plane p_t has one component, in space two; everything else is the same, and
-// the plane is space with the second component zero. lambda p_t(r) is the projection of p_t(r) on the disc of radius b.
-// With e = p_t(r) / |p_t(r)|, dg = r du_n, dt = dp_t - r du_t and db = mu dp_n, mu (dp_n)+ or 0 for p_n >, =, < 0:
+// with the bound b = c + mu (p_n)+. In the plane p_t has one component, in space two; otherwise the equations are the
+// same, and the plane is treated as space with a zero second component. lambda p_t(r) is the projection of p_t(r) onto
+// the disc of radius b. With e = p_t(r) / |p_t(r)|, dg = r du_n, dt = dp_t - r du_t and db = mu dp_n, mu (dp_n)+ or 0
+// for p_n >, =, < 0:
 //
 //     H2'  dg where r u_n < p_n + c_t, dp_n where >, min(dg, dp_n) at the tie
 //     H3'  dp_t - dt                                    stick, |p_t(r)| < b
@@ -27,16 +28,16 @@
 
 namespace scabo::contact {
 
-/// Where one pair lies, and which branch is followed where several meet.
+/// The branch of a pair at a point, and the branch that is followed where several meet.
 struct Branch {
   enum class Tangent { free, stick, slip };
-  bool contact = false;  ///< min taken by r u_n
+  bool contact = false;  ///< the minimum is r u_n
   Tangent tangent = Tangent::free;
   bool normal_tie = false;    ///< both arguments of min are equal within rounding
   bool edge = false;          ///< |p_t(r)| = b > 0 within rounding
   bool tip = false;           ///< p_t(r) = 0 and b = 0
-  bool bound_tie = false;     ///< p_n = 0: b has two slopes
-  double slope = 0.0;         ///< db / dp_n followed
+  bool bound_tie = false;     ///< p_n = 0, where b has two slopes
+  double slope = 0.0;         ///< db / dp_n on the branch followed
   double lambda = 1.0;        ///< slip: b / |p_t(r)|
   Vec2 along = Vec2::Zero();  ///< slip: e
 
@@ -47,10 +48,10 @@ struct Branch {
   }
 };
 
-/// H and all that goes with it at one point; memory is kept from point to point.
+/// H and related quantities at one point; memory is reused from point to point.
 struct Residual {
   Vector motion;                 // dN, u
-  Vector along;                  // dN, room for the change of u along a direction
+  Vector along;                  // dN, workspace for the change of u along a direction
   Vector H;                      // dN + m: [H2, H3] of every pair, HR
   std::vector<Branch> branches;  // N
   double merit() const { return 0.5 * H.squaredNorm(); }
@@ -71,17 +72,17 @@ class BDifferentiableEquations {
 
   void evaluate(const Vector& p, const Vector& a, Residual& at) const;
   Residual residual(const Vector& p, const Vector& a) const;
-  /// With the motions known already (`at.motion`).
+  /// The same for known motions (`at.motion`).
   void evaluate_at_motion(const Vector& p, Residual& at) const;
 
   /// Change of the motions along d = [dp; da]: W dp + G da + (w / r) dp.
   Vector motion_along(const Vector& d) const;
   void motion_along(const Vector& d, Vector& change) const;
 
-  /// H'(z; d), exact on ties too: nothing of the branches followed there enters.
+  /// H'(z; d), exact also at ties: it does not depend on the branches followed there.
   Vector derivative(const Residual& at, const Vector& d) const;
 
-  /// On ties: the branches that d itself takes, followed from now on. Number of pairs whose branch changes.
+  /// At ties: follows the branches that d itself takes from now on. Returns the number of pairs whose branch changes.
   int follow(Residual& at, const Vector& d) const;
 
  private:

@@ -13,7 +13,7 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
 [[gnu::hot]] Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion,
                                     const Scales& scales) {
   Certificate certificate;
-  if (!motion.allFinite() || !p.allFinite()) {  // comparisons with nan would all look right
+  if (!motion.allFinite() || !p.allFinite()) {  // comparisons with NaN would all seem to be satisfied
     certificate.penetration = HUGE_VAL;
     return certificate;
   }
@@ -27,17 +27,18 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
     const auto raise = [](double& figure, double value) { figure = std::max(figure, value); };
     raise(certificate.penetration, -g / scales.length);
     if (std::isinf(tension)) {
-      raise(certificate.complementarity, std::abs(g) / scales.length);  // bonded: the gap stays shut
+      raise(certificate.complementarity, std::abs(g) / scales.length);  // bonded: the gap does not change
     } else {
       raise(certificate.tension, -(p_n + tension) / scales.force);
       raise(certificate.complementarity, std::abs((p_n + tension) * g) / work);
     }
-    if (std::isinf(bound)) {  // nothing slips there
+    if (std::isinf(bound)) {  // no slip is possible
       raise(certificate.slip_direction, ds / scales.length);
       continue;
     }
     raise(certificate.friction_excess, (friction - bound) / scales.force);
-    // Friction opposes slip, and slip is only at the bound: |p_t| |ds| + p_t ds is 0 where they are opposite.
+    // Friction opposes slip, and slip occurs only at the bound: |p_t| |ds| + p_t ds is 0 if they have opposite
+    // directions.
     if (d == 2) {
       raise(certificate.slip_direction, p_t[0] * slip[0] / work);
     } else {

@@ -11,12 +11,12 @@ namespace {
 constexpr Eigen::Index components = 2;
 constexpr int none = -1;
 
-/// The pair without a group that pair i is to share one with, or none.
+/// The free pair with which pair i forms a group, or none.
 Eigen::Index neighbour_of(Eigen::Index i, const Problem& problem, const std::vector<int>& group) {
   const Matrix& W = problem.W.dense();
   const bool bonded = std::isinf(problem.tension_of(i));
   Eigen::Index nearest = none;
-  double strongest = 0.0, most = 0.0;  // of all, of those without a group; times sqrt((W_nn)_ii)
+  double strongest = 0.0, most = 0.0;  // of all pairs, of the free pairs; times sqrt((W_nn)_ii)
   for (Eigen::Index j = 0; j < problem.pairs(); ++j) {
     if (j == i || !(W(components * j, components * j) > 0.0) || std::isinf(problem.tension_of(j)) != bonded) continue;
     const double coupling = W(components * j, components * i) / std::sqrt(W(components * j, components * j));
@@ -26,7 +26,7 @@ Eigen::Index neighbour_of(Eigen::Index i, const Problem& problem, const std::vec
   return most >= 0.5 * strongest ? nearest : none;
 }
 
-/// Fills group and share: the number of groups.
+/// Sets group and share; returns the number of groups.
 int make_groups(const Problem& problem, CoarseProblem& coarse) {
   int groups = 0;
   coarse.group.assign(static_cast<std::size_t>(problem.pairs()), none);
@@ -43,7 +43,7 @@ int make_groups(const Problem& problem, CoarseProblem& coarse) {
   return groups;
 }
 
-/// Of each group the smallest strength that its members allow; empty where the fine problem has none.
+/// The smallest strength of the members of each group; empty if the fine problem has none.
 Vector weakest(const Vector& strength, const CoarseProblem& coarse, int groups) {
   if (strength.size() == 0) return {};
   Vector least = Vector::Constant(groups, HUGE_VAL);

@@ -22,8 +22,7 @@ void sweep(const Problem& problem, int sweeps, ColdStart& start) {
   start.a += (problem.G.transpose() * start.p + problem.f) / soft;
 }
 
-/// Newton on the problem of fewer pairs, from its own start to which it adds; the best point is good enough.
-/// False where numbers are beyond range.
+/// Newton on the problem of fewer pairs from its own start, which is extended; the best iterate is sufficient.
 bool solve_loosely(const Problem& coarse, ColdStart& start) {
   NewtonOptions options;
   options.small = 5e-2 * start.p.lpNorm<Eigen::Infinity>();

@@ -1,4 +1,4 @@
-// Starts for Newton where there is no history.
+// Starts for Newton's method if there is no history.
 //
 // At zero force every pair lies at the apex of its cone, which does not distinguish stick from slip. Sweeps of
 // Gauss-Seidel cost less than one factorisation and do distinguish them, but many sweeps are needed to carry forces
@@ -27,13 +27,14 @@ struct ColdStart {
   std::vector<Iteration> trace;  ///< these iterations, numbered from 0, the problem of fewest pairs first
 };
 
-/// 30 sweeps from zero. W scaled so that its diagonal is 1 in the mean, as in contact/ladder.hpp; so below.
+/// 30 sweeps from zero. W must be scaled so that the mean of its diagonal is 1, as in contact/ladder.hpp; this also
+/// holds for the other functions.
 ColdStart swept_start(const Problem& problem, const Vector& a);
 
-/// By problems of fewer pairs, where may_nest().
+/// By problems of fewer pairs, if may_nest().
 ColdStart nested_start(const Problem& problem, const Vector& a);
 
-/// Plane problems with dense W and pairs enough for it to pay.
+/// Whether nested iteration is possible and worthwhile: plane problems with dense W and enough pairs.
 bool may_nest(const Problem& problem);
 
 }  // namespace scabo::contact

@@ -1,5 +1,5 @@
-// A time after which a solver ends with its best point. It is checked between iterations and sweeps; a factorisation of
-// a large problem is not interrupted.
+// A time after which a solver ends with its best iterate. It is checked between iterations and sweeps; a factorisation
+// of a large problem is not interrupted.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ class Deadline {
   }
 
   bool passed() const { return limited_ && Clock::now() >= end_; }
-  double seconds() const { return seconds_; }  ///< as it was given
+  double seconds() const { return seconds_; }  ///< as given
 
  private:
   using Clock = std::chrono::steady_clock;

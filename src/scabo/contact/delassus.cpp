@@ -16,7 +16,7 @@ struct Delassus::Data {
   double factor = 1.0;  // of B' K^-1 B
   mutable Matrix dense;
   mutable std::once_flag formed;
-  mutable Matrix columns_of_pairs;  // condensed: what diagonal_blocks found
+  mutable Matrix columns_of_pairs;  // condensed: result of diagonal_blocks
   mutable std::mutex guard;
 };
 
@@ -24,8 +24,8 @@ namespace {
 
 constexpr Eigen::Index columns_at_a_time = 64;  // dense right-hand sides: bounded memory
 
-/// Blocks on the diagonal from products with few vectors (Bekas, Kokiopoulou, Saad, Appl. Numer. Math. 57 (2007) 1214):
-/// each vector has random signs on every 64th pair, so that what pairs far away add averages to nothing.
+/// Diagonal blocks from products with a few vectors (Bekas, Kokiopoulou, Saad, Appl. Numer. Math. 57 (2007) 1214): each
+/// vector has random signs on every 64th pair, so that contributions of distant pairs average out.
 Matrix probed_blocks(const Delassus& W, int d) {
   constexpr Eigen::Index colours = 64;
   const Eigen::Index N = W.size() / d;

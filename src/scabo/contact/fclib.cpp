@@ -31,7 +31,7 @@ void expect_at_least(const Hdf5Reader& file, const std::string& path, std::size_
     file.fail(path, fmt::format("must hold {} values ({}), not {}", least, why, size));
 }
 
-/// From pointers of compressed columns (or rows) to one index for each entry.
+/// Expands pointers of compressed columns (or rows) to one index for each entry.
 Integers spread(const Hdf5Reader& file, const std::string& path, const Integers& p, std::size_t values) {
   Integers index;
   index.reserve(values);
@@ -83,16 +83,17 @@ Sparse read_matrix(const Hdf5Reader& file, const std::string& group) {
   for (std::size_t k = 0; k < entries.row.size(); ++k) {
     const std::int64_t row = entries.row[k], column = entries.column[k];
     if (row < 0 || row >= m || column < 0 || column >= n)
-      file.fail(group,
-                fmt::format("entry {} stands in row {} and column {} (from 0) of a matrix of {} x {}: i or p is wrong",
-                            k, row, column, m, n));
+      file.fail(
+          group,
+          fmt::format("entry {} is in row {} and column {} (counted from 0) of a matrix of {} x {}: i or p is wrong", k,
+                      row, column, m, n));
     const double value = x[static_cast<Index>(k)];
     if (!std::isfinite(value))
       file.fail(group + "/x", fmt::format("entry {} is {}: must be a finite number", k, value));
     triplets.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
   }
   Sparse A(m, n);
-  A.setFromTriplets(triplets.begin(), triplets.end());  // entries given twice are added, as CSparse does
+  A.setFromTriplets(triplets.begin(), triplets.end());  // repeated entries are added, as in CSparse
   return A;
 }
 
@@ -114,19 +115,20 @@ int read_dimension(const Hdf5Reader& file, const std::string& path) {
 /// Number of pairs of `rows` rows.
 Index pairs_of(const Hdf5Reader& file, const std::string& path, Index rows, int dimension) {
   if (rows % dimension != 0)
-    file.fail(path, fmt::format("is {}, no multiple of spacedim, {}: every pair has a normal and {}", rows, dimension,
-                                dimension == 3 ? "two tangents" : "a tangent"));
+    file.fail(path, fmt::format("is {}, which is not a multiple of spacedim, {}: every pair has a normal and {}", rows,
+                                dimension, dimension == 3 ? "two tangents" : "a tangent"));
   return rows / dimension;
 }
 
 Vector read_mu(const Hdf5Reader& file, const std::string& path, Index pairs) {
   Vector mu = read_vector(file, path, pairs, "one for each pair");
   for (Index k = 0; k < pairs; ++k)
-    if (mu[k] < 0.0) file.fail(path, fmt::format("entry {} is {}: a coefficient of friction is 0 or more", k, mu[k]));
+    if (mu[k] < 0.0)
+      file.fail(path, fmt::format("entry {} is {}: a coefficient of friction must be 0 or more", k, mu[k]));
   return mu;
 }
 
-/// `cohesion` and `tension` of our own files; tension may be infinite.
+/// `cohesion` and `tension` in files of Scabo; tension may be infinite.
 Vector read_strength(const Hdf5Reader& file, const std::string& path, Index pairs) {
   if (!file.has(path)) return {};
   Vector values = file.numbers(path);
@@ -137,7 +139,7 @@ Vector read_strength(const Hdf5Reader& file, const std::string& path, Index pair
   return values;
 }
 
-/// V, R, s: rigid motions where R = 0; otherwise l = -R^-1 (V' r + s) is put into W and q.
+/// V, R, s: rigid motions if R = 0; otherwise l = -R^-1 (V' r + s) is eliminated into W and q.
 void read_constraints(const Hdf5Reader& file, Problem& problem) {
   const std::string V_path = "fclib_local/V", R_path = "fclib_local/R";
   problem.G.resize(problem.q.size(), 0);
@@ -163,7 +165,7 @@ void read_constraints(const Hdf5Reader& file, Problem& problem) {
   problem.q -= V * Vector(lu.solve(s));
 }
 
-/// `guesses/1` and `solution`: r and l where they are.
+/// `guesses/1` and `solution`: r and l, if present.
 void read_known(const Hdf5Reader& file, const std::string& group, const Problem& problem, Vector& r, Vector& l) {
   if (!file.has(group + "/r")) return;
   r = read_vector(file, group + "/r", problem.q.size(), "as many as q");
@@ -172,7 +174,7 @@ void read_known(const Hdf5Reader& file, const std::string& group, const Problem&
     l = read_vector(file, group + "/l", problem.G.cols(), "one for each column of V");
 }
 
-/// Which pair is which in contact.csv: only in files that a run of Scabo left.
+/// Correspondence of the pairs to contact.csv: only in files written by a run of Scabo.
 void read_origin(const Hdf5Reader& file, SavedProblem& saved) {
   const Index pairs = saved.problem.pairs();
   if (file.has("scabo/force_scale")) {
@@ -211,7 +213,7 @@ SavedProblem read_local(const Hdf5Reader& file) {
   problem.mu = read_mu(file, "fclib_local/vectors/mu", pairs);
   problem.cohesion = read_strength(file, "fclib_local/vectors/cohesion", pairs);
   problem.tension = read_strength(file, "fclib_local/vectors/tension", pairs);
-  if (2 * W.nonZeros() >= W.rows() * W.cols())  // dense is smaller and faster then
+  if (2 * W.nonZeros() >= W.rows() * W.cols())  // dense storage is then smaller and faster
     problem.W = Delassus(Matrix(W));
   else
     problem.W = Delassus(std::move(W));
@@ -266,11 +268,11 @@ void write_matrix(Hdf5Writer& file, const std::string& group, Sparse A) {
   file.numbers(group + "/x", A.valuePtr(), entries);
 }
 
-/// Every entry of a dense matrix, zeros too: what is read back is dense again.
+/// Every entry of a dense matrix, including zeros, so that it is read back as dense.
 Sparse all_entries(const Matrix& A) {
   if (A.size() > std::numeric_limits<int>::max())
     throw std::runtime_error(
-        fmt::format("a matrix of {} x {} has more entries than FCLIB's layout can count", A.rows(), A.cols()));
+        fmt::format("a matrix of {} x {} has more entries than FCLIB's layout can store", A.rows(), A.cols()));
   Sparse S(A.rows(), A.cols());
   S.reserve(Eigen::VectorXi::Constant(A.cols(), static_cast<int>(A.rows())));
   for (Index j = 0; j < A.cols(); ++j)
@@ -301,11 +303,12 @@ SavedProblem read_fclib(const std::string& name) {
   if (!local && !file.has("fclib_global")) {
     std::string there;
     for (const std::string& group : file.names("/")) there += (there.empty() ? "" : ", ") + group.substr(0, 60);
-    throw InputError(name,
-                     {{{},
-                       fmt::format("has neither fclib_local nor fclib_global, so it is no problem in FCLIB's layout "
-                                   "(there is: {})",
-                                   there.empty() ? "nothing" : there.substr(0, 300))}});
+    throw InputError(
+        name,
+        {{{},
+          fmt::format(
+              "has neither fclib_local nor fclib_global, so that it is not a problem in FCLIB's layout (available: {})",
+              there.empty() ? "nothing" : there.substr(0, 300))}});
   }
   SavedProblem saved = local ? read_local(file) : read_global(file);
   const std::string form = local ? "fclib_local" : "fclib_global";

@@ -1,6 +1,6 @@
-// Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the pair's own problem (Jourdan, Alart, Jean, Comput.
-// Methods Appl. Mech. Engrg. 155 (1998) 31). Convergence is linear at best: it is a start for Newton, a fallback where
-// Newton fails, and the iteration that sweeps.hpp accelerates.
+// Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the problem of one pair (Jourdan, Alart, Jean, Comput.
+// Methods Appl. Mech. Engrg. 155 (1998) 31). Convergence is at best linear. The method provides starts for Newton, a
+// fallback where Newton fails, and the iteration that sweeps.hpp accelerates.
 #pragma once
 
 #include <variant>
@@ -11,15 +11,15 @@
 
 namespace scabo::contact {
 
-/// Sweeps over the pairs of a problem of d components without rigid motions (m = 0). A condensed W is formed. The
-/// problem must outlive them.
+/// Sweeps over the pairs of a problem with d components and without rigid motions (m = 0). A condensed W is formed. The
+/// problem must outlive this object.
 template <int d>
 class PairSweeps {
  public:
   [[gnu::hot]] explicit PairSweeps(const Problem& problem);
-  /// motion = q + W p from scratch; for a start, and where rounding has piled up.
+  /// Computes motion = q + W p anew: for a start, and when rounding has accumulated.
   [[gnu::hot]] void start(const Vector& p, Vector& motion) const;
-  /// One sweep on forces and motions: the largest change of a force component.
+  /// Performs one sweep on forces and motions and returns the largest change of a force component.
   [[gnu::hot]] double sweep(Vector& p, Vector& motion);
   const std::vector<PairProblem<d>>& pairs() const { return pairs_; }
 
@@ -36,7 +36,7 @@ class PairSweeps {
 extern template class PairSweeps<2>;
 extern template class PairSweeps<3>;
 
-/// The same in two or three components, with its motions.
+/// The same for two or three components, with the motions included.
 class GaussSeidel {
  public:
   explicit GaussSeidel(const Problem& problem);
@@ -49,7 +49,7 @@ class GaussSeidel {
   Vector motion_;
 };
 
-/// Forces after `sweeps` sweeps from `p`, or fewer where they stop changing.
+/// Forces after `sweeps` sweeps from `p`, or fewer if they no longer change.
 Vector gauss_seidel(const Problem& problem, Vector p, int sweeps);
 
 }  // namespace scabo::contact

@@ -2,13 +2,13 @@
 //
 //     M v = f + H r + G l,   0 = G' v + b,   u = H' v + w,   u and r of every pair as in problem.hpp
 //
-// v (n) velocities or displacements, M (n x n) mass or stiffness, nonsingular; H (n x dN) forces of the pairs
-// on v; G (n x k) and l (k) bilateral constraints and their forces, k may be 0. With the symmetric
+// v (n): velocities or displacements; M (n x n): mass or stiffness, nonsingular; H (n x dN): forces of the pairs on v;
+// G (n x k) and l (k): bilateral constraints and their forces, k may be 0. With the symmetric
 //
 //     S = [M, -G; -G', 0],   S [v; l] = [f + H r; b]
 //
-// it is u = W r + q with W = [H; 0]' S^-1 [H; 0] and q = w + [H; 0]' S^-1 [f; b]. M need not be symmetric (it
-// is kept as it is, as data of others may be); W then is as unsymmetric as M^-1.
+// the problem is u = W r + q with W = [H; 0]' S^-1 [H; 0] and q = w + [H; 0]' S^-1 [f; b]. M need not be symmetric
+// (problems from other programs are kept as they are); W is then as unsymmetric as M^-1.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -36,10 +36,10 @@ class GlobalReduction {
   GlobalReduction& operator=(const GlobalReduction&) = delete;
 
   const GlobalProblem& global() const { return global_; }
-  /// On the pairs. W is an operator where M is symmetric positive definite, G empty and W too dear to be
-  /// formed; sparse where the blocks of M leave it so; dense otherwise. Throws SingularProblem.
+  /// The problem condensed to the pairs. W is an operator if M is symmetric positive definite, G is empty and forming W
+  /// is too expensive; sparse if the blocks of M allow it; dense otherwise. Throws SingularProblem.
   Problem problem() const;
-  /// [v; l] for forces r.
+  /// [v; l] for the forces r.
   Vector motion(const Vector& r) const;
 
  private:

@@ -34,7 +34,7 @@ double gmres(const std::function<void(const Vector&, Vector&)>& multiply,
       precondition(basis.col(k), preconditioned);
       multiply(preconditioned, product);
       ++products;
-      for (int pass = 0; pass < 2; ++pass) {  // Gram-Schmidt, twice
+      for (int pass = 0; pass < 2; ++pass) {  // repeated Gram-Schmidt orthogonalisation
         const Vector part = basis.leftCols(k + 1).transpose() * product;
         product.noalias() -= basis.leftCols(k + 1) * part;
         if (pass == 0)

@@ -12,11 +12,10 @@ namespace scabo::contact {
 
 namespace {
 
-// More than any contact problem that fits in memory; a broken file may claim it.
+// More values than any contact problem that fits in memory; a damaged file may claim more.
 constexpr hssize_t most_values = hssize_t{1} << 29;
 
-/// HDF5 as Debian builds it is for one thread at a time, and prints a page for every error that it also
-/// returns.
+/// The HDF5 library of Debian is not thread-safe, and it prints a page for every error that it also returns.
 class Quiet {
  public:
   Quiet() : lock_(mutex()) {
@@ -37,7 +36,7 @@ class Quiet {
   void* data_ = nullptr;
 };
 
-/// An identifier of HDF5 and how it is closed.
+/// An identifier of HDF5 and the function that closes it.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -54,7 +53,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// H5Lexists() fails where a group on the way is missing, so each is asked for.
+/// H5Lexists() fails if a group in the path is missing; therefore each level is checked.
 bool exists(hid_t file, const std::string& path) {
   for (std::size_t end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1))
     if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
@@ -74,18 +73,19 @@ const char* kind_of(H5T_class_t type) {
   }
 }
 
-/// A dataset opened for reading, its number of values known.
+/// A dataset opened for reading, with its number of values.
 struct Dataset {
   Dataset(const Hdf5Reader& reader, hid_t file, const std::string& path)
       : id(open(reader, file, path), H5Dclose), type(H5Dget_type(id), H5Tclose), space(H5Dget_space(id), H5Sclose) {
     count = type.valid() && space.valid() ? H5Sget_simple_extent_npoints(space) : -1;
-    if (count < 0) reader.fail(path, "cannot be read: the file is damaged or cut off; take a whole copy");
+    if (count < 0) reader.fail(path, "cannot be read: the file is damaged or incomplete; use a complete copy");
     if (count > most_values)
-      reader.fail(path, fmt::format("holds {} values, more than any problem that could be solved: the file is damaged",
+      reader.fail(path, fmt::format("has {} values, more than any problem that can be solved: the file is damaged",
                                     static_cast<long long>(count)));
   }
   static hid_t open(const Hdf5Reader& reader, hid_t file, const std::string& path) {
-    if (!exists(file, path)) reader.fail(path, "is missing: FCLIB's layout has it (docs/methods/13_problem_files.md)");
+    if (!exists(file, path))
+      reader.fail(path, "is missing, but FCLIB's layout requires it (docs/methods/13_problem_files.md)");
     const hid_t id = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
     if (id < 0) reader.fail(path, "must be a dataset that can be read: it is a group, or the file is damaged");
     return id;
@@ -107,11 +107,11 @@ Hdf5Reader::Hdf5Reader(std::string file) : file_(std::move(file)) {
   const Quiet quiet;
   id_ = H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id_ < 0)
-    throw InputError(file_,
-                     {{{},
-                       is_hdf5(file_) ? "the HDF5 file cannot be opened: it is damaged, cut off or being written; "
-                                        "take a whole copy"
-                                      : "is not an HDF5 file"}});
+    throw InputError(
+        file_, {{{},
+                 is_hdf5(file_)
+                     ? "the HDF5 file cannot be opened: it is damaged, incomplete or being written; use a complete copy"
+                     : "is not an HDF5 file"}});
 }
 
 Hdf5Reader::~Hdf5Reader() {
@@ -148,7 +148,7 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
     fail(path, fmt::format("must hold whole numbers, not {}", kind_of(dataset.kind())));
   std::vector<std::int64_t> values(static_cast<std::size_t>(dataset.count));
   if (!values.empty() && H5Dread(dataset.id, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(path, "cannot be read: the file is damaged or cut off; take a whole copy");
+    fail(path, "cannot be read: the file is damaged or incomplete; use a complete copy");
   return values;
 }
 
@@ -165,7 +165,7 @@ Vector Hdf5Reader::numbers(const std::string& path) const {
     fail(path, fmt::format("must hold numbers, not {}", kind_of(dataset.kind())));
   Vector values(static_cast<Eigen::Index>(dataset.count));
   if (values.size() > 0 && H5Dread(dataset.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(path, "cannot be read: the file is damaged or cut off; take a whole copy");
+    fail(path, "cannot be read: the file is damaged or incomplete; use a complete copy");
   return values;
 }
 
@@ -173,7 +173,7 @@ std::string Hdf5Reader::text(const std::string& path) const {
   const Quiet quiet;
   if (!exists(id_, path)) return {};
   const Dataset dataset(*this, id_, path);
-  if (dataset.kind() != H5T_STRING || dataset.count != 1) return {};  // a remark of others, whatever it is
+  if (dataset.kind() != H5T_STRING || dataset.count != 1) return {};  // a remark by another program
   if (H5Tis_variable_str(dataset.type) > 0) {
     const Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(memory, H5T_VARIABLE);
@@ -194,7 +194,7 @@ std::string Hdf5Reader::text(const std::string& path) const {
 Hdf5Writer::Hdf5Writer(std::string file) : file_(std::move(file)), part_(file_ + ".part") {
   const Quiet quiet;
   id_ = H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (id_ < 0) fail("the file cannot be created: does its directory exist, and may you write there?");
+  if (id_ < 0) fail("the file cannot be created: check that its directory exists and that you may write there");
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -257,7 +257,7 @@ void Hdf5Writer::finish() {
     if (!error) return;
   }
   std::remove(part_.c_str());
-  fail(error ? error.message() : "the disk did not take all of it");
+  fail(error ? error.message() : "it could not be written completely");
 }
 
 }  // namespace scabo::contact

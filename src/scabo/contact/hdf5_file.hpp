@@ -1,6 +1,5 @@
-// An HDF5 file, read or written: what fclib.cpp needs of the format and nothing more. The library behind
-// (HDF5's C interface) stays in hdf5_file.cpp; it prints nothing while we use it. Calls are made one at a
-// time, on any thread.
+// Reading and writing of HDF5 files, limited to what fclib.cpp needs. The C interface of HDF5 is used only in
+// hdf5_file.cpp, and its messages are suppressed. Calls are serialised and allowed from any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +11,8 @@
 
 namespace scabo::contact {
 
-/// Reads datasets by their path from the root, `fclib_local/vectors/q`. Everything that is not as it must be
-/// is an InputError that names the file, the dataset and the remedy.
+/// Reads datasets by their path from the root, such as `fclib_local/vectors/q`. Anything invalid is an InputError that
+/// names the file, the dataset and the remedy.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(std::string file);
@@ -22,13 +21,13 @@ class Hdf5Reader {
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
   bool has(const std::string& path) const;
-  std::vector<std::string> names(const std::string& group) const;  ///< of what a group holds
+  std::vector<std::string> names(const std::string& group) const;  ///< names of the members of a group
   std::vector<std::int64_t> integers(const std::string& path) const;
   std::int64_t integer(const std::string& path) const;
-  Vector numbers(const std::string& path) const;    ///< finite or not: the caller knows what may be infinite
-  std::string text(const std::string& path) const;  ///< empty where there is none
+  Vector numbers(const std::string& path) const;    ///< may be infinite; the caller decides what is allowed
+  std::string text(const std::string& path) const;  ///< empty if there is none
 
-  /// Throws the InputError `file: path: message`.
+  /// Throws an InputError `file: path: message`.
   [[noreturn]] void fail(const std::string& path, std::string message) const;
 
  private:
@@ -36,12 +35,12 @@ class Hdf5Reader {
   std::int64_t id_ = -1;
 };
 
-/// Writes a file under another name (`.part`) and gives it its own when it is whole. Groups on the way to a
-/// dataset are made as needed. The same content gives the same bytes. Throws std::runtime_error.
+/// Writes to a temporary file (`.part`), which is renamed when it is complete. Groups in the path of a dataset are
+/// created as needed. The same content gives the same bytes. Throws std::runtime_error.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::string file);
-  ~Hdf5Writer();  ///< without finish(): nothing is left
+  ~Hdf5Writer();  ///< without finish(), removes the temporary file
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
@@ -63,7 +62,7 @@ class Hdf5Writer {
   std::int64_t id_ = -1;
 };
 
-/// True where the file starts (at 0, or after a user block) as HDF5 files do.
+/// Whether the file starts (at 0, or after a user block) like an HDF5 file.
 bool is_hdf5(const std::string& file);
 
 }  // namespace scabo::contact

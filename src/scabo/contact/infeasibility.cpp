@@ -18,9 +18,9 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr Index most_pairs = 1500, most_dense_pairs = 500;  // of the search along normals: 18 MB
 constexpr Index most_rays = 800;                            // of the search in the cones
-constexpr double beyond_all = 1e10;  // times k |q|: forces that large are not known to obey anything
-constexpr double stands_out = 1e-8;  // of sum |q_i| |r_i|
-constexpr double excluded = 1e-9;    // least distance, relative to |q|, at which a case of a pair is excluded
+constexpr double beyond_all = 1e10;                         // times k |q|: larger forces are not considered
+constexpr double stands_out = 1e-8;                         // of sum |q_i| |r_i|
+constexpr double excluded = 1e-9;  // least distance, relative to |q|, at which a case of a pair is excluded
 
 Vector transposed_product(const Delassus& W, const Vector& r) {
   return W.is_sparse() ? Vector(W.sparse().transpose() * r) : Vector(W.dense().transpose() * r);
@@ -68,7 +68,7 @@ Sparse rays_of(const Problem& problem, bool with_friction) {
   return rays;
 }
 
-/// Whether the columns combine, with factors of zero or more, to b.
+/// Whether b is a combination of the columns with factors of zero or more.
 bool combine(const Matrix& columns, const Vector& b) {
   Matrix A = columns;
   for (Index j = 0; j < A.cols(); ++j)
@@ -90,7 +90,7 @@ bool may_slip(const Matrix& W, const Vector& q, double mu, double from, double t
   return depth == 0 || may_slip(W, q, mu, from, middle, depth - 1) || may_slip(W, q, mu, middle, to, depth - 1);
 }
 
-/// Whether no force of the pair alone obeys Coulomb's law, where r with W r = 0, q.r < 0 excludes that it sticks.
+/// Whether no force of the pair alone satisfies Coulomb's law, given r with W r = 0, q.r < 0, which excludes stick.
 bool no_force_obeys(const Matrix& W, const Vector& q, double mu) {
   if (!(q[0] < 0.0)) return false;  // open
   if (q.size() == 2) {
@@ -108,7 +108,7 @@ bool no_force_obeys(const Matrix& W, const Vector& q, double mu) {
   return true;
 }
 
-/// The pair's own problem; its only neighbour is itself where `alone`.
+/// The problem of the pair; `alone` if no other pair moves it.
 struct OnePair {
   Problem problem;
   bool alone = true;
@@ -163,8 +163,8 @@ std::optional<Infeasibility> of_single_pairs(const Problem& problem) {
     char text[300];
     std::snprintf(
         text, sizeof text,
-        "pair %lld is wedged: forces r in its friction cone move nothing (W r = 0) while q.r < 0, and neither "
-        "open, nor stick, nor slip along any direction obeys the law, so no forces solve the problem",
+        "pair %lld is wedged: forces r in its friction cone cause no motion (W r = 0) while q.r < 0, and neither the "
+        "open state nor stick nor slip in any direction satisfies the contact law, so that the problem has no solution",
         static_cast<long long>(i) + 1);
     result.reason = text;
     return result;
@@ -186,11 +186,10 @@ std::optional<Infeasibility> along(const Problem& problem, bool with_friction) {
   std::snprintf(
       text, sizeof text,
       with_friction
-          ? "forces r in the friction cones of %lld pairs move nothing (W r = 0) while q.r < 0: no motion lies "
-            "in the dual cone, so it is not known whether a solution exists"
-          : "normal forces r of %lld pairs move nothing (W r = 0) while q.r < 0: bodies are squeezed that "
-            "cannot yield, and whatever forces act one of these gaps stays negative, so no forces solve the "
-            "problem",
+          ? "forces r in the friction cones of %lld pairs cause no motion (W r = 0) while q.r < 0: no motion lies in "
+            "the dual cone, so that it is not known whether a solution exists"
+          : "normal forces r of %lld pairs cause no motion (W r = 0) while q.r < 0: bodies are compressed that cannot "
+            "deform, and one of these gaps stays negative whatever forces act, so that the problem has no solution",
       static_cast<long long>(pairs));
   result.reason = text;
   return result;
@@ -206,7 +205,7 @@ bool proves_no_motion(const Problem& problem, const Vector& r) {
       return false;
   const double work = -problem.q.dot(r), all = problem.q.cwiseAbs().dot(r.cwiseAbs());
   if (!(work > stands_out * all)) return false;
-  // Forces p that part the pairs have (W'r).p >= work, hence |p|_1 >= work / largest of W'r.
+  // Forces p that separate the pairs have (W'r).p >= work, hence |p|_1 >= work / largest entry of W'r.
   const double moved = transposed_product(problem.W, r).lpNorm<Eigen::Infinity>();
   return work >= beyond_all * moved * stiffness_of(problem) * problem.q.lpNorm<Eigen::Infinity>();
 }

@@ -1,7 +1,7 @@
-// Proof that a contact problem without rigid motions of its own (m = 0) has no solution.
+// Proof that a contact problem without rigid motions (m = 0) has no solution.
 //
-// Forces r in the friction cones that move nothing, W r = 0, are in balance with themselves: a wedged block, a column
-// between a floor and a ceiling. Whatever the contact forces p, r.u = q.r + (W'r).p = q.r. Let q.r < 0.
+// Forces r in the friction cones that cause no motion, W r = 0, are in equilibrium with themselves: a wedged block, a
+// column between a floor and a ceiling. For any contact forces p, r.u = q.r + (W'r).p = q.r. Let q.r < 0.
 //
 // 1. Along the normals alone, r_t = 0. A solution has u_n >= 0 in every pair, hence r.u >= 0: there is none, with any
 //    friction, cohesion or tension. By Farkas's lemma such an r exists exactly when no forces at all, in the cones or
@@ -30,20 +30,20 @@ namespace scabo::contact {
 
 struct Infeasibility {
   Vector r;             // dN; largest entry 1
-  bool proven = false;  ///< there is no solution; otherwise only that no motion lies in the dual cone
+  bool proven = false;  ///< there is no solution; otherwise only no motion in the dual cone
   std::string reason;   ///< a sentence
 };
 
-/// Whether r lies in the friction cones, q.r < 0 stands out of rounding, and W'r = 0 within rounding: forces p with
-/// u in the dual cone would have to be more than 1e10 times those that would undo q.
+/// Whether r lies in the friction cones, q.r < 0 beyond rounding, and W'r = 0 within rounding: forces p with u in the
+/// dual cone would have to exceed 1e10 times those that would cancel q.
 bool proves_no_motion(const Problem& problem, const Vector& r);
 
-/// Nothing where none was found: with rigid motions, a W that is not formed, or more than 1500 pairs
-/// (500 of a dense W) none is looked
-/// for. Dense work of about N^3 / 3.
+/// Searches for a proof; nothing if none was found. There is no search with rigid motions, with a condensed W, or for
+/// more than 1500 pairs (500 with a dense W). Dense work of about N^3 / 3.
 std::optional<Infeasibility> find_infeasibility(const Problem& problem, const Deadline& deadline = {});
 
-/// A proof becomes the status of a point that is no solution; what is not proven is added to its reason.
+/// Sets the status of a solution that was not found to infeasible if the result is proven; otherwise adds it to the
+/// reason.
 void mark_infeasible(Solution& solution, const Infeasibility& found);
 
 }  // namespace scabo::contact

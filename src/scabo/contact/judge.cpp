@@ -12,7 +12,7 @@ using Index = Eigen::Index;
 
 [[gnu::hot]] double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
-/// A pair's normal and tangential parts; in the plane the second tangent is zero.
+/// Normal and tangential parts of a pair; in the plane the second tangential component is zero.
 struct Parts {
   double n = 0.0;
   Vec2 t = Vec2::Zero();
@@ -20,7 +20,7 @@ struct Parts {
       : n(factor * v[d * i]), t(factor * v[d * i + 1], d == 3 ? factor * v[d * i + 2] : 0.0) {}
 };
 
-/// |p - P(p - u)|^2 of a pair with cohesion or tension, normal and tangent apart.
+/// p - P(p - u)|^2 for a pair with cohesion or tension, separately for normal and tangential parts.
 double squared_map_of_bonded(const Parts& u, const Parts& p, double tension, double bound) {
   const double normal = std::isinf(tension) ? u.n : p.n - std::max(p.n - u.n, -tension);
   Vec2 projected = p.t - u.t;
@@ -40,7 +40,7 @@ double squared_map_of_cone(const Parts& u, const Parts& p, double mu) {
   return (p.n - normal) * (p.n - normal) + (p.t - mu * normal / size * x_t).squaredNorm();
 }
 
-/// |W| |p|. Of a W that is not formed only what its diagonal and its product show.
+/// W| |p|. For a condensed W, a bound from its diagonal and its product.
 Vector absolute_product(const Problem& problem, const Vector& p, const Vector& motion) {
   const Delassus& W = problem.W;
   Vector sums = Vector::Zero(p.size());
@@ -137,11 +137,11 @@ std::string reason_of(const Judgement& judgement, Judge by, double tolerance, co
   char text[400];
   if (judgement.rounding > tolerance)
     std::snprintf(text, sizeof text,
-                  "; the best point leaves a %s of %.2g, but double precision leaves %.2g uncertain in the motions of "
-                  "forces so much larger than those at work, so it is not known to be a solution",
+                  "; the best iterate has a %s of %.2g, but the contact forces are so large that rounding makes the "
+                  "motions uncertain by %.2g, so that it is not known to be a solution",
                   figure, judgement.figure, judgement.rounding);
   else
-    std::snprintf(text, sizeof text, "; the best point leaves a %s of %.2g, above the tolerance %.2g", figure,
+    std::snprintf(text, sizeof text, "; the best iterate has a %s of %.2g, above the tolerance %.2g", figure,
                   judgement.figure, tolerance);
   return story + text;
 }

@@ -28,39 +28,40 @@
 
 namespace scabo::contact {
 
-/// Which figure is compared with the tolerance. certificate: the worst of the certificate (increments of elastic
-/// bodies). natural_map: the natural map (problems of others, whose W may be rank deficient) and the balance of rigid
-/// motions, which the natural map does not know.
+/// The figure that is compared with the tolerance. certificate: the worst figure of the certificate (increments of
+/// elastic bodies). natural_map: the natural map (problems from other programs, whose W may be rank deficient) and the
+/// balance of the rigid motions, which is not part of the natural map.
 enum class Judge { certificate, natural_map };
 
 struct Judgement {
   Certificate certificate;
   double natural_map_residual = 0.0;
   double rounding = 0.0;  ///< of W p and G'p, as above
-  double figure = 0.0;    ///< what is compared with the tolerance
+  double figure = 0.0;    ///< the figure that is compared with the tolerance
 
   bool solved(double tolerance) const { return figure <= tolerance && rounding <= tolerance; }
 };
 
-/// The units of a problem: what its forces and motions are measured by.
+/// Units of a problem: the scales of its forces and motions.
 class Measure {
  public:
-  /// `history`: forces of the increment before, or empty; `applied`: largest applied force that is not in the problem.
+  /// `history`: forces of the previous increment, or empty; `applied`: largest applied force that is not part of the
+  /// problem.
   explicit Measure(const Problem& problem, const Vector& history = Vector(), double applied = 0.0);
-  /// The same where 1 / mean W_ii is known.
+  /// The same for known 1 / mean W_ii.
   Measure(const Problem& problem, double stiffness, const Vector& history, double applied);
 
   double stiffness() const { return stiffness_; }  ///< k
-  double at_work() const { return at_work_; }      ///< F; 0 where nothing is at work
-  /// By which forces are judged before any are known: those applied; else those that would undo the motions q; else
-  /// those of the history; 1 where there is nothing.
+  double at_work() const { return at_work_; }      ///< F; 0 if there are no forces
+  /// The scale of forces before any are known: the applied forces; else those that would cancel the motions q; else
+  /// those of the history; 1 if there are none.
   double reference() const { return reference_; }
-  /// Of a certificate of forces p.
+  /// Scales for a certificate of the forces p.
   Scales scales(const Vector& p) const;
   double natural_map(const Problem& problem, const Vector& p, const Vector& motion) const;
-  /// Of W p and G'p, from the sums of absolute values. Of a W that is not formed from its diagonal and the motions.
+  /// Rounding error of W p and G'p, from sums of absolute values. If W is condensed, from its diagonal and the motions.
   double rounding(const Problem& problem, const Vector& p, const Vector& motion) const;
-  /// Of the problem times k, motions as forces.
+  /// Measure of the problem multiplied by k, with motions as forces.
   Measure of_forces() const;
 
  private:
@@ -69,15 +70,15 @@ class Measure {
 
 Judgement judge(const Problem& problem, const Vector& p, const Vector& motion, const Measure& measure, Judge by);
 
-/// Why forces are not a solution although a solver ended with them: its own `story`, what was reached, what rounding
-/// allows.
+/// The reason why the final forces of a solver are not a solution: its own `story`, the figure that was reached, and
+/// the figure that rounding allows.
 std::string reason_of(const Judgement& judgement, Judge by, double tolerance, const std::string& story);
 
 /// 1 / mean W_ii, 1 where W = 0.
 double stiffness_of(const Problem& problem);
 /// q + W p + G a.
 Vector motion_of(const Problem& problem, const Vector& p, const Vector& a);
-/// The natural map of a problem with nothing else at work.
+/// Natural map of a problem without history and other applied forces.
 double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a);
 
 }  // namespace scabo::contact

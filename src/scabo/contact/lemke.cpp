@@ -55,8 +55,8 @@ void keep_smallest(std::vector<Eigen::Index>& rows, Value value) {
   std::erase_if(rows, [&](Eigen::Index i) { return value(i) > least + 1e-12 * (1.0 + std::abs(least)); });
 }
 
-/// The row with the smallest ratio of right-hand side and pivot; -1 on a ray. Friction rows tie by the dozen (their
-/// right-hand sides are 0), so ties are broken by the order of whole rows, which cannot cycle (lexicographic rule).
+/// The row with the smallest ratio of right-hand side and pivot; -1 on a ray. Many friction rows are tied because their
+/// right-hand sides are 0; ties are broken by the order of whole rows, which prevents cycling (lexicographic rule).
 Eigen::Index leaving_row(const Matrix& tableau, const std::vector<Eigen::Index>& basis, Eigen::Index entering) {
   const Eigen::Index n = tableau.rows(), z0 = 2 * n, right = 2 * n + 1;
   const double largest = tableau.col(entering).cwiseAbs().maxCoeff();
@@ -66,7 +66,7 @@ Eigen::Index leaving_row(const Matrix& tableau, const std::vector<Eigen::Index>&
   if (rows.empty()) return -1;
   keep_smallest(rows, [&](Eigen::Index i) { return std::max(tableau(i, right), 0.0) / tableau(i, entering); });
   for (Eigen::Index i : rows)
-    if (basis[static_cast<std::size_t>(i)] == z0) return i;  // z0 leaves as soon as it can: solved
+    if (basis[static_cast<std::size_t>(i)] == z0) return i;  // z0 leaves as soon as possible: solved
   for (Eigen::Index column = 0; column < n && rows.size() > 1; ++column)
     keep_smallest(rows, [&](Eigen::Index i) { return tableau(i, column) / tableau(i, entering); });
   return rows.front();
@@ -77,7 +77,7 @@ Eigen::Index leaving_row(const Matrix& tableau, const std::vector<Eigen::Index>&
 std::optional<Vector> lemke(const Problem& problem) {
   const Eigen::Index N = problem.pairs(), n = 4 * N;
   if (N == 0) return Vector();
-  // Ties are told from 1: a power of two makes q as large, and its unit does not matter.
+  // Ties are detected relative to 1: q is scaled by a power of two to this size, so that units do not matter.
   const double largest = problem.q.lpNorm<Eigen::Infinity>();
   const double unit = largest > 0.0 && std::isfinite(largest) ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
   Matrix tableau = make_tableau(problem, unit);

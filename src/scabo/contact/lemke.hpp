@@ -1,5 +1,6 @@
-// Lemke's pivoting for plane friction, written as a linear complementarity problem: no start is needed and no iteration
-// can wander, but every pivot costs the square of the number of pairs and rounding piles up. The last start for Newton.
+// Lemke's pivoting method for plane friction, written as a linear complementarity problem. It needs no start and does
+// not iterate, but every pivot costs the square of the number of pairs, and rounding accumulates. It provides the last
+// start for Newton.
 //
 //     [g; l + ds; l - ds; mu p_n - b+ - b-]  perpendicular to  [p_n; b+; b-; l] >= 0,   p_t = b+ - b-
 //
@@ -12,7 +13,7 @@
 
 namespace scabo::contact {
 
-/// Forces (2N); nothing when the pivoting ends on a ray. The problem has no rigid motions (m = 0).
+/// Forces (2N); nothing if the pivoting ends on a ray. The problem must not have rigid motions (m = 0).
 std::optional<Vector> lemke(const Problem& problem);
 
 }  // namespace scabo::contact

@@ -21,7 +21,7 @@ PairProblem<d>::PairProblem(const double* W, double mu, double cohesion, double 
   const double size = d == 2 ? scale : scale * scale;
   determinant_ = d == 2 ? A_[0][0] : A_[0][0] * A_[1][1] - A_[0][1] * A_[1][0];
   if (!(determinant_ > 1e-14 * size)) determinant_ = 0.0;
-  if (!(scale > 0.0)) mu_ = cohesion_ = 0.0;  // nothing moves along the tangents
+  if (!(scale > 0.0)) mu_ = cohesion_ = 0.0;  // the pair cannot move tangentially
 }
 
 template <int d>
@@ -40,7 +40,7 @@ void PairProblem<d>::solve(const double* free, double* force) {
   if (force[0] < -tension_) open(free, force);
 }
 
-/// At full tension, cohesion holds the tangents. False where that presses it together.
+/// The open state: full tension, with tangential motion held by cohesion. False if the sides would then overlap.
 template <int d>
 bool PairProblem<d>::open(const double* free, double* force) {
   const double u_n = free[0] - W_[0] * tension_;
@@ -83,7 +83,7 @@ bool PairProblem<d>::stick(double a_n, const double* c, double* force) const {
   return true;
 }
 
-/// The force at the bound C + mu p_n; p_n >= 0 unless mu is 0. Where there is none, `force` stays.
+/// The force at the bound C + mu p_n; p_n >= 0 unless mu is 0. `force` does not change if there is none.
 template <int d>
 bool PairProblem<d>::slip(double a_n, const double* c, double mu, double* force) {
   double p_t[2] = {0.0, 0.0}, p_n;
@@ -109,7 +109,8 @@ template <int d>
 void PairProblem<d>::slide(const Tangential& A, double a_n, const double* c, double m, double* p_t) {
   const double reach = cohesion_ - m * a_n, mean = 0.5 * (A[0][0] + A[1][1]);
   double low = 0.0, high = HUGE_VAL, s = s_;
-  // Without history: exact where normal and tangents are not coupled and both tangents are alike.
+  // Without history: exact if normal and tangential directions are not coupled and both tangential directions are
+  // equal.
   if (!(s > 0.0)) s = std::max(std::sqrt(c[0] * c[0] + c[1] * c[1]) / reach - mean, 1e-3 * mean);
   if (!(s > 0.0 && s < HUGE_VAL)) s = W_[0];
   double N[2], determinant = 1.0;
@@ -126,7 +127,7 @@ void PairProblem<d>::slide(const Tangential& A, double a_n, const double* c, dou
     double next = s - g / slope;
     if (!(next > low && next < high)) next = high < HUGE_VAL ? 0.5 * (low + high) : 4.0 * s;
     const double step = std::abs(next - s);
-    // p_t at `next` without another round: N and det are linear and quadratic in s.
+    // p_t at `next` without another evaluation: N and det are linear and quadratic in s.
     if (step <= 1e-9 * s) {
       const double ds = next - s;
       N[0] -= ds * c[0];

@@ -1,8 +1,8 @@
-// One pair's own problem: its force under Coulomb's law with cohesion and tensile strength, every other force held.
-// Sweeps (gauss_seidel.hpp) solve it pair by pair.
+// The problem of one pair: its force under Coulomb's law with cohesion and tensile strength, with all other forces
+// fixed. Sweeps (gauss_seidel.hpp) solve it pair by pair.
 //
-// Its motion is free + W p, W its own block. Open, p_n = -T, |p_t| <= C, where that leaves u_n >= 0. Otherwise u_n = 0,
-// and what the normal leaves for the tangents is u_t = A p_t + c,
+// Its motion is free + W p, W its own block. The pair is open, p_n = -T, |p_t| <= C, if that gives u_n >= 0. Otherwise
+// u_n = 0, and with the normal force eliminated u_t = A p_t + c,
 //
 //     A = W_tt - W_tn W_nt / W_nn,   c = free_t - W_tn free_n / W_nn
 //
@@ -11,9 +11,9 @@
 //
 //     g(s) = |N| + mu / W_nn (free_n det(A + s) + W_nt N) - C det(A + s) = 0
 //
-// a quartic in s by another name, solved by Newton within a bracket from the s of the time before: one or two steps
-// near the end of the sweeps. Where p_n < 0 comes out the bound is C alone, mu = 0 in g. Where no force obeys the law
-// (large mu, W not positive definite) p_n = -free_n / W_nn without friction.
+// a quartic in s in another form, solved by Newton's method within a bracket from the previous s: one or two steps near
+// the end of the sweeps. If p_n < 0 results, the bound is C alone, and mu = 0 in g. If no force satisfies the law
+// (large mu, W not positive definite), p_n = -free_n / W_nn without friction.
 #pragma once
 
 namespace scabo::contact {
@@ -28,7 +28,7 @@ class PairProblem {
   [[gnu::hot]] void solve(const double* free, double* force);
 
   const double* W() const { return W_; }
-  double inverse() const { return inverse_; }  ///< 1 / W_nn; 0 where no force moves the pair along its normal
+  double inverse() const { return inverse_; }  ///< 1 / W_nn; 0 if no force moves the pair along its normal
 
  private:
   using Tangential = double[2][2];
@@ -44,7 +44,7 @@ class PairProblem {
   double nt_[2] = {0.0, 0.0}, tn_[2] = {0.0, 0.0};  // W_nt, W_tn / W_nn; in the plane the second tangent does not exist
   Tangential A_ = {{0.0, 0.0}, {0.0, 0.0}};
   double determinant_;  // of A; 0: singular
-  double s_ = 0.0;      // of the time before; 0: none
+  double s_ = 0.0;      // of the previous solve; 0: none
 };
 
 extern template class PairProblem<2>;

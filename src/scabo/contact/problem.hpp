@@ -1,4 +1,4 @@
-// The discrete problem of frictional contact: a value, apart from its solver.
+// The discrete problem of frictional contact, as a value that is independent of its solver.
 //
 // N pairs with relative motions u and forces p on B, for every pair [normal, tangent] in the plane (d = 2), [normal,
 // tangent 1, tangent 2] in space (d = 3); signs as in docs/notation.md (n out of A, towards B; forces act on B), which
@@ -11,7 +11,7 @@
 //     p_t - lambda p_t(r) = 0, p_t(r) = p_t - r u_t, lambda = min(b / |p_t(r)|, 1),
 //     b = c + mu (p_n)+                                                                       (H3; eq. 8)
 //
-// c: cohesion, c_t: tension that a pair carries, both as forces, both 0 for Coulomb's law. Friction opposes slip.
+// c: cohesion, c_t: tensile strength of a pair, both as forces and both 0 for Coulomb's law. Friction opposes slip.
 #pragma once
 
 #include <vector>
@@ -41,11 +41,11 @@ struct Problem {
   }
 };
 
-/// What an increment starts from, part of a saved problem: forces and rigid motions of the increment before (empty:
-/// from nothing). Slip so far is in q.
+/// The start of an increment, part of a saved problem: forces and rigid motions of the previous increment (empty:
+/// zero). Previous slip is included in q.
 struct Start {
   Vector p, a;
-  std::vector<bool> touching = {};  ///< N, pairs that touch before the increment; empty: not known, all may
+  std::vector<bool> touching = {};  ///< N, pairs in contact before the increment; empty: unknown
 };
 
 enum class ContactState { open, stick, slip };

@@ -1,7 +1,8 @@
-// Relative motion of the pairs per unit rigid motion of the bodies that contact alone holds: G, dN x m (d components per
-// pair, N pairs, m rigid motions). Every pair touches two bodies, so G is sparse: at most six entries a row in the plane.
+// G: relative motion of the pairs per unit rigid motion of the bodies that only contact holds, dN x m (d components per
+// pair, N pairs, m rigid motions). Every pair touches two bodies, so that G is sparse: at most six entries per row in
+// the plane.
 //
-// Cheap to copy: what is inside is shared and never changes.
+// Copies are cheap because the content is shared and never changes.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -15,7 +16,7 @@ class RigidMap {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
 
-  RigidMap();  ///< 0 x 0
+  RigidMap();                     ///< 0 x 0
   RigidMap(const Matrix& dense);  // implicit: a matrix is such a map
   template <typename Derived>
   RigidMap(const Eigen::MatrixBase<Derived>& dense) : RigidMap(Matrix(dense)) {}
@@ -23,11 +24,11 @@ class RigidMap {
 
   Eigen::Index rows() const { return sparse().rows(); }
   Eigen::Index cols() const { return sparse().cols(); }
-  /// Becomes the map of this size that moves nothing.
+  /// Sets the map to zero, with the given size.
   void resize(Eigen::Index rows, Eigen::Index cols);
 
   const Sparse& sparse() const;
-  /// Formed at the first call and kept; safe from several threads.
+  /// Computed at the first call and kept; thread-safe.
   const Matrix& dense() const;
 
   auto transpose() const { return sparse().transpose(); }

@@ -18,18 +18,18 @@ namespace scabo::contact {
 
 struct SavedProblem {
   Problem problem;
-  Start start;                        ///< history, or a guess of others; empty: none
-  Vector r, a;                        ///< a solution that the file holds; empty: none
-  double force_scale = 0.0;           ///< SolverOptions::force_scale; 0 where the file does not say
-  std::vector<std::string> contacts;  ///< names; empty in files of others
+  Start start;                        ///< history, or a guess from another program; empty: none
+  Vector r, a;                        ///< solution in the file; empty: none
+  double force_scale = 0.0;           ///< SolverOptions::force_scale; 0 if not in the file
+  std::vector<std::string> contacts;  ///< names; empty in files of other programs
   std::vector<int> contact_of_pair;   ///< N or empty: index into `contacts`
   std::vector<int> number_of_pair;    ///< N or empty: from 1, as in contact.csv
   std::string title, description;
-  std::string layout;                                ///< `FCLIB, local form`: for people
-  std::shared_ptr<const GlobalReduction> reduction;  ///< where the file has the global form
+  std::string layout;                                ///< such as `FCLIB, local form`, for display
+  std::shared_ptr<const GlobalReduction> reduction;  ///< if the file has the global form
 };
 
-/// Reads whichever layout the file has. Throws InputError with file, dataset or line, and remedy.
+/// Reads a file of any of these layouts. Throws InputError with file, dataset or line, and remedy.
 SavedProblem read_problem_file(const std::string& file);
 
 }  // namespace scabo::contact

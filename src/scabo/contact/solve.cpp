@@ -39,7 +39,7 @@ namespace {
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const double p_n = p[d * i], bound = problem.friction_bound(i, p_n), tension = problem.tension_of(i);
     const double friction = p.segment(d * i + 1, d - 1).norm(), slip = motion.segment(d * i + 1, d - 1).norm();
-    // Touching at zero force counts as contact only where force is really there.
+    // A pair that touches at zero force counts as in contact only if there is a force.
     if (!std::isinf(tension) && p_n + tension <= 1e-13 * scales.force)
       states.push_back(ContactState::open);
     else if (friction < bound * (1.0 - 1e-10))
@@ -50,14 +50,15 @@ namespace {
   return states;
 }
 
-/// What happened, where it was not solved.
+/// The reason why the problem was not solved.
 std::string story_of(const Solution& solution, const SolverOptions& options, bool singular) {
   char text[160];
   if (options.deadline.passed())
     std::snprintf(text, sizeof text, "the time limit of %g s ended the search after %d iterations",
                   options.deadline.seconds(), solution.iterations);
   else if (singular)
-    std::snprintf(text, sizeof text, "contact forces could not balance the loads on any branch tried (%d iterations)",
+    std::snprintf(text, sizeof text,
+                  "no contact forces that balance the loads were found on any branch tried (%d iterations)",
                   solution.iterations);
   else
     std::snprintf(text, sizeof text, "the Newton iterations stalled from every start tried (%d iterations)",
@@ -65,7 +66,7 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
   return text;
 }
 
-/// What was met as forces, relative to the largest.
+/// Residuals as forces, relative to the largest force.
 [[gnu::hot]] void make_relative(Solution& solution, double force) {
   for (Iteration& iteration : solution.trace) {
     iteration.residual /= force;
@@ -74,7 +75,7 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
   solution.residual /= force;
 }
 
-/// Judgement, gaps, slips and states of the forces found, and whether they are a solution.
+/// Judges the forces found and sets gaps, slips, states and status.
 [[gnu::hot]] void complete(Solution& solution, const Problem& problem, const Vector& motion, const Measure& measure,
                            const SolverOptions& options, bool singular) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
@@ -99,7 +100,7 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
   }
 }
 
-/// Where the sweeps ended, judged.
+/// Result of the sweeps, with its judgement.
 [[gnu::hot]] Solution swept_solution(const Problem& problem, const Measure& measure, SweepsEnd end,
                                      const SolverOptions& options) {
   Solution solution;
@@ -130,11 +131,11 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
     solution.reason = "a rigid motion is held neither by supports nor by contact and friction";
     return true;
   };
-  // Of many bodies it costs as much as solving them, and forces that are found say the same.
+  // For many bodies this costs as much as a solve, and it is not needed if forces were found.
   const bool asked_first = !has_many_motions(problem);
   if (asked_first) is_mechanism();
 
-  // Well below the tolerance, but not below the rounding of the gaps themselves (a body that hovers far away).
+  // Well below the tolerance, but not below the rounding of the gaps themselves (a body far above its support).
   const double epsilon = std::numeric_limits<double>::epsilon(), reference = measure.reference();
   const bool by_map = options.judge == Judge::natural_map;
   const double small =
@@ -178,7 +179,7 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
     if (end.content || options.deadline.passed()) return swept_solution(problem, measure, std::move(end), options);
     const std::optional<Infeasibility> found = find_infeasibility(problem, options.deadline);
     if (found && found->proven) {
-      // No point is the best one: sweeps run away along r.
+      // There is no best iterate: sweeps diverge along r.
       end.p = p_start;
       end.motion = motion_of(problem, p_start, Vector());
       Solution none = swept_solution(problem, measure, std::move(end), options);
@@ -186,7 +187,7 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
       return none;
     }
     Solution climbed = climbed_solution(problem, measure, p_start, start, options);
-    // Not solved: the best point of all is handed back.
+    // Not solved: the best iterate of all attempts is returned.
     if (climbed.status == Status::not_converged && end.natural_map < climbed.natural_map_residual) {
       climbed.p = std::move(end.p);
       complete(climbed, problem, end.motion, measure, options, false);

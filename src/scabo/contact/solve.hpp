@@ -14,12 +14,12 @@
 namespace scabo::contact {
 
 struct SolverOptions {
-  double tolerance = 1e-10;          ///< of the judge, free of units
-  Judge judge = Judge::certificate;  ///< natural_map: W may be rank deficient, so sweeps come first
+  double tolerance = 1e-10;          ///< of the judge, dimensionless
+  Judge judge = Judge::certificate;  ///< natural_map: W may be rank deficient, so that sweeps come first
   int iterations = 50;               ///< of Newton in one attempt, > 0
   double r_factor = 1.0;             ///< r = r_factor / W_ii; the solution does not depend on it
-  double force_scale = 0.0;          ///< largest applied force, >= 0: part of the scale by which forces are judged
-  Deadline deadline;                 ///< the end of the search; the best point so far is returned
+  double force_scale = 0.0;          ///< largest applied force, >= 0: part of the scale of forces
+  Deadline deadline;                 ///< end of the search, at which the best iterate is returned
 };
 
 Solution solve(const Problem& problem, const Start& start = {}, const SolverOptions& options = {});

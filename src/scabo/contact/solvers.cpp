@@ -26,12 +26,12 @@ using solvers::Control;
 using solvers::End;
 using solvers::largest;
 
-/// What a method is called and what it handles.
+/// Name of a method and the problems that it handles.
 struct Road {
   Method method;
   const char* name;
   bool plane, space, friction, strength, rigid;
-  Eigen::Index most = 0;  ///< contact unknowns, where its matrices are dense; 0: as many as there are
+  Eigen::Index most = 0;  ///< largest number of contact unknowns, if its matrices are dense; 0: no limit
 };
 constexpr Eigen::Index dense = 6000;  // 0.3 GB a matrix
 constexpr Road roads[] = {
@@ -59,7 +59,7 @@ const Road& road_of(Method method) {
 
 bool is_built(const Road& road) { return road.method < Method::siconos_nsgs || solvers::siconos_is_built(); }
 
-/// Why the road cannot be taken; empty where it can.
+/// Why the method cannot be used; empty if it can.
 std::string refusal(const Road& road, const Problem& problem) {
   const std::string who = std::string(road.name) + " does not handle ";
   if (!is_built(road)) return std::string(road.name) + " is not in this build (CMake option SCABO_SICONOS)";
@@ -88,7 +88,7 @@ End newton_only(const Problem& problem, const Vector& p, const Vector& a, const 
           end.converged,
           end.iterations,
           end.residual,
-          end.singular ? "no direction exists" : "Newton's iterations stalled",
+          end.singular ? "the Newton matrix is singular" : "Newton's iterations stalled",
           std::move(end.trace)};
 }
 
@@ -96,7 +96,7 @@ End pivoted(const Problem& problem, const Vector& p_start, const Control& contro
   End end;
   const std::optional<Vector> p = lemke(problem);
   end.p = p.value_or(p_start);
-  end.reason = p ? "rounding of the pivots" : "the pivots end on a ray";
+  end.reason = p ? "rounding of the pivots" : "the pivoting ends on a ray";
   end.iterations = 1;
   end.residual = largest(solvers::residual_of(problem, solvers::pair_stiffness(problem), end.p, Vector()));
   end.converged = end.residual <= control.small;
@@ -126,7 +126,7 @@ End travel(const Road& road, const Problem& problem, const Vector& p, const Vect
     case Method::proximal_point:
       return solvers::proximal_point(problem, p, a, control);
     case Method::b_differentiable:
-      break;  // solve() does it all
+      break;  // handled by solve()
     default:
       return solvers::siconos(road.name, problem, p, control);
   }
@@ -170,7 +170,7 @@ std::vector<std::string> method_names() {
 }
 
 Solution solve_with(Method method, const Problem& problem, const Start& start, const SolverOptions& options) {
-  // Without pairs every method has nothing to do.
+  // Without pairs there is nothing to solve.
   if (method == Method::b_differentiable || problem.q.size() == 0) return solve(problem, start, options);
   const Road& road = road_of(method);
   const Eigen::Index size = problem.q.size(), m = problem.G.cols();
@@ -186,11 +186,11 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
     solution.reason = "a rigid motion is held neither by supports nor by contact and friction";
   }
 
-  // Motions as forces, so that all unknowns are forces; scales as in solve().
+  // Motions are converted to forces, so that all unknowns are forces; scales as in solve().
   const Measure measure(problem, solution.p, options.force_scale);
   const double stiffness = measure.stiffness();
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * stiffness * largest(problem.q);
-  // Well below what the judge asks, but not below the rounding of the gaps themselves.
+  // Well below the tolerance of the judge, but not below the rounding of the gaps themselves.
   const double asked = options.judge == Judge::certificate ? 0.01 * options.tolerance * measure.reference()
                                                            : 0.1 * options.tolerance * stiffness * problem.q.norm();
   const Control control{std::max(asked, rounding), options.iterations, options.deadline};
@@ -216,8 +216,8 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
   solution.rounding = judgement.rounding;
   describe(solution, problem, u, scales);
   if (refused || motion) return solution;
-  // The certificate sees a small turn of the friction away from the slip only squared (work): the residual
-  // has to be small too.
+  // A small deviation of friction from the direction of slip enters the certificate only quadratically (as work); the
+  // residual must therefore be small too.
   if (options.judge == Judge::certificate) judgement.figure = std::max(judgement.figure, solution.residual);
   if (judgement.solved(options.tolerance)) {
     solution.status = Status::solved;

@@ -13,7 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// The changes of the last sweeps, and the forces that they foretell.
+/// The changes of the last sweeps, and the forces extrapolated from them.
 class Extrapolation {
  public:
   explicit Extrapolation(Index size) : size_(size) {}
@@ -66,8 +66,8 @@ class Extrapolation {
     return sum;
   }
 
-  /// Cholesky of the Gram matrix; its diagonal is raised by 1e-10 of itself, for changes that are all but the
-  /// same.
+  /// Cholesky factorisation of the Gram matrix; its diagonal is increased by a relative 1e-10, in case the changes are
+  /// nearly equal.
   [[gnu::hot]] bool least_squares(double* x) const {
     double L[depth][depth];
     for (int i = 0; i < count_; ++i)
@@ -120,7 +120,7 @@ class Sweeps {
       ++end.sweeps;
       double figure = measure_.natural_map(problem_, p_, motion_);
       if (figure <= tolerance) {
-        sweeps_.start(p_, motion_);  // the motion afresh, without what rounding added from pair to pair
+        sweeps_.start(p_, motion_);  // the motion anew, without accumulated rounding
         figure = measure_.natural_map(problem_, p_, motion_);
         if (figure <= tolerance && measure_.rounding(problem_, p_, motion_) <= tolerance) {
           end.content = true;
@@ -151,12 +151,12 @@ class Sweeps {
       end.p = std::move(p_);
       end.motion = std::move(motion_);
     }
-    if (!end.content) sweeps_.start(end.p, end.motion);  // afresh: what the last sweep carried along is no judge's
+    if (!end.content) sweeps_.start(end.p, end.motion);  // anew, without accumulated rounding, for the judge
     return end;
   }
 
  private:
-  /// With r = 1 / W_ii, one for all tangents; a pair that nothing moves counts by its forces alone.
+  /// With r = 1 / W_ii, one for all tangents; for a pair that nothing moves only its forces count.
   [[gnu::hot]] double largest_equation() const {
     double largest = 0.0;
     for (Index i = 0; i < problem_.pairs(); ++i) {

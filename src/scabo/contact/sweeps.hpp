@@ -28,11 +28,11 @@ struct SweepsEnd {
   Vector p, motion;  // dN, accepted by the judge; otherwise those of the least natural map
   bool content = false;
   int sweeps = 0;
-  double natural_map = HUGE_VAL;  ///< of p, as it was met
+  double natural_map = HUGE_VAL;  ///< of p, as computed during the sweeps
   double residual = 0.0;          ///< largest |H| of b_differentiable.hpp as a force, where content
 };
 
-/// Coulomb's law alone, no rigid motions, W dense or sparse.
+/// Whether the problem has Coulomb's law only, no rigid motions, and a dense or sparse W.
 bool may_accelerate(const Problem& problem);
 
 /// From the forces `p`. Content: natural map and rounding (judge.hpp) are not above `tolerance`.

@@ -19,7 +19,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr long most_rows = 100'000'000;
 constexpr long most_entries = std::numeric_limits<int>::max();
 
-/// Words of a text, with their places.
+/// Words of a text with their positions.
 class Words {
  public:
   Words(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -29,7 +29,7 @@ class Words {
     at_ = {line_, static_cast<int>(position_ - line_start_) + 1, what};
     const std::size_t start = position_;
     while (position_ < text_.size() && !is_space(text_[position_])) ++position_;
-    if (start == position_) fail("the file ends here: it is cut off, or its sizes are wrong");
+    if (start == position_) fail("the file ends here: it is incomplete, or its sizes are wrong");
     return text_.substr(start, position_ - start);
   }
 
@@ -71,20 +71,19 @@ class Words {
     if (position_ == text_.size()) return;
     next("end");
     fail(
-        "the problem ends with mu, and something follows: the sizes at the start are wrong, or it is a "
-        "problem of another "
+        "data follow after mu, where the problem ends: the sizes at the start are wrong, or it is a problem of another "
         "kind (rolling friction, global form)");
   }
 
-  /// At the word read last.
+  /// Position of the last word read.
   [[noreturn]] void fail(std::string message) const { throw InputError(file_, {{at_, std::move(message)}}); }
 
-  /// More values than bytes left cannot come: found before memory is taken for them.
+  /// Checks that there cannot be more values than remaining bytes, before memory is allocated for them.
   void expect_room(double values) const {
     if (values > static_cast<double>(text_.size() - position_))
       fail(
-          fmt::format("{:.0f} values must follow, more than the rest of the file can hold: it is cut off, or "
-                      "its sizes are wrong",
+          fmt::format("{:.0f} values must follow, more than the rest of the file can contain: it is incomplete, or its "
+                      "sizes are wrong",
                       values));
   }
 
@@ -121,7 +120,7 @@ Matrix read_dense(Words& words, Index size) {
   return W;
 }
 
-/// 0, then where each of `count` block rows ends, the last at `size`.
+/// 0, then the end of each of `count` block rows, the last of which is `size`.
 std::vector<long> read_ends(Words& words, const char* what, long count, long size) {
   std::vector<long> ends{0};
   for (long k = 0; k < count; ++k) ends.push_back(words.integer(what, ends.back() + 1, size));
@@ -273,7 +272,7 @@ SavedProblem parse_text_problem(std::string_view text, const std::string& file) 
   for (double& value : problem.q) value = words.number("q");
   for (double& value : problem.mu) {
     value = words.number("mu");
-    if (value < 0.0) words.fail(fmt::format("a coefficient of friction is 0 or more, not {}", value));
+    if (value < 0.0) words.fail(fmt::format("a coefficient of friction must be 0 or more, not {}", value));
   }
   words.expect_end();
   problem.G.resize(size, 0);
@@ -283,7 +282,7 @@ SavedProblem parse_text_problem(std::string_view text, const std::string& file) 
 
 SavedProblem read_text_problem(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file, {{{}, "cannot be read: may you?"}});
+  if (!stream) throw InputError(file, {{{}, "cannot be read: check its permissions"}});
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   return parse_text_problem(text, file);
 }
@@ -291,7 +290,7 @@ SavedProblem read_text_problem(const std::string& file) {
 std::string text_of(const Problem& problem) {
   if (problem.G.cols() > 0 || problem.cohesion.size() > 0 || problem.tension.size() > 0)
     throw std::invalid_argument(
-        "the text layout has no place for rigid motions, cohesion and tension: write the problem as HDF5");
+        "the text layout cannot store rigid motions, cohesion and tension: write the problem as HDF5");
   fmt::memory_buffer text;
   const auto to = std::back_inserter(text);
   const Index size = problem.q.size();

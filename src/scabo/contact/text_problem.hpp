@@ -1,5 +1,5 @@
-// Frictional contact problems in the text layout that Siconos reads and writes (`.dat`): the collection's
-// layout before HDF5.
+// Frictional contact problems in the text layout that Siconos reads and writes (`.dat`), the layout of the collection
+// before HDF5.
 //
 //     dimension                              2 or 3
 //     number of pairs                        N
@@ -18,8 +18,8 @@
 //        2  `4-by-4, nzmax: 12 nnz: 12, 1-norm: 6.25`, then for each column
 //           `col 0 : locations 0 to 2` and `row : value` for each of its entries
 //
-// It has no place for rigid motions, history, cohesion and tension: those need HDF5 (fclib.hpp). Siconos
-// writes sparse values with six digits, Scabo with all.
+// The layout cannot store rigid motions, history, cohesion and tension; these need HDF5 (fclib.hpp). Siconos writes
+// sparse values with six digits, Scabo with all digits.
 #pragma once
 
 #include <string>
@@ -34,8 +34,8 @@ namespace scabo::contact {
 SavedProblem read_text_problem(const std::string& file);
 SavedProblem parse_text_problem(std::string_view text, const std::string& file);
 
-/// W sparse (2) where it is, dense (0) otherwise. Throws std::invalid_argument for a problem that the layout
-/// cannot hold.
+/// W is written as sparse (2) if it is sparse, otherwise as dense (0). Throws std::invalid_argument for a problem that
+/// the layout cannot store.
 std::string text_of(const Problem& problem);
 
 }  // namespace scabo::contact

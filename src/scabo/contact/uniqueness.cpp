@@ -23,8 +23,8 @@ bool solves(const Problem& problem, const Vector& p, const Vector& a, const Solv
              .solved(options.tolerance);
 }
 
-/// Forces that differ but move nothing (of a pair that a support holds along the joint) are no other solution, and what
-/// rounding leaves of the forces at work (`scale`) is none at all.
+/// Forces whose difference causes no motion (of a pair that a support holds along the joint) are not another solution,
+/// and neither are forces that differ by rounding relative to `scale`.
 bool same(const Problem& problem, const Vector& p, const Vector& other, double scale) {
   const double mean = problem.W.diagonal().mean(), force = std::max({largest_of(p), largest_of(other), 1e-5 * scale});
   const Vector difference = p - other;
@@ -37,11 +37,11 @@ void add_if_new(const Problem& problem, std::vector<Vector>& solutions, const Ve
   solutions.push_back(p);
 }
 
-/// States of plane pairs as they are tried.
+/// States of plane pairs in the enumeration.
 enum class Trial { open, stick, slip_plus, slip_minus };
 
-/// Forces of a plane problem whose pairs all have these states; nothing where there are none. `determined`
-/// becomes false where there are many.
+/// Forces of a plane problem if all pairs have these states; nothing if there are none. `determined` is set to false if
+/// there are many.
 std::optional<Vector> forces_with(const Problem& problem, const std::vector<Trial>& states, bool& determined) {
   Matrix A = problem.W.dense();
   Vector b = -problem.q;
@@ -71,11 +71,11 @@ bool may_enumerate(const Problem& problem) {
          problem.cohesion.size() == 0 && problem.tension.size() == 0;
 }
 
-/// Off the kink of the gap: its rows of H' are those of dp whatever the slope of the bound, and enter no
+/// Away from the kink of the gap: its rows of H' are those of dp for any slope of the bound and do not affect the
 /// determinant.
 bool is_open(const Branch& branch) { return !branch.contact && !branch.normal_tie && branch.bound_tie; }
 
-/// Newton alone from `p`: forces where it ends in a solution.
+/// Newton's method from `p`: forces if it ends in a solution.
 std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const Vector& a,
                                   const SolverOptions& options) {
   const BDifferentiableEquations equations(problem, options.r_factor);
@@ -87,8 +87,8 @@ std::optional<Vector> newton_from(const Problem& problem, const Vector& p, const
   return end.p;
 }
 
-/// Starts that lead elsewhere: open, frictionless, stuck, friction turned round, and a few at random in the
-/// cones.
+/// Starts that may lead to other solutions: open, frictionless, stuck, reversed friction, and a few random points in
+/// the cones.
 std::vector<Vector> other_starts(const Problem& problem, const Solution& solution, const SolverOptions& options) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   std::vector<Vector> starts{Vector::Zero(d * N)};
@@ -171,7 +171,7 @@ int index_of(const Problem& problem, const Vector& p, const Vector& a) {
     if (const double size = H.row(row).norm(); size > 0.0) H.row(row) /= size;
   const Eigen::PartialPivLU<Matrix> lu(H);
   if (!(lu.rcond() > 1e-13)) return 0;
-  // The rows of equilibrium make [W G; G' 0] of it, whose determinant has the sign of (-1)^m where W is positive
+  // With the rows of equilibrium the matrix is [W G; G' 0], whose determinant has the sign of (-1)^m if W is positive
   // definite.
   double sign = lu.permutationP().determinant() * (problem.G.cols() % 2 == 0 ? 1.0 : -1.0);
   for (Eigen::Index k = 0; k < n; ++k) sign *= lu.matrixLU()(k, k) < 0.0 ? -1.0 : 1.0;
@@ -200,7 +200,7 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
                                     const SolverOptions& given) {
   UniquenessReport report;
   if (solution.status != Status::solved) return report;
-  SolverOptions options = given;  // forces of the history are at work as well
+  SolverOptions options = given;  // forces of the history count as well
   options.force_scale = std::max(given.force_scale, largest_of(start.p));
   const double scale = Measure(problem, Vector(), options.force_scale).scales(solution.p).force;
   report.bound = uniqueness_bound(problem);
@@ -241,7 +241,7 @@ std::string why_no_solution(const Problem& problem, const SolverOptions& options
   const bool plain = problem.dimension == 2 && problem.G.cols() == 0 && problem.cohesion.size() == 0 &&
                      problem.tension.size() == 0 && problem.pairs() > 0 && problem.pairs() <= most_pivoted;
   if (plain && !lemke(problem))
-    return "Lemke's pivoting ends on a ray as well: there may be no solution at this much friction";
+    return "Lemke's pivoting also ends on a ray: with this much friction there may be no solution";
   return {};
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// strain = B(a) times the gradient's vector for a field that varies along `a`.
+/// strain = B(a) times the gradient vector for a field that varies along `a`.
 Eigen::Matrix<double, 3, 2> strain_of(const Vec2& a) {
   Eigen::Matrix<double, 3, 2> B;
   B << a.x(), 0.0, 0.0, a.y(), a.y(), a.x();
@@ -43,7 +43,7 @@ BarnettLothe barnett_lothe(const Mat3& D) {
   Mat4 Y = fundamental_elasticity(D / unit, 0.0);
   for (int step = 0; step < 100; ++step) {
     const Mat4 inverse = Y.inverse();
-    // det(N) = product of |p|^2: the scaling brings the eigenvalues to the circle where the iteration settles at once.
+    // det(N) = product of |p|^2: the scaling moves the eigenvalues to the circle where the iteration converges quickly.
     const double c = step < 20 ? std::pow(std::abs(Y.determinant()), -0.25) : 1.0;
     const Mat4 next = 0.5 * (c * Y - inverse / c);
     const double change = (next - Y).norm();

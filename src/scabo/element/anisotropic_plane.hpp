@@ -1,12 +1,12 @@
 // Plane anisotropic elasticity in the Stroh formalism, without its eigenvectors.
 //
-// A plane law D (stress = D strain, in-plane) has C_ijkl by Voigt's order. With (ab)_jk = a_i C_ijkl b_l for the frame
-// m = (cos t, sin t), n = (-sin t, cos t),
+// A plane law D (stress = D strain, in-plane) gives C_ijkl in Voigt's order. With (ab)_jk = a_i C_ijkl b_l for the
+// frame m = (cos t, sin t), n = (-sin t, cos t),
 //
 //     N1 = -(nn)^-1 (nm),   N2 = (nn)^-1,   N3 = (mn)(nn)^-1(nm) - (mm),   N(t) = [[N1, N2], [N3, N1']]         (1)
 //
-// is the fundamental elasticity matrix (Ting 1996, section 5.5 and 7.4). With stress function phi (traction on a ray =
-// d phi / dr on its side), a field [u; phi] = w(t) r^T obeys
+// is the fundamental elasticity matrix (Ting 1996, sections 5.5 and 7.4). With the stress function phi (traction on a
+// ray = d phi / dr on its side), a field [u; phi] = w(t) r^T satisfies
 //
 //     dw/dt = N(t) w T                                                                                          (2)
 //
@@ -15,10 +15,10 @@
 //
 //     [[S, H], [-L, S']] = lim Y,   Y <- (c Y - (c Y)^-1) / 2   from Y = N(0)                                   (3)
 //
-// (Newton's iteration for the matrix sign of -i N): quadratic, real, and repeated roots, isotropic material among them,
-// are no special case. In plane strain, isotropic: L = E / (2 (1 - nu^2)).
+// (Newton's iteration for the matrix sign of -i N). It is quadratic and real, and repeated roots, including those of
+// isotropic material, need no special treatment. Plane strain, isotropic: L = E / (2 (1 - nu^2)).
 //
-// Two half planes, 1 above and 2 below the x1 axis, of which x1 < 0 is a crack (Suo 1990; Ting 1996, chapter 11):
+// Two half planes, 1 above and 2 below the x1 axis, with a crack along x1 < 0 (Suo 1990; Ting 1996, chapter 11):
 //
 //     D = L1^-1 + L2^-1,   W = S1 L1^-1 - S2 L2^-1,   beta^2 = -tr((D^-1 W)^2) / 2
 //     |epsilon| = atanh(beta) / pi,   G = -(|epsilon| / beta) D^-1 W  (G^2 = -epsilon^2)                        (4)
@@ -36,10 +36,10 @@ namespace scabo::element {
 
 using Mat4 = Eigen::Matrix4d;
 
-/// D of the same material in axes turned by `angle` (counter-clockwise): strains and stresses along the new axes.
+/// D of the same material in axes rotated by `angle` (counter-clockwise); strains and stresses refer to the new axes.
 Mat3 rotated_elasticity(const Mat3& D, double angle);
 
-/// N(t) of eq. (1); `D` and the result in the unturned axes.
+/// N(t) of eq. (1); `D` and the result refer to the original axes.
 Mat4 fundamental_elasticity(const Mat3& D, double t);
 
 struct BarnettLothe {
@@ -47,21 +47,21 @@ struct BarnettLothe {
 };
 BarnettLothe barnett_lothe(const Mat3& D);
 
-/// Two half planes with a crack between them, in the crack's frame.
+/// Two half planes with a crack between them, in the frame of the crack.
 struct CrackedBimaterial {
   Mat2 D;                ///< length^2 / force
   Mat2 G;                ///< of eq. (4); 0 in one material
   double epsilon = 0.0;  ///< signed
   /// (r/l)^G.
   Mat2 oscillation(double r_over_l) const;
-  /// k = [K_II, K_I] at the reference length l from the opening du at the distance r.
+  /// k = [K_II, K_I] at the reference length l, from the opening du at the distance r.
   Vec2 intensity(const Vec2& opening, double r, double l) const;
-  /// du at the distance r.
+  /// The opening du at the distance r.
   Vec2 opening(const Vec2& k, double r, double l) const;
   /// Eq. (7), force / length.
   double energy_release_rate(const Vec2& k) const;
 };
-/// `above`, `below`: plane laws in the crack's frame; alike: G = 0 exactly.
+/// `above`, `below`: plane laws in the frame of the crack. If they are equal, G = 0 exactly.
 CrackedBimaterial cracked_bimaterial(const Mat3& above, const Mat3& below);
 
 }  // namespace scabo::element

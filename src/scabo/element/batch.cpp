@@ -77,7 +77,7 @@ Group group_of(const BatchItem& first) {
   return group;
 }
 
-/// Items that fit, by shape; the others in `alone`.
+/// Suitable items, grouped by shape; the others are put into `alone`.
 std::vector<Group> groups_of(std::span<const BatchItem> items, std::vector<int>& alone) {
   std::vector<Group> groups;
   std::unordered_multimap<std::size_t, std::size_t> by_hash;
@@ -99,7 +99,7 @@ std::vector<Group> groups_of(std::span<const BatchItem> items, std::vector<int>&
   return groups;
 }
 
-/// Fills the registers with some items of a group again and again.
+/// Solves items of a group in the registers, several at a time.
 class Lanes {
  public:
   Lanes(const Group& group, const BatchKernel& kernel)
@@ -114,7 +114,7 @@ class Lanes {
     workspace_ = K_ + n_ * (n_ + 1) / 2 * kernel.lanes;
   }
 
-  /// Solves items[0 .. count - 1], at most one a lane, into K; appends those that failed to `failed`.
+  /// Solves items[0 .. count - 1], at most one per lane, into K; appends those that failed to `failed`.
   void solve(std::span<const BatchItem> items, const int* which, int count, double largest_residual,
              std::vector<Matrix>& K, std::vector<int>& failed) {
     const int lanes = kernel_.lanes;
@@ -161,14 +161,14 @@ class Lanes {
   double *x_, *D_, *thickness_, *residual_, *K_, *workspace_;
 };
 
-/// Some items of a group, one task.
+/// Part of a group, as one task.
 struct Task {
   const Group* group;
   std::size_t first, last;
 };
 
 std::vector<Task> tasks_of(const std::vector<Group>& groups, int lanes) {
-  const auto at_once = static_cast<std::size_t>(32 * lanes);  // so that making room costs nothing
+  const auto at_once = static_cast<std::size_t>(32 * lanes);  // so that allocation costs little
   std::vector<Task> tasks;
   for (const Group& group : groups)
     for (std::size_t first = 0; first < group.items.size(); first += at_once)

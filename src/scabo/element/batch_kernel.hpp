@@ -1,36 +1,37 @@
 // Stiffness of several super-elements of equal shape at once, one in each lane of the vector registers.
 //
-// A value here is a vector: lane l belongs to super-element l. Arrays are index-major, lane-minor (struct of arrays),
-// aligned to 64 bytes. The steps are those of stiffness.hpp without symmetry blocks: eq. (1.6) of the coefficient
-// matrices, the translations taken out, ring doubling, the translations put back.
+// Every value is a vector, whose lane l belongs to super-element l. Arrays are index-major, lane-minor (struct of
+// arrays), aligned to 64 bytes. The steps are those of stiffness.hpp without symmetry blocks: eq. (1.6) of the
+// coefficient matrices, removal of the translations, ring doubling, and restoration of the translations.
 //
-// The same source (batch_kernel_lanes.hpp) is compiled once for each instruction set; which ones this processor has is
-// asked when the program runs.
+// The same source (batch_kernel_lanes.hpp) is compiled once for each instruction set; those that the processor supports
+// are determined at run time.
 #pragma once
 
 namespace scabo::element {
 
-/// A boundary element: its nodes, and its basis at the points of its rule (column-major, points x count).
+/// A boundary element: its nodes, and its shape functions at the points of its quadrature rule (column-major, points x
+/// count).
 struct BatchElement {
   const int* nodes;
   int count, points;
   const double *N, *N_eta, *weights;
 };
 
-/// What all lanes have in common.
+/// Data common to all lanes.
 struct BatchShape {
   int nodes = 0, elements = 0;
   const BatchElement* element = nullptr;
   int elasticities = 1;  ///< 1 for all elements, or one for each
 };
 
-/// One super-element a lane.
+/// Data of the super-elements, one per lane.
 struct BatchLanes {
   const double* x;          // 2 nodes vectors
   const double* D;          // 6 vectors for each elasticity: D11 D12 D13 D22 D23 D33
   const double* thickness;  // 1 vector
   double* K;                // n (n + 1) / 2 vectors, n = 2 nodes: lower triangle by rows
-  double* residual;  // 1 vector: |K r| / (|K| |r|) in the norm of sums, r the rotation; not a number where it failed
+  double* residual;         // 1 vector: |K r| / (|K| |r|) in the 1-norm, r the rotation; NaN where the solution failed
 };
 
 struct BatchKernel {
@@ -40,13 +41,14 @@ struct BatchKernel {
   void (*solve)(const BatchShape& shape, const BatchLanes& lanes, double* workspace);
 };
 
-/// Number of vectors of workspace.
+/// Size of the workspace in vectors.
 inline long batch_workspace(const BatchShape& shape) {
   const long n = 2 * shape.nodes;
   return 6 * n * n + 4 * n;
 }
 
-/// The kernels that this processor can run, the fastest first: a pointer for `rank` 0, 1 ..., then null. One at least.
+/// The kernels that this processor can run, the fastest first: a pointer for `rank` 0, 1 ..., then null. There is at
+/// least one.
 const BatchKernel* batch_kernel(int rank);
 
 }  // namespace scabo::element

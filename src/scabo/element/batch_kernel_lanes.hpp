@@ -2,8 +2,8 @@
 // other header and has internal linkage throughout: an inline function compiled here for a newer processor must not be
 // the one that the linker keeps for the rest of the program.
 //
-// Products of matrices are made in tiles of `tile` x `tile` vectors that stay in registers: as many multiplications for
-// every load as the number of registers allows.
+// Matrix products are computed in tiles of `tile` x `tile` vectors that stay in registers, so that every load serves as
+// many multiplications as the number of registers allows.
 
 #include "scabo/element/batch_kernel.hpp"
 
@@ -24,7 +24,7 @@ inline V square_root(V a) {
 
 inline V absolute(V a) { return a < 0.0 ? -a : a; }
 
-/// a where it is positive, else not a number: what goes wrong in one lane shows at its end, the others go on.
+/// a if it is positive, otherwise NaN: a failure in one lane shows at its end, and the other lanes continue.
 inline V positive(V a) { return a > 0.0 ? a : (a - a) / (a - a); }
 
 /// acc(r, c) += sum over k < depth of a[k, r] b[k, c]; a and b advance by a_step and b_step with k, by a_next with r.
@@ -176,7 +176,8 @@ void add_element(const BatchElement& element, const V* x, const V* D, V thicknes
   }
 }
 
-/// 2 / d of the first ring: the square root of the largest exponent, roughly. It decides the number of doublings only.
+/// 2 / d of the first ring: approximately the square root of the largest exponent. It affects only the number of
+/// doublings.
 V first_width(const V* E0, const V* E2, int n) {
   V largest = {};
   for (int i = 0; i < n; i += 2) {
@@ -188,7 +189,7 @@ V first_width(const V* E0, const V* E2, int n) {
   return 2.0 / square_root(square_root(4.0 * largest));
 }
 
-/// The node whose rows are taken out: the one with the largest share of E0, so that nothing cancels.
+/// The node whose rows are removed: the one with the largest share of E0, to avoid cancellation.
 int heaviest_node(const V* E0, int n) {
   int heaviest = 0;
   double most = -1.0;
@@ -242,8 +243,7 @@ void first_ring(const V* E0, const V* E1, const V* E2, int n, int out, V* G, V* 
   }
 }
 
-/// Largest entry of K12 over all lanes where the diagonal of K22 is scaled to 1, lanes that failed left out. `scale`: m
-/// vectors.
+/// Largest entry of K12 over all lanes that have not failed, with the diagonal of K22 scaled to 1. `scale`: m vectors.
 double coupling(const V* K12, const V* K22, int m, V* scale) {
   for (long i = 0; i < m; ++i) scale[i] = 1.0 / square_root(positive(K22[i * m + i]));
   V largest = {};
@@ -257,14 +257,14 @@ double coupling(const V* K12, const V* K22, int m, V* scale) {
   return most;
 }
 
-/// Eq. (2) of ring_doubling.hpp until K22 has arrived.
+/// Eq. (2) of ring_doubling.hpp until K22 has converged.
 void double_rings(int m, V* K11, V* K22, V* K12, V* L, V* Z, V* scale) {
-  constexpr int most = 16;  // what needs more goes to solve_super_element: its residual shows it
+  constexpr int most = 16;  // more is left to solve_super_element, as the residual shows
   const long stride = 2 * static_cast<long>(m);
   for (int doubling = 0; doubling < most; ++doubling) {
     const double ratio = coupling(K12, K22, m, scale);
-    if (!(ratio > 1e-10)) return;    // the next step would change K22 by the square of it
-    const bool last = ratio < 1e-5;  // and the step after the next by its fourth power: K22 is all that is needed
+    if (!(ratio > 1e-10)) return;    // the next step would change K22 by its square
+    const bool last = ratio < 1e-5;  // and the one after by its fourth power: only K22 is needed
     for (long i = 0; i < m; ++i)
       for (long j = 0; j <= i; ++j) L[i * m + j] = K11[i * m + j] + K22[i * m + j];
     cholesky(L, m);
@@ -281,7 +281,7 @@ void double_rings(int m, V* K11, V* K22, V* K12, V* L, V* Z, V* scale) {
   }
 }
 
-/// K with the rows `out`, `out` + 1 that K R = 0 gives, lower triangle by rows.
+/// K with the rows `out`, `out` + 1, which follow from K R = 0; lower triangle by rows.
 void put_back(const V* K22, int n, int out, V* rows, V* K) {
   const int m = n - 2;
   const auto kept = [&](long i, long j) { return i >= j ? K22[i * m + j] : K22[j * m + i]; };
@@ -338,7 +338,7 @@ void solve(const BatchShape& shape, const BatchLanes& data, double* workspace) {
                 *reinterpret_cast<const V*>(data.thickness), n, E0, E1, E2);
   const int out = heaviest_node(E0, n);
   first_ring(E0, E1, E2, n, out, vectors, vectors + 2 * n, K11, K22, K12);
-  // The coefficient matrices are not needed any more: room for L (m^2), Z (2 m^2).
+  // The coefficient matrices are no longer needed; their memory is used for L (m^2) and Z (2 m^2).
   double_rings(m, K11, K22, K12, E0, E1, vectors);
   V* const K = reinterpret_cast<V*>(data.K);
   put_back(K22, n, out, vectors, K);

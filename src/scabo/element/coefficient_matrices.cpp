@@ -50,7 +50,7 @@ StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& elemen
   b2 << -y, 0.0, 0.0, x, x, -y;
   StrainMatrices strain;
   strain.J = point.jacobian();
-  ensure(strain.J > 0.0, "the scaling centre does not see a boundary element");
+  ensure(strain.J > 0.0, "every boundary element is visible from the scaling centre");
   strain.B1.resize(3, 2 * N.size());
   strain.B2.resize(3, 2 * N.size());
   for (Eigen::Index i = 0; i < N.size(); ++i) {
@@ -121,7 +121,7 @@ class Assembly {
   for (std::size_t i = 1; i < nodes.size(); ++i)
     if (ring.nodes[static_cast<std::size_t>(nodes[i])] == ring.nodes[static_cast<std::size_t>(nodes[i - 1])])
       throw IllPosed(name + " has no length");
-  throw IllPosed("the scaling centre does not see " + name);
+  throw IllPosed(name + " is not entirely visible from the scaling centre");
 }
 
 /// int over one element, 2 x 2 blocks e[i * count + j] for its nodes i, j.

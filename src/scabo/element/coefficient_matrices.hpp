@@ -1,9 +1,9 @@
-// The coefficient matrices of a super-element: everything the scaled boundary equation
+// The coefficient matrices of a super-element. They represent its geometry and material in the scaled boundary equation
 //
 //     E0 xi^2 u,xixi + (E0 - E1 + E1') xi u,xi - E2 u = 0                            (Zhu 2017, eq. 1)
 //
-// knows of geometry and material. The material may differ from boundary element to boundary element: each spans a
-// sector of its own. With the boundary point x_b(eta) = N(eta) x relative to the scaling centre,
+// The material may differ from boundary element to boundary element: each spans a sector of its own. With the boundary
+// point x_b(eta) = N(eta) x relative to the scaling centre,
 //
 //     |J| = x y,eta - y x,eta > 0
 //     b1 = 1/|J| [[ y,eta, 0], [0, -x,eta], [-x,eta, y,eta]],   b2 = 1/|J| [[-y, 0], [0, x], [x, -y]]
@@ -18,9 +18,9 @@
 
 namespace scabo::element {
 
-/// The boundary of a super-element as its scaling centre sees it: closed around the centre, or open where the
-/// super-element has side faces (a crack, a notch, a corner), straight lines from the centre to the first and to the
-/// last node. The two faces of a crack are one line: its first and last node lie in the same place.
+/// The boundary of a super-element relative to its scaling centre: closed around the centre, or open if the
+/// super-element has side faces (a crack, a notch, a corner). Side faces are straight lines from the centre to the
+/// first and to the last node. The two faces of a crack coincide: its first and last node have the same position.
 struct Ring {
   std::vector<Vec2> nodes;                  ///< relative to the scaling centre, counter-clockwise
   std::vector<mesh::LineElement> elements;  ///< each begins where the one before ends
@@ -30,7 +30,7 @@ struct Ring {
   int last_node() const { return elements.back().nodes.back(); }
 };
 
-/// Elasticity of the sectors that the boundary elements span: one for all of them, or one for each.
+/// Elasticity of the sectors spanned by the boundary elements: one matrix for all of them, or one for each.
 class Elasticity {
  public:
   Elasticity() = default;
@@ -40,7 +40,7 @@ class Elasticity {
   const Mat3& of(std::size_t element) const { return D_.size() == 1 ? D_.front() : D_[element]; }
   std::size_t size() const { return D_.size(); }
   bool fits(const Ring& ring) const { return D_.size() == 1 || D_.size() == ring.elements.size(); }
-  /// How many times as stiff (trace of D) the stiffest sector is as the softest.
+  /// Ratio of the stiffnesses (trace of D) of the stiffest and the softest sector.
   double contrast() const;
   bool operator==(const Elasticity&) const = default;
 
@@ -50,7 +50,7 @@ class Elasticity {
 
 Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes);
 
-/// Strain of one boundary point: strain = B1 u,xi + 1/xi B2 u over the 2 (p + 1) displacements of its element.
+/// Strain at a boundary point: strain = B1 u,xi + 1/xi B2 u, with the 2 (p + 1) displacements of its element.
 struct StrainMatrices {
   Eigen::Matrix<double, 3, Eigen::Dynamic> B1, B2;
   double J = 0.0;  ///< |J|, length^2
@@ -65,8 +65,8 @@ struct CoefficientMatricesOf {
 using CoefficientMatrices = CoefficientMatricesOf<double>;
 using ExactCoefficientMatrices = CoefficientMatricesOf<long double>;
 
-/// `thickness` multiplies all three. Throws IllPosed, with the number of the boundary element, where it has no length,
-/// the centre does not see it (|J| <= 0), or its elasticity is not positive definite.
+/// All three are multiplied by `thickness`. Throws IllPosed, with the number of the boundary element, if an element has
+/// no length or is not entirely visible from the centre (|J| <= 0), or if its elasticity is not positive definite.
 CoefficientMatrices coefficient_matrices(const Ring& ring, const Elasticity& D, double thickness);
 
 /// The same with 64-bit significands, at the points of the same quadrature: E1'R = 0 and E2 R = 0 for translations R,

@@ -20,7 +20,7 @@ Mat3 isotropic(double E, double nu, model::Plane plane) {
   return D;
 }
 
-/// What belongs to the third axis: strain 3 = S13 stress 1 + S23 stress 2 + stress 3 / E3.
+/// Terms of the third axis: strain 3 = S13 stress 1 + S23 stress 2 + stress 3 / E3.
 struct ThirdAxis {
   double S13 = 0.0, S23 = 0.0, E3 = 0.0, angle = 0.0;
 };
@@ -44,7 +44,7 @@ Mat3 strain_in_turned_axes(double angle) {
 Mat3 orthotropic(const model::Orthotropic& o, model::Plane plane) {
   Mat3 S = Mat3::Zero();
   S << 1.0 / o.E1, -o.nu12 / o.E1, 0.0, -o.nu12 / o.E1, 1.0 / o.E2, 0.0, 0.0, 0.0, 1.0 / o.G12;
-  if (plane == model::Plane::strain) {  // strain 3 = 0 takes stress 3 out
+  if (plane == model::Plane::strain) {  // strain 3 = 0 eliminates stress 3
     const Vec3 S3(-o.nu13 / o.E1, -o.nu23 / o.E2, 0.0);
     S -= o.E3 * S3 * S3.transpose();
   }

@@ -1,8 +1,8 @@
 // Linear elasticity in the plane. Strain and stress vectors are [xx, yy, xy], shear strain in engineering form
 // (gamma_xy = 2 eps_xy).
 //
-// Orthotropic: compliance S along the material's own axes 1, 2, 3; in plane strain, where strain 3 = 0, stress 3 is
-// taken out, S_ij - S_i3 S_j3 / S_33. Axis 1 is turned by an angle from x. Anisotropic: the law of the plane as it is
+// Orthotropic: compliance S along the material axes 1, 2, 3; in plane strain, where strain 3 = 0, stress 3 is
+// eliminated, S_ij - S_i3 S_j3 / S_33. Axis 1 is rotated by an angle from x. Anisotropic: the law of the plane as
 // given.
 #pragma once
 
@@ -18,13 +18,13 @@ using Mat3 = Eigen::Matrix3d;
 /// stress = D strain; force / length^2.
 Mat3 elasticity_matrix(const model::Material& material, model::Plane plane);
 
-/// Out-of-plane stress that belongs to the in-plane `stress` and a change of temperature: nu (s_xx + s_yy) - E alpha T
-/// in plane strain of isotropic material, 0 in plane stress. Not a number for anisotropic material in plane strain: the
-/// law of the plane does not tell it.
+/// Out-of-plane stress for the in-plane `stress` and a change of temperature: nu (s_xx + s_yy) - E alpha T in plane
+/// strain of isotropic material, 0 in plane stress. Not a number for anisotropic material in plane strain, because the
+/// law of the plane does not determine it.
 double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane, double temperature = 0.0);
 
-/// Free strain [xx, yy, gamma_xy] per unit of temperature; in plane strain what is left when the strain along z is held
-/// at 0 (isotropic: (1 + nu) alpha). Zero without `expansion`.
+/// Thermal strain [xx, yy, gamma_xy] per unit of temperature; in plane strain, the in-plane strain if the strain along
+/// z is held at 0 (isotropic: (1 + nu) alpha). Zero without `expansion`.
 Vec3 thermal_strain(const model::Material& material, model::Plane plane);
 
 }  // namespace scabo::element

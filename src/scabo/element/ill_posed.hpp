@@ -1,4 +1,4 @@
-// A super-element that has no solution, or none to working precision.
+// Error for a super-element that has no solution, or none to working precision.
 #pragma once
 
 #include <stdexcept>
@@ -6,8 +6,8 @@
 
 namespace scabo::element {
 
-/// Says what is wrong and, where it is one boundary element, which (counted from 0). The mesh rules most of it out for
-/// models that are read from files.
+/// Says what is wrong and, if it is a single boundary element, its number (counted from 0). The mesh excludes most of
+/// these cases for models read from files.
 struct IllPosed : std::runtime_error {
   explicit IllPosed(const std::string& what) : std::runtime_error("ill-posed super-element: " + what) {}
 };

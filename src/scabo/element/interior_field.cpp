@@ -39,9 +39,9 @@ std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x, bool unbounde
     const Vec2& first = ring.nodes[static_cast<std::size_t>(nodes.front())];
     const Vec2& last = ring.nodes[static_cast<std::size_t>(nodes.back())];
     if (cross(first, x) < -slack * first.norm() * x.norm() || cross(x, last) < -slack * last.norm() * x.norm() ||
-        (x.dot(first) <= 0.0 && x.dot(last) <= 0.0))  // an element is seen under less than 180 degrees
+        (x.dot(first) <= 0.0 && x.dot(last) <= 0.0))  // an element spans less than 180 degrees
       continue;
-    // The ray meets the element where cross(x_b(eta), x) = 0; it falls with eta, since |J| > 0.
+    // The ray meets the element where cross(x_b(eta), x) = 0; this decreases with eta, since |J| > 0.
     const LineBasis& basis = basis_at(ring, e);
     double low = -1.0, high = 1.0;
     for (int halving = 0; halving < 60; ++halving) {

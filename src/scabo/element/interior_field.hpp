@@ -13,8 +13,8 @@ struct PointValues {
   Vec3 stress = Vec3::Zero();  ///< [xx, yy, xy]
 };
 
-/// Scaled boundary coordinates of a point: on the ray through `element` at eta, at the fraction xi of the way from
-/// the scaling centre (0) to the boundary (1); beyond it in an unbounded domain.
+/// Scaled boundary coordinates of a point: it lies on the ray through `element` at eta, at the fraction xi of the
+/// distance from the scaling centre (0) to the boundary (1), or beyond the boundary in an unbounded domain.
 struct ScaledPoint {
   double xi = 0.0;
   int element = 0;
@@ -24,8 +24,8 @@ struct ScaledPoint {
 /// The point of boundary element `element` at eta, relative to the scaling centre.
 Vec2 boundary_position(const Ring& ring, int element, double eta);
 
-/// (x, y), relative to the scaling centre, in scaled boundary coordinates; nothing when it lies outside the domain. A
-/// point on a crack counts to the face at the beginning of the ring.
+/// Scaled boundary coordinates of (x, y), which is relative to the scaling centre; nothing if it lies outside the
+/// domain. A point on a crack belongs to the face at the start of the ring.
 std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x, bool unbounded = false);
 
 /// Values at a point of a ring: `values` = RadialField::at(xi). stress = D (strain - initial_strain).

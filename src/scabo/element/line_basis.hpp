@@ -27,13 +27,13 @@ class LineBasis {
   /// N,eta(eta).
   Vector derivatives(double eta) const;
 
-  /// Rule used for coefficient matrices and loads: two points more than the p that linear displacement fields
-  /// need, for curved elements.
+  /// Rule used for coefficient matrices and loads: two points more than the p that linear displacement fields need,
+  /// because elements may be curved.
   const GaussRule& rule() const { return rule_; }
   const Matrix& values_at_rule() const { return N_; }           ///< rule points x nodes
   const Matrix& derivatives_at_rule() const { return N_eta_; }  ///< rule points x nodes
 
-  /// The basis of order p, made once and kept.
+  /// The basis of order p, which is computed once and kept.
   static const LineBasis& of_order(int order);
 
  private:

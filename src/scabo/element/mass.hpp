@@ -1,7 +1,7 @@
 // Mass matrix of a bounded super-element, consistent with its stiffness.
 //
-// The boundary displacements u(1) move the inside by the static solution u(xi) = xi^S u(1), so the kinetic energy of
-// the velocities of the boundary is 1/2 u(1)' M u(1) with
+// The boundary displacements u(1) determine the interior by the static solution u(xi) = xi^S u(1). The kinetic energy
+// for velocities of the boundary is therefore 1/2 u(1)' M u(1) with
 //
 //     M = int_0^1 xi (xi^S)' M0 xi^S dxi,     M0 = int N' rho N |J| deta times thickness                        (1)
 //
@@ -9,18 +9,18 @@
 //
 //     (S' + I) M + M (S + I) = M0                                                                            (2)
 //
-// The integration over xi is exact. (2) is solved in the real Schur form of S, so that equal and defective exponents do
-// no harm; its eigenvalues are 2 + lambda_i + lambda_j, never zero. In symmetry blocks k, l the translations are apart
-// (stiffness.hpp: u = E v + R a, xi v,xi = S v, xi a,xi = A v), and with z = [v; a] and M0 in these coordinates (2)
-// falls apart into, in this order,
+// The integration over xi is exact. (2) is solved in the real Schur form of S, so that equal and defective exponents
+// cause no difficulty; its eigenvalues are 2 + lambda_i + lambda_j, which are never zero. In symmetry blocks k, l the
+// translations are separate (stiffness.hpp: u = E v + R a, xi v,xi = S v, xi a,xi = A v), and with z = [v; a] and M0 in
+// these coordinates (2) decouples into, in this order,
 //
 //     2 X_aa = M0_aa                                                                                         (3)
 //     (S_k' + 2) X_va = M0_va - A_k' X_aa,     X_av (S_l + 2) = M0_av - X_aa A_l                             (4)
 //     (S_k' + I) X_vv + X_vv (S_l + I) = M0_vv - A_k' X_av - X_va A_l                                        (5)
 //
-// (3) is half of R'M0R: the translations have the mass of the body, to rounding.
+// (3) is half of R'M0R: for translations M gives the mass of the body, to rounding.
 //
-// Only exponents with Re lambda > 0 besides the translations: bounded super-elements, closed or open.
+// Restricted to exponents with Re lambda > 0 besides the translations: bounded super-elements, closed or open.
 #pragma once
 
 #include <vector>
@@ -29,12 +29,12 @@
 
 namespace scabo::element {
 
-/// M0 of eq. (1), n x n. `density`: mass / length^3, one for all boundary elements or one for each. Integrated exactly,
-/// on curved elements too.
+/// M0 of eq. (1), n x n. `density`: mass / length^3, one for all boundary elements or one for each. The integration is
+/// exact, also on curved elements.
 Eigen::SparseMatrix<double> boundary_mass(const Ring& ring, const std::vector<double>& density, double thickness);
 
-/// M, n x n, mass: symmetric, positive definite where density is positive. `solution` and `modal` are those of the
-/// ring. Where all densities are equal, symmetry blocks do not interact and only k = l is solved.
+/// M, n x n, mass: symmetric, positive definite where the density is positive. `solution` and `modal` are those of the
+/// ring. If all densities are equal, symmetry blocks do not interact and only k = l is solved.
 Matrix mass_matrix(const Ring& ring, const SuperElementSolution& solution, const ModalSolution& modal,
                    const std::vector<double>& density, double thickness, int threads = 1);
 

@@ -28,15 +28,17 @@ std::optional<Images> images_under(const Ring& ring, const Vec2& axis, int shift
   return images;
 }
 
-/// Elasticity as seen in the mirror with unit vector `axis`: D' = T'D T, where T takes the strain of the image back.
+/// Reflected elasticity for the mirror line with unit vector `axis`: D' = T'D T, where T transforms the strain of the
+/// image back.
 Mat3 mirrored(const Mat3& D, const Vec2& axis) {
-  const double c = 2.0 * axis.x() * axis.x() - 1.0, s = 2.0 * axis.x() * axis.y();  // of twice the angle of the axis
+  // Cosine and sine of twice the angle of the axis.
+  const double c = 2.0 * axis.x() * axis.x() - 1.0, s = 2.0 * axis.x() * axis.y();
   Mat3 T;  // [xx, yy, gamma_xy] of Q eps Q, Q = [[c, s], [s, -c]]
   T << c * c, s * s, c * s, s * s, c * c, -c * s, 2.0 * c * s, -2.0 * c * s, s * s - c * c;
   return T.transpose() * D * T;
 }
 
-/// The elements, as sets of nodes and by their elasticity, are mapped onto each other too.
+/// Whether the elements, as sets of nodes and with their elasticity, are also mapped onto each other.
 bool maps_elements(const Ring& ring, const Elasticity& D, const Vec2& axis, const Images& images) {
   const int n = static_cast<int>(ring.nodes.size());
   std::vector<int> element_from(static_cast<std::size_t>(n), -1);  // by first node: elements are counter-clockwise
@@ -61,7 +63,7 @@ struct Mirror {
   Images images;
 };
 
-/// The boundary nodes stand in the ring in counter-clockwise order 0 .. n-1.
+/// Whether the boundary nodes are numbered 0 .. n-1 counter-clockwise along the ring.
 bool is_plain_ring(const Ring& ring) {
   int next = 0;
   const int n = static_cast<int>(ring.nodes.size());
@@ -75,7 +77,7 @@ bool is_plain_ring(const Ring& ring) {
 std::vector<Mirror> mirror_of_open_ring(const Ring& ring, const Elasticity& D, double tolerance) {
   const int last = static_cast<int>(ring.nodes.size()) - 1;
   const Vec2 ends = ring.nodes.front().normalized() + ring.nodes.back().normalized();
-  // A half-plane's ends are opposite to each other: the line stands upright on them.
+  // The ends of a half plane are opposite to each other, and the line is perpendicular to them.
   const Vec2 axis =
       ends.norm() > 1e-6 ? Vec2(ends.normalized()) : Vec2(-ring.nodes.front().y(), ring.nodes.front().x()).normalized();
   auto images = images_under(ring, axis, last, tolerance);
@@ -83,7 +85,7 @@ std::vector<Mirror> mirror_of_open_ring(const Ring& ring, const Elasticity& D, d
   return {{axis, std::move(*images)}};
 }
 
-/// A mirror line and, where there is one, the line perpendicular to it. A pair is preferred.
+/// A mirror line and, if there is one, the mirror line perpendicular to it. A pair is preferred.
 std::vector<Mirror> find_mirrors(const Ring& ring, const Elasticity& D) {
   const int n = static_cast<int>(ring.nodes.size());
   if (!is_plain_ring(ring) || n < 4) return {};
@@ -93,7 +95,7 @@ std::vector<Mirror> find_mirrors(const Ring& ring, const Elasticity& D) {
   const double tolerance = 1e-13 * size;
   if (ring.is_open()) return mirror_of_open_ring(ring, D, tolerance);
   std::vector<Mirror> found;
-  for (int shift = 0; shift < n; ++shift) {  // node 0 goes to node `shift`: that fixes the line
+  for (int shift = 0; shift < n; ++shift) {  // node 0 is mapped to node `shift`, which determines the line
     const Vec2 sum = ring.nodes[0].normalized() + ring.nodes[static_cast<std::size_t>(shift)].normalized();
     if (sum.norm() < 1e-6) continue;  // opposite nodes: found as the partner of the perpendicular line
     const Vec2 axis = sum.normalized();
@@ -141,7 +143,7 @@ std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const
                                terms[t].second * character * component_sign[g][component]);
         }
         std::sort(terms.begin(), terms.end());
-        if (terms.front().first != node) continue;  // this orbit was taken at its lowest node
+        if (terms.front().first != node) continue;  // this orbit was handled at its lowest node
         std::vector<std::pair<int, double>> vector;
         for (const auto& [at, value] : terms) {
           if (!vector.empty() && vector.back().first == at)
@@ -152,7 +154,7 @@ std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const
         const double norm =
             std::sqrt(std::accumulate(vector.begin(), vector.end(), 0.0,
                                       [](double sum, const auto& term) { return sum + term.second * term.second; }));
-        if (norm == 0.0) continue;  // no such field at a node on a mirror line
+        if (norm == 0.0) continue;  // a node on a mirror line has no such field
         const Vec2 direction = component == 0 ? along : across;
         for (const auto& [at, value] : vector) {
           entries.emplace_back(2 * at, columns, value / norm * direction.x());

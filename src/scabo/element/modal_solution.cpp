@@ -35,7 +35,7 @@ double slowest_of(const ModalSolution& modal) {
   double slowest = 1.0;
   for (const ModalBlock& block : modal.blocks)
     for (const std::complex<double>& value : block.modes.eigenvalues())
-      if (std::abs(value.real()) < 1.0 - 1e-9)  // rotation: 1, but for rounding
+      if (std::abs(value.real()) < 1.0 - 1e-9)  // rotation: 1 except for rounding
         slowest = std::min(slowest, std::abs(value.real()) - std::abs(value.imag()));
   return std::max(slowest, 0.0);
 }
@@ -50,7 +50,7 @@ ModalSolution modal_solution(const SuperElementSolution& solution, int threads) 
     ModalBlock& modal_block = modal.blocks[static_cast<std::size_t>(k)];
     modal_block.modes = linalg::SchurExponential(block.S);
     const auto& modes = modal_block.modes;
-    // A U T^-1 by the LU factors of T': they fill no more than T itself.
+    // A U T^-1 by the LU factors of T', which have no more fill-in than T itself.
     const Matrix moving = modes.T().transpose().partialPivLu().solve((block.A * modes.U()).transpose()).transpose();
     modal_block.Phi = block.R * moving;  // eq. (2)
     modal_block.Phi(block.I, Eigen::all) += modes.U();
@@ -134,8 +134,8 @@ RadialField::Values RadialField::at(double xi) const {
     values.u_part.setConstant(std::nan(""));
     return values;
   }
-  // psi / xi^shift: strains near the centre are quotients of small numbers otherwise. Nothing fades more slowly; what
-  // does not fade at all no longer changes below 1e-9.
+  // psi / xi^shift, because strains near the centre would otherwise be quotients of small numbers. Nothing decays more
+  // slowly; constant terms no longer change below 1e-9.
   const double shift = unbounded ? -slowest_ : slowest_;
   const double s = std::log(finite ? std::max(xi, 1e-9) : xi);
   const double scale = std::pow(xi, shift), strain_scale = std::pow(xi, shift - 1.0);

@@ -1,5 +1,5 @@
-// The 8-node serendipity element (PLANE82, CPS8 of other programs) with full 3 x 3 Gauss integration: the
-// independent comparator of super-elements, which goes through the same contact.
+// The 8-node serendipity element (PLANE82, CPS8 in other programs) with full 3 x 3 Gauss integration. It serves as an
+// independent comparison for super-elements and uses the same contact solver.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ Matrix16 plane_element8_stiffness(const Corners8& x, const Mat3& D, double thick
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 Matrix8 plane_element8_mass(const Corners8& x, double density, double thickness);
 
-/// int N_i dA for every node: a body force is this times force / length^3 times thickness.
+/// int N_i dA for every node; nodal forces of a body force are this times force / length^3 times thickness.
 std::array<double, 8> plane_element8_areas(const Corners8& x);
 
 /// Values at natural coordinates (r, s) in [-1, 1]^2.

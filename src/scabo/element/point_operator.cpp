@@ -11,7 +11,7 @@ namespace scabo::element {
 
 namespace {
 
-/// Exponents of rotation and uniform strain are 1 but for rounding.
+/// Exponents of rotation and uniform strain are 1 except for rounding.
 constexpr double rounding = 1e-9;
 
 double slowest_of(const linalg::SchurExponential& modes) {
@@ -53,7 +53,7 @@ PointCondensation::PointCondensation(const Ring& ring, const SuperElementSolutio
 
 PointOperator PointCondensation::at(const ScaledPoint& point) const {
   const double xi = std::clamp(point.xi, 0.0, 1.0);
-  const double s = std::log(std::max(xi, 1e-9));  // as RadialField: nearer to the centre nothing changes any more
+  const double s = std::log(std::max(xi, 1e-9));  // as in RadialField: nothing changes closer to the centre
   const Matrix rows = boundary_rows(ring_, point);
   const Eigen::Index n = rows.rows();
   Matrix condensed = Matrix::Zero(n, 5);

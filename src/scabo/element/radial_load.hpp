@@ -7,8 +7,8 @@
 //     initial strain eps0 xi^k              j = k + 1,  c = int B1' D eps0 |J| deta t,                       (4)
 //                                                       g = int B2' D eps0 |J| deta t
 //
-// with t the thickness. Any power j > 0 will do, whole or not, an exponent of the super-element or not: see
-// equivalent_load() in modal_solution.hpp.
+// with the thickness t. Any power j > 0 is allowed, whether or not it is a whole number or an exponent of the
+// super-element: see equivalent_load() in modal_solution.hpp.
 #pragma once
 
 #include <vector>
@@ -30,8 +30,8 @@ struct LinearField {
   bool is_zero() const { return constant == 0.0 && per_x == 0.0 && per_y == 0.0; }
 };
 
-/// Body force, force / length^3, of (x, y) about the scaling centre, times `density`: one for all boundary elements or
-/// one for each.
+/// Body force, force / length^3, as a function of (x, y) relative to the scaling centre, times `density`: one for all
+/// boundary elements or one for each.
 std::vector<RadialLoad> body_force_loads(const Ring& ring, const LinearField& b_x, const LinearField& b_y,
                                          double thickness, const std::vector<double>& density = {1.0});
 
@@ -44,18 +44,18 @@ RadialLoad face_load(const Ring& ring, Face face, double power, const Vec2& valu
 /// Outward unit normal of a side face.
 Vec2 face_normal(const Ring& ring, Face face);
 
-/// Change of temperature, of (x, y) about the scaling centre. `unit_strain`: free strain [xx, yy, xy] per unit of
-/// temperature, one for all boundary elements or one for each.
+/// Change of temperature as a function of (x, y) relative to the scaling centre. `unit_strain`: free strain [xx, yy,
+/// xy] per unit of temperature, one for all boundary elements or one for each.
 std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, const std::vector<Vec3>& unit_strain,
                                       const LinearField& temperature, double thickness);
 
-/// Everything that acts inside a body: what its nodal forces alone do not tell of its interior.
+/// Everything that acts inside a body and is needed, in addition to its nodal forces, to recover its interior.
 struct InteriorLoads {
   std::vector<RadialLoad> loads;  ///< of a super-element
-  LinearField temperature;        ///< change of temperature, of absolute (x, y)
+  LinearField temperature;        ///< change of temperature as a function of absolute (x, y)
 };
 
-/// The loads with equal powers put together; `factor` times each.
+/// Adds `factor` times `loads` to `to`, combining loads of equal power.
 void add_radial_loads(std::vector<RadialLoad>& to, const std::vector<RadialLoad>& loads, double factor);
 
 }  // namespace scabo::element

@@ -10,7 +10,7 @@ namespace scabo::element {
 namespace {
 
 constexpr int points_of_interval = 28;
-/// Below this xi there are few points of a grid: they are found one by one.
+/// Below this xi there are few grid points, which are evaluated directly.
 constexpr double smallest_xi = 1e-3;
 
 struct Chebyshev {

@@ -17,7 +17,7 @@ RiccatiResidual judged(Matrix P, Matrix S, const Matrix& E2) {
   for (Eigen::Index j = 0; j < n; ++j) {
     const auto column = residual.P.col(j).tail(n - j);
     residual.size = std::max(residual.size, scale[j] * column.cwiseProduct(scale.tail(n - j)).cwiseAbs().maxCoeff());
-    if (!column.allFinite()) {  // a maximum forgets what is not a number
+    if (!column.allFinite()) {  // a maximum would ignore NaN
       residual.size = std::numeric_limits<double>::infinity();
       break;
     }
@@ -49,7 +49,7 @@ Matrix newton_step(const RiccatiResidual& residual, const Vector& scale) {
     const Matrix more = linalg::multiply_transposed(C, linalg::multiply(Q, C));
     Q += more;
     if (!(more.cwiseAbs().maxCoeff() > 1e-6 * Q.cwiseAbs().maxCoeff()))
-      break;  // of a correction: a few digits are enough
+      break;  // a few digits are enough for a correction
     C = linalg::multiply(C, C);
   }
   const Matrix step = scale.asDiagonal() * Q * scale.asDiagonal();

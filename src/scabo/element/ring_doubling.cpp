@@ -15,7 +15,7 @@ namespace {
 /// Stiffness of a ring on its inner and outer nodes, [K11, K12; K12', K22]: the lower triangle.
 using RingMatrix = Matrix;
 
-/// Joins rings; its room is made once: new matrices for every join cost a tenth of the time at n = 160.
+/// Joins rings. Its memory is allocated once: new matrices for every step would take a tenth of the time at n = 160.
 class Joiner {
  public:
   /// The ring of eq. (3): two of eq. (1), g = `inner` and `outer`, joined by eq. (2).
@@ -71,8 +71,8 @@ class Joiner {
   void factorise() {
     if (!B_.factorise()) throw IllPosed("a ring is not positive definite");
   }
-  /// Of the outer nodes of the inner ring, which are the inner ones of the outer: Z = [K12a; K12b'] divided by L', one
-  /// symmetric product.
+  /// Eliminates the outer nodes of the inner ring, which are the inner ones of the outer ring: Z = [K12a; K12b']
+  /// divided by L', then one symmetric product.
   void eliminate(RingMatrix& ring) {
     const Eigen::Index n = ring.rows() / 2;
     factorise();
@@ -85,7 +85,7 @@ class Joiner {
   Matrix Z_;
 };
 
-/// Largest entry of K12 where the diagonal of K22 is scaled to 1: sectors of other stiffness count alike.
+/// Largest entry of K12 with the diagonal of K22 scaled to 1, so that sectors of different stiffness have equal weight.
 double coupling(const RingMatrix& ring) {
   const Eigen::Index n = ring.rows() / 2;
   const Vector scale = ring.diagonal().tail(n).cwiseSqrt().cwiseInverse();
@@ -95,8 +95,9 @@ double coupling(const RingMatrix& ring) {
   return largest;
 }
 
-/// Largest exponent, roughly: the square root of the largest entry of E2 against E0 on their diagonals. It is between a
-/// half and the whole of it for edge orders 1 to 8; too small a value costs less than one too large.
+/// Estimate of the largest exponent: the square root of the largest entry of E2 relative to E0 on their diagonals. It
+/// is between half of the exponent and the exponent for edge orders 1 to 8; too small a value costs less than too large
+/// a value.
 double largest_exponent(const Matrix& E0, const Matrix& E2) {
   double largest = 2.0;
   for (Eigen::Index i = 0; i < E0.rows(); ++i)
@@ -104,7 +105,7 @@ double largest_exponent(const Matrix& E0, const Matrix& E2) {
   return std::sqrt(largest);
 }
 
-/// K22 of rings doubled until it has arrived.
+/// K22 of rings that are doubled until it has converged.
 RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
   const double h = largest_exponent(E0, E2), w = std::sqrt(0.5 * std::sqrt(h) * (1.0 + h)),
                spread = std::sqrt(w * w - h);
@@ -113,8 +114,7 @@ RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
   joiner.start(E0, E1, E2, w - spread, w + spread, ring);
   constexpr int most = 60;
   for (int doublings = 0; doublings < most; ++doublings) {
-    // What a step takes from K22 is about the square of the coupling, what the step after it takes some 1e4 times the
-    // fourth power.
+    // A step changes K22 by about the square of the coupling, and the next one by some 1e4 times the fourth power.
     const double coupled = coupling(ring);
     if (coupled < 1e-5) {
       const bool arrived = coupled < 1e-9;
@@ -126,7 +126,7 @@ RingStiffness doubled(const Matrix& E0, const Matrix& E1, const Matrix& E2) {
     }
     joiner.double_ring(ring);
   }
-  throw IllPosed("ring doubling did not end: an exponent is 0");
+  throw IllPosed("ring doubling did not converge because an exponent is 0");
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
   L.A = E0;
   if (!L.factorise()) throw IllPosed("E0 is not positive definite");
   RiccatiResidual residual = riccati_residual(L, E1, E2, result.K);
-  // What rounding leaves: 1e-13 at n = 640, 3e-13 at 1280, 3e-12 at 2560, 3e-11 at 5000.
+  // Remaining residual due to rounding: 1e-13 at n = 640, 3e-13 at 1280, 3e-12 at 2560, 3e-11 at 5000.
   const auto n = static_cast<double>(E0.rows());
   const double enough = std::max(1e-13, 1e-15 * n * std::max(1.0, 1e-6 * n * n));
   constexpr int most = 3;
@@ -152,7 +152,7 @@ RingStiffness ring_doubling(const Matrix& E0, const Matrix& E1, const Matrix& E2
     RiccatiResidual next = riccati_residual(L, E1, E2, corrected);
     if (!(next.size < residual.size)) break;
     result.K = corrected;
-    const bool slow = next.size > 0.1 * residual.size;  // rounding is all that is left
+    const bool slow = next.size > 0.1 * residual.size;  // only rounding is left
     residual = std::move(next);
     if (slow) break;
   }

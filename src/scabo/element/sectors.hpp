@@ -1,4 +1,4 @@
-// The materials of a super-element: every boundary element spans a sector of its own.
+// Materials of a super-element: every boundary element spans a sector of its own.
 #pragma once
 
 #include "scabo/element/radial_load.hpp"

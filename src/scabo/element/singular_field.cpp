@@ -79,8 +79,8 @@ Matrix state_at_node(const Corner& corner, const ModeGroup& group, std::size_t e
   return state;
 }
 
-/// Carries a state from ray angle t0 to t1 (absolute angles) by dw/dt = N(t) w T: Gauss-Legendre of order 4 would need
-/// implicit solves; the classical Runge-Kutta step is enough at this size.
+/// Integrates a state from ray angle t0 to t1 (absolute angles) by dw/dt = N(t) w T. Gauss-Legendre integration of
+/// order 4 would need implicit solves; the classical Runge-Kutta step is sufficient at this size.
 Matrix carried(const Mat3& law, Matrix w, const Matrix& T, double t0, double t1) {
   if (t0 == t1) return w;
   const int steps = std::max(8, static_cast<int>(std::ceil(std::abs(t1 - t0) / 0.004)));
@@ -156,7 +156,7 @@ RayTraction ray_traction(const Corner& corner, const ModeGroup& group, double an
   ensure(angle >= -1e-9 && angle <= ends.back() + 1e-9, "a ray lies outside the material");
   std::size_t element = 0;
   while (element + 1 < ring.elements.size() && angle > ends[element + 1]) ++element;
-  // The nearer end; at the faces the tractions are known to vanish, so the other end is the better start.
+  // The closer end. At the faces the tractions are known to vanish, so that the other end is the better start.
   const bool last = element + 1 == ring.elements.size(), first = element == 0;
   bool at_end = ends[element + 1] - angle < angle - ends[element];
   if (at_end && last && !first) at_end = false;

@@ -151,7 +151,7 @@ bool is_definite(const Block& block, const Matrix& K, const Matrix& motions) {
 constexpr double too_much = 1e-9;  // of a Riccati residual
 
 IllPosed digits_lost(double residual) {
-  return IllPosed(fmt::format("digits were lost: the Riccati residual stays at {:.0e}", residual));
+  return IllPosed(fmt::format("loss of precision: the Riccati residual remains at {:.0e}", residual));
 }
 
 /// A super-element as its blocks see it.
@@ -188,7 +188,7 @@ void finish_bounded(const Whole& whole, Block& block, BlockResult& result) {
     if (is_right()) return;
   }
   if (!(ring.residual <= too_much)) throw digits_lost(ring.residual);
-  throw IllPosed("its stiffness is not positive definite: digits were lost");
+  throw IllPosed("loss of precision: its stiffness is not positive definite");
 }
 
 Block solve_block(const Whole& whole, Eigen::SparseMatrix<double> T, BlockResult& result) {
@@ -255,7 +255,8 @@ void take_rotation_out(const Ring& ring, Matrix& K) {
   }
   const auto lower = K.selfadjointView<Eigen::Lower>();
   const Vector force = lower * r, w = D.cwiseProduct(r) / D.cwiseProduct(r).dot(r);
-  if (!(force.norm() <= 1e-8 * D.norm() * r.norm())) throw IllPosed("its stiffness resists rotation: digits were lost");
+  if (!(force.norm() <= 1e-8 * D.norm() * r.norm()))
+    throw IllPosed("loss of precision: its stiffness resists rigid rotation");
   const Vector half = force - 0.5 * r.dot(force) * w;
   K.selfadjointView<Eigen::Lower>().rankUpdate(w, half, -1.0);
 }

@@ -41,7 +41,7 @@ double boundary_distance(const Ring& ring, double angle) {
   const Vec2& face = ring.node(ring.first_node());
   const double absolute = std::atan2(face.y(), face.x()) + angle;
   const Vec2 along(std::cos(absolute), std::sin(absolute));
-  // The first and the last ray of a crack are one: from a point well inside.
+  // The first and the last ray of a crack coincide: start from a point well inside.
   const auto at = locate(ring, 1e-3 * face.norm() * along);
   ensure(at.has_value(), "a ray misses the boundary");
   return boundary_position(ring, at->element, at->eta).norm();
@@ -59,7 +59,7 @@ void add(Triplets& entries, const mesh::LineElement& element, const Matrix& loca
 CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& direction) {
   const Ring& ring = corner.ring;
   Triplets entries0, entries1, entries2;
-  // Seen from the centre, the boundary moves by -direction: B1 |J| stays, B2 |J| and |J| change.
+  // Relative to the centre, the boundary moves by -direction: B1 |J| is constant, B2 |J| and |J| change.
   Eigen::Matrix<double, 3, 2> b2;
   b2 << direction.y(), 0.0, 0.0, -direction.x(), -direction.x(), direction.y();
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {

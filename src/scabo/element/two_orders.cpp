@@ -84,7 +84,7 @@ std::vector<double> sector_differences(const SuperElementField& narrower, const 
     for (std::size_t e = 0; e < energies.size(); ++e) {
       const mesh::LineElement& element = wider.ring.elements[e];
       const GaussRule rule = gauss_rule(order_of(element) + 1);
-      // |J| varies little beside the difference: that of the chord will do for shares.
+      // J| varies little compared with the difference: for relative shares, that of the chord is sufficient.
       const double area = std::abs(cross(wider.ring.nodes[static_cast<std::size_t>(element.nodes.front())],
                                          wider.ring.nodes[static_cast<std::size_t>(element.nodes.back())]));
       for (std::size_t q = 0; q < rule.points.size(); ++q) {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <mutex>
 
-// OpenBLAS built for several processors (DYNAMIC_ARCH) exports these; weak, so that any BLAS links.
+// OpenBLAS built for several processors (DYNAMIC_ARCH) exports these; weak, so that any BLAS can be linked.
 extern "C" {
 [[gnu::weak]] void gotoblas_dynamic_init();
 [[gnu::weak]] void gotoblas_dynamic_quit();

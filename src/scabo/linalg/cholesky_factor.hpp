@@ -1,9 +1,9 @@
-// Cholesky factor A = L L' of a dense symmetric positive definite matrix, made for many right-hand sides, which are
-// rows.
+// Cholesky factor A = L L' of a dense symmetric positive definite matrix, for many right-hand sides, which are stored
+// as rows.
 //
-// Up to some hundred rows by tiles (tile_kernel.hpp). Larger ones by products of BLAS: L is cut into blocks of at most
-// 32 rows, the inverses of those on the diagonal are kept, and halves of L are taken one after the other: BLAS's own
-// triangular solve reaches half of the speed of its product, with AVX-512 kernels a quarter.
+// Up to some hundred rows, tiles are used (tile_kernel.hpp); larger matrices use products of BLAS. L is divided into
+// blocks of at most 32 rows, the inverses of the diagonal blocks are stored, and L is halved recursively: the
+// triangular solve of BLAS reaches only half the speed of its product, and a quarter with AVX-512 kernels.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,11 @@ namespace scabo::linalg {
 
 class CholeskyFactor {
  public:
-  /// A (n x n, lower triangle read) is to be put here; factorise() leaves L in the lower triangle and nothing of use
+  /// To be set to A (n x n, lower triangle used); factorise() leaves L in the lower triangle and undefined values
   /// above.
   Matrix A;
 
-  /// False when A is not positive definite: nothing can be divided by it then.
+  /// False if A is not positive definite; divide() must not be called then.
   [[nodiscard]] bool factorise();
 
   /// B <- B L^-T, or B L^-1 when `transposed`; m x n.
@@ -36,11 +36,11 @@ class CholeskyFactor {
   void divide_by_blocks(int first, int last, Rows B, bool transposed) const;
   void multiply_by_inverse(int block, Rows B, bool transposed) const;
 
-  std::vector<int> starts_;       // of blocks, and n; one block: by tiles
-  std::vector<double> inverses_;  // of the blocks on the diagonal, each with its size as stride; of one block 1 / L_ii
+  std::vector<int> starts_;       // first rows of the blocks, and n; a single block uses tiles
+  std::vector<double> inverses_;  // of the diagonal blocks, stride: their size; single block: 1 / L_ii
 };
 
-/// C <- C - A A', the lower triangle (above it nothing of use is left); C n x n.
+/// C <- C - A A', lower triangle (undefined values above it); C n x n.
 void subtract_square(const Matrix& A, Matrix& C);
 
 }  // namespace scabo::linalg

@@ -13,7 +13,7 @@ namespace scabo::linalg {
 
 extern "C" {
 void openblas_set_num_threads(int threads);
-[[gnu::weak]] void omp_set_num_threads(int threads);  // there when CHOLMOD was built with OpenMP
+[[gnu::weak]] void omp_set_num_threads(int threads);  // exists if CHOLMOD was built with OpenMP
 }
 
 void set_blas_threads(int threads) {

@@ -1,4 +1,4 @@
-// Dense matrix operations of LAPACK and BLAS level 3, by name. All matrices are column-major (Eigen's default).
+// Dense matrix operations of LAPACK and BLAS level 3. All matrices are column-major (Eigen's default).
 #pragma once
 
 #include "scabo/base/types.hpp"
@@ -24,7 +24,7 @@ struct RealSchur {
 };
 RealSchur real_schur(Matrix A);
 
-/// Rows i and i + 1 of a quasi-triangular T are one block.
+/// Whether rows i and i + 1 of a quasi-triangular T form a 2 x 2 block.
 inline bool pair_begins(const Matrix& T, Eigen::Index i) { return i + 1 < T.rows() && T(i + 1, i) != 0.0; }
 
 }  // namespace scabo::linalg

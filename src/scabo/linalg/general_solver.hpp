@@ -1,4 +1,4 @@
-// Factorisation of a square matrix without symmetry, dense: P A = L U by LAPACK. Memory is kept from one matrix to the
+// Factorisation of a dense square matrix without symmetry: P A = L U by LAPACK. Memory is reused from one matrix to the
 // next.
 #pragma once
 
@@ -10,9 +10,9 @@ namespace scabo::linalg {
 
 class GeneralSolver {
  public:
-  /// Of the leading n x n block of `A`, which is overwritten. False where a pivot is exactly zero.
+  /// Factorises the leading n x n block of `A`, which is overwritten. False if a pivot is exactly zero.
   [[nodiscard]] bool factorise(Matrix& A, Eigen::Index n);
-  /// 1 / (|A| |A^-1|) in the 1-norm, estimated.
+  /// Estimate of 1 / (|A| |A^-1|) in the 1-norm.
   double reciprocal_condition() const;
   /// x <- A^-1 x for the first n entries of `x`.
   void solve_in_place(Vector& x) const;

@@ -1,11 +1,11 @@
-// Kernels that are compiled for each instruction set: which ones this processor can run.
+// Selection among kernels that are compiled for several instruction sets.
 #pragma once
 
 #include <vector>
 
 namespace scabo::linalg {
 
-/// Those that can run here, the fastest first; the baseline is always among them.
+/// The kernels that this processor can run, the fastest first; the baseline is always included.
 template <typename Kernel>
 std::vector<const Kernel*> runnable(const Kernel& avx512, const Kernel& avx2, const Kernel& baseline) {
   std::vector<const Kernel*> found;

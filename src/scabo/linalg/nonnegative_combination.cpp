@@ -11,11 +11,11 @@ namespace scabo::linalg {
 namespace {
 
 constexpr int most_steps = 100;
-constexpr double combined = 1e-10;  // t, of its start, below which b counts as combined
+constexpr double combined = 1e-10;  // t, relative to its start, below which b counts as a combination
 constexpr double proven = 1e-9;     // b'y / (|b| |y|) above which y counts as a proof
 constexpr double rounding = 1e-12;  // A'y / |y| up to which it counts as not positive
 
-/// The largest step, at most 1, along d that keeps v positive.
+/// The largest step along d, at most 1, that keeps v positive.
 double step_length(const Vector& v, const Vector& d) {
   double step = 1.0;
   for (Eigen::Index i = 0; i < v.size(); ++i)
@@ -60,7 +60,7 @@ class FirstPhase {
     return wide;
   }
 
-  /// One predictor-corrector step; false where numbers are out of range.
+  /// One predictor-corrector step; false if numbers are out of range.
   bool advance() {
     const Eigen::Index n = A_.cols(), last = n - 1;
     const Vector primal = b_ - A_ * x_, dual = c_ - A_.transpose() * y_ - s_;

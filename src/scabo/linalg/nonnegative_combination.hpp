@@ -5,8 +5,9 @@
 //
 //     min t    A x + t (b - A 1) = b,    x, t >= 0            (x = 1, t = 1 is feasible)
 //
-// Each step factorises A D A' (m x m, sparse). The least t is 0 where the combination exists; where it does not, the dual
-// variables y become the proof. linalg/nonnegative_least_squares does the same for small dense matrices, exactly.
+// Each step factorises A D A' (m x m, sparse). The minimum of t is 0 if the combination exists; otherwise the dual
+// variables y are the proof. linalg/nonnegative_least_squares does the same for small dense matrices by an exact
+// method.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -16,8 +17,8 @@
 
 namespace scabo::linalg {
 
-/// y with A'y <= 0 (to rounding) and b'y > 0, |y| = 1; nothing where b is a non-negative combination of the columns of A, or
-/// neither could be decided. Columns of A and b of order 1.
+/// y with A'y <= 0 (to rounding), b'y > 0 and |y| = 1; nothing if b is a non-negative combination of the columns of A
+/// or the question could not be decided. The columns of A and b should be of order 1.
 std::optional<Vector> separating_vector(const Eigen::SparseMatrix<double>& A, const Vector& b);
 
 }  // namespace scabo::linalg

@@ -107,7 +107,7 @@ Vector nonnegative_least_squares_of_normal(const Matrix& G, const Vector& h,
       std::fill(dependent.begin(), dependent.end(), false);
     }
   }
-  // G has the square of A's condition: refined with A itself.
+  // G has the squared condition of A; therefore x is refined with A itself.
   for (int round = 0; round < 6 && !passive.empty(); ++round) {
     const Vector change = solved(of_passive(residual(x)));
     for (Eigen::Index k = 0; k < size(); ++k) {

@@ -37,18 +37,18 @@ Matrix sylvester(char operation, const Matrix& A, const Matrix& B, Matrix C, int
   const int info = LAPACKE_dtrsyl(LAPACK_COL_MAJOR, operation, 'N', sign, length(A.rows()), length(B.rows()), A.data(),
                                   length(A.rows()), B.data(), length(B.rows()), C.data(), length(C.rows()), &scale);
   ensure(info >= 0, "dtrsyl refused its arguments");
-  ensure(info == 0, "two groups of exponents are too close to be told apart");
+  ensure(info == 0, "two groups of exponents are too close to be separated");
   return C / scale;
 }
 
-/// A cut near the middle that parts no pair.
+/// A position near the middle that does not split a pair.
 Eigen::Index middle_of(const Matrix& T) {
   const Eigen::Index half = T.rows() / 2;
   return T(half, half - 1) != 0.0 ? half + 1 : half;
 }
 
-/// X of A'X + X B = C. dtrsyl works column by column; halving the longer side leaves it small blocks and makes the rest
-/// products of matrices.
+/// Solves A'X + X B = C. dtrsyl works column by column; halving the longer side leaves small blocks for it and turns
+/// the remaining work into products of matrices.
 Matrix halved_sylvester(const Matrix& A, const Matrix& B, const Matrix& C) {
   constexpr Eigen::Index small = 48;
   const Eigen::Index m = A.rows(), n = B.rows();
@@ -89,7 +89,7 @@ OrderedSchur::OrderedSchur(const Matrix& S, const GroupOf& group_of) : schur_(re
       lapack_int from = best + 1, to = done + 1;  // LAPACK counts from 1
       const int info = LAPACKE_dtrexc(LAPACK_COL_MAJOR, 'V', n, T.data(), n, schur_.U.data(), n, &from, &to);
       if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
-      ensure(info == 0, "two groups of exponents are too close to be told apart");
+      ensure(info == 0, "two groups of exponents are too close to be separated");
     }
     for (int i = 0; i < size; ++i) groups_.push_back(best_rank);
     done += size;
@@ -134,7 +134,7 @@ std::vector<int> clusters(const std::vector<std::complex<double>>& eigenvalues, 
     for (int& cluster : of)
       if (cluster == b) cluster = a;
   };
-  // The upper half plane stands for both: a pair is one.
+  // The eigenvalue in the upper half plane represents a pair.
   const auto folded = [&](std::size_t i) {
     return std::complex<double>(eigenvalues[i].real(), std::abs(eigenvalues[i].imag()));
   };

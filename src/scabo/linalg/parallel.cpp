@@ -31,7 +31,7 @@ void parallel_for(int count, int threads, const std::function<void(int)>& task) 
     std::vector<std::jthread> pool;  // joined at the end of the block
     try {
       for (std::size_t k = 1; k < failures.size(); ++k) pool.emplace_back([&, k] { work(failures[k]); });
-    } catch (const std::system_error&) {  // a limit on processes or memory: those there are do the work
+    } catch (const std::system_error&) {  // a limit on processes or memory: the existing threads do the work
     }
     work(failures[0]);
   }

@@ -1,12 +1,12 @@
-// Independent tasks that call BLAS.
+// Parallel execution of independent tasks that call BLAS.
 #pragma once
 
 #include <functional>
 
 namespace scabo::linalg {
 
-/// Calls task(0) ... task(count - 1), on up to `threads` threads at once, each with a BLAS of one thread; a single task
-/// keeps BLAS's `threads`. The first exception is thrown again, after all threads have ended.
+/// Calls task(0) ... task(count - 1) on up to `threads` threads, each with single-threaded BLAS; a single task may use
+/// `threads` threads of BLAS. The first exception is rethrown after all threads have ended.
 void parallel_for(int count, int threads, const std::function<void(int)>& task);
 
 }  // namespace scabo::linalg

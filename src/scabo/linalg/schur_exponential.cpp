@@ -11,12 +11,12 @@ namespace scabo::linalg {
 
 namespace {
 
-/// A point of the contour and its weight h / (2 pi i) e^z dz/dtheta; its conjugate belongs to the rule too.
+/// A point of the contour and its weight h / (2 pi i) e^z dz/dtheta; its conjugate is also part of the rule.
 struct ContourPoint {
   std::complex<double> z, weight;
 };
 
-/// Midpoints of a hyperbola that holds all eigenvalues within `sector` of the negative axis.
+/// Midpoints of a hyperbola that encloses all eigenvalues within `sector` of the negative axis.
 struct Contour {
   double sector;  // radians
   std::vector<ContourPoint> points;
@@ -33,14 +33,14 @@ Contour make_contour(double degrees, int points, double m, double alpha, double 
   return contour;
 }
 
-/// Narrow to wide: the narrower the sector, the fewer the points and the smaller the error.
+/// From narrow to wide: a narrower sector needs fewer points and has a smaller error.
 const std::array<Contour, 2>& contours() {
   static const std::array<Contour, 2> all = {make_contour(45.0, 28, 14.0, 0.8, 0.0766807),
                                              make_contour(55.0, 32, 9.6, 0.6, 0.0863970588)};
   return all;
 }
 
-/// 1 / z, without the checks for overflow of the language's own division, which cost more than the solve.
+/// 1 / z without the overflow checks of the language's division, which would cost more than the solve.
 std::complex<double> inverse(std::complex<double> z) {
   const double square = z.real() * z.real() + z.imag() * z.imag();
   return {z.real() / square, -z.imag() / square};
@@ -77,13 +77,13 @@ void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::
   }
 }
 
-/// X <- (z - s T)^-1 X for all contour points at once: what a block of rows contributes to those above it is one
+/// X <- (z - s T)^-1 X for all contour points at once: the contribution of a block of rows to those above it is one
 /// product of matrices.
 void solve_shifted(const Matrix& T, double s, const Contour& contour, Matrix& X) {
   constexpr Eigen::Index rows_at_a_time = 32;
   for (Eigen::Index end = T.rows(); end > 0;) {
     Eigen::Index start = std::max<Eigen::Index>(0, end - rows_at_a_time);
-    if (start > 0 && pair_begins(T, start - 1)) --start;  // 2 x 2 blocks stay whole
+    if (start > 0 && pair_begins(T, start - 1)) --start;  // 2 x 2 blocks are not split
     solve_diagonal_block(T, s, start, end - start, contour, X);
     if (start > 0)
       add_product(s, T.block(0, start, start, end - start), X.middleRows(start, end - start), X.topRows(start));
@@ -107,7 +107,7 @@ SchurExponential::SchurExponential(const Matrix& S) : schur_(real_schur(S)) {
 double SchurExponential::widest_angle(double s, double shift) const {
   double widest = 0.0;
   for (const std::complex<double>& value : eigenvalues_) {
-    const std::complex<double> z = -s * (value - shift);  // s (S - k) lies in the left half plane: its mirror image
+    const std::complex<double> z = -s * (value - shift);  // eigenvalue of s (S - k), in the left half plane, reflected
     const bool faded = z.real() > 40.0, near_origin = std::abs(z) < 1.0;
     if (!faded && !near_origin) widest = std::max(widest, std::abs(std::arg(z)));
   }
@@ -120,7 +120,7 @@ Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& 
   if (s == 0.0 || n == 0) return c;
   Matrix T = schur_.T;
   T.diagonal().array() -= shift;
-  // Forcings are further rows of the system, [[T, w ...], [0, power ...]], with the value 1 at s = 0.
+  // Forcings are additional rows of the system, [[T, w ...], [0, power ...]], with the value 1 at s = 0.
   const double angle = widest_angle(s, shift);
   const auto contour =
       std::find_if(contours().begin(), contours().end(), [&](const Contour& one) { return angle <= one.sector; });

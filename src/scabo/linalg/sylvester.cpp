@@ -11,7 +11,7 @@ namespace {
 
 using Part = Eigen::Ref<const Matrix>;
 
-/// Where a quasi-triangular matrix is halved: never through a 2 x 2 block.
+/// Position at which a quasi-triangular matrix is halved, never inside a 2 x 2 block.
 Eigen::Index half(const Part& T) {
   const Eigen::Index middle = T.rows() / 2;
   return T(middle, middle - 1) != 0.0 ? middle + 1 : middle;

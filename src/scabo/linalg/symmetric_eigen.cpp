@@ -15,7 +15,7 @@ namespace scabo::linalg {
 
 namespace {
 
-/// What Spectra wants to know of (A - sigma B)^-1; sigma is 0 here.
+/// Interface required by Spectra for (A - sigma B)^-1; sigma is 0 here.
 class Inverse {
  public:
   using Scalar = double;

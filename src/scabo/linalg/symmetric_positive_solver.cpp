@@ -42,7 +42,7 @@ class SparseCholesky {
     right.ncol = static_cast<std::size_t>(B.cols());
     right.nzmax = right.nrow * right.ncol;
     right.d = right.nrow;
-    right.x = const_cast<double*>(B.data());  // CHOLMOD's interface does not know const; it only reads
+    right.x = const_cast<double*>(B.data());  // the interface of CHOLMOD lacks const; the data are only read
     right.xtype = CHOLMOD_REAL;
     right.dtype = CHOLMOD_DOUBLE;
     cholmod_dense* solution = cholmod_solve(CHOLMOD_A, factor_, &right, &common_);

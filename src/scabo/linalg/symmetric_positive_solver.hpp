@@ -1,4 +1,4 @@
-// Factorisation of a symmetric positive definite matrix, dense or sparse, whichever is cheaper.
+// Factorisation of a symmetric positive definite matrix, dense or sparse, whichever costs less.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -12,11 +12,11 @@ namespace scabo::linalg {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  // compressed columns
 
-/// A = L L'. Dense Cholesky (LAPACK) where a quarter of the entries or more is filled, supernodal CHOLMOD
-/// otherwise: the stiffness of one super-element is full, that of a finite element mesh nearly empty.
+/// A = L L'. Dense Cholesky factorisation (LAPACK) if a quarter of the entries or more is nonzero, supernodal CHOLMOD
+/// otherwise: the stiffness of one super-element is full, that of a finite element mesh is sparse.
 class SymmetricPositiveSolver {
  public:
-  /// Empty: zero unknowns.
+  /// A solver for zero unknowns.
   SymmetricPositiveSolver();
   /// `A`: n x n, both triangles stored. Throws NotPositiveDefinite.
   explicit SymmetricPositiveSolver(const SparseMatrix& A);
@@ -28,7 +28,7 @@ class SymmetricPositiveSolver {
   /// A^-1 B, B n x m.
   Matrix solve(const Matrix& B) const;
 
-  /// E' A^-1 E for columns E of the identity given by their indices; symmetric.
+  /// E' A^-1 E, symmetric, where the columns of E are those columns of the identity given by `indices`.
   Matrix inverse_block(const std::vector<int>& indices) const;
 
  private:

@@ -31,7 +31,7 @@ struct Vector<1> {
   typedef double type;
 };
 
-/// Vectors at any address: by copies, which compilers turn into one unaligned move.
+/// Loads a vector from any address by a copy, which compilers turn into one unaligned move.
 template <typename V>
 inline V load(const double* from) {
   V value;
@@ -46,14 +46,14 @@ inline void put(const V& value, double* to) {
 constexpr int lanes = SCABO_LANES;
 constexpr int tile_vectors = SCABO_TILE_VECTORS, tile_columns = SCABO_TILE_COLUMNS;
 
-/// Entry (k, c) of a right-hand factor of which a tile needs some columns: a matrix or its transpose.
+/// Entries (k, c) of a right-hand factor of which a tile needs some columns: a matrix or its transpose.
 struct Factor {
   const double* at;
   long row, column;  ///< from one k, one c to the next
 };
 
-/// acc(r, c) <- C(r, c) - sum over k < depth of A(r, k) B(k, c); R vectors of W rows. The sum first: where it is small,
-/// as in the last steps of ring doubling, so is its rounding.
+/// acc(r, c) <- C(r, c) - sum over k < depth of A(r, k) B(k, c); R vectors of W rows. The sum is computed first: if it
+/// is small, as in the last steps of ring doubling, its rounding is small too.
 template <int W, int R, int C>
 inline void subtract(const double* A, long a_stride, Factor B, int depth, const double* from, long from_stride,
                      typename Vector<W>::type (&acc)[R][C]) {

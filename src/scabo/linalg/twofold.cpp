@@ -4,7 +4,7 @@ namespace scabo::linalg {
 
 namespace {
 
-/// sum <- sum + a x; the low part is brought into order at the end.
+/// sum <- sum + a x; the low part is normalised at the end.
 void add_product(Twofold& sum, double a, const Twofold& x) {
   const Twofold product = exact_product(a, x.high), high = exact_sum(sum.high, product.high);
   sum.high = high.high;

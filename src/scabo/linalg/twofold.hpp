@@ -1,10 +1,11 @@
 // Numbers of twice the working precision, as the sum of two doubles, for residuals of ill-conditioned systems.
 //
-// A system A x = b is solved to all digits of x by iterative refinement where the residual b - A x is found with more
-// digits than the factor of A has; x itself then needs them as well, for what rounding x to double alone leaves of a
-// residual, |A| |x| times 1e-16, can be more than all of b: in a slender beam stiffness times displacement is (L / h)^3
-// times the load. Error-free sums and products: Dekker, Numer. Math. 18 (1971) 224; products of matrices: Ogita, Rump,
-// Oishi, SIAM J. Sci. Comput. 26 (2005) 1955. About 30 digits, at some ten times the cost; the same on every processor.
+// Iterative refinement solves A x = b to all digits of x if the residual b - A x is computed with more digits than the
+// factor of A has. x itself then needs more digits as well, because rounding x to double alone leaves a residual of |A|
+// |x| times 1e-16, which can exceed b: in a slender beam, stiffness times displacement is (L / h)^3 times the load.
+// Error-free sums and products: Dekker, Numer. Math. 18 (1971) 224; products of matrices: Ogita, Rump, Oishi, SIAM J.
+// Sci. Comput. 26 (2005) 1955. About 30 digits, at about ten times the cost; the results are the same on every
+// processor.
 #pragma once
 
 #include <cmath>

@@ -39,8 +39,8 @@ ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement
   }
   for (const int node : nodes) points.push_back(body_nodes[node]);
 
-  // N_i times the normal is of degree 2 p - 1, so Lobatto's quadrature at the nodes themselves is exact, and
-  // of the integral remains the weight times the normal at the node.
+  // N_i times the normal has degree 2 p - 1, so that Lobatto quadrature at the nodes is exact and reduces the integral
+  // to the weight times the normal at the node.
   normals.assign(count, Vec2::Zero());
   spacing = std::numeric_limits<double>::max();
   std::optional<LobattoBasis> of_order;

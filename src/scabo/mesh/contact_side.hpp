@@ -1,4 +1,4 @@
-// The nodes of one elastic edge, as contact sees them.
+// The nodes of one elastic edge, as needed for contact.
 #pragma once
 
 #include <vector>
@@ -13,24 +13,24 @@ struct ContactSide {
   int size() const { return static_cast<int>(nodes.size()); }
 
   const model::Edge* edge;
-  std::vector<LineElement> elements;  ///< nodes are places in the lists below
+  std::vector<LineElement> elements;  ///< their nodes are positions in the lists below
 
-  // Without repetition, in the direction of the body's boundary:
-  std::vector<int> nodes;    ///< of the body
-  std::vector<Vec2> points;  ///< where they are
-  /// Unit normals out of the body, weighted as nodal forces are: the direction of the integral of N_i n over
-  /// the elements of this edge. A uniform pressure acts along them exactly.
+  // Without repetition, in the direction of the boundary of the body:
+  std::vector<int> nodes;    ///< node numbers of the body
+  std::vector<Vec2> points;  ///< their positions
+  /// Unit normals out of the body, weighted like nodal forces: each has the direction of the integral of N_i n over the
+  /// elements of this edge. A uniform pressure acts exactly along them.
   std::vector<Vec2> normals;
-  std::vector<Vec2> true_normals;  ///< those of the line or arc before it was divided
+  std::vector<Vec2> true_normals;  ///< normals of the undivided line or arc
 
-  bool closed = false;    ///< one edge is the whole boundary: the last node is followed by the first
-  double element_length;  ///< of the shortest element
+  bool closed = false;    ///< the edge is the whole boundary, so that the first node follows the last
+  double element_length;  ///< length of the shortest element
   double spacing;         ///< smallest distance between neighbouring nodes
 };
 
-/// Finds the nearest of the points of a curve, given in order, by a tree of boxes around runs of them. The
-/// boxes lie along the chord of the curve, so that far from a straight edge, in any direction, a search still
-/// takes only a logarithmic number of steps.
+/// Finds the nearest of the points of a curve, given in order, with a tree of bounding boxes around runs of points. The
+/// boxes are aligned with the chord of the curve, so that a search takes a logarithmic number of steps even far from a
+/// straight edge.
 class NearestPoint {
  public:
   explicit NearestPoint(const std::vector<Vec2>& curve);
@@ -40,7 +40,7 @@ class NearestPoint {
   struct Run {
     int first = 0, last = 0;                       // points first ... last - 1
     Vec2 low = Vec2::Zero(), high = Vec2::Zero();  // their bounding box
-    int half = -1;  // runs_[half] and runs_[half + 1] are its halves; -1: too short to be halved
+    int half = -1;  // runs_[half] and runs_[half + 1] are its halves; -1: not divided further
   };
   struct Found {
     int point = 0;
@@ -51,7 +51,7 @@ class NearestPoint {
 
   Mat2 frame_;                // rows: along the chord, across it
   std::vector<Vec2> points_;  // in this frame
-  std::vector<Run> runs_;     // runs_[0] holds all
+  std::vector<Run> runs_;     // runs_[0] contains all points
 };
 
 }  // namespace scabo::mesh

@@ -14,21 +14,21 @@ namespace scabo::mesh {
 
 namespace {
 
-/// An arc element that turns by more than this is a poor circle at low order.
+/// An arc element that turns by more than this approximates a circle poorly at low order.
 constexpr double largest_turn = std::numbers::pi / 3;
 
-/// Smallest sine of the angle between the ray from the scaling centre and the boundary; below it the boundary
-/// counts as seen edge-on.
+/// Smallest sine of the angle between the ray from the scaling centre and the boundary; below it the boundary counts as
+/// not visible.
 constexpr double smallest_sine = 1e-6;
 
-/// A part of an edge as the boundary of the super-element is run, counter-clockwise around the scaling centre: from and
-/// to count along the edge's own direction.
+/// A part of an edge in the direction of the boundary of the super-element, counter-clockwise around the scaling
+/// centre; `from` and `to` are measured in the direction of the edge.
 struct Run {
   int edge = -1;
   double from = 0.0, to = 1.0;
 };
 
-/// The runs of the boundary: all edges, without side faces, from the mouth of a crack to its other side.
+/// The parts of the boundary: all edges without side faces, from the mouth of a crack to its other side.
 std::vector<Run> runs_of(const model::Body& body) {
   const int count = static_cast<int>(body.outline.edges.size());
   std::vector<Run> runs;
@@ -84,7 +84,7 @@ BodyDivision uniform_division(const model::Body& body) {
     std::vector<double> breaks;
     for (int k = 0; k <= elements; ++k)
       breaks.push_back(k == elements ? high : std::lerp(low, high, static_cast<double>(k) / elements));
-    if (!divided.breaks.empty()) breaks.pop_back();  // a crack's last run ends where its first began
+    if (!divided.breaks.empty()) breaks.pop_back();  // the last part beside a crack ends where the first began
     divided.breaks.insert(divided.breaks.begin(), breaks.begin(), breaks.end());
     divided.orders.insert(divided.orders.end(), static_cast<std::size_t>(elements), body.mesh.order);
   }
@@ -95,7 +95,7 @@ BodyMesh divide_boundary(const model::Body& body) { return divide_boundary(body,
 
 namespace {
 
-/// Elements along one run, their nodes appended; those of the run's last element but one node.
+/// Elements along one part; their nodes are appended, except those of the last element but one node.
 std::vector<LineElement> divide_run(const model::Edge& edge, const EdgeDivision& divided, const Run& run, int total,
                                     std::vector<Vec2>& nodes) {
   const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
@@ -114,7 +114,7 @@ std::vector<LineElement> divide_run(const model::Edge& edge, const EdgeDivision&
     LineElement& element = line.emplace_back();
     for (int i = 0; i <= order; ++i) {
       element.nodes.push_back(static_cast<int>(nodes.size()) % total);  // closed: the last node is the first again
-      if (i == order) break;                                            // and belongs to the next element
+      if (i == order) break;                                            // the node belongs to the next element
       const bool first = line.size() == 1 && i == 0;
       nodes.push_back(
           edge.at(first ? run.from : std::lerp(from, to, 0.5 * (1.0 + points[static_cast<std::size_t>(i)]))));
@@ -123,10 +123,10 @@ std::vector<LineElement> divide_run(const model::Edge& edge, const EdgeDivision&
   return line;
 }
 
-/// The elements of a run as those of its edge, in the edge's own direction.
+/// The elements of a part as those of its edge, in the direction of the edge.
 void add_to_edge(const Run& run, const std::vector<LineElement>& line, std::vector<LineElement>& edge) {
   if (run.from < run.to) {
-    // A crack's first run is the later part of its edge.
+    // The first part beside a crack is the later part of its edge.
     edge.insert(run.from > 0.0 ? edge.end() : edge.begin(), line.begin(), line.end());
     return;
   }
@@ -169,7 +169,7 @@ BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) 
 }
 
 std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& mesh) {
-  // |J| is a polynomial of degree 2 p - 1 along an element: 2 p + 1 points, the ends among them.
+  // J| is a polynomial of degree 2 p - 1 along an element: it is checked at 2 p + 1 points, including the ends.
   struct Sampling {
     Matrix shape, slope;
   };
@@ -189,7 +189,7 @@ std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& me
     }
     const Eigen::MatrixX2d at = shape * x;
     const Eigen::MatrixX2d along = slope * x;
-    const double sense = body.outside ? -1.0 : 1.0;  // the edges of an outside body run clockwise
+    const double sense = body.outside ? -1.0 : 1.0;  // the edges of an unbounded body run clockwise
     for (Eigen::Index k = 0; k < at.rows(); ++k) {
       const Vec2 ray = at.row(k);
       const Vec2 tangent = sense * along.row(k);
@@ -206,12 +206,12 @@ std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& me
     mistakes.push_back(
         {body.mesh.source,
          body.outline.edges[e].arc
-             ? fmt::format("the arc {} in {} {} of order {} is not wholly seen from the scaling centre {}: use a "
+             ? fmt::format("the arc {} in {} {} of order {} is not entirely visible from the scaling centre {}: use a "
                            "smaller 'size' or a higher 'order', or set 'centre'",
                            name, mesh.edges[e].size(), mesh.edges[e].size() == 1 ? "element" : "elements",
                            body.mesh.order, centre)
-             : fmt::format("the edge {} is not seen from the scaling centre {}: set 'centre' to a point that sees "
-                           "the whole boundary, or cut the body in two",
+             : fmt::format("the edge {} is not entirely visible from the scaling centre {}: set 'centre' to a point "
+                           "from which the whole boundary is visible, or divide the body",
                            name, centre)});
   }
   return mistakes;

@@ -1,11 +1,12 @@
-// Division of an outline into line elements: the boundary of one super-element, closed, or open from side face to side
-// face. The boundary is run counter-clockwise around the scaling centre, also where the body lies outside it; the edges
-// of a BodyMesh keep the outline's direction.
+// Division of an outline into line elements, which form the boundary of one super-element: closed, or open from side
+// face to side face. The boundary runs counter-clockwise around the scaling centre, also if the body lies outside it;
+// the edges of a BodyMesh keep the direction of the outline.
 //
-// Unless a division says otherwise (division.hpp), every edge is divided into n equal elements, none longer than `size`
-// and none turning by more than 60 degrees, with nodes at the Gauss-Lobatto-Legendre points of the edge's arc length.
-// Between the nodes of an arc the boundary is the interpolating polynomial, so it must be checked anew that the scaling
-// centre sees all of it: |J| = x y,eta - y x,eta > 0, x and y relative to the centre.
+// Unless a Division (division.hpp) specifies otherwise, every edge is divided into n equal elements, none longer than
+// `size` and none turning by more than 60 degrees, with nodes at the Gauss-Lobatto-Legendre points of the arc length of
+// the edge. Between the nodes of an arc the boundary is the interpolating polynomial. The visibility of the whole
+// boundary from the scaling centre must therefore be checked again: |J| = x y,eta - y x,eta > 0, with x and y relative
+// to the centre.
 #pragma once
 
 #include <string>
@@ -15,24 +16,24 @@
 
 namespace scabo::mesh {
 
-/// Elements along an edge of `length` when none may be longer than `size`; a whole number, at least 1. A
-/// double, because a mistyped size can ask for more than an int holds.
+/// Number of elements along an edge of `length` if none may be longer than `size`; a whole number, at least 1. A
+/// double, because a mistyped size can give more than an int can hold.
 double elements_along(double length, double size);
 
-/// Nodes that divide_boundary would make.
+/// Number of nodes that divide_boundary would create.
 double count_boundary_nodes(const model::Body& body);
 
-/// Every edge in equal elements of the body's order, as above.
+/// The division of every edge into equal elements of the body's order, as described above.
 BodyDivision uniform_division(const model::Body& body);
 
 /// The body as one super-element.
 BodyMesh divide_boundary(const model::Body& body);
 BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division);
 
-/// One mistake for every edge that is not seen from the scaling centre as divided.
+/// One mistake for every edge that, as divided, is not entirely visible from the scaling centre.
 std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& mesh);
 
-/// `upper.bottom`, by the name that the user gave where there is one.
+/// `upper.bottom`, with the name given by the user if there is one.
 std::string edge_name(const model::Body& body, int edge);
 
 }  // namespace scabo::mesh

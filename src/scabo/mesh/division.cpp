@@ -31,7 +31,7 @@ std::vector<Vec2> inner_points(const std::vector<Vec2>& curve) {
 BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
   BodyMesh fine = mesh;
   fine.nodes.clear();
-  std::map<int, int> number;  // new, of the nodes that elements share
+  std::map<int, int> number;  // new numbers of the nodes that elements share
   std::map<Ends, LineElement> element_of;
   const auto shared = [&](int node) {
     const auto [found, is_new] = number.emplace(node, static_cast<int>(fine.nodes.size()));
@@ -82,7 +82,7 @@ void pair_elements(const model::Contact& contact, const Interface& interface, co
   for (std::size_t k = 0; k < elements(contact.b).size(); ++k)
     of_b[ends_of(elements(contact.b)[k])] = static_cast<int>(k);
   std::vector<bool> met(elements(contact.b).size(), false);
-  // One node alone is the end of the overlap; its element lies beyond.
+  // A single node is the end of the overlap, and its element lies beyond it.
   const auto lies_within = [](const LineElement& element, const std::map<int, int>& partners) {
     return std::count_if(element.nodes.begin(), element.nodes.end(),
                          [&](int node) { return partners.contains(node); }) > 1;

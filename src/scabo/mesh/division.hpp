@@ -1,7 +1,7 @@
-// How boundaries are divided, as a value: what refinement changes from mesh to mesh.
+// The division of boundaries as a value, which refinement changes from mesh to mesh.
 //
-// Elements of different length and order may follow each other: neighbours share only their end node, and every line
-// element brings its own order.
+// Elements of different length and order may be neighbours: they share only their end node, and every line element has
+// its own order.
 #pragma once
 
 #include <array>
@@ -12,23 +12,23 @@
 
 namespace scabo::mesh {
 
-/// Element k of an edge runs from breaks[k] to breaks[k + 1], parts of the edge's length from 0 to 1, and has order
-/// orders[k].
+/// Element k of an edge extends from breaks[k] to breaks[k + 1], fractions of the length of the edge from 0 to 1, and
+/// has order orders[k].
 struct EdgeDivision {
-  std::vector<double> breaks;  ///< one more than elements, ascending
+  std::vector<double> breaks;  ///< one more than there are elements, ascending
   std::vector<int> orders;     ///< 1 to 16
 };
 using BodyDivision = std::vector<EdgeDivision>;  ///< one for each edge of the outline
-using Division = std::vector<BodyDivision>;      ///< one for each body; empty: by its mesh options
+using Division = std::vector<BodyDivision>;      ///< one for each body; an empty one stands for its mesh options
 
-/// The division by mesh options, of every super-element.
+/// The division that follows from the mesh options, for every super-element.
 Division uniform_division(const model::Model& model);
 
-/// make_mesh() (mesh.hpp) with super-elements divided as told.
+/// make_mesh() (mesh.hpp) with the given division of super-elements.
 Mesh make_mesh(const model::Model& model, const Division& division);
 
-/// The same boundaries with elements of one order more, but for those `frozen` ([body][boundary element]; empty: none).
-/// Geometry is not changed: every displacement of the old elements is one of the new ones too.
+/// The same boundaries with all elements raised by one order, except those `frozen` ([body][boundary element]; empty:
+/// none). The geometry does not change: every displacement field of the old elements is also one of the new elements.
 Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std::vector<bool>>& frozen);
 
 /// An element of an edge of a body.
@@ -37,15 +37,14 @@ struct EdgeElement {
   auto operator<=>(const EdgeElement&) const = default;
 };
 
-/// Elements of contact edges whose nodes are paired.
+/// Elements of contact edges with paired nodes.
 struct PairedElements {
-  std::vector<std::array<EdgeElement, 2>>
-      alike;                       ///< elements that face each other node by node, run against each other
-  std::vector<EdgeElement> alone;  ///< with paired nodes but no such element: division would part the pairs
+  std::vector<std::array<EdgeElement, 2>> alike;  ///< elements that match node by node, with opposite directions
+  std::vector<EdgeElement> alone;                 ///< elements without such a match: dividing them would separate pairs
 };
 PairedElements paired_elements(const model::Model& model, const Mesh& mesh);
 
-/// Place of an edge's element among the super-element's boundary.
+/// Index of an element of an edge in the boundary of the super-element.
 int boundary_element(const BodyMesh& mesh, int edge, int element);
 
 }  // namespace scabo::mesh

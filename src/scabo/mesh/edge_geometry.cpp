@@ -10,8 +10,8 @@ namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
-/// `angle` from the start of the arc in the direction of its sweep, over the sweep. A direction off the arc
-/// is counted beyond the end that it is closer to.
+/// `angle` from the start of the arc in the direction of its sweep, relative to the sweep. A direction outside the arc
+/// is measured beyond the closer end.
 double parameter_on(const model::Arc& arc, double angle) {
   const double sweep = std::abs(arc.sweep);
   double turn = std::copysign(1.0, arc.sweep) * (angle - arc.start_angle);
@@ -45,7 +45,7 @@ std::optional<Foot> foot_on(const model::Edge& edge, const Vec2& point) {
 }
 
 bool encloses(const model::Outline& outline, const Vec2& point) {
-  // Inside the polygon of the chords, but for the segments between chord and arc, which change sides.
+  // Inside the polygon of the chords, except for the segments between chord and arc, which change sides.
   bool inside = false;
   for (const model::Edge& edge : outline.edges) {
     if (!edge.arc) {

@@ -1,4 +1,4 @@
-// The comparator's mesh: a rectangle in 8-node serendipity elements.
+// Mesh for comparison with finite elements: a rectangle divided into 8-node serendipity elements.
 //
 // clang-format off
 //     3---6---2      Nodes are numbered row by row from the first corner of the outline, along its first edge:
@@ -13,10 +13,10 @@
 
 namespace scabo::mesh {
 
-/// Nodes that divide_grid would make.
+/// Number of nodes that divide_grid would create.
 double count_grid_nodes(const model::Body& body);
 
-/// The rectangle `body`, which may be turned, in nx x ny elements not longer than `size`.
+/// Divides the rectangle `body`, which may be rotated, into nx x ny elements not longer than `size`.
 BodyMesh divide_grid(const model::Body& body);
 
 }  // namespace scabo::mesh

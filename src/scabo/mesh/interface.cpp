@@ -17,10 +17,10 @@ namespace scabo::mesh {
 
 namespace {
 
-/// How far beyond the end of a rigid edge, over its length, a foot still lies on it.
+/// Distance beyond the end of a rigid edge, relative to its length, up to which a foot still counts as on it.
 constexpr double end_tolerance = 1e-9;
 
-using Partners = std::vector<std::array<int, 2>>;  // places in side A, side B; -1 on a rigid side
+using Partners = std::vector<std::array<int, 2>>;  // positions in side A, side B; -1 on a rigid side
 
 double largest_coordinate(const std::vector<ContactPair>& pairs) {
   double largest = 0.0;
@@ -32,10 +32,10 @@ double largest_coordinate(const std::vector<ContactPair>& pairs) {
 
 std::string text_of(const Vec2& point) { return fmt::format("({:.6g}, {:.6g})", point.x(), point.y()); }
 
-/// Where the middle of the pair lies; the same when A and B are swapped.
+/// The midpoint of the pair, which does not change if A and B are swapped.
 Vec2 middle_of(const ContactPair& pair) { return 0.5 * (pair.point_a + pair.point_b); }
 
-/// Matches one contact; keeps what every step needs.
+/// Matches one contact, with the data common to all steps.
 class Matching {
  public:
   Matching(const model::Model& model, int contact, const std::vector<BodyMesh>& bodies)
@@ -77,7 +77,7 @@ class Matching {
   }
 
   Diagnostic not_overlapping() const {
-    return mistake(fmt::format("{} and {} do not lie over each other anywhere: move a body, or name other edges",
+    return mistake(fmt::format("{} and {} are nowhere opposite each other: move a body, or name other edges",
                                contact_.a.text, contact_.b.text));
   }
 
@@ -91,7 +91,7 @@ class Matching {
              0;
     };
     if (matching.lone) return not_matching(*matching.lone);
-    // Bodies of one linear element each meet at the ends of their edges only; two corners alone are no edge.
+    // Bodies with one linear element per edge meet only at the ends of their edges; two single corners are not an edge.
     const bool overlap = matching.partners.size() > 1 || (some(Lie::face_to_face) && !matching.partners.empty());
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
@@ -140,14 +140,13 @@ class Matching {
     }
     if (!over) {
       const auto& [elastic, rigid] = a_is_rigid ? std::tie(contact_.b, contact_.a) : std::tie(contact_.a, contact_.b);
-      return mistake(
-          fmt::format("no node of {} lies over the rigid {}: move a body, name other edges, or use "
-                      "a smaller mesh size",
-                      elastic.text, rigid.text));
+      return mistake(fmt::format(
+          "no node of {} lies opposite the rigid {}: move a body, name other edges, or use a smaller mesh size",
+          elastic.text, rigid.text));
     }
     if (!facing) return not_facing();
 
-    // A closed edge may be paired across its first node: start after a node without partner.
+    // A closed edge may be paired across its first node: start after a node without a partner.
     int first = 0;
     while (side.closed && feet[first] && first + 1 < side.size()) ++first;
     for (int k = 0; k < side.size(); ++k) {
@@ -164,8 +163,7 @@ class Matching {
     return std::nullopt;
   }
 
-  /// Where the overlap can be judged: at pairs that are not at an end, where x_B - x_A may run along other
-  /// edges.
+  /// Whether the overlap can be judged at a pair: not at an end, where x_B - x_A may lie along other edges.
   std::vector<ContactPair> inner_pairs() const {
     const std::vector<ContactPair>& pairs = interface_.pairs;
     if (pairs.size() > 2) return {pairs.begin() + 1, pairs.end() - 1};
@@ -176,8 +174,8 @@ class Matching {
     return {middle};
   }
 
-  /// An overlap is only an interference where both bodies have material between the two points. Without it
-  /// the edges are the far sides of the bodies (the bottom of the lower, the top of the upper).
+  /// An overlap is an interference only if both bodies have material between the two points. Otherwise the edges are
+  /// the far sides of the bodies (the bottom of the lower one, the top of the upper one).
   std::optional<Diagnostic> back_to_back() const {
     std::optional<ContactPair> deepest;
     double depth = matching_tolerance * std::min(edge_a_.length(), edge_b_.length());
@@ -193,8 +191,7 @@ class Matching {
       if (holds(body_a_, point) && holds(body_b_, point)) return std::nullopt;
     }
     return mistake(
-        fmt::format("{} and {} face away from each other, {:.3g} back to back: name the two edges that "
-                    "touch",
+        fmt::format("{} and {} face away from each other at a distance of {:.3g}: name the two edges that touch",
                     contact_.a.text, contact_.b.text, depth));
   }
 
@@ -225,7 +222,7 @@ class Matching {
   }
 
   void finish_gaps() {
-    // Coordinates carry rounding errors: a touching interface gets gaps of exactly 0, also when it is turned.
+    // Coordinates have rounding errors; an interface that touches gets gaps of exactly 0, also if it is rotated.
     const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * largest_coordinate(interface_.pairs);
     for (ContactPair& pair : interface_.pairs) {
       const double gap = (pair.point_b - pair.point_a).dot(pair.normal);

@@ -34,10 +34,10 @@ std::vector<double> lobatto_points(int order) {
   std::vector<double> points(order + 1, 0.0);
   points.front() = -1.0;
   points.back() = 1.0;
-  // The upper half by Newton, the lower half mirrored: exactly symmetric. An even order keeps its middle at
-  // 0.
+  // The upper half by Newton's method, the lower half by reflection: exactly symmetric. For an even order the middle
+  // point remains exactly 0.
   for (int i = 1; 2 * i < order; ++i) {
-    double x = std::cos(std::numbers::pi * i / order);  // Chebyshev's points lie close by
+    double x = std::cos(std::numbers::pi * i / order);  // Chebyshev points are close
     for (int iteration = 0; iteration < 100; ++iteration) {
       const Legendre p = legendre(order, x);
       // (1 - x^2) P_p' = p (P_{p-1} - x P_p), and its derivative is -p (p + 1) P_p.

@@ -1,7 +1,7 @@
 // Gauss-Lobatto-Legendre basis: the polynomials of a boundary element of order p.
 //
-// Points eta_0 = -1 < ... < eta_p = 1 are the ends and the zeros of P_p', the derivative of Legendre's
-// polynomial. The quadrature on them is exact up to degree 2 p - 1.
+// Points eta_0 = -1 < ... < eta_p = 1 are the ends and the zeros of P_p', the derivative of Legendre's polynomial.
+// Quadrature at these points is exact up to degree 2 p - 1.
 #pragma once
 
 #include <vector>

@@ -12,20 +12,19 @@ namespace scabo::mesh {
 
 namespace {
 
-/// More than this in one model is taken for a mistyped size.
+/// A larger number in one model is taken as a mistyped size.
 constexpr double most_nodes = 1e6;
 
-/// What forbids to divide the body, found before anything is allocated.
+/// Reason why the body cannot be divided, found before memory is allocated.
 std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) {
   const bool fem = body.mesh.kind == model::MeshKind::fem;
   if (fem && !body.outline.rectangle) {
     return {{body.mesh.source,
-             "'kind: fem' divides rectangles only: give the body a 'rectangle' shape, or leave "
-             "out 'kind'"}};
+             "'kind: fem' is available only for rectangles: give the body a 'rectangle' shape, or leave out 'kind'"}};
   }
   if (fem && body.mesh.order != 2) {
     return {{body.mesh.source,
-             fmt::format("'kind: fem' has elements of order 2, not {}: leave out 'order'", body.mesh.order)}};
+             fmt::format("'kind: fem' uses elements of order 2, not {}: leave out 'order'", body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
   if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {
@@ -34,14 +33,14 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
                                            nodes_before + nodes, most_nodes)}};
   }
   if (!(nodes <= most_nodes)) {
-    return {{body.mesh.source, fmt::format("size {:.6g} would make {:.3g} nodes, more than the {:.7g} allowed: use "
-                                           "a larger 'size'",
-                                           body.mesh.size, nodes, most_nodes)}};
+    return {{body.mesh.source,
+             fmt::format("size {:.6g} would give {:.3g} nodes, more than the {:.7g} allowed: use a larger 'size'",
+                         body.mesh.size, nodes, most_nodes)}};
   }
   return {};
 }
 
-/// Places `near` the mouth of a crack, where two nodes are equally near.
+/// Places `near` the mouth of a crack, where two nodes are equally close.
 std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& mesh) {
   std::vector<Diagnostic> mistakes;
   const auto look = [&](const model::Place& place, const Source& source) {
@@ -52,11 +51,9 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
     if (body.cracks.empty() || nodes.empty()) return;
     const int node = nodes_of(place, mesh).nodes.front();
     if (node != 0 && node + 1 != static_cast<int>(nodes.size())) return;
-    mistakes.push_back(
-        {source,
-         fmt::format("the nearest node is the mouth of crack '{1}', where there are two: write {0}.{1}.mouth_left "
-                     "or {0}.{1}.mouth_right",
-                     body.name, body.cracks.front().name)});
+    mistakes.push_back({source, fmt::format("the nearest node is the mouth of crack '{1}', where there are two nodes: "
+                                            "write {0}.{1}.mouth_left or {0}.{1}.mouth_right",
+                                            body.name, body.cracks.front().name)});
   };
   for (const model::Support& support : model.supports) look(support.on, support.on.source);
   for (const model::Load& load : model.loads)
@@ -95,7 +92,7 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
     const model::Contact& contact = model.contacts[c];
     ensure(is_edge(contact.a) && is_edge(contact.b), "a contact is between two edges");
     const auto has_mesh = [&](int b) { return model.bodies[b].rigid || !mesh.bodies[b].nodes.empty(); };
-    if (!has_mesh(contact.a.body) || !has_mesh(contact.b.body)) continue;  // its mistake is reported already
+    if (!has_mesh(contact.a.body) || !has_mesh(contact.b.body)) continue;  // its mistake has been reported
     auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
     if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched)) {
       mistakes.push_back(*wrong);

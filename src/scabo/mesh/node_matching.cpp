@@ -12,11 +12,11 @@ namespace {
 
 using Partners = std::vector<std::array<int, 2>>;
 
-/// For curved edges, offset along the edge in node spacings, and against the gap.
+/// Tolerances for curved edges: offset along the edge in node spacings, and relative to the gap.
 constexpr double curved_tolerance = 0.02;
 constexpr double curved_slope = 0.5;
 
-/// Part of x_B - x_A along the interface.
+/// Component of x_B - x_A along the interface.
 double offset_along(const ContactSide& a, int i, const ContactSide& b, int j) {
   return (b.points[j] - a.points[i]).dot(tangent_of(common_normal(a.normals[i], b.normals[j])));
 }
@@ -31,7 +31,7 @@ bool nodes_match(const ContactSide& a, int i, const ContactSide& b, int j) {
   const double tolerance = matching_tolerance * std::min(a.element_length, b.element_length);
   if (std::abs(along) <= tolerance) return true;
 
-  // Between the normals of the two sides, as divided and as they were before?
+  // Whether it lies between the normals of the two sides, as divided or exact.
   double low = 0.0;
   double high = 0.0;
   for (const Vec2& normal : {a.normals[i], a.true_normals[i], Vec2(-b.normals[j]), Vec2(-b.true_normals[j])}) {
@@ -91,11 +91,11 @@ std::optional<std::array<int, 2>> closest_partners(const ContactSide& a, const C
   return closest;
 }
 
-/// From the closest pair in both directions, as long as the nodes match. In the order of A's boundary.
+/// From the closest pair in both directions as long as the nodes match, in the order of the boundary of A.
 Partners partners_along(const ContactSide& a, const ContactSide& b, const std::array<int, 2>& closest) {
   const auto step = [&](std::array<int, 2> at, int direction) -> std::optional<std::array<int, 2>> {
     at[0] += direction;
-    at[1] -= direction;  // both boundaries run counter-clockwise, so against each other
+    at[1] -= direction;  // both boundaries run counter-clockwise, hence in opposite directions
     if (a.closed) at[0] = (at[0] + a.size()) % a.size();
     if (b.closed) at[1] = (at[1] + b.size()) % b.size();
     if (at[0] < 0 || at[0] >= a.size() || at[1] < 0 || at[1] >= b.size()) return std::nullopt;
@@ -111,8 +111,8 @@ Partners partners_along(const ContactSide& a, const ContactSide& b, const std::a
   return partners;
 }
 
-/// The first node of `side`, from its end or `backwards`, that should have a partner and has none, and of
-/// which it is so (`nearest_matches`) or not that it would match the nearest node.
+/// The first node of `side`, from its start or, if `backwards`, from its end, that should have a partner but has none,
+/// and that would (`nearest_matches`) or would not match the nearest node.
 std::optional<int> first_alone(const ContactSide& side, const std::vector<Lie>& lies, const std::vector<bool>& paired,
                                const ContactSide& other, const std::vector<int>& nearest, bool backwards,
                                bool nearest_matches) {
@@ -142,7 +142,7 @@ NodeMatching match_nodes(const ContactSide& a, const ContactSide& b) {
     paired_b[j] = true;
   }
 
-  // Nodes that do not match their nearest come first: they show the mistake itself, the others what follows.
+  // Nodes that do not match their nearest node come first: they show the mistake itself, the others its consequences.
   const bool backwards = runs_backwards(a.points.front(), a.points.back());
   for (const bool nearest_matches : {false, true}) {
     if (const auto i = first_alone(a, matching.lies_a, paired_a, b, nearest_b, backwards, nearest_matches)) {

@@ -1,5 +1,5 @@
-// Node-to-node matching of two elastic edges: partners, and the nodes that should have one and have none.
-// What matches is defined in interface.hpp.
+// Node-to-node matching of two elastic edges: partners, and nodes that should have a partner but have none.
+// interface.hpp defines which nodes match.
 #pragma once
 
 #include <array>
@@ -10,26 +10,26 @@
 
 namespace scabo::mesh {
 
-/// How a node lies to the other side's edge.
+/// Position of a node relative to the edge of the other side.
 enum class Lie {
   beyond,   ///< its foot is not on the edge
-  at_end,   ///< its foot is an end of the edge
-  averted,  ///< over the edge, but facing another way
+  at_end,   ///< its foot is at an end of the edge
+  averted,  ///< opposite the edge, but facing another direction
   face_to_face
 };
 
-/// A node that should have a partner and has none.
+/// A node that should have a partner but has none.
 struct LoneNode {
-  bool on_a = true;    ///< of side A, else of B
-  int node = -1;       ///< place in that side
-  int nearest = -1;    ///< place in the other side
-  double along = 0.0;  ///< distance from the nearest, along the edge
+  bool on_a = true;    ///< it belongs to side A, otherwise to B
+  int node = -1;       ///< position in that side
+  int nearest = -1;    ///< position of the nearest node in the other side
+  double along = 0.0;  ///< distance from that node along the edge
 };
 
 struct NodeMatching {
   std::vector<Lie> lies_a, lies_b;           ///< for every node of A and of B
-  std::vector<std::array<int, 2>> partners;  ///< places in A and B, in the order of A's boundary
-  std::optional<LoneNode> lone;              ///< the first along the interface
+  std::vector<std::array<int, 2>> partners;  ///< positions in A and B, in the order of the boundary of A
+  std::optional<LoneNode> lone;              ///< the first one along the interface
 };
 
 NodeMatching match_nodes(const ContactSide& a, const ContactSide& b);
@@ -37,14 +37,15 @@ NodeMatching match_nodes(const ContactSide& a, const ContactSide& b);
 /// n = (n_A - n_B) / |n_A - n_B|.
 Vec2 common_normal(const Vec2& normal_a, const Vec2& normal_b);
 
-/// Whether a run from `first` to `last` goes towards smaller x (upright: y).
+/// Whether the direction from `first` to `last` is towards smaller x (if x is equal: y).
 bool runs_backwards(const Vec2& first, const Vec2& last);
 
-/// Faces turned by more than 60 degrees against each other do not face each other ...
+/// Sides whose normals deviate by more than 60 degrees from opposite directions do not face each other ...
 constexpr double facing_cosine = -0.5;
-/// ... but a partner may still be found up to about 87. Not 90: that falls on nodes of half circles.
+/// ... but a partner may be found up to a deviation of about 87 degrees, slightly less than 90, because 90 degrees
+/// falls on nodes of half circles.
 constexpr double pairing_cosine = -0.05;
-/// Offset along the edge, in element lengths, up to which nodes lie opposite each other.
+/// Largest offset along the edge, in element lengths, at which nodes lie opposite each other.
 constexpr double matching_tolerance = 1e-6;
 
 }  // namespace scabo::mesh

@@ -13,7 +13,7 @@ namespace scabo::mesh {
 
 namespace {
 
-/// Of a body's size.
+/// Tolerance relative to the size of a body.
 constexpr double on_outline = 1e-9;
 constexpr double most_points = 1e6;
 
@@ -36,7 +36,7 @@ struct Box {
   void add(const Vec2& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); }
 };
 
-/// Arcs by points close enough for what the box is used for; their extremes exactly.
+/// Bounding box; arcs are represented by sufficiently many points, and their extremes exactly.
 void add(Box& box, const model::Outline& outline) {
   for (const model::Edge& edge : outline.edges) {
     box.add(edge.start);
@@ -55,7 +55,7 @@ double size_of(const model::Outline& outline) {
   return (box.high - box.low).norm();
 }
 
-/// Whether a point of an outside body lies in the angle between its side faces; true where it has none.
+/// Whether a point of an unbounded body lies in the angle between its side faces; true if it has none.
 bool between_side_faces(const model::Body& body, const Vec2& point, double slack) {
   const int corner = body.mesh.centre_corner;
   if (corner < 0) return true;
@@ -74,7 +74,7 @@ bool between_side_faces(const model::Body& body, const Vec2& point, double slack
   return on(first) || on(last) || turn_to(x) <= turn_to(last);
 }
 
-/// Whether a point lies on the way from the scaling centre on a corner of an outside body to its hole's boundary: on
+/// Whether a point lies between the scaling centre at a corner of an unbounded body and the boundary of its hole: on
 /// the outline, but in the hole.
 bool before_side_faces(const model::Body& body, const Vec2& point, double slack) {
   const int corner = body.mesh.centre_corner;
@@ -86,8 +86,8 @@ bool before_side_faces(const model::Body& body, const Vec2& point, double slack)
          (distance_to(leaving, point) <= slack && (point - leaving.end).norm() > slack);
 }
 
-/// Around each body, a little larger than it: a million points and thousands of bodies have few pairs that are worth a
-/// closer look.
+/// Bounding boxes, slightly larger than the bodies: of a million points and thousands of bodies only a few combinations
+/// need a closer check.
 std::vector<Box> boxes_of(const model::Model& model) {
   std::vector<Box> boxes(model.bodies.size());
   for (std::size_t b = 0; b < boxes.size(); ++b) {
@@ -117,7 +117,7 @@ std::vector<int> bodies_at(const model::Model& model, const std::vector<Box>& bo
 
 std::string coordinates_of(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
 
-/// Why a point has no value.
+/// Reason why a point has no value.
 std::string lies_outside(const model::Model& model, const Vec2& point, int only) {
   if (only >= 0) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(only)];
@@ -187,7 +187,7 @@ void add_grid(const model::Model& model, const std::vector<Box>& boxes, const mo
   for (const double y : axes[1])
     for (const double x : axes[0])
       for (const int body : bodies_at(model, boxes, {x, y}, grid.body)) points.push_back({"grid", body, {x, y}, 0.0});
-  if (points.empty()) mistakes.push_back({grid.source, "no point of the grid lies in a body: give other coordinates"});
+  if (points.empty()) mistakes.push_back({grid.source, "no point of the grid lies in a body: change its coordinates"});
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ int nearest_boundary_node(const BodyMesh& body, const Vec2& point) {
 std::vector<int> nodes_along(const std::vector<LineElement>& elements) {
   std::vector<int> nodes{elements.front().nodes.front()};
   for (const LineElement& element : elements) {
-    if (element.nodes.front() != nodes.back()) nodes.push_back(element.nodes.front());  // beyond a crack's mouth
+    if (element.nodes.front() != nodes.back()) nodes.push_back(element.nodes.front());  // beyond the mouth of a crack
     nodes.insert(nodes.end(), element.nodes.begin() + 1, element.nodes.end());
   }
   if (nodes.back() == nodes.front()) nodes.pop_back();  // an edge that is the whole boundary

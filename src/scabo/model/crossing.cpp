@@ -46,8 +46,8 @@ Vec2 closest_on(const Edge& edge, const Vec2& point) {
   return (point - edge.start).norm() <= (point - edge.end).norm() ? edge.start : edge.end;
 }
 
-/// Up to four points that the curves of two edges may share: crossings of their full lines and circles, found
-/// without regard to the ends.
+/// Up to four points that the curves of two edges may share: intersections of their full lines and circles, without
+/// regard to the ends.
 struct Candidates {
   std::array<Vec2, 8> points;
   int count = 0;
@@ -60,7 +60,7 @@ void add_line_line(const Edge& a, const Edge& b, Candidates& candidates) {
   const Vec2 da = a.end - a.start;
   const Vec2 db = b.end - b.start;
   const double c = cross(da, db);
-  if (std::abs(c) <= 1e-14 * da.norm() * db.norm()) return;  // parallel: the ends decide
+  if (std::abs(c) <= 1e-14 * da.norm() * db.norm()) return;  // parallel: determined by the ends
   candidates.add(a.start + cross(b.start - a.start, db) / c * da);
 }
 
@@ -77,7 +77,7 @@ void add_line_arc(const Edge& line, const Arc& arc, Candidates& candidates) {
 void add_arc_arc(const Arc& a, const Arc& b, Candidates& candidates) {
   const Vec2 between = b.centre - a.centre;
   const double d = between.norm();
-  if (d <= 1e-12 * std::max(a.radius, b.radius)) return;  // the same centre: the ends decide
+  if (d <= 1e-12 * std::max(a.radius, b.radius)) return;  // same centre: determined by the ends
   const double x = (d * d + (a.radius - b.radius) * (a.radius + b.radius)) / (2.0 * d);
   const double h2 = a.radius * a.radius - x * x;
   if (h2 < -1e-6 * a.radius * a.radius) return;
@@ -109,8 +109,7 @@ Vec2 direction_at(const Edge& edge, bool at_end) {
 /// Curvature of an edge, positive where it turns left.
 double curvature(const Edge& edge) { return edge.arc ? (edge.arc->sweep > 0.0 ? 1.0 : -1.0) / edge.arc->radius : 0.0; }
 
-/// Whether `next`, which starts where `edge` ends, runs back over it. A cusp of two different curves does
-/// not.
+/// Whether `next`, which starts where `edge` ends, runs back over it. A cusp of two different curves does not.
 bool folds_back(const Edge& edge, const Edge& next) {
   const Vec2 back = -direction_at(edge, true);
   const Vec2 forth = direction_at(next, false);
@@ -123,8 +122,8 @@ std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double
   const auto n = static_cast<int>(outline.edges.size());
   const Edge& a = outline.edges[static_cast<std::size_t>(i)];
   const Edge& b = outline.edges[static_cast<std::size_t>(j)];
-  // Next to a shared corner the curves are close by right: two tangential ones meet again, within the
-  // rounding of their coordinates, in a point that is no crossing.
+  // Near a shared corner the curves are necessarily close: two tangential curves meet again, within the rounding of
+  // their coordinates, at a point that is not a crossing.
   const double near_corner = 1e-3 * std::min(a.length(), b.length());
   const bool b_follows = j == i + 1;
   const bool a_follows = i == 0 && j == n - 1;
@@ -167,7 +166,7 @@ std::optional<Crossing> find_crossing(const Outline& outline) {
     boxes.push_back(box_of(edge));
     widths += boxes.back().high - boxes.back().low;
   }
-  // Sweep along the axis on which the edges are short, with those still open in a list.
+  // Sweep along the axis along which the edges are short, with a list of those still open.
   const int axis = widths.x() <= widths.y() ? 0 : 1;
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);

@@ -9,7 +9,7 @@ Vec2 Edge::at(double t) const {
   if (t <= 0.0) return start;
   if (t >= 1.0) return end;
   if (!arc) return start + t * (end - start);
-  // Radii at both ends may differ by the rounding of the user's coordinates; in between they go over.
+  // Radii at both ends may differ by the rounding of the given coordinates; in between they are interpolated.
   const double radius = (1.0 - t) * (start - arc->centre).norm() + t * (end - arc->centre).norm();
   const double angle = arc->start_angle + t * arc->sweep;
   return arc->centre + radius * Vec2(std::cos(angle), std::sin(angle));
@@ -38,7 +38,7 @@ Segment segment_of(const Arc& arc) {
 
 double Outline::area() const {
   if (edges.empty()) return 0.0;
-  const Vec2 origin = edges.front().start;  // near the body: far coordinates would cost digits
+  const Vec2 origin = edges.front().start;  // near the body, because large coordinates would lose digits
   double twice = 0.0;
   for (const Edge& edge : edges) {
     twice += cross(edge.start - origin, edge.end - origin);

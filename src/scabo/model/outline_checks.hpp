@@ -1,4 +1,4 @@
-// What a boundary must be before it can be meshed: simple, and seen as a whole from the scaling centre.
+// Conditions on a boundary before it can be meshed: it is simple, and all of it is visible from the scaling centre.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace scabo::model {
 
-/// Two edges that meet where they should not.
+/// Two edges that intersect although they must not.
 struct Crossing {
   enum class Kind {
-    cross,      ///< or touch, in `point`
-    fold_back,  ///< neighbours that run back over each other, from `point`
+    cross,      ///< they cross or touch at `point`
+    fold_back,  ///< neighbouring edges that overlap, beginning at `point`
   };
   Kind kind = Kind::cross;
   int first = -1;  ///< index of an edge, less than `second`
@@ -20,23 +20,24 @@ struct Crossing {
   Vec2 point = Vec2::Zero();
 };
 
-/// Diagonal of the box around the outline.
+/// Diagonal of the bounding box of the outline.
 double outline_size(const Outline& outline);
 
-/// A crossing; nothing when the closed outline does not meet itself. A sweep along x or y: the box of an edge
-/// is compared only with those it overlaps there.
+/// The first crossing of the closed outline with itself, if there is one. A sweep along x or y compares the bounding
+/// box of an edge only with those that it overlaps in that direction.
 std::optional<Crossing> find_crossing(const Outline& outline);
 
-/// Whether `point` is inside (arcs as chains of lines).
+/// Whether `point` is inside the outline, with arcs approximated by chains of lines.
 bool is_inside(const Outline& outline, const Vec2& point);
 
-/// Edges of which a part is not seen from `centre`. An edge is seen when the tangent at each of its points
-/// passes the centre on its left, at a distance of more than 1e-6 of the size of the body:
-/// for a line the distance of its line, for an arc with centre m and radius r, run counter-clockwise,
-/// min over its angles of r + (m - c).(cos, sin); run clockwise, min of -r - (m - c).(cos, sin).
+/// Edges that are not entirely visible from `centre`. An edge is visible when the tangent at each of its points passes
+/// the centre on its left at a distance of more than 1e-6 of the size of the body. For a straight edge this is the
+/// distance of its line. For an arc with centre m and radius r it is the minimum over its angles of r + (m - c).(cos,
+/// sin) if it runs counter-clockwise, and of -r - (m - c).(cos, sin) if it runs clockwise.
 std::vector<int> unseen_edges(const Outline& outline, const Vec2& centre);
 
-/// A point that sees every edge; nothing when there is none (arcs as 32 tangents each, then checked exactly).
+/// A point from which every edge is visible, if there is one. Arcs are represented by 32 tangents each; the point found
+/// is then checked exactly.
 std::optional<Vec2> seeing_point(const Outline& outline);
 
 }  // namespace scabo::model

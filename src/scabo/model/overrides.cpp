@@ -22,7 +22,7 @@ std::vector<std::string> split_path(std::string_view path) {
   }
 }
 
-/// A copy whose every node says that it comes from the command line, not from a line of the file.
+/// A copy in which every node is marked as coming from the command line, not from a line of the file.
 NodePtr mark_as_override(const NodePtr& node, const std::string& path) {
   auto copy = std::make_shared<Node>(*node);
   copy->line = copy->column = 0;
@@ -35,12 +35,12 @@ NodePtr mark_as_override(const NodePtr& node, const std::string& path) {
   return copy;
 }
 
-/// Replaces one value; copies what lies on the way to it, since aliases share nodes.
+/// Replaces one value; copies the nodes on its path, since aliases share nodes.
 class Replacement {
  public:
   Replacement(const Override& override, NodePtr value) : keys_(split_path(override.path)), value_(std::move(value)) {}
 
-  /// The new tree; nothing, and why() says why, when the path does not lead anywhere.
+  /// The new tree, or nullptr with the reason in why() if the path does not exist.
   NodePtr in(const NodePtr& root) { return replace(root, 0, ""); }
   const std::string& why() const { return why_; }
 
@@ -56,7 +56,7 @@ class Replacement {
                             [&](const MapEntry& candidate) { return candidate.key == name; });
       };
       auto entry = find(key);
-      if (entry == copy->entries.end() && key == "on") entry = find("true");  // what a writer of YAML 1.1 makes of it
+      if (entry == copy->entries.end() && key == "on") entry = find("true");  // as changed by writers of YAML 1.1
       if (entry != copy->entries.end()) {
         const NodePtr inner = replace(entry->value, level + 1, here);
         if (!inner) return nullptr;
@@ -82,14 +82,14 @@ class Replacement {
       copy->items[index] = inner;
       return copy;
     }
-    why_ = path.empty() ? std::string("the model file is empty") : fmt::format("{} has nothing inside it", path);
+    why_ = path.empty() ? std::string("the model file is empty") : fmt::format("{} is empty", path);
     return nullptr;
   }
 
-  /// The value of a key that is not there yet.
+  /// Adds a key that does not exist yet.
   NodePtr add(const Node& map, std::size_t level, const std::string& path) {
     if (level + 1 == keys_.size()) return value_;
-    // Sections may be absent from the file; a body or a contact that is absent is a mistake in the path.
+    // Sections may be absent from the file, but an absent body or contact is a mistake in the path.
     if (level == 0 && level + 2 == keys_.size()) {
       auto section = std::make_shared<Node>();
       section->kind = Node::Kind::map;
@@ -125,7 +125,7 @@ Override parse_override(std::string_view text) {
   const std::vector<std::string> keys = split_path(result.path);
   if (result.path.empty()) fail("has no path before '='");
   if (std::find(keys.begin(), keys.end(), "") != keys.end()) fail("has an empty key in its path");
-  if (keys.size() > 50) fail("has too long a path");
+  if (keys.size() > 50) fail("has a path that is too long");
   return result;
 }
 

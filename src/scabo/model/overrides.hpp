@@ -1,4 +1,4 @@
-// `--set path=value`: a tree with some values replaced.
+// Replacement of values in the tree of a model file (`--set path=value`).
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace scabo::model {
 
-/// The tree with every override put in, in their order. Mistakes are reported; their overrides are left out.
+/// The tree with all overrides applied in their order. Mistakes are reported, and their overrides are left out.
 NodePtr apply_overrides(NodePtr root, const std::vector<Override>& overrides, Report& report);
 
 }  // namespace scabo::model

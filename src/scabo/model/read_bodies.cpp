@@ -18,10 +18,10 @@ constexpr double most_fem_dofs = 1e6;
 
 constexpr const char* body_example = "{material: concrete, shape: {...}, mesh: {size: 0.1}}";
 
-/// Pieces of at most `size` on `length`, without a piece more for the rounding of their quotient.
+/// Number of pieces of at most `size` on `length`, without an additional piece due to rounding of their quotient.
 double pieces(double length, double size) { return std::max(1.0, std::ceil(length / size * (1.0 - 1e-12))); }
 
-/// Degrees of freedom that a mesh size leads to; in floating point, since 1e30 is a possible answer.
+/// Number of degrees of freedom for a mesh size; in floating point, since it may be as large as 1e30.
 double estimated_dofs(const Outline& outline, MeshKind kind, double size, int order) {
   if (kind == MeshKind::fem) {
     const double nx = pieces(outline.edges[0].length(), size);
@@ -40,7 +40,7 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
   return name_list(names);
 }
 
-/// Reports a scaling centre that does not see the whole boundary, with a better one where there is one.
+/// Reports a scaling centre from which the boundary is not entirely visible, with a better one if there is one.
 void check_centre(Reading& reading, const Source& at, const Outline& outline, const Vec2& centre, bool given,
                   int corner, const Crack* crack) {
   std::vector<int> unseen = unseen_edges(outline, centre);
@@ -50,8 +50,8 @@ void check_centre(Reading& reading, const Source& at, const Outline& outline, co
   if (unseen.empty()) return;
   if (crack != nullptr) {
     reading.report.error(crack->source,
-                         fmt::format("the tip {} of crack '{}', the scaling centre, does not see {}: move the tip, or "
-                                     "divide the body into several",
+                         fmt::format("from the tip {} of crack '{}', which is the scaling centre, not every point of "
+                                     "{} is visible: move the tip, or divide the body into several bodies",
                                      point_text(centre), crack->name, edge_names(outline, unseen)));
     return;
   }
@@ -59,29 +59,31 @@ void check_centre(Reading& reading, const Source& at, const Outline& outline, co
   const std::string remedy =
       better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
                            given ? "use" : "give", better->x(), better->y())
-             : "no point sees the whole boundary: divide the body into several bodies";
+             : "the whole boundary is visible from no point: divide the body into several bodies";
   const std::string who = fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
   if (corner < 0 && !is_inside(outline, centre)) {
     reading.report.error(at, fmt::format("{} is not inside the body: {}", who, remedy));
   } else {
-    reading.report.error(at, fmt::format("{} does not see {}: {}", who, edge_names(outline, unseen), remedy));
+    reading.report.error(
+        at, fmt::format("not every point of {} is visible from {}: {}", edge_names(outline, unseen), who, remedy));
   }
 }
 
-/// Corner of the outline at a point; -1 when there is none.
+/// Corner of the outline at a point; -1 if there is none.
 int corner_at(const Outline& outline, const Vec2& point) {
   for (std::size_t i = 0; i < outline.corners.size(); ++i)
     if ((outline.corners[i].position - point).norm() <= 1e-9 * outline_size(outline)) return static_cast<int>(i);
   return -1;
 }
 
-/// The two edges at the scaling centre must be straight, and not all there is.
+/// The two edges at the scaling centre must be straight.
 void check_side_faces(Reading& reading, const Value& at, const Outline& outline, int corner) {
   const auto count = outline.edges.size();
   const auto c = static_cast<std::size_t>(corner);
   for (const std::size_t edge : {c, (c + count - 1) % count})
     if (outline.edges[edge].arc)
-      reading.report.error(at, fmt::format("{} meets the scaling centre and is an arc: side faces are straight",
+      reading.report.error(at, fmt::format("{} is an arc that ends at the scaling centre, where side faces must be "
+                                           "straight: use a line there, or move the scaling centre",
                                            shown_name(outline.edges[edge])));
 }
 
@@ -94,16 +96,15 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   MeshOptions mesh;
   mesh.source = value.source();
   if (const auto kind = map.get("kind")) {
-    const Later later{{"polygons", "use superelement, one for the whole body"},
-                      {"quadtree", "use superelement, one for the whole body"}};
+    const Later later{{"polygons", "use superelement"}, {"quadtree", "use superelement"}};
     const auto choice = read_choice(report, *kind, {"superelement", "fem"}, later);
     if (choice && *choice == "fem") mesh.kind = MeshKind::fem;
     if (mesh.kind == MeshKind::fem && outline != nullptr && !outline->rectangle) {
-      report.error(*kind, "fem divides only a shape given as rectangle: use superelement");
+      report.error(*kind, "fem is available only for a shape given as rectangle: use superelement");
     }
   }
   const bool fem = mesh.kind == MeshKind::fem;
-  if (fem) map.refuse("tolerance", "only a superelement is refined: leave it out for fem");
+  if (fem) map.refuse("tolerance", "only super-elements are refined: leave 'tolerance' out for fem");
   if (const auto tolerance = fem ? std::nullopt : map.get("tolerance")) {
     const auto number = read_number(report, *tolerance);
     if (number && *number >= 1e-5 && *number <= 0.5) mesh.tolerance = *number;
@@ -120,14 +121,15 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   if (const auto order = map.get("order")) {
     mesh.order = static_cast<int>(read_integer(report, *order, 1, 16).value_or(2));
     if (fem && mesh.order != 2) {
-      report.error(*order, "fem has 8-node elements, of order 2: leave order out");
+      report.error(*order, "fem uses 8-node elements of order 2: leave 'order' out");
     }
   }
-  if (fem) map.refuse("centre", "a scaling centre belongs to a superelement: leave it out for fem");
-  if (fem && crack != nullptr) report.error(crack->source, "a crack belongs to a superelement: leave it out for fem");
+  if (fem) map.refuse("centre", "only a super-element has a scaling centre: leave 'centre' out for fem");
+  if (fem && crack != nullptr)
+    report.error(crack->source, "only a super-element can have a crack: leave the crack out, or use superelement");
   if (outline != nullptr) mesh.centre = crack != nullptr ? crack->tip : outline->centroid();
   if (crack != nullptr)
-    map.refuse("centre", "the scaling centre of a body with a crack is the crack's tip: leave it out");
+    map.refuse("centre", "the scaling centre of a body with a crack is the tip of the crack: leave 'centre' out");
   const auto centre = fem ? std::nullopt : map.get("centre");
   if (centre) {
     const auto point = read_vector(report, *centre);
@@ -138,10 +140,10 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   const double dofs = estimated_dofs(*outline, mesh.kind, mesh.size, mesh.order);
   const double most = fem ? most_fem_dofs : most_superelement_dofs;
   if (dofs > most) {
-    report.error(
-        size ? *size : value,
-        fmt::format("gives {:.6g} degrees of freedom, {} take at most {:.6g}: use a larger size{}", dofs,
-                    fem ? "finite elements" : "one super-element can", most, fem ? "" : " or divide the body"));
+    report.error(size ? *size : value,
+                 fmt::format("gives {:.6g} degrees of freedom, but {} at most {:.6g}: use a larger size{}", dofs,
+                             fem ? "finite elements may have" : "one super-element may have", most,
+                             fem ? "" : " or divide the body"));
     return {};
   }
   if (centre) {
@@ -152,7 +154,7 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
     }
   }
   if (!fem) {
-    // Without mesh.centre the remedy is to give one: the body's mesh is where it goes.
+    // Without mesh.centre the remedy is to give one; the position is that of the mesh of the body.
     check_centre(reading, centre ? centre->source() : mesh.source, *outline, mesh.centre, centre.has_value(),
                  mesh.centre_corner, crack);
     if (report.count() > before) return {};
@@ -168,7 +170,7 @@ std::optional<int> read_material_name(Reading& reading, const Value& value) {
   const auto found = reading.index_of_material.find(*name);
   if (found == reading.index_of_material.end()) {
     const std::string hint = reading.report.full() ? "" : suggestion(*name, reading.material_names);
-    reading.report.error(value, fmt::format("no material named {}{}", quoted_name(*name), hint));
+    reading.report.error(value, fmt::format("there is no material named {}{}", quoted_name(*name), hint));
     return {};
   }
   return reading.material_index[static_cast<std::size_t>(found->second)];
@@ -176,28 +178,28 @@ std::optional<int> read_material_name(Reading& reading, const Value& value) {
 
 namespace {
 
-/// What makes a body's super-element open or unbounded: read after the shape, before and after the mesh.
+/// Reads whether the super-element of a body is unbounded, after its shape and mesh.
 void read_outside(Reading& reading, const MapReader& map, Body& body, bool shape_known) {
   const auto outside = map.get("outside");
   if (outside) body.outside = read_flag(reading.report, *outside).value_or(false);
   const auto reference = map.get("reference");
   if (reference && !body.outside) {
-    map.refuse("reference", "a reference point belongs to a body with outside: true");
+    map.refuse("reference", "only a body with outside: true has a reference point: leave it out");
   } else if (reference) {
     body.reference = read_vector(reading.report, *reference);
     if (body.reference && shape_known && is_inside(body.outline, *body.reference)) {
-      reading.report.error(*reference,
-                           fmt::format("{} lies in the hole, not in the body", point_text(*body.reference)));
+      reading.report.error(*reference, fmt::format("{} lies in the hole, not in the body: choose a point of the body",
+                                                   point_text(*body.reference)));
       body.reference.reset();
     }
   }
   if (!body.outside) return;
-  map.refuse("cracks", "a body with outside: true has no cracks in this version");
+  map.refuse("cracks", "cracks in a body with outside: true are not available in this version: leave them out");
   if (body.mesh.kind == MeshKind::fem)
-    map.refuse("outside", "finite elements do not reach to infinity: use superelement");
+    map.refuse("outside", "finite elements cannot model an unbounded body: use superelement");
 }
 
-/// An outside body's outline runs the other way round: its material is on the left again.
+/// Reverses the outline of an unbounded body, so that its material is again on the left.
 void turn_outside(Body& body) {
   const int count = static_cast<int>(body.outline.edges.size());
   turn_round(body.outline);
@@ -214,7 +216,7 @@ void read_body(Reading& reading, const Entry& entry) {
   BodyState state;
   body.name = entry.key;
   body.source = entry.key_source;
-  state.held = !map.is_map();  // said already; whether it is held is not the question then
+  state.held = !map.is_map();  // reported already; supports are then not checked
   const auto rigid_value = map.get("rigid");
   const auto rigid = rigid_value ? read_flag(report, *rigid_value) : std::optional(false);
   body.rigid = rigid.value_or(false);
@@ -227,9 +229,9 @@ void read_body(Reading& reading, const Entry& entry) {
   }
   if (body.rigid) {
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference"}) {
-      map.refuse(key, "a rigid body has neither material nor mesh: leave it out");
+      map.refuse(key, "does not apply to a rigid body: leave it out");
     }
-  } else if (rigid) {  // otherwise nobody knows what it needs
+  } else if (rigid) {  // otherwise the required keys are not known
     if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
     state.material = body.material >= 0;
     if (const auto cracks = map.get("cracks"); cracks && state.shape) {
@@ -245,11 +247,11 @@ void read_body(Reading& reading, const Entry& entry) {
       if (options)
         body.mesh = *options;
       else if (mesh->node->kind == Node::Kind::map && mesh->node->find("centre"))
-        state.shape = false;  // faces are not known
+        state.shape = false;  // side faces are not known
     }
     if (const auto sectors = map.get("sectors"); sectors && state.shape) {
       if (body.mesh.kind == MeshKind::fem)
-        map.refuse("sectors", "sectors belong to a superelement: leave them out for fem");
+        map.refuse("sectors", "only a super-element has sectors: leave them out for fem");
       else
         body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
     }
@@ -274,10 +276,10 @@ int Reading::body_index(std::string_view name) const {
 void read_bodies(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
   const auto entries = read_named(reading.report, value, "bodies", fmt::format("{{beam: {}}}", body_example));
-  // A body whose name is no name is not in the list, but others may speak of it.
+  // A body with an invalid name is not in the list, but others may refer to it.
   if (reading.report.count() > before) reading.bodies_known = false;
   if (value.node->kind == Node::Kind::map && value.node->entries.empty()) {
-    reading.report.error(value, "holds no body");
+    reading.report.error(value, "contains no body: define at least one");
   }
   for (const Entry& entry : entries) read_body(reading, entry);
   const bool all_rigid = std::all_of(reading.model.bodies.begin(), reading.model.bodies.end(),

@@ -12,35 +12,35 @@ namespace {
 
 constexpr const char* contact_example = "{between: [lower.top, upper.bottom], friction: 0.2}";
 
-/// One side; nothing when it is broken or no edge.
+/// One side; nothing if it is broken or not an edge.
 std::optional<Place> read_side(Reading& reading, const Value& value, int& body) {
   const ReadPlace read = read_place(reading, value);
   body = read.body;
   if (read.body >= 0) reading.state(read.body).touched = true;
   if (!read.place) return {};
   if (read.place->kind == Place::Kind::face) {
-    reading.report.error(value,
-                         fmt::format("'{}' is a side face, which is not divided: contact on it needs a body divided "
-                                     "into several, with the crack between them",
-                                     read.place->text));
+    reading.report.error(value, fmt::format("'{}' is a side face, which has no nodes between its ends: for contact "
+                                            "between the faces of a crack, divide the body along the crack",
+                                            read.place->text));
     return {};
   }
   for (const Crack& crack : reading.body(read.place->body).cracks)
     if (crack.edge == read.place->index && read.place->kind == Place::Kind::edge) {
-      reading.report.error(value, fmt::format("the mouth of crack '{}' lies on '{}': contact needs an edge without one",
+      reading.report.error(value, fmt::format("the mouth of crack '{}' lies on '{}', but a contact needs an edge "
+                                              "without a crack mouth: divide the edge, or name another one",
                                               crack.name, read.place->text));
       return {};
     }
   if (read.place->kind != Place::Kind::edge) {
-    reading.report.error(value, fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is "
-                                            "none",
-                                            read.place->text));
+    reading.report.error(
+        value, fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is not an edge",
+                           read.place->text));
     return {};
   }
   return read.place;
 }
 
-/// Both sides; nothing when one is broken or they cannot touch each other.
+/// Both sides; nothing if one is broken or they cannot touch each other.
 std::optional<std::pair<Place, Place>> read_between(Reading& reading, const Value& value) {
   if (value.node->kind != Node::Kind::sequence || value.node->items.size() != 2) {
     reading.places_known = false;
@@ -52,7 +52,7 @@ std::optional<std::pair<Place, Place>> read_between(Reading& reading, const Valu
   const auto a = read_side(reading, value.item(0), body_a);
   const auto b = read_side(reading, value.item(1), body_b);
   if (body_a >= 0 && body_a == body_b) {
-    reading.report.error(value, fmt::format("a body cannot be in contact with itself: both edges are of '{}'",
+    reading.report.error(value, fmt::format("a body cannot be in contact with itself: both edges belong to '{}'",
                                             reading.body(body_a).name));
     return {};
   }
@@ -70,8 +70,8 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
   const std::size_t before = report.count();
   const MapReader map(report, entry.value,
                       {"between", "friction", "gap", "cohesion", "tension", "bond", "shear_strength"}, contact_example,
-                      {{"kind", "leave it out, every contact is node to node"},
-                       {"penalty", "leave it out, contact is solved exactly"}});
+                      {{"kind", "leave it out; every contact is node-to-node"},
+                       {"penalty", "leave it out; the contact conditions are met without a penalty"}});
   Contact contact;
   contact.name = entry.key;
   contact.source = entry.key_source;
@@ -81,7 +81,7 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry) {
   read_law(reading, map, contact);
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
   if (contact.bond && map.has("gap"))
-    map.refuse("gap", "a bonded contact holds its sides as they are at the start: leave it out");
+    map.refuse("gap", "a bonded contact keeps the initial distance of its sides: leave 'gap' out");
   if (report.count() > before || !between) return {};
   contact.a = between->first;
   contact.b = between->second;
@@ -106,8 +106,9 @@ void read_contacts(Reading& reading, const Value& value) {
     if (pair[0] > pair[2]) pair = {pair[2], pair[3], pair[0], pair[1]};
     const auto [first, is_new] = pairs.emplace(pair, contact->name);
     if (!is_new) {
-      reading.report.error(entry.key_source,
-                           fmt::format("'{}' is between the same two edges already: remove one", first->second));
+      reading.report.error(
+          entry.key_source,
+          fmt::format("contact '{}' already connects the same two edges: remove one of the two", first->second));
     }
     reading.model.contacts.push_back(std::move(*contact));
   }

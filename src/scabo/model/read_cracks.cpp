@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* crack_example = "{tip: [0.5, 0], mouth: [0, 0], name: flaw}";
 
-/// Where a point of the boundary lies along an edge.
+/// Position of a point of the boundary along an edge.
 struct OnEdge {
   int edge = -1;
   double at = 0.0;
 };
 
-/// Fraction of the edge's length at the point of it that is closest to `x`.
+/// Position, as a fraction of the length of the edge, of its point closest to `x`.
 double closest_fraction(const Edge& edge, const Vec2& x) {
   if (!edge.arc) {
     const Vec2 along = edge.end - edge.start;
@@ -44,7 +44,7 @@ std::optional<OnEdge> find_on_outline(const Outline& outline, const Vec2& x) {
   return {};
 }
 
-/// The middle of an edge or a corner of this body by name, `left` or `plate.left`.
+/// The middle of an edge, or a corner, of this body by its name, `left` or `plate.left`.
 std::optional<OnEdge> mouth_named(Reading& reading, const Value& value, const Body& body) {
   const auto text = read_text(reading.report, value);
   if (!text) return {};
@@ -64,15 +64,16 @@ std::optional<OnEdge> mouth_named(Reading& reading, const Value& value, const Bo
   return {};
 }
 
-/// `mouth`: a point of the outline, a corner, or an edge, of which the middle is meant.
+/// `mouth`: a point of the outline, a corner, or an edge, which stands for its middle.
 std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Body& body) {
   if (value.node->kind == Node::Kind::scalar) return mouth_named(reading, value, body);
   const auto point = read_vector(reading.report, value);
   if (!point) return {};
   const auto found = find_on_outline(body.outline, *point);
   if (!found) {
-    reading.report.error(value, fmt::format("{} does not lie on the boundary of '{}': the mouth of an edge crack does",
-                                            point_text(*point), body.name));
+    reading.report.error(
+        value, fmt::format("{} does not lie on the boundary of '{}': place the mouth of the crack on the boundary",
+                           point_text(*point), body.name));
     return {};
   }
   const int count = static_cast<int>(body.outline.edges.size());
@@ -83,8 +84,9 @@ std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Bod
   if (from_end <= 1e-9 * size) return OnEdge{(found->edge + 1) % count, 0.0};
   if (std::min(from_start, from_end) < 1e-6 * size) {
     reading.report.error(
-        value, fmt::format("{} is not quite a corner of '{}': put the mouth on the corner, or farther from it",
-                           point_text(*point), body.name));
+        value,
+        fmt::format("{} is close to a corner of '{}' but not on it: place the mouth on the corner, or farther from it",
+                    point_text(*point), body.name));
     return {};
   }
   return found;
@@ -93,7 +95,7 @@ std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Bod
 std::optional<Crack> read_crack(Reading& reading, const Value& value, const Body& body) {
   const std::size_t before = reading.report.count();
   const MapReader map(reading.report, value, {"tip", "mouth", "name"}, crack_example,
-                      {{"kink", "cracks are straight: divide the body"}});
+                      {{"kink", "cracks are straight; divide the body at the kink"}});
   Crack crack;
   crack.source = value.source();
   crack.name = "crack";
@@ -105,7 +107,8 @@ std::optional<Crack> read_crack(Reading& reading, const Value& value, const Body
     const auto point = read_vector(reading.report, *tip);
     if (point) crack.tip = *point;
     if (point && !is_inside(body.outline, *point))
-      reading.report.error(*tip, fmt::format("the tip {} is not inside body '{}'", point_text(*point), body.name));
+      reading.report.error(
+          *tip, fmt::format("the tip {} is not inside body '{}': move the tip", point_text(*point), body.name));
   }
   if (const auto mouth = map.need("mouth")) {
     if (const auto at = read_mouth(reading, *mouth, body)) {
@@ -116,11 +119,11 @@ std::optional<Crack> read_crack(Reading& reading, const Value& value, const Body
   }
   for (const Edge& edge : body.outline.edges)
     if (std::find(edge.names.begin(), edge.names.end(), crack.name) != edge.names.end())
-      reading.report.error(value, fmt::format("an edge of '{}' is named '{}' as well: give the crack another name",
-                                              body.name, crack.name));
+      reading.report.error(
+          value, fmt::format("an edge of '{}' is also named '{}': give the crack another name", body.name, crack.name));
   for (const Corner& corner : body.outline.corners)
     if (std::find(corner.names.begin(), corner.names.end(), crack.name) != corner.names.end())
-      reading.report.error(value, fmt::format("a corner of '{}' is named '{}' as well: give the crack another name",
+      reading.report.error(value, fmt::format("a corner of '{}' is also named '{}': give the crack another name",
                                               body.name, crack.name));
   if (reading.report.count() > before) return {};
   return crack;
@@ -133,7 +136,7 @@ std::optional<std::vector<Crack>> read_cracks(Reading& reading, const Value& val
   const auto items = read_list(reading.report, value, fmt::format("[{}]", crack_example));
   if (!items) return {};
   if (items->size() > 1) {
-    reading.report.error((*items)[1], "a body has one crack in this version: divide it into several bodies");
+    reading.report.error((*items)[1], "a body may have only one crack in this version: divide it into several bodies");
     return {};
   }
   std::vector<Crack> cracks;
@@ -162,13 +165,13 @@ std::optional<std::vector<int>> read_sectors(Reading& reading, const Value& valu
     }
     if (!told.insert(found).second) {
       reading.report.error(entry.key_source,
-                           fmt::format("the sector over {} has a material already",
+                           fmt::format("the sector over {} already has a material: remove one of the two",
                                        shown_name(body.outline.edges[static_cast<std::size_t>(found)])));
       continue;
     }
     const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
     if (corner >= 0 && (found == corner || found == (corner + count - 1) % count)) {
-      reading.report.error(entry.key_source, "this edge is a side face, which has no sector");
+      reading.report.error(entry.key_source, "this edge is a side face, which has no sector: leave it out");
       continue;
     }
     if (const auto material = read_material_name(reading, entry.value))

@@ -1,4 +1,4 @@
-// Loads that act where nothing is divided: tractions on side faces, body forces, temperature.
+// Loads on side faces and inside bodies: tractions on side faces, body forces, temperature.
 #include "scabo/model/read_inner_loads.hpp"
 
 #include <fmt/format.h>
@@ -40,14 +40,16 @@ std::optional<std::vector<FaceTraction::Term>> read_powers(Reading& reading, con
     }
     FaceTraction::Term term{std::get<double>(power), Vec2::Zero()};
     if (!(term.power > -1.0 && term.power <= highest_power)) {
-      reading.report.error(key,
-                           fmt::format("a power of xi must be greater than -1 (its force is infinite otherwise) and at "
-                                       "most {}, not {}",
-                                       highest_power, entry.key));
+      reading.report.error(
+          key,
+          fmt::format(
+              "a power of xi must be greater than -1 (otherwise the total force is infinite) and at most {}, not {}",
+              highest_power, entry.key));
       return {};
     }
     if (std::any_of(terms.begin(), terms.end(), [&](const auto& other) { return other.power == term.power; })) {
-      reading.report.error(key, fmt::format("the power {} is there already", number_text(term.power)));
+      reading.report.error(key,
+                           fmt::format("the power {} is given twice: remove one of the two", number_text(term.power)));
       return {};
     }
     const auto read = read_value(reading, item, pressure);
@@ -89,9 +91,9 @@ std::optional<std::vector<FaceTraction::Term>> read_points(Reading& reading, con
   const auto items = read_list(reading.report, value, example);
   if (!items) return {};
   if (items->empty() || items->size() > most_points) {
-    reading.report.error(value, fmt::format("must be 1 to {} points, not {}: the polynomial through more is not to be "
-                                            "trusted; use powers",
-                                            most_points, items->size()));
+    reading.report.error(
+        value, fmt::format("must be 1 to {} points, not {}: a polynomial through more points oscillates; use powers",
+                           most_points, items->size()));
     return {};
   }
   std::vector<Sample> samples;
@@ -115,7 +117,7 @@ std::optional<std::vector<FaceTraction::Term>> read_points(Reading& reading, con
       sample.value[static_cast<Eigen::Index>(c - 1)] = read_number(reading.report, item.item(c)).value_or(0.0);
     if (std::any_of(samples.begin(), samples.end(),
                     [&](const Sample& other) { return std::abs(other.xi - sample.xi) < 1e-6; }))
-      reading.report.error(item, "two points have the same xi");
+      reading.report.error(item, "two points have the same xi: remove one of them");
     samples.push_back(sample);
   }
   if (reading.report.count() > before) return {};
@@ -136,7 +138,7 @@ std::optional<FaceTraction> read_face_traction(Reading& reading, const Value& va
   const MapReader map(reading.report, value, {"powers", "points"}, "{powers: {0: 1e3, 1: -1e3}}");
   const auto powers = map.get("powers"), points = map.get("points");
   if (powers.has_value() == points.has_value()) {
-    if (map.all_known()) reading.report.error(value, "needs one of powers and points");
+    if (map.all_known()) reading.report.error(value, "needs exactly one of powers and points");
     return {};
   }
   auto terms = powers ? read_powers(reading, *powers, pressure) : read_points(reading, *points, pressure);

@@ -1,4 +1,5 @@
-// Loads that act where nothing is divided. Each function reads one value and returns nothing when it is broken.
+// Loads on side faces and inside bodies, where there are no boundary elements. Each function reads one value and
+// returns nothing if it is broken.
 #pragma once
 
 #include "scabo/model/reading.hpp"

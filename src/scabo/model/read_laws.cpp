@@ -1,4 +1,4 @@
-// What a contact carries: friction, cohesion, tensile strength, bond, prescribed bound.
+// Contact laws: friction, cohesion, tensile strength, bond, prescribed bound.
 #include <fmt/format.h>
 
 #include "scabo/model/numbers.hpp"
@@ -11,15 +11,15 @@ namespace {
 constexpr const char* friction_example =
     "0.3, {static: 0.5, dynamic: 0.3, slip_distance: 1e-4} or {along: [[0, 0.3], [1, 0.5]]}";
 
-constexpr double largest_coefficient = 1e6;  // beyond, forces that balance drown in rounding
+constexpr double largest_coefficient = 1e6;  // for larger values the forces in balance are lost in rounding
 
 double read_coefficient(Report& report, const Value& value) {
   const double friction = read_not_negative(report, value).value_or(0.0);
   if (friction <= largest_coefficient) return friction;
-  report.error(
-      value, fmt::format("a coefficient of friction is at most 1e6, not {}: where nothing is to slip that is as good, "
-                         "and 'bond: true' ties both sides",
-                         number_text(friction)));
+  report.error(value,
+               fmt::format("a coefficient of friction must be at most 1e6, not {}: 1e6 already prevents slip, and "
+                           "'bond: true' prevents both slip and opening",
+                           number_text(friction)));
   return 0.0;
 }
 
@@ -32,13 +32,14 @@ void read_along(Report& report, const Value& value, Contact& contact) {
     const auto point = read_vector(report, item);
     if (!point) continue;
     if (point->y() > largest_coefficient)
-      report.error(item, fmt::format("a coefficient of friction is at most 1e6, not {}", number_text(point->y())));
+      report.error(item, fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(point->y())));
     else if (point->x() < 0.0 || point->x() > 1.0)
-      report.error(item, fmt::format("a position along the contact is from 0 to 1, not {}", number_text(point->x())));
+      report.error(item,
+                   fmt::format("a position along the contact must be from 0 to 1, not {}", number_text(point->x())));
     else if (point->y() < 0.0)
       report.error(item, fmt::format("a coefficient of friction must be 0 or more, not {}", number_text(point->y())));
     else if (!contact.friction_along.empty() && point->x() <= contact.friction_along.back().position)
-      report.error(item, "positions along the contact must ascend");
+      report.error(item, "positions along the contact must be in ascending order");
     else
       contact.friction_along.push_back({point->x(), point->y()});
   }
@@ -52,8 +53,8 @@ void read_static_and_dynamic(Report& report, const MapReader& map, Contact& cont
   const double dynamic = least ? read_coefficient(report, *least) : 0.0;
   contact.dynamic_friction = dynamic;
   if (report.count() == before && dynamic > contact.friction)
-    report.error(*least, fmt::format("must not be above the static coefficient {}, not {}",
-                                     number_text(contact.friction), number_text(dynamic)));
+    report.error(*least, fmt::format("must be at most the static coefficient {}, not {}", number_text(contact.friction),
+                                     number_text(dynamic)));
   if (const auto distance = map.get("slip_distance"))
     contact.slip_distance = read_not_negative(report, *distance).value_or(0.0);
 }
@@ -70,7 +71,7 @@ void read_friction(Report& report, const Value& value, Contact& contact) {
     return;
   }
   for (const char* other : {"static", "dynamic", "slip_distance"})
-    if (map.has(other)) map.refuse(other, "does not go with 'along': leave one of them out");
+    if (map.has(other)) map.refuse(other, "cannot be combined with 'along': leave one of them out");
   read_along(report, *along, contact);
 }
 
@@ -90,12 +91,11 @@ void read_law(Reading& reading, const MapReader& map, Contact& contact) {
   if (!contact.bond && contact.shear_strength)
     for (const char* other : {"friction", "cohesion", "tension"})
       if (map.has(other))
-        map.refuse(other, "does not go with 'shear_strength', a bound without friction: leave one of them out");
+        map.refuse(other, "cannot be combined with 'shear_strength', which replaces friction: leave one of them out");
   if (!contact.bond && contact.tension > 0.0 && contact.cohesion == 0.0)
     map.refuse("tension",
-               "a joint that slips loses its tensile strength, and without 'cohesion' nothing keeps this one "
-               "from slipping: "
-               "give both");
+               "a joint that slips loses its tensile strength, and without 'cohesion' nothing prevents this one from "
+               "slipping: give both");
 }
 
 }  // namespace scabo::model

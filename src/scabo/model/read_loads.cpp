@@ -29,7 +29,7 @@ const char* kind_text(Place::Kind kind) {
   return "";
 }
 
-/// Whether a load of this kind can act on a place; reports what to write instead.
+/// Whether a load of this kind can act on a place; otherwise reports an alternative.
 bool check_place(Reading& reading, const Value& on, const Place& place, const std::string& kind) {
   const bool rigid = reading.body(place.body).rigid;
   const std::string& body = reading.body(place.body).name;
@@ -39,29 +39,29 @@ bool check_place(Reading& reading, const Value& on, const Place& place, const st
     if (place.kind != Place::Kind::body) {
       why = fmt::format("{} acts on a whole body: write on: {}", kind, body);
     } else if (rigid) {
-      why =
-          fmt::format("'{}' is rigid: {}", body,
-                      kind == "temperature" ? "temperature does nothing to it" : "it has no weight, use a force on it");
+      why = fmt::format(
+          "'{}' is rigid: {}", body,
+          kind == "temperature" ? "temperature has no effect on it" : "it has no weight; apply a force to it instead");
     } else if (outside) {
-      why = fmt::format("'{}' reaches to infinity: loads act on its boundary only", body);
+      why = fmt::format("'{}' is unbounded: loads can act only on its boundary", body);
     } else if (kind != "gravity" && reading.body(place.body).mesh.kind == MeshKind::fem) {
       why = fmt::format("{} is not available for finite elements: use kind superelement", kind);
     }
   } else if (place.kind == Place::Kind::face && outside) {
-    why = fmt::format("'{}' reaches to infinity: loads act on its inner boundary only, not on its side faces", body);
+    why = fmt::format("'{}' is unbounded: loads can act only on its inner boundary, not on its side faces", body);
   } else if (place.kind == Place::Kind::face && kind == "force") {
-    why = "a side face carries a traction or a pressure: divide the force by its length and the thickness";
+    why = "a force cannot act on a side face: use a traction, which is the force divided by length and thickness";
   } else if (place.kind == Place::Kind::face) {
   } else if (kind == "force") {
     if (rigid && place.kind == Place::Kind::edge) {
-      why = fmt::format("'{}' is rigid: put the force on the body or on a corner", body);
+      why = fmt::format("'{}' is rigid: apply the force to the body or to a corner", body);
     } else if (!rigid && place.kind == Place::Kind::body) {
-      why = "a force acts on a corner, a point or an edge of an elastic body: name one, or use gravity";
+      why = "a force on an elastic body acts on a corner, a point or an edge: name one of these, or use gravity";
     }
   } else if (rigid) {
-    why = fmt::format("'{}' is rigid: put a force on the body instead", body);
+    why = fmt::format("'{}' is rigid: apply a force to the body instead", body);
   } else if (place.kind != Place::Kind::edge) {
-    why = fmt::format("{} acts on an edge, and this is {}", kind, kind_text(place.kind));
+    why = fmt::format("{} acts on an edge, but this is {}: name an edge", kind, kind_text(place.kind));
   }
   if (why.empty()) return true;
   reading.report.error(on, why);
@@ -74,8 +74,9 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
   if (kind == "temperature") return read_temperature(reading, value);
   if (on_face) return read_face_traction(reading, value, kind == "pressure");
   if ((kind == "traction" || kind == "pressure") && value.node->kind == Node::Kind::map) {
-    reading.report.error(value,
-                         fmt::format("powers and points of xi belong to side faces: on an edge, {} is constant", kind));
+    reading.report.error(
+        value,
+        fmt::format("powers and points of xi are available only on side faces: on an edge, give a constant {}", kind));
     return {};
   }
   if (kind == "pressure") {
@@ -107,14 +108,15 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   if (kinds.size() > 1) {
     report.error(
         entry.key_source,
-        fmt::format("needs one of force, traction, pressure, gravity, body_force and temperature, not both {} and "
-                    "{}",
-                    kinds[0], kinds[1]));
+        fmt::format(
+            "needs exactly one of force, traction, pressure, gravity, body_force and temperature, not both {} and {}",
+            kinds[0], kinds[1]));
     return {};
   }
   if (kinds.empty()) {
     if (report.count() == before)
-      report.error(entry.key_source, "needs one of force, traction, pressure, gravity, body_force and temperature");
+      report.error(entry.key_source,
+                   "needs exactly one of force, traction, pressure, gravity, body_force and temperature");
     return {};
   }
   const std::string& kind = kinds.front();
@@ -124,7 +126,8 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
     if (place && check_place(reading, *on, *place, kind)) load.on = place;
   }
   const bool on_face = load.on && load.on->kind == Place::Kind::face;
-  const bool value_known = !on || load.on || map.get(kind)->node->kind != Node::Kind::map;  // powers of what?
+  // A map cannot be read if the place is not known: it may contain powers of xi or coefficients of x and y.
+  const bool value_known = !on || load.on || map.get(kind)->node->kind != Node::Kind::map;
   const auto value = value_known ? read_kind(reading, *map.get(kind), kind, on_face) : std::nullopt;
   if (on && !load.on) return {};
   if (report.count() > before || !value) return {};
@@ -132,7 +135,7 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   return load;
 }
 
-/// Indices of the materials of a body, -1 for broken ones left out.
+/// Indices of the materials of a body, without -1 for broken ones.
 std::set<int> materials_of(const Body& body) {
   std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
   if (materials.empty()) materials.insert(body.material);
@@ -140,7 +143,7 @@ std::set<int> materials_of(const Body& body) {
   return materials;
 }
 
-/// First and last + 1 of the bodies on which a load acts that acts on whole ones.
+/// First and last + 1 of the bodies on which a load on whole bodies acts.
 std::pair<std::size_t, std::size_t> bodies_under(const Reading& reading, const Load& load) {
   if (!load.on) return {0, reading.model.bodies.size()};
   const auto body = static_cast<std::size_t>(load.on->body);
@@ -151,15 +154,16 @@ std::pair<std::size_t, std::size_t> bodies_under(const Reading& reading, const L
 
 void read_loads(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
-  // A load on an unknown body says nothing about which bodies are held.
+  // A load on an unknown body gives no information about which bodies are held.
   const bool places_known = reading.places_known;
   for (const Entry& entry :
        read_named(reading.report, value, "loads", "{tip: {on: upper.top_right, force: [0, -100e3]}}")) {
     reading.load_names.push_back(entry.key);
     int& index = reading.index_of_load[entry.key] = -1;
     if (reading.own_support_names.contains(entry.key)) {
-      reading.report.error(entry.key_source,
-                           fmt::format("a support is named '{}' as well: steps could mean either", entry.key));
+      reading.report.error(
+          entry.key_source,
+          fmt::format("a support is also named '{}', and a step could mean either: rename one of them", entry.key));
     }
     if (auto load = read_load(reading, entry)) {
       index = static_cast<int>(reading.model.loads.size());
@@ -181,10 +185,9 @@ void check_expansion(Reading& reading) {
       const Body& body = reading.model.bodies[i];
       if (body.material < 0 || body.outside) continue;
       if (!load.on && body.mesh.kind == MeshKind::fem)
-        reading.report.error(load.source,
-                             fmt::format("temperature is not available for finite elements, as in body '{}': name "
-                                         "a body with 'on'",
-                                         body.name));
+        reading.report.error(load.source, fmt::format("temperature is not available for finite elements, of which body "
+                                                      "'{}' consists: name another body with 'on'",
+                                                      body.name));
       for (const int index : materials_of(body)) {
         const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
         if (material.expansion || !told.insert(index).second) continue;
@@ -203,9 +206,8 @@ void check_density_of_modal_analysis(Reading& reading) {
   std::set<int> told;
   for (const Body& body : reading.model.bodies) {
     if (body.outside)
-      reading.report.error(
-          body.source,
-          "this body reaches to infinity and has no natural frequencies: leave it out of a modal analysis");
+      reading.report.error(body.source,
+                           "an unbounded body has no natural frequencies: leave it out of a modal analysis");
     if (body.material < 0 || body.outside) continue;
     for (const int index : materials_of(body)) {
       const Material& material = reading.model.materials[static_cast<std::size_t>(index)];

@@ -51,13 +51,14 @@ std::optional<Orthotropic> read_orthotropic(Reading& reading, const Value& value
   if (const auto angle = map.get("angle"))
     o.angle = read_number(reading.report, *angle).value_or(0.0) * std::numbers::pi / 180.0;
   if (reading.report.count() > before) return {};
-  // The compliance is positive definite when its leading minors are.
+  // The compliance is positive definite if its leading minors are positive.
   const double minor = 1.0 - o.nu12 * o.nu12 * o.E2 / o.E1;
   if (!(minor > 0.0)) {
-    reading.report.error(*map.get("nu12"),
-                         fmt::format("must be less than sqrt(E1 / E2) = {:.4g} in size, not {}: the elastic energy "
-                                     "would be negative",
-                                     std::sqrt(o.E1 / o.E2), map.get("nu12")->node->text));
+    reading.report.error(
+        *map.get("nu12"),
+        fmt::format(
+            "must be less than sqrt(E1 / E2) = {:.4g} in size, not {}: otherwise the elastic energy would be negative",
+            std::sqrt(o.E1 / o.E2), map.get("nu12")->node->text));
     return {};
   }
   const double a = o.nu13 / o.E1, b = o.nu23 / o.E2, c = o.nu12 / o.E1;
@@ -65,8 +66,8 @@ std::optional<Orthotropic> read_orthotropic(Reading& reading, const Value& value
       (1.0 / o.E1) * (1.0 / (o.E2 * o.E3) - b * b) + c * (-c / o.E3 - a * b) - a * (c * b + a / o.E2);
   if (!(determinant > 0.0) || !(o.nu13 * o.nu13 < o.E1 / o.E3) || !(o.nu23 * o.nu23 < o.E2 / o.E3)) {
     reading.report.error(value,
-                         "E1, E2, E3, nu12, nu13 and nu23 do not belong together: the elastic energy would be negative "
-                         "for some strain; make Poisson's ratios smaller");
+                         "E1, E2, E3, nu12, nu13 and nu23 are not compatible: the elastic energy would be negative for "
+                         "some strains; use smaller Poisson's ratios");
     return {};
   }
   return o;
@@ -89,10 +90,9 @@ std::optional<Anisotropic> read_anisotropic(Reading& reading, const Value& value
   const double determinant =
       a.D66 * minor - a.D16 * (a.D16 * a.D22 - a.D12 * a.D26) + a.D26 * (a.D16 * a.D12 - a.D11 * a.D26);
   if (!(minor > 1e-12 * a.D11 * a.D22) || !(determinant > 1e-12 * a.D66 * a.D11 * a.D22)) {
-    reading.report.error(
-        value,
-        "is not positive definite: the elastic energy would not be positive for some strain; make D12, D16 "
-        "or D26 smaller");
+    reading.report.error(value,
+                         "is not positive definite: the elastic energy would not be positive for some strains; use "
+                         "smaller D12, D16 or D26");
     return {};
   }
   return a;
@@ -133,10 +133,10 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
   material.source = entry.key_source;
   const auto orthotropic = map.get("orthotropic"), anisotropic = map.get("anisotropic");
   if (orthotropic && anisotropic) {
-    map.refuse("anisotropic", "a material is orthotropic or anisotropic, not both");
+    map.refuse("anisotropic", "a material is either orthotropic or anisotropic: remove one of the two");
   } else if (orthotropic || anisotropic) {
     for (const char* key : {"young", "poisson"})
-      map.refuse(key, fmt::format("belongs to isotropic material: leave it out beside {}",
+      map.refuse(key, fmt::format("applies only to an isotropic material: leave it out if {} is given",
                                   orthotropic ? "orthotropic" : "anisotropic"));
     if (orthotropic) {
       if (const auto law = read_orthotropic(reading, *orthotropic)) material.law = *law;
@@ -150,7 +150,7 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
   if (const auto value = map.get("density")) material.density = read_not_negative(reading.report, *value);
   if (const auto value = map.get("expansion")) {
     material.expansion = read_expansion(reading, *value);
-    // Of an anisotropic law the third is the shear strain.
+    // For an anisotropic law the third is the shear strain.
     if (anisotropic && material.expansion &&
         (value->node->kind == Node::Kind::scalar || value->node->items.size() == 2))
       (*material.expansion)[2] = 0.0;
@@ -164,7 +164,7 @@ std::optional<Material> read_material(Reading& reading, const Entry& entry) {
 void read_materials(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
   const auto entries = read_named(reading.report, value, "materials", "{concrete: {young: 10e9, poisson: 0.3}}");
-  // A material whose name is no name is not in the list, but bodies may speak of it.
+  // A material with an invalid name is not in the list, but bodies may refer to it.
   if (reading.report.count() > before) reading.materials_known = false;
   for (const Entry& entry : entries) {
     const auto material = read_material(reading, entry);

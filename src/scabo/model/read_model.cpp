@@ -1,4 +1,4 @@
-// The journey of a model file: text, tree, sections, checks of the whole.
+// Reading of a model file: text, tree, sections, checks of the whole model.
 #include "scabo/model/read_model.hpp"
 
 #include <fmt/format.h>
@@ -84,7 +84,7 @@ void check_version(Reading& reading, const MapReader& map) {
   }
 }
 
-/// Reads all sections; each relies on those before it.
+/// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "steps",
@@ -113,11 +113,12 @@ void read_sections(Reading& reading, const Value& root) {
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
   if (const auto output = map.get("output")) read_output(reading, *output);
-  // A misspelt section may be the one that is missing.
+  // A misspelt section may be the missing one.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
 }
 
-/// Says of a modal analysis what of the file plays no part in it, so that one file serves both kinds of analysis.
+/// Warns about parts of the file that have no effect in a modal analysis, so that one file can be used for both kinds
+/// of analysis.
 void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
@@ -137,23 +138,24 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
       list += i + 1 < parts.size() ? ", " : " and ";
       list += parts[i];
     }
-    model.warnings.push_back(fmt::format("a modal analysis leaves out the model's {}{}", list,
-                                         model.contacts.empty() ? "" : ": every body vibrates by itself"));
+    model.warnings.push_back(fmt::format("a modal analysis ignores the model's {}{}", list,
+                                         model.contacts.empty() ? "" : ": each body vibrates by itself"));
   }
   for (const Support& support : model.supports)
     if (std::any_of(support.displacement.begin(), support.displacement.end(),
                     [](const auto& u) { return u.value_or(0.0) != 0.0; }))
-      model.warnings.push_back(fmt::format(
-          "a modal analysis holds support '{}' where it is, whatever displacement it prescribes", support.name));
+      model.warnings.push_back(
+          fmt::format("a modal analysis takes support '{}' as fixed and ignores the displacement that it prescribes",
+                      support.name));
 }
 
-/// Edges that lie on each other everywhere have neither gap nor interference.
+/// Edges that coincide everywhere have neither gap nor interference.
 bool coincide(const Edge& a, const Edge& b, double tolerance) {
   return (a.start - b.end).norm() <= tolerance && (a.end - b.start).norm() <= tolerance &&
          (a.at(0.5) - b.at(0.5)).norm() <= tolerance;
 }
 
-/// Whether a contact may press its bodies together by itself.
+/// Whether a contact alone may press its bodies together.
 bool may_interfere(const Reading& reading, const Contact& contact) {
   if (contact.gap < 0.0) return true;
   const Outline& a = reading.body(contact.a.body).outline;
@@ -181,7 +183,7 @@ void check_something_loads(Reading& reading, const Value& root) {
   if (const MapEntry* loads = root.node->find("loads"); loads != nullptr && loads->line > 0) {
     at = {loads->line, loads->column, "loads"};
   }
-  reading.report.error(at, "nothing loads the model: give a load, a displacement or an interference");
+  reading.report.error(at, "the model has no loading: give a load, a prescribed displacement or an interference fit");
 }
 
 void check_bodies_held(Reading& reading) {
@@ -190,7 +192,10 @@ void check_bodies_held(Reading& reading) {
     const Body& body = reading.model.bodies[i];
     const BodyState& state = reading.bodies[i];
     if (body.rigid && !state.touched) {
-      reading.report.error(body.source, fmt::format("rigid body '{}' is in no contact: it has no effect", body.name));
+      reading.report.error(
+          body.source,
+          fmt::format("rigid body '{}' is in no contact and has no effect: add a contact, or remove the body",
+                      body.name));
     } else if (!state.held && !state.touched) {
       reading.report.error(
           body.source,

@@ -18,7 +18,7 @@ struct Override {
 /// Splits `path=value`; throws InputError when there is no `=` or the path is empty.
 Override parse_override(std::string_view text);
 
-/// Reads and checks a model file. Throws InputError with every mistake found, each with line and column.
+/// Reads and checks a model file. Throws InputError with all mistakes found, each with its line and column.
 Model read_model(const std::string& file, const std::vector<Override>& overrides = {});
 
 /// The same from text; `file` is only used in messages.

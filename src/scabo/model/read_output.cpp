@@ -1,5 +1,4 @@
-// `output`: points, lines and a grid whose values are wanted, the arrays of the .vtu files, and the estimate of the
-// error.
+// `output`: points, lines and a grid for results, the arrays of the .vtu files, and the error estimate.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,14 +12,14 @@ namespace scabo::model {
 namespace {
 
 constexpr long most_points = 1'000'000;
-constexpr long largest_every = 100'000;  // as many as a step has increments at most
+constexpr long largest_every = 100'000;  // the largest number of increments of a step
 
 constexpr const char* output_example = "{points: [[1, 0.5]], grid: {spacing: 0.1}}";
 constexpr const char* point_example = "[1, 0.5] or {at: [1, 0.5], name: crest}";
 constexpr const char* line_example = "{from: [0, 0], to: [1, 0], points: 101, name: axis}";
 constexpr const char* grid_example = "{spacing: 0.1} or {x: [0, 1, 11], y: [0, 2, 21]}";
 
-/// `body`: its index, or -1 without the key; nothing when it is broken.
+/// `body`: its index, or -1 without the key; nothing if it is broken.
 std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
   const auto value = map.get("body");
   if (!value) return -1;
@@ -32,11 +31,12 @@ std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
   std::vector<std::string> names;
   if (!reading.report.full())
     for (const Body& body : reading.model.bodies) names.push_back(body.name);
-  reading.report.error(*value, fmt::format("no body named {}{}", quoted_name(*name), suggestion(*name, names)));
+  reading.report.error(*value,
+                       fmt::format("there is no body named {}{}", quoted_name(*name), suggestion(*name, names)));
   return {};
 }
 
-/// `name`, or `what_3`; every name once.
+/// `name`, or `what_3`; names must be unique.
 std::string read_name_of(Reading& reading, const MapReader& map, const char* what, std::size_t number,
                          std::set<std::string>& names) {
   std::string name = fmt::format("{}_{}", what, number);
@@ -48,7 +48,7 @@ std::string read_name_of(Reading& reading, const MapReader& map, const char* wha
   }
   if (!names.insert(name).second)
     reading.report.error(value ? value->source() : map.map().source(),
-                         fmt::format("there is another {} named '{}': give each a name of its own", what, name));
+                         fmt::format("another {} is already named '{}': rename one of them", what, name));
   return name;
 }
 
@@ -98,7 +98,7 @@ void read_lines(Reading& reading, const Value& value) {
     if (!body || reading.report.count() > before) continue;
     line.body = *body;
     if (line.from == line.to) {
-      reading.report.error(item, "ends where it starts: give two points, or use 'points'");
+      reading.report.error(item, "the line ends where it starts: give two different points, or use 'points'");
       continue;
     }
     reading.model.output.lines.push_back(std::move(line));
@@ -120,9 +120,10 @@ void read_range(Reading& reading, const Value& value, double& first, double& las
   first = *low, last = *high, count = static_cast<int>(*points);
   if (count > 1 && first == last)
     reading.report.error(value,
-                         fmt::format("{} points in one place: give a last coordinate other than the first", count));
+                         fmt::format("the {} points coincide: give different first and last coordinates", count));
   if (count == 1 && first != last)
-    reading.report.error((*items)[2], "one point has no two ends: give 2 points or more");
+    reading.report.error((*items)[2],
+                         "a single point cannot have different first and last coordinates: give 2 points or more");
 }
 
 void read_grid(Reading& reading, const Value& value) {
@@ -134,10 +135,11 @@ void read_grid(Reading& reading, const Value& value) {
   grid.source = value.source();
   if (const auto spacing = map.get("spacing")) {
     grid.spacing = read_positive(report, *spacing);
-    for (const char* key : {"x", "y"}) map.refuse(key, "'spacing' says where the points lie: give one or the other");
+    for (const char* key : {"x", "y"})
+      map.refuse(key, "'spacing' already determines the points: remove one of the two");
   } else {
     if (!map.has("x") && !map.has("y") && map.all_known())
-      report.error(value, fmt::format("says nothing of its points: write {}", grid_example));
+      report.error(value, fmt::format("does not define any points: write {}", grid_example));
     else
       for (const int k : {0, 1})
         if (const auto range = map.need(k == 0 ? "x" : "y"))
@@ -154,7 +156,7 @@ void read_grid(Reading& reading, const Value& value) {
   reading.model.output.grid = grid;
 }
 
-/// `fields`: those that are named, no others.
+/// `fields`: only those that are named.
 void read_fields(Reading& reading, const Value& value) {
   const auto items = read_list(reading.report, value, "[displacement, stress]");
   if (!items) return;
@@ -174,7 +176,8 @@ void read_fields(Reading& reading, const Value& value) {
     const auto choice = read_choice(reading.report, item, names);
     if (!choice) continue;
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& of) { return of.first == *choice; });
-    if (fields.*group->second) reading.report.error(item, fmt::format("'{}' is named twice", *choice));
+    if (fields.*group->second)
+      reading.report.error(item, fmt::format("'{}' is given twice: remove one of the two", *choice));
     fields.*group->second = true;
   }
 }

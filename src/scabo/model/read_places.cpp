@@ -19,7 +19,7 @@ std::optional<int> read_body_name(Reading& reading, const Value& at, std::string
   std::vector<std::string> known;
   if (!reading.report.full())
     for (const Body& candidate : reading.model.bodies) known.push_back(candidate.name);
-  reading.report.error(at, fmt::format("no body named {}{}", quoted_name(name), suggestion(name, known)));
+  reading.report.error(at, fmt::format("there is no body named {}{}", quoted_name(name), suggestion(name, known)));
   return {};
 }
 
@@ -27,8 +27,8 @@ bool has_name(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Side face of a notch or corner that an edge is, 0 at the beginning of the boundary, 1 at its end; -1 for other
-/// edges.
+/// Number of the side face that an edge forms at a notch or corner: 0 at the start of the boundary, 1 at its end; -1
+/// for other edges.
 int face_of_edge(const Body& body, int edge) {
   const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
   if (corner < 0) return -1;
@@ -36,7 +36,7 @@ int face_of_edge(const Body& body, int edge) {
   return edge == (corner + count - 1) % count ? (body.outside ? 0 : 1) : -1;
 }
 
-/// Faces and mouths of a crack: seen from the mouth towards the tip, `left` is the end of the boundary.
+/// Faces and mouths of a crack: looking from the mouth towards the tip, `left` is the end of the boundary.
 void add_crack_places(const Crack& crack, std::vector<std::pair<std::string, Place>>& places) {
   const auto add = [&](const char* part, Place::Kind kind, int index) {
     Place place;
@@ -85,7 +85,8 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
     if (has_name(outline.corners[i].names, part)) {
       if (static_cast<int>(i) == reading.body(body).mesh.centre_corner) {
         reading.report.error(
-            value, fmt::format("'{}' is the scaling centre, which has no node: nothing can be put there", text));
+            value,
+            fmt::format("'{}' is the scaling centre, which has no node: no load or support can act there", text));
         return result;
       }
       for (const Crack& crack : reading.body(body).cracks)
@@ -119,15 +120,18 @@ ReadPlace read_near(Reading& reading, const Value& value) {
   ReadPlace result{{}, *body};
   if (!near || !reading.state(*body).shape) return result;
   if (reading.body(*body).rigid) {
-    reading.report.error(*near_value, "a rigid body has no nodes to be near to: name a corner, or the body");
+    reading.report.error(*near_value,
+                         "a rigid body has no nodes, so that 'near' does not apply: name a corner or the body");
     return result;
   }
   const Outline& outline = reading.body(*body).outline;
   double distance = (outline.edges.front().start - *near).norm();
   for (const Edge& edge : outline.edges) distance = std::min(distance, (edge.at(0.5) - *near).norm());
   if (distance > 2.0 * outline_size(outline)) {
-    reading.report.error(*near_value,
-                         fmt::format("{} is not near '{}': farther away than its size", point_text(*near), *name));
+    reading.report.error(
+        *near_value,
+        fmt::format("{} is not near '{}': its distance is greater than the size of the body; check the coordinates",
+                    point_text(*near), *name));
     return result;
   }
   const std::string text = fmt::format("{} near {}", *name, point_text(*near));

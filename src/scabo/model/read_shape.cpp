@@ -63,63 +63,65 @@ void turn_round(Outline& outline) {
 
 namespace {
 
-/// Where the mistakes of the outline as a whole are reported.
+/// Checks the extent of the outline; `at`: position of messages about the outline as a whole.
 bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
   const double size = outline_size(outline);
   double farthest = 0.0;
   for (const Edge& edge : outline.edges) farthest = std::max(farthest, edge.start.cwiseAbs().maxCoeff());
   if (!(size > 0.0)) {
-    reading.report.error(at, "has no extent: all its points are the same");
+    reading.report.error(at, "has no extent: all its points coincide");
     return false;
   }
   if (size < 1e-30 || size > 1e30) {
     reading.report.error(
         at,
-        fmt::format("is {:.2g} across, which no unit of length leads to: sizes from 1e-30 to 1e30 are known", size));
+        fmt::format("has a size of {:.2g}, but sizes must be from 1e-30 to 1e30: use another unit of length", size));
     return false;
   }
   if (farthest > 1e10 * size) {
-    reading.report.error(at, fmt::format("lies {:.1e} times its own size away from the origin, so that its "
-                                         "digits are lost: move the origin closer",
+    reading.report.error(at, fmt::format("lies {:.1e} times its own size away from the origin, so that its coordinates "
+                                         "lose precision: move the origin closer",
                                          farthest / size));
     return false;
   }
   for (const Edge& edge : outline.edges) {
     if (edge.length() > 1e-9 * size) continue;
-    reading.report.error(edge.source, fmt::format("{} has no length: its ends are the same point {}", shown_name(edge),
-                                                  point_text(edge.start)));
+    reading.report.error(edge.source,
+                         fmt::format("{} has no length because both its ends are at {}: remove it, or move one end",
+                                     shown_name(edge), point_text(edge.start)));
     return false;
   }
   return true;
 }
 
-/// Checks that the outline is simple and has an area, and turns it counter-clockwise.
+/// Checks that the outline is simple and has an area, and makes it counter-clockwise.
 bool finish_outline(Reading& reading, const Value& at, Outline& outline) {
   if (!check_extent(reading, at, outline)) return false;
   const double size = outline_size(outline);
   const double area = outline.area();
   if (std::abs(area) <= 1e-12 * size * size && outline.edges.size() < 4) {
-    reading.report.error(at, "has no area: its points lie on one line");
+    reading.report.error(at, "has no area because its points lie on one line: move some of them");
     return false;
   }
   if (const auto crossing = find_crossing(outline)) {
     const Edge& first = outline.edges[static_cast<std::size_t>(crossing->first)];
     const Edge& second = outline.edges[static_cast<std::size_t>(crossing->second)];
     const bool folds = crossing->kind == Crossing::Kind::fold_back;
-    reading.report.error(at, fmt::format("{} and {} {} {}: the outline must not {}", shown_name(first),
-                                         shown_name(second), folds ? "run back over each other from" : "meet at",
-                                         point_text(crossing->point), folds ? "fold" : "cross or touch itself"));
+    reading.report.error(at,
+                         fmt::format("{} and {} {} {}: the outline must not {}", shown_name(first), shown_name(second),
+                                     folds ? "overlap, beginning at" : "meet at", point_text(crossing->point),
+                                     folds ? "fold back on itself" : "cross or touch itself"));
     return false;
   }
   if (std::abs(area) <= 1e-12 * size * size) {
-    reading.report.error(at, "has no area: its points lie on one line");
+    reading.report.error(at, "has no area because its points lie on one line: move some of them");
     return false;
   }
   if (area < 0.0) turn_round(outline);
   return true;
 }
 
-/// `names: {crest: edge_3}`: more names for edges and corners.
+/// `names: {crest: edge_3}`: additional names for edges and corners.
 void read_names(Reading& reading, const Value& value, Outline& outline) {
   std::unordered_map<std::string, std::vector<std::string>*> owners;
   std::vector<std::string> known;
@@ -134,11 +136,11 @@ void read_names(Reading& reading, const Value& value, Outline& outline) {
     if (!text) continue;
     const auto owner = owners.find(*text);
     if (owner == owners.end()) {
-      reading.report.error(entry.value,
-                           fmt::format("no edge or corner named {}{}", quoted_name(*text), suggestion(*text, known)));
+      reading.report.error(entry.value, fmt::format("there is no edge or corner named {}{}", quoted_name(*text),
+                                                    suggestion(*text, known)));
     } else if (owners.contains(entry.key)) {
-      reading.report.error(entry.key_source,
-                           fmt::format("'{}' already names {}", entry.key, owners.at(entry.key)->front()));
+      reading.report.error(entry.key_source, fmt::format("'{}' already names {}: choose another name", entry.key,
+                                                         owners.at(entry.key)->front()));
     } else {
       owner->second->push_back(entry.key);
       owners.emplace(entry.key, owner->second);
@@ -185,10 +187,10 @@ std::optional<Outline> read_polygon(Reading& reading, const Value& value) {
   const auto items = read_list(reading.report, *vertices_value, "[[0, 0], [4, 0], [0, 3]]");
   if (!items) return {};
   if (items->size() < 3 || items->size() > most_edges) {
-    reading.report.error(*vertices_value,
-                         items->size() < 3
-                             ? fmt::format("a polygon has three vertices or more, not {}", items->size())
-                             : fmt::format("{} vertices are too many: {} at most", items->size(), most_edges));
+    reading.report.error(
+        *vertices_value,
+        items->size() < 3 ? fmt::format("a polygon needs at least three vertices, not {}", items->size())
+                          : fmt::format("{} vertices are too many: at most {} are allowed", items->size(), most_edges));
     return {};
   }
   Outline outline;
@@ -210,7 +212,7 @@ std::optional<Outline> read_polygon(Reading& reading, const Value& value) {
   return outline;
 }
 
-/// A piece of an outline before the points that it leaves out are known.
+/// A piece of an outline before omitted points are filled in.
 struct Piece {
   Value at;
   std::optional<Vec2> from;
@@ -229,7 +231,7 @@ std::optional<Piece> read_piece(Reading& reading, const Value& value) {
   if (!map.is_map()) return {};
   if (map.has("line") == map.has("arc")) {
     if (report.count() == before) {
-      report.error(value, map.has("arc") ? "needs one of line and arc, not both" : "needs line or arc");
+      report.error(value, map.has("arc") ? "needs either line or arc, not both" : "needs line or arc");
     }
     return {};
   }
@@ -258,7 +260,7 @@ std::optional<Piece> read_piece(Reading& reading, const Value& value) {
   return piece;
 }
 
-/// The edge of a piece that starts at `start`; nothing when its arc is none.
+/// The edge of a piece that starts at `start`; nothing if its arc is invalid.
 std::optional<Edge> make_edge(Reading& reading, const Piece& piece, const Vec2& start, std::size_t number) {
   Edge edge;
   edge.names = piece.names;
@@ -297,7 +299,7 @@ bool check_piece_names(Reading& reading, const Outline& outline) {
       if (is_new) continue;
       Source at = edge.source;
       at.path += ".name";
-      reading.report.error(at, fmt::format("'{}' already names {}", edge.names[k], owner->second));
+      reading.report.error(at, fmt::format("'{}' already names {}: choose another name", edge.names[k], owner->second));
       return false;
     }
   }
@@ -308,9 +310,10 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
   const auto items = read_list(reading.report, value, "[{line: {to: [1, 0]}}, ...]");
   if (!items) return {};
   if (items->size() < 2 || items->size() > most_edges) {
-    reading.report.error(value, items->size() < 2
-                                    ? fmt::format("an outline has two pieces or more, not {}", items->size())
-                                    : fmt::format("{} pieces are too many: {} at most", items->size(), most_edges));
+    reading.report.error(
+        value, items->size() < 2
+                   ? fmt::format("an outline needs at least two pieces, not {}", items->size())
+                   : fmt::format("{} pieces are too many: at most {} are allowed", items->size(), most_edges));
     return {};
   }
   std::vector<Piece> pieces;
@@ -330,7 +333,7 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
       reading.report.error(pieces[i].at, why + (i == 0 ? ": the outline is not closed" : ""));
       return {};
     }
-    // Exactly the same point, so that the edges share their corner.
+    // Exactly the same point, so that neighbouring edges share their corner.
     const auto edge = make_edge(reading, pieces[i], before, i + 1);
     if (!edge) return {};
     outline.edges.push_back(*edge);
@@ -357,14 +360,15 @@ std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const int kinds = int(map.has("rectangle")) + int(map.has("polygon")) + int(map.has("outline"));
   if (kinds != 1) {
     if (kinds > 1 || reading.report.count() == before) {
-      reading.report.error(value, fmt::format("exactly one of rectangle, polygon and outline is needed, not {}",
+      reading.report.error(value, fmt::format("needs exactly one of rectangle, polygon and outline, not {}",
                                               kinds == 0 ? "none" : std::to_string(kinds)));
     }
     return {};
   }
   if (!map.has("outline")) {
-    map.refuse("names", map.has("polygon") ? "belongs inside polygon: {vertices: [...], names: {crest: edge_3}}"
-                                           : "a rectangle has fixed names: use a polygon for others");
+    map.refuse("names", map.has("polygon")
+                            ? "belongs inside polygon: {vertices: [...], names: {crest: edge_3}}"
+                            : "the edges of a rectangle have fixed names: use a polygon for other names");
   }
   if (const auto rectangle = map.get("rectangle")) return read_rectangle(reading, *rectangle);
   if (const auto polygon = map.get("polygon")) return read_polygon(reading, *polygon);

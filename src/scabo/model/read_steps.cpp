@@ -1,8 +1,8 @@
-// `steps`: which load and which prescribed displacement has which factor at the end of which step.
+// `steps`: the factors of loads and prescribed displacements at the end of every step.
 //
-// A step without `loads` takes everything to factor 1. A step with `loads` takes those it names to the
-// factors given and leaves the others where the step before left them (0 before the first step); prescribed
-// displacements that have no name of their own cannot be named and go to 1 in the first step.
+// A step without `loads` takes everything to factor 1. A step with `loads` takes the named loads to the given factors
+// and leaves the others at their values of the previous step (0 before the first step). Prescribed displacements
+// without a name of their own go to 1 in the first step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void apply_everything(Step& step) {
   std::fill(step.support_factors.begin(), step.support_factors.end(), 1.0);
 }
 
-/// Takes one load or support to `factor`; reports a name that is none.
+/// Takes one load or support to `factor`; reports an unknown name.
 void set_factor(Reading& reading, const Index& supports, Step& step, const MapEntry& entry, const Value& value,
                 const Source& at) {
   const auto factor = read_number(reading.report, value);
@@ -48,7 +48,8 @@ void set_factor(Reading& reading, const Index& supports, Step& step, const MapEn
   if (const auto found = supports.find(entry.key); found != supports.end()) {
     const auto i = static_cast<std::size_t>(found->second);
     if (is_fixed(reading.model.supports[i])) {
-      reading.report.error(at, fmt::format("support '{}' stays where it is: a factor has no effect", entry.key));
+      reading.report.error(at,
+                           fmt::format("support '{}' is fixed, so that a factor has no effect: remove it", entry.key));
     } else if (factor) {
       step.support_factors[i] = *factor;
     }
@@ -62,8 +63,8 @@ void set_factor(Reading& reading, const Index& supports, Step& step, const MapEn
   }
   std::vector<std::string> known = reading.load_names;
   known.insert(known.end(), reading.own_support_names.begin(), reading.own_support_names.end());
-  reading.report.error(
-      at, fmt::format("no load or named support is called {}{}", quoted_name(entry.key), suggestion(entry.key, known)));
+  reading.report.error(at, fmt::format("there is no load or named support called {}{}", quoted_name(entry.key),
+                                       suggestion(entry.key, known)));
 }
 
 void read_factors(Reading& reading, const Index& supports, Step& step, const Value& value) {
@@ -80,7 +81,7 @@ void read_factors(Reading& reading, const Index& supports, Step& step, const Val
   }
 }
 
-/// The step that follows one which ends with the factors of `before`.
+/// The step that follows one that ends with the factors of `before`.
 Step read_step(Reading& reading, const Index& supports, const Value& value, const Step& before, std::size_t number) {
   const MapReader map(reading.report, value, {"name", "increments", "loads"},
                       "{name: press, increments: 10, loads: {tip: 1.0}}");
@@ -111,7 +112,7 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
 
 void read_steps(Reading& reading, const std::optional<Value>& value) {
   Step step = start(reading);
-  // A support that stays where it is does so at any factor.
+  // A fixed support is the same at any factor.
   for (std::size_t i = 0; i < step.support_factors.size(); ++i) {
     if (is_fixed(reading.model.supports[i])) step.support_factors[i] = 1.0;
   }
@@ -127,20 +128,20 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
   }
   const std::size_t factors = reading.model.loads.size() + reading.model.supports.size();
   if (factors * items->size() > most_factors) {
-    reading.report.error(*value,
-                         fmt::format("{} steps of {} loads and supports are more than can be kept ({} factors): "
-                                     "put loads that change together into fewer steps",
-                                     items->size(), factors, most_factors));
+    reading.report.error(*value, fmt::format("{} steps of {} loads and supports need more than the {} factors that can "
+                                             "be stored: use fewer steps, or combine loads",
+                                             items->size(), factors, most_factors));
     return;
   }
-  Index supports;  // those that have their name from the user
+  Index supports;  // those with a name given by the user
   for (std::size_t i = 0; i < reading.model.supports.size(); ++i)
     if (reading.support_is_named[i]) supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
   std::set<std::string> names;
   for (std::size_t i = 0; i < items->size(); ++i) {
     step = read_step(reading, supports, (*items)[i], step, i + 1);
     if (!names.insert(step.name).second) {
-      reading.report.error((*items)[i], fmt::format("another step is named '{}' already", step.name));
+      reading.report.error((*items)[i],
+                           fmt::format("another step is already named '{}': rename one of them", step.name));
     }
     reading.model.steps.push_back(step);
   }

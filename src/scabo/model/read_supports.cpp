@@ -21,7 +21,7 @@ using Displacement = std::array<std::optional<double>, 2>;
 
 constexpr const char* support_example = "{on: lower.left, fix: [x, y]}";
 
-/// What other programs call the components: a remedy for `fix`, or nothing.
+/// Component names of other programs: a remedy for `fix`, or nothing.
 std::string meant_components(std::string_view text) {
   std::string plain;
   for (const char c : text)
@@ -56,7 +56,7 @@ std::optional<Displacement> read_fix(Reading& reading, const Value& value) {
     }
     auto& component = displacement[x ? 0 : 1];
     if (component) {
-      reading.report.error(item, fmt::format("{} is named twice", node.text));
+      reading.report.error(item, fmt::format("{} is given twice: remove one of the two", node.text));
       return {};
     }
     component = 0.0;
@@ -69,7 +69,7 @@ std::optional<Displacement> read_displacement(Reading& reading, const Value& val
   const Node& node = *value.node;
   if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
     reading.report.error(value,
-                         fmt::format("must be [ux, uy], null where it is free, not {}",
+                         fmt::format("must be [ux, uy], with null for a free component, not {}",
                                      node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size())
                                                                        : describe(node)));
     return {};
@@ -83,13 +83,13 @@ std::optional<Displacement> read_displacement(Reading& reading, const Value& val
   }
   if (!good) return {};
   if (!displacement[0] && !displacement[1]) {
-    reading.report.error(value, "prescribes nothing: give x or y a number");
+    reading.report.error(value, "prescribes no displacement: give a number for x or y");
     return {};
   }
   return displacement;
 }
 
-/// One support; nothing when it is broken. A name the user gave is known afterwards in any case.
+/// One support; nothing if it is broken. A name given by the user is recorded in any case.
 std::optional<Support> read_support(Reading& reading, const Value& value) {
   Report& report = reading.report;
   const std::size_t before = report.count();
@@ -101,7 +101,7 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
     if (text && check_name(report, name->source(), *text)) {
       support.name = *text;
       if (!reading.own_support_names.insert(*text).second) {
-        report.error(*name, fmt::format("another support is named '{}' already", *text));
+        report.error(*name, fmt::format("another support is already named '{}': rename one of them", *text));
       }
     }
   }
@@ -111,9 +111,11 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
   if (place.place && place.place->kind == Place::Kind::face) {
-    report.error(*on,
-                 fmt::format("'{}' is a side face, which is not divided: a support holds edges, corners and points",
-                             place.place->text));
+    report.error(
+        *on,
+        fmt::format(
+            "'{}' is a side face, which has no nodes between its ends: support an edge, a corner or a point instead",
+            place.place->text));
     return {};
   }
   std::optional<Displacement> displacement;
@@ -132,14 +134,14 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   return support;
 }
 
-/// Names without a user's: the place, made unique.
+/// Names of supports without a given name: the place, made unique.
 void name_supports(Reading& reading) {
   std::set<std::string> taken = reading.own_support_names;
   std::map<std::string, int> last;
   for (Support& support : reading.model.supports) {
     if (!support.name.empty()) continue;
     std::string name = support.on.text;
-    int& k = last[name];  // numbers before it are taken
+    int& k = last[name];  // smaller numbers are in use
     for (k = std::max(k, 1); !taken.insert(name).second;) name = fmt::format("{} ({})", support.on.text, ++k);
     support.name = name;
   }
@@ -175,12 +177,12 @@ bool includes_corner(const Place& place, int corner, int corners) {
     case Place::Kind::face:
     case Place::Kind::mouth:
     case Place::Kind::near:
-      return false;  // only the mesh knows
+      return false;  // known only after meshing
   }
   return false;
 }
 
-/// Whether two places of the same body surely share a point.
+/// Whether two places of the same body certainly share a point.
 bool share_a_point(const Place& a, const Place& b, const Body& body) {
   const int corners = static_cast<int>(body.outline.corners.size());
   const auto is_point = [](const Place& p) { return p.kind == Place::Kind::near || p.kind == Place::Kind::mouth; };
@@ -189,7 +191,7 @@ bool share_a_point(const Place& a, const Place& b, const Body& body) {
     return a.kind == Place::Kind::body || b.kind == Place::Kind::body;
   }
   if (a.kind == Place::Kind::edge && b.kind == Place::Kind::edge && a.index == b.index) return true;
-  // A body and an edge share the edge's ends; a corner shares itself; two edges may share a corner.
+  // A body and an edge share the ends of the edge; a corner shares itself; two edges may share a corner.
   const Place& smaller = a.kind == Place::Kind::body ? b : a;
   const Place& larger = a.kind == Place::Kind::body ? a : b;
   if (smaller.kind == Place::Kind::body) return true;
@@ -212,18 +214,18 @@ bool differ(const Reading& reading, std::size_t first, std::size_t second, std::
          });
 }
 
-/// Places that are the same have the same key.
+/// Equal places have equal keys.
 using PlaceKey = std::tuple<Place::Kind, int, double, double>;
 PlaceKey key_of(const Place& place) { return {place.kind, place.index, place.near.x(), place.near.y()}; }
 
-/// Of the supports of one place: the first that prescribes x and the first that prescribes y. Those after it move
-/// alike, or were reported.
+/// For the supports of one place: the first that prescribes x and the first that prescribes y. Later ones have the same
+/// motion or were reported.
 using First = std::array<std::optional<std::size_t>, 2>;
 using Places = std::map<PlaceKey, First>;
 
-/// The supports of the body so far with which a new one can be at odds: those at its own place, and those at places
-/// that share a point with it. A point near which something is shares one with itself and with the whole body only, and
-/// there may be many of them.
+/// The previous supports of the body that a new one can contradict: those at its own place, and those at places that
+/// share a point with it. A `near` place shares a point only with itself and with the whole body, and there may be many
+/// of them.
 std::vector<const First*> candidates(const Places& places, const Place& place, const Body& body) {
   std::vector<const First*> found;
   const auto add = [&](const Place& other) {
@@ -251,8 +253,8 @@ std::vector<const First*> candidates(const Places& places, const Place& place, c
 void report_conflict(Reading& reading, std::size_t first, std::size_t second, std::size_t component) {
   const Support& a = reading.model.supports[first];
   const Support& b = reading.model.supports[second];
-  reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}: they share "
-                                             "a point; remove one, or free the component there",
+  reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}, although they "
+                                             "share a point: remove one, or free the component there",
                                              component == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
 }
 
@@ -264,7 +266,7 @@ void check_conflicting_supports(Reading& reading) {
     const Support& support = reading.model.supports[i];
     Places& places = of_body[static_cast<std::size_t>(support.on.body)];
     const auto at = places.find(key_of(support.on));
-    // A whole body shares points with everything; where one was compared already, another like it brings nothing new.
+    // A whole body shares points with all places; once one was compared, another like it adds nothing.
     const bool known = at != places.end() && (!support.displacement[0] || at->second[0]) &&
                        (!support.displacement[1] || at->second[1]);
     std::optional<std::pair<std::size_t, std::size_t>> conflict;  // the first other support, component

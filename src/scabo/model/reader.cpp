@@ -20,7 +20,7 @@ std::string join_path(const std::string& path, std::string_view key) {
 constexpr std::size_t longest_path = 300;
 
 Source source_of(const Node& node, const std::string& path) {
-  // A value from the command line has no line; it is found by the path it was given with.
+  // A value from the command line has no line; its position is the path with which it was given.
   if (!node.override_path.empty()) {
     const bool inside = path.size() > node.override_path.size();
     const std::string rest = inside ? path.substr(node.override_path.size()) : "";
@@ -82,7 +82,7 @@ std::optional<double> read_number(Report& report, const Value& value) {
     return {};
   }
   if (node.quoted) {
-    report.error(value, fmt::format("the number {} is in quotes: remove them", quoted_name(node.text)));
+    report.error(value, fmt::format("the number {} is in quotation marks: remove them", quoted_name(node.text)));
     return {};
   }
   return std::get<double>(number);
@@ -124,7 +124,7 @@ std::optional<bool> read_flag(Report& report, const Value& value) {
 
 std::optional<std::string> read_text(Report& report, const Value& value) {
   if (value.node->kind == Node::Kind::scalar) return value.node->text;
-  report.error(value, fmt::format("must be a text, not {}", describe(*value.node)));
+  report.error(value, fmt::format("must be text, not {}", describe(*value.node)));
   return {};
 }
 
@@ -184,7 +184,7 @@ Source source_of_key(const Value& map, const MapEntry& entry) {
   return {entry.line, entry.column, path};
 }
 
-/// What a writer of YAML 1.1 makes of the key `on`, which it takes for a truth value.
+/// What writers of YAML 1.1 turn the key `on` into, because they treat it as a truth value.
 constexpr std::string_view written_for_on = "true";
 
 }  // namespace
@@ -215,8 +215,8 @@ bool check_name(Report& report, const Source& at, std::string_view text) {
   if (is_name(text)) return true;
   const char* why = "";
   if (text.find('.') != std::string_view::npos) why = "; a dot separates a body from its edge";
-  if (text.find(':') != std::string_view::npos) why = "; a space belongs after the colon";
-  report.error(at, fmt::format("{} is no name: use letters, digits, _ and -, and no digit or - first{}",
+  if (text.find(':') != std::string_view::npos) why = "; put a space after the colon";
+  report.error(at, fmt::format("{} is not a valid name: use letters, digits, _ and -, and begin with a letter or _{}",
                                quoted_name(text), why));
   return false;
 }
@@ -230,7 +230,7 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
     return;
   }
   is_map_ = true;
-  std::vector<std::string> absent;  // a key that is there already was not meant
+  std::vector<std::string> absent;  // a key that is present was not meant
   for (const std::string& key : known) {
     if (entry_of(key) == nullptr) absent.push_back(key);
   }
@@ -258,7 +258,7 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
     const auto colon = entry.key.find(':');
     if (entry.value->kind == Node::Kind::null && colon != std::string::npos) {
       broken_ = true;
-      report_.error(at, fmt::format("unknown key {}: a space belongs after the colon", quoted_name(entry.key)));
+      report_.error(at, fmt::format("unknown key {}: put a space after the colon", quoted_name(entry.key)));
       continue;
     }
     const std::string synonym = key_of_synonym(entry.key, absent);
@@ -286,7 +286,7 @@ std::optional<Value> MapReader::need(std::string_view key) const {
   auto value = get(key);
   if (value || !is_map_) return value;
   if (entry_of(key) != nullptr) {
-    report_.error(key_source(key), "has no value");
+    report_.error(key_source(key), "has no value: give one");
   } else if (!broken_ && std::find(misspelt_.begin(), misspelt_.end(), key) == misspelt_.end()) {
     report_.error(map_, fmt::format("'{}' is missing", key));
   }

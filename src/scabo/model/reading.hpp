@@ -1,4 +1,4 @@
-// The model file being read: what is known so far, and one function for each section of the file.
+// State of the reader: what is known so far, and one function for each section of the model file.
 #pragma once
 
 #include <optional>
@@ -13,36 +13,36 @@
 
 namespace scabo::model {
 
-/// What the reader knows about a body beyond the Body: whether its parts can be relied upon. Whoever needs a
-/// part that is not there stays silent, since the mistake is reported already.
+/// What the reader knows about a body besides the Body itself: which of its parts are valid. Functions that need an
+/// invalid part stay silent, because the mistake has been reported.
 struct BodyState {
-  bool shape = false;     ///< the outline is complete and names can be looked up in it
-  bool material = false;  ///< Body::material is an index
-  bool held = false;      ///< a support names it
-  bool touched = false;   ///< a contact names it
+  bool shape = false;     ///< the outline is valid, so that names can be looked up in it
+  bool material = false;  ///< Body::material is a valid index
+  bool held = false;      ///< it has a support
+  bool touched = false;   ///< it has a contact
 };
 
-/// Place of a name in a list: models have thousands of bodies.
+/// Position of a name in a list; models may have thousands of bodies.
 using Index = std::unordered_map<std::string, int>;
 
 struct Reading {
   Report report;
   Model model;
   std::vector<BodyState> bodies;            ///< as long as model.bodies
-  bool materials_known = true;              ///< false: no section, or a broken one: names cannot be checked
-  bool bodies_known = true;                 ///< false: some body is not in model.bodies
-  bool places_known = true;                 ///< false: some support or contact names a body that is not known
-  std::vector<std::string> material_names;  ///< of the section, broken ones included
-  std::vector<int> material_index;          ///< of each name; -1 for a broken one
-  std::vector<std::string> load_names;      ///< of the section, broken ones included
+  bool materials_known = true;              ///< false: the section is missing or broken; names cannot be checked
+  bool bodies_known = true;                 ///< false: a body is missing from model.bodies
+  bool places_known = true;                 ///< false: a support or contact refers to an unknown body
+  std::vector<std::string> material_names;  ///< all names of the section, broken materials included
+  std::vector<int> material_index;          ///< of each name; -1 for a broken material
+  std::vector<std::string> load_names;      ///< all names of the section, broken loads included
   Index index_of_body;                      ///< in model.bodies
   Index index_of_material;                  ///< in material_names
-  Index index_of_load;                      ///< in model.loads; -1 for a broken one
+  Index index_of_load;                      ///< in model.loads; -1 for a broken load
   std::set<std::string> own_support_names;  ///< given by the user
-  std::vector<bool> support_is_named;       ///< for each of model.supports: has its name from the user
-  bool conditions_known = true;             ///< false: some load or support is broken
+  std::vector<bool> support_is_named;       ///< for each of model.supports: its name was given by the user
+  bool conditions_known = true;             ///< false: a load or support is broken
 
-  bool steps_known = false;  ///< true: every step has its factors
+  bool steps_known = false;  ///< true: all steps have been read
 
   int body_index(std::string_view name) const;
   BodyState& state(int body) { return bodies[static_cast<std::size_t>(body)]; }
@@ -58,28 +58,29 @@ void read_bodies(Reading& reading, const Value& value);
 void read_supports(Reading& reading, const Value& value);
 void read_loads(Reading& reading, const Value& value);
 void read_contacts(Reading& reading, const Value& value);
-/// Without a section (nothing): one step that takes everything to factor 1.
+/// If the section is absent, there is one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);
 
-/// What a contact carries: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
+/// Contact law: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
 void read_law(Reading& reading, const MapReader& map, Contact& contact);
 
-/// `shape` of a body; nothing when it is broken.
+/// `shape` of a body; nothing if it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);
-/// The same outline run the other way round; every edge and corner keeps its names.
+/// Reverses the direction of an outline; every edge and corner keeps its names.
 void turn_round(Outline& outline);
-/// `mesh` of an elastic body whose outline is known, or not (nullptr); `crack`: its tip is the scaling centre.
+/// `mesh` of an elastic body. `outline`: null if it is not known. `crack`: null if there is none; its tip is the
+/// scaling centre.
 std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack);
-/// `cracks` of a body whose outline is known; nothing when they are broken.
+/// `cracks` of a body with a valid outline; nothing if they are broken.
 std::optional<std::vector<Crack>> read_cracks(Reading& reading, const Value& value, const Body& body);
-/// `sectors`: a material for each edge; nothing when it is broken.
+/// `sectors`: the material of each edge; nothing if the section is broken.
 std::optional<std::vector<int>> read_sectors(Reading& reading, const Value& value, const Body& body);
-/// Index into Model::materials of the material that `value` names, -1 for a broken one; nothing when there is none.
+/// Index into Model::materials of the material named by `value`, or -1 if that material is broken; nothing if it does
+/// not exist.
 std::optional<int> read_material_name(Reading& reading, const Value& value);
 
-/// A place; nothing when it is broken or names a part of a broken body. `body` is its index as soon as that
-/// much is known.
+/// A place; nothing if it is broken or belongs to a broken body. `body` is its index as soon as it is known.
 struct ReadPlace {
   std::optional<Place> place;
   int body = -1;
@@ -87,7 +88,7 @@ struct ReadPlace {
 constexpr const char* place_example = "upper.top or {body: upper, near: [6, 3]}";
 ReadPlace read_place(Reading& reading, const Value& value);
 
-// What only the whole model shows; called when every section was read.
+// Checks that need the whole model, called after all sections have been read.
 void check_conflicting_supports(Reading& reading);
 void check_never_applied(Reading& reading);
 void check_bodies_held(Reading& reading);
@@ -95,7 +96,7 @@ void check_something_loads(Reading& reading, const Value& root);
 void check_density(Reading& reading);
 void check_expansion(Reading& reading);
 
-/// What messages call an edge: the user's own name for it, or `edge_3`.
+/// Name of an edge in messages: the name given by the user, or `edge_3`.
 const std::string& shown_name(const Edge& edge);
 
 /// `(x, y)` for messages.

@@ -9,14 +9,14 @@ namespace scabo::model {
 
 namespace {
 
-constexpr std::size_t longest_name = 60;  // compared and shown; distances cost the product of two lengths
+constexpr std::size_t longest_name = 60;  // compared and shown; the cost of a distance is the product of the lengths
 
 char fold(char c) {
   if (c == '-') return '_';
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// Damerau's distance (optimal string alignment), case and -/_ not counted.
+/// Damerau distance (optimal string alignment), ignoring case and treating - as _.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -160,7 +160,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
   const std::string nearest = nearest_name(name, known);
   if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
   if (known.empty()) return "";
-  return fmt::format(" (there is: {})", name_list(known));
+  return fmt::format(" (available: {})", name_list(known));
 }
 
 std::string one_line(std::string_view text) {
@@ -172,7 +172,7 @@ std::string one_line(std::string_view text) {
 
 std::string shortened(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
-  std::size_t end = most;  // never through the middle of a character
+  std::size_t end = most;  // never within a character
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
   return std::string(text.substr(0, end)) + "...";
 }

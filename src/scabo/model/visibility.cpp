@@ -1,4 +1,4 @@
-// What the scaling centre sees, and where a better one lies.
+// Visibility of the boundary from the scaling centre, and search for a better centre.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@ namespace scabo::model {
 
 namespace {
 
-constexpr double margin = 1e-6;  // of the size of the body; closer to a tangent counts as not seen
+constexpr double margin = 1e-6;  // relative to the size of the body; closer to a tangent counts as not visible
 
 /// Whether an angle lies within those of an arc.
 bool covers(const Arc& arc, double angle) {
@@ -64,7 +64,7 @@ std::vector<Vec2> clip(const std::vector<Vec2>& polygon, const Vec2& point, cons
   return kept;
 }
 
-/// The kernel: all points on the left of every tangent.
+/// The kernel: all points to the left of every tangent.
 std::vector<Vec2> kernel(const Outline& outline, double size) {
   constexpr int tangents = 32;
   const Vec2 origin = outline.edges.front().start;
@@ -135,7 +135,7 @@ std::optional<Vec2> seeing_point(const Outline& outline) {
   const Vec2 middle = region[0] + moment / area;
   const double best = clearance(outline, middle);
   if (!(best > margin * size)) return {};
-  // The fewest digits that still see everything well: the user will type them.
+  // As few digits as still give good visibility, because the user will type them.
   const double decade = std::pow(10.0, std::floor(std::log10(size)));
   for (int digits = 1; digits <= 6; ++digits) {
     const Vec2 candidate = rounded(middle, decade * std::pow(10.0, -digits));

@@ -32,7 +32,7 @@ struct Position {
   int column = 1;
 };
 
-/// Length of the UTF-8 character at the start of `text`; 0 when it is not valid.
+/// Length of the UTF-8 character at the start of `text`; 0 if it is not valid.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -49,8 +49,8 @@ std::size_t character_length(std::string_view text) {
   return length;
 }
 
-/// The text as yaml-cpp and editors agree on it: no byte order mark, lines end with \n. Throws a Diagnostic
-/// for bytes that no text has: yaml-cpp would read on and report something else.
+/// The text in the form on which yaml-cpp and editors agree: no byte order mark, lines end with \n. Throws a Diagnostic
+/// for bytes that are not text: yaml-cpp would continue and report something else.
 std::string clean_text(std::string_view text) {
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   std::string clean;
@@ -62,7 +62,7 @@ std::string clean_text(std::string_view text) {
     const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7f;
     if (length == 0 || control) {
       throw Diagnostic{{at.line, at.column, ""},
-                       fmt::format("byte 0x{:02x} is no text: a model file is YAML in UTF-8", byte)};
+                       fmt::format("byte 0x{:02x} is not text: a model file must be YAML in UTF-8", byte)};
     }
     if (byte == '\n' || byte == '\r') {
       const bool pair = byte == '\r' && text.size() > 1 && text[1] == '\n';
@@ -78,20 +78,20 @@ std::string clean_text(std::string_view text) {
   return clean;
 }
 
-/// yaml-cpp's sentences, said for someone who writes a model.
+/// Messages of yaml-cpp in the terms of someone who writes a model.
 std::string explain(const std::string& message) {
   static const std::array<std::pair<const char*, const char*>, 13> known{{
       {YAML::ErrorMsg::MAP_VALUE, "a ':' cannot stand here: check the indentation, or quote a text with ': ' in it"},
-      {YAML::ErrorMsg::END_OF_MAP, "this line fits to no key above: check the indentation"},
-      {YAML::ErrorMsg::END_OF_SEQ, "this line fits to no list above: check the indentation and the '- '"},
+      {YAML::ErrorMsg::END_OF_MAP, "this line belongs to none of the keys above: check the indentation"},
+      {YAML::ErrorMsg::END_OF_SEQ, "this line belongs to none of the lists above: check the indentation and the '- '"},
       {YAML::ErrorMsg::END_OF_MAP_FLOW, "the '{' before this is not closed, or a ',' is missing"},
       {YAML::ErrorMsg::END_OF_SEQ_FLOW, "the '[' before this is not closed, or a ',' is missing"},
-      {YAML::ErrorMsg::FLOW_END, "this bracket closes nothing"},
+      {YAML::ErrorMsg::FLOW_END, "this bracket was never opened"},
       {YAML::ErrorMsg::BLOCK_ENTRY, "a '- ' cannot stand here: check the indentation"},
       {YAML::ErrorMsg::MAP_KEY, "a '? ' cannot stand here"},
-      {YAML::ErrorMsg::TAB_IN_INDENTATION, "a tab cannot indent: use spaces"},
+      {YAML::ErrorMsg::TAB_IN_INDENTATION, "tabs are not allowed in the indentation: use spaces"},
       {YAML::ErrorMsg::UNKNOWN_TOKEN, "this character cannot start a value: put the text in quotes"},
-      {YAML::ErrorMsg::UNKNOWN_ANCHOR, "no anchor of this name stands before"},
+      {YAML::ErrorMsg::UNKNOWN_ANCHOR, "no anchor of this name is defined before"},
       {YAML::ErrorMsg::EOF_IN_SCALAR, "the quote before this is not closed"},
       {YAML::ErrorMsg::DOC_IN_SCALAR, "the quote before this is not closed"},
   }};
@@ -101,8 +101,8 @@ std::string explain(const std::string& message) {
   return fmt::format("not valid YAML: {}", message);
 }
 
-/// Hands the text to yaml-cpp piece by piece, and ends it where no value came for too long: yaml-cpp would first read a
-/// text of any length to its end.
+/// Passes the text to yaml-cpp in pieces, and ends it if there was no value for too long: yaml-cpp would otherwise read
+/// a text of any length to its end.
 class BoundedText : public std::streambuf {
  public:
   BoundedText(const std::string& text, long most) : text_(text), most_(static_cast<std::size_t>(most)) {}
@@ -164,7 +164,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (root_) fail(mark, "a second document starts here: a model file holds one");
+    if (root_) fail(mark, "a second document starts here, but a model file must contain only one");
   }
   void OnDocumentEnd() override {}
 
@@ -186,7 +186,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     source_.value_came();
     const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) fail(mark, "this alias stands inside its own anchor");
+    if (found == anchors_.end()) fail(mark, "this alias refers to a value that contains it");
     add(found->second, position(mark));
   }
 
@@ -213,7 +213,7 @@ class TreeBuilder : public YAML::EventHandler {
     std::string key;                             // of a map: the last one read
     bool has_key = false;                        // of a map: the next node is the value of that key
     bool merges = false;                         // of a map: that key is `<<`
-    bool repeats = false;                        // of a map: that key stood before; its value is dropped
+    bool repeats = false;                        // of a map: that key occurred before; its value is dropped
     std::unordered_map<std::string, int> lines;  // of the keys of a map
     std::vector<NodePtr> merged;
   };
@@ -223,22 +223,22 @@ class TreeBuilder : public YAML::EventHandler {
     throw Diagnostic{{at.line, at.column, ""}, message};
   }
 
-  /// Bytes in front of `end` that do not start a character.
+  /// Number of bytes before `end` that do not start a character.
   long continuations_before(std::size_t end) const {
     return std::lower_bound(continuations_.begin(), continuations_.end(), end) - continuations_.begin();
   }
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
-    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags ('!...') have no meaning here: leave it out");
+    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags ('!...') are not supported: leave the tag out");
   }
 
   void check_depth(const YAML::Mark& mark) const {
     if (static_cast<int>(open_.size()) > limits_.depth) {
-      fail(mark, fmt::format("nested deeper than {} levels", limits_.depth));
+      fail(mark, fmt::format("values are nested deeper than {} levels", limits_.depth));
     }
   }
 
-  /// yaml-cpp takes the end of the file for a closing quote.
+  /// yaml-cpp accepts the end of the file as a closing quote.
   void check_closed_quote(const YAML::Mark& mark) const {
     if (mark.pos < 0 || mark.pos >= static_cast<int>(text_.size())) return;
     const char quote = text_[static_cast<std::size_t>(mark.pos)];
@@ -287,7 +287,7 @@ class TreeBuilder : public YAML::EventHandler {
     add(open.node, at);
   }
 
-  /// Puts a finished node where it belongs: the root, an item, a key or a value.
+  /// Adds a finished node to its parent: as the root, an item, a key or a value.
   void add(const NodePtr& node, const Position& at) {
     if (open_.empty()) {
       root_ = node;
@@ -355,10 +355,10 @@ class TreeBuilder : public YAML::EventHandler {
     parent.depth = std::max(parent.depth, child.depth + 1);
     if (parent.expanded > limits_.nodes) {
       throw Diagnostic{{at.line, at.column, ""},
-                       fmt::format("more than {} values, aliases counted in full", limits_.nodes)};
+                       fmt::format("the file has more than {} values, aliases counted in full", limits_.nodes)};
     }
     if (parent.depth > limits_.depth) {
-      throw Diagnostic{{at.line, at.column, ""}, fmt::format("nested deeper than {} levels", limits_.depth)};
+      throw Diagnostic{{at.line, at.column, ""}, fmt::format("values are nested deeper than {} levels", limits_.depth)};
     }
   }
 
@@ -368,7 +368,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Diagnostic>& diagnostics_;
   const YamlLimits& limits_;
   std::vector<std::size_t> line_starts_;
-  std::vector<std::size_t> continuations_;  // a file may be one line of megabytes: columns are looked up here
+  std::vector<std::size_t> continuations_;  // for the columns of files with very long lines
   std::vector<Open> open_;
   std::unordered_map<YAML::anchor_t, NodePtr> anchors_;
   NodePtr root_;
@@ -405,7 +405,7 @@ NodePtr parse_yaml(std::string_view text, std::vector<Diagnostic>& diagnostics, 
   } catch (const YAML::Exception& error) {
     if (cut()) return nullptr;
     const Position at = builder.position(error.mark);
-    // What a tab breaks is reported further on, as a fault of the indentation.
+    // An error caused by a tab is reported later, as an error of indentation.
     const bool tab = builder.indentation(error.mark).find('\t') != std::string_view::npos;
     diagnostics.push_back({{at.line, at.column, ""}, explain(tab ? YAML::ErrorMsg::TAB_IN_INDENTATION : error.msg)});
     return nullptr;
@@ -425,8 +425,8 @@ std::string read_text_file(const std::string& file, const YamlLimits& limits) {
   const auto fail = [&](const std::string& message) { refuse_file(file, message); };
   std::error_code code;
   const auto status = std::filesystem::status(file, code);
-  if (code == std::errc::too_many_symbolic_link_levels) fail("symbolic links on the way to it lead in a circle");
-  if (code == std::errc::filename_too_long) fail("no such file: the name is longer than any file's");
+  if (code == std::errc::too_many_symbolic_link_levels) fail("the symbolic links in its path form a loop");
+  if (code == std::errc::filename_too_long) fail("no such file: the name is too long");
   if (!std::filesystem::exists(status) && code && code != std::errc::no_such_file_or_directory &&
       code != std::errc::not_a_directory)
     fail(fmt::format("cannot be read: {}", code.message()));
@@ -435,16 +435,16 @@ std::string read_text_file(const std::string& file, const YamlLimits& limits) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-  // Read in pieces: pipes have no size.
+  // Read in pieces, because pipes have no size.
   std::string text;
   std::vector<char> piece(1 << 16);
   while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) || stream.gcount() > 0) {
     text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
     if (static_cast<long>(text.size()) > limits.bytes) {
-      fail(fmt::format("larger than {} MB: this is no model file", limits.bytes >> 20));
+      fail(fmt::format("the file is larger than {} MB, which is too large for a model file", limits.bytes >> 20));
     }
   }
-  if (stream.bad()) fail("cannot be read to its end");
+  if (stream.bad()) fail("cannot be read completely");
   return text;
 }
 

@@ -1,5 +1,5 @@
-// The contacts after an increment as lines, for ParaView: one point for each pair, at its undeformed place on A, and a
-// line between neighbours of one contact (a contact of one pair is a point).
+// The contacts after an increment as lines, for ParaView: one point for each pair, at its undeformed position on A, and
+// a line between neighbouring pairs of a contact (a contact of one pair is a point).
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace scabo::result {
 
-/// In the arrays that the file holds.
+/// Stored in the arrays that are written to the file.
 struct ContactLines {
   std::vector<double> points;              // 3 per pair, z = 0
-  std::vector<std::int32_t> connectivity;  // points of the cells, one cell after the other
-  std::vector<std::int32_t> offsets;       // one per cell: where its points end in `connectivity`
-  std::vector<std::uint8_t> types;         // one per cell: VTK's number
+  std::vector<std::int32_t> connectivity;  // point numbers of all cells in sequence
+  std::vector<std::int32_t> offsets;       // one per cell: end of its points in `connectivity`
+  std::vector<std::uint8_t> types;         // one per cell: VTK cell type
   std::vector<std::int32_t> cell_contact;  // number of the contact from 1, in the order of the model
 
   // One per pair
@@ -24,7 +24,7 @@ struct ContactLines {
   std::vector<double> gap, slip;                       // length
   std::vector<double> normal_force, tangential_force;  // on B
   std::vector<double> traction;                        // 3 per pair: pressure along n and shear along t, on B
-  std::vector<double> displacement;                    // 3 per pair, of A
+  std::vector<double> displacement;                    // 3 per pair, of the point on A
 };
 
 ContactLines contact_lines(const analysis::IncrementResult& increment);

@@ -11,13 +11,13 @@ namespace scabo::result {
 /// First line, with the names of the columns.
 extern const std::string_view contact_table_header;
 
-/// As CSV wants it: in quotation marks, those inside doubled, where it holds what divides a table.
+/// A field of a CSV table: in quotation marks, with those inside doubled, if it contains separators.
 std::string csv_quoted(const std::string& text);
 
 /// `open`, `stick` or `slip`.
 std::string_view name_of(contact::ContactState state);
 
-/// Lines of an increment; numbers as short as they can be read back exactly.
+/// Lines of an increment, with the shortest numbers that read back exactly.
 std::string contact_table_rows(const analysis::IncrementResult& increment);
 
 }  // namespace scabo::result

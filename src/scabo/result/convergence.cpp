@@ -19,13 +19,13 @@ namespace {
 
 using Text = std::back_insert_iterator<fmt::memory_buffer>;
 
-constexpr double width = 820.0, height = 500.0;                            // of the picture, pixels
+constexpr double width = 820.0, height = 500.0;                            // of the plot, pixels
 constexpr double left = 84.0, right = 620.0, top = 56.0, bottom = 440.0;   // of the frame
-constexpr std::size_t most_curves = 60, most_names = 16, most_named = 19;  // drawn; names wanted, names at most
-constexpr double least_residual = 1e-17;                                   // what is drawn for zero
+constexpr std::size_t most_curves = 60, most_names = 16, most_named = 19;  // drawn; names aimed at; names at most
+constexpr double least_residual = 1e-17;                                   // drawn for zero
 constexpr const char* red = "#d62728";
 
-/// From dark violet (0) through green to yellow (1): readable in grey and by the colour-blind.
+/// From dark violet (0) through green to yellow (1): readable in grey and with colour blindness.
 std::string colour(double t) {
   constexpr std::array<std::array<double, 3>, 5> stops = {
       {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {223, 205, 35}}};
@@ -55,7 +55,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// Iterations to x, residuals to y.
+/// Maps iterations to x and residuals to y.
 class Axes {
  public:
   Axes(const std::vector<ConvergenceCurve>& curves, double tolerance) {
@@ -111,7 +111,7 @@ class Axes {
 /// Whether an iteration belongs to a problem of fewer pairs, which makes the start (stage `newton, 65 pairs`).
 bool is_coarse(const contact::Iteration& at) { return at.stage.ends_with(" pairs"); }
 
-/// More points than this would cover the curve.
+/// With more points than this the curve would be hidden.
 constexpr std::size_t most_points = 200;
 
 bool shows_coarse_points(const ConvergenceCurve& curve) {
@@ -123,7 +123,8 @@ void draw_curve(Text to, const Axes& axes, const ConvergenceCurve& curve, const 
   const bool crowded = curve.iterations.size() > 40;
   fmt::format_to(to, "<g stroke=\"{0}\" fill=\"{0}\"{1}><title>{2}</title>", stroke,
                  crowded && !name_stages ? " opacity=\"0.45\"" : "", escaped(curve.name));
-  // A line for every start: where a joint breaks or another stage begins, the iteration does not advance.
+  // A separate line for every start: when a joint breaks or another stage begins, the iteration number does not
+  // advance.
   const std::string begin =
       fmt::format("<polyline class=\"curve\"{} points=\"", curve.converged ? "" : " stroke-dasharray=\"5 3\"");
   for (std::size_t k = 0; k < curve.iterations.size(); ++k) {
@@ -165,8 +166,8 @@ void draw_legend(Text to, const std::vector<const ConvergenceCurve*>& curves, co
     fmt::format_to(to, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x + 30, y + 4, escaped(name.substr(0, 60)));
     y += 19;
   };
-  // Names of all, or of the first and the last and some between; of those that did not converge as many as there is
-  // room for.
+  // Names of all curves, or of the first, the last and some between; of those that did not converge, as many as there
+  // is room for.
   const std::size_t every = (curves.size() + most_names - 1) / most_names;
   std::size_t unnamed = 0, room = most_named;
   for (std::size_t k = 0; k < curves.size(); ++k) {
@@ -188,7 +189,7 @@ void draw_legend(Text to, const std::vector<const ConvergenceCurve*>& curves, co
                    left_out);
 }
 
-/// What hollow points are, below the names.
+/// Explanation of hollow points, below the names.
 void draw_coarse_note(Text to) {
   const double x = right + 20, y = bottom + 18;
   fmt::format_to(to, "<circle class=\"coarse\" stroke=\"#222\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\"/>", x + 8, y - 4);

@@ -24,15 +24,15 @@ struct ConvergenceCurve {
   bool converged = true;
 };
 
-/// An SVG picture that needs nothing else: residual (logarithmic) over iterations, the colours from the first
-/// curve to the last; red: not converged. Of more than 60 curves every n-th is drawn, and those that did not
-/// converge unless they are more than 60 themselves. Where there is a single curve, its stages are named.
+/// A self-contained SVG plot: residual (logarithmic) over iterations, with colours from the first curve to the last;
+/// red: not converged. If there are more than 60 curves, every n-th is drawn, and also those that did not converge
+/// unless these are more than 60 themselves. A single curve has its stages named.
 std::string convergence_plot(const std::vector<ConvergenceCurve>& curves, const std::string& title, double tolerance);
 
 /// The same for a run.
 std::string convergence_plot(const analysis::StaticSolution& solution);
 
-/// What the beginning of such a picture holds.
+/// Text near the beginning of such a plot, by which it is recognised.
 extern const std::string_view convergence_plot_mark;
 
 }  // namespace scabo::result

@@ -24,13 +24,13 @@ int open_empty(const std::filesystem::path& path) {
   return descriptor;
 }
 
-/// Never a device such as /dev/full.
+/// Only a regular file, never a device such as /dev/full.
 void remove_regular(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
 }
 
-/// Zero, or the error that stopped it.
+/// Zero, or the error that ended the write.
 int write_at(int descriptor, std::string_view content, off_t position) {
   while (!content.empty()) {
     const ssize_t written = ::pwrite(descriptor, content.data(), content.size(), position);
@@ -50,7 +50,7 @@ WriteError::WriteError(std::string_view what, std::filesystem::path path, std::s
 void write_file(const std::filesystem::path& path, std::string_view content) {
   const int descriptor = open_empty(path);
   int error = write_at(descriptor, content, 0);
-  if (::close(descriptor) != 0 && error == 0) error = errno;  // network disks say here that they are full
+  if (::close(descriptor) != 0 && error == 0) error = errno;  // network file systems report here that they are full
   if (error == 0) return;
   remove_regular(path);
   fail_to_write(path, error);
@@ -89,7 +89,7 @@ void GrowingFile::append_before_footer(std::string_view content, std::string_vie
   text += footer;
   const int error = write_at(descriptor_, text, size_);
   if (error != 0) {
-    // Without the part that was written, and with the old footer, which was as long as this one.
+    // Remove the part that was written, and restore the old footer, which has the same length.
     if (footer.empty() || write_at(descriptor_, footer, size_) == 0)
       (void)!::ftruncate(descriptor_, size_ + static_cast<off_t>(footer.size()));
     fail_to_write(path_, error);

@@ -1,5 +1,5 @@
-// Files that are written completely or not at all, and files that grow and can be read at any time, even if the
-// program is killed. System calls are used, because a stream loses the reason why data could not be written.
+// Files that are written completely or not at all, and files that grow and can be read at any time, even if the program
+// is killed. System calls are used because a stream does not preserve the reason for a failed write.
 #pragma once
 
 #include <filesystem>
@@ -21,18 +21,18 @@ class WriteError : public std::runtime_error {
   std::filesystem::path path_;
 };
 
-/// Writes a new file, or replaces one; where that fails, nothing is left of it. Throws WriteError.
+/// Writes a new file, or replaces one; if that fails, no file is left. Throws WriteError.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// The same through `path.part` and a change of name: readers see the old or the new content, never a part.
+/// The same by writing `path.part` and renaming it: readers see the old or the new content, never a part.
 void replace_file(const std::filesystem::path& path, std::string_view content);
 
-/// Holds a directory for the one run that writes into it, until it is destroyed or the process ends: however it ends,
-/// the system releases the lock, so that none is ever stale. Nothing is written for it. Where a file system knows no
-/// locks, nothing is held.
+/// Locks a directory for the run that writes into it, until this object is destroyed or the process ends. The system
+/// releases the lock however the process ends, so that no stale lock remains. No file is written. On file systems
+/// without locks there is no protection.
 class DirectoryLock {
  public:
-  /// Throws WriteError where another process holds the directory.
+  /// Throws WriteError if another process has locked the directory.
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
   DirectoryLock(DirectoryLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -43,7 +43,7 @@ class DirectoryLock {
   int descriptor_ = -1;
 };
 
-/// A file that grows at its end. What a failed write left there is taken away again.
+/// A file to which data are appended. An incomplete write is removed again.
 class GrowingFile {
  public:
   explicit GrowingFile(std::filesystem::path path);  ///< creates it empty
@@ -52,14 +52,13 @@ class GrowingFile {
   GrowingFile& operator=(const GrowingFile&) = delete;
 
   void append(std::string_view content);
-  /// Writes `content` and `footer` over the footer of the call before, in one piece: the file is always
-  /// complete.
+  /// Writes `content` and `footer` over the previous footer in one operation, so that the file is always complete.
   void append_before_footer(std::string_view content, std::string_view footer);
 
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
-  long long size_ = 0;  ///< without footer
+  long long size_ = 0;  ///< without the footer
 };
 
 }  // namespace scabo::result

@@ -1,4 +1,4 @@
-// Points, cells and fields of an output file, in the arrays that the file holds.
+// Points, cells and fields of an output file, in the arrays that are written to it.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace scabo::result {
 
-/// VTK's numbers.
+/// Numbers of VTK cell types.
 enum class CellType : std::uint8_t { triangle = 5, polygon = 7, quad = 9, quadratic_quad = 23 };
 
-/// Where fields are given: the same for every increment. The points of a body follow each other, and so do
-/// its cells; the first points of an elastic body are its nodes, in their order.
+/// Points and cells at which fields are given, the same for every increment. The points of a body are consecutive, and
+/// so are its cells; the first points of an elastic body are its nodes, in their order.
 struct Grid {
   std::vector<double> points;              // 3 per point, z = 0
-  std::vector<std::int32_t> connectivity;  // points of the cells, one cell after the other
-  std::vector<std::int32_t> offsets;       // one per cell: where its points end in `connectivity`
+  std::vector<std::int32_t> connectivity;  // point numbers of all cells in sequence
+  std::vector<std::int32_t> offsets;       // one per cell: end of its points in `connectivity`
   std::vector<std::uint8_t> types;         // one per cell: CellType
   std::vector<std::int32_t> point_body;    // number of the body from 1, in the order of the model
   std::vector<std::int32_t> cell_body;
@@ -35,8 +35,8 @@ struct Grid {
   }
 };
 
-/// Values at the points of a Grid after one increment. Displacements in double precision, because they are
-/// small beside coordinates; seven digits are enough for the rest.
+/// Values at the points of a Grid after one increment. Displacements are in double precision because they are small
+/// compared with coordinates; for the other fields seven digits are sufficient.
 struct Fields {
   std::vector<double> displacement;  // 3 per point, z = 0
   std::vector<float> stress;         // 6 per point: xx, yy, zz, xy, yz, xz (ParaView's order)

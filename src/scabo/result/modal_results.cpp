@@ -92,7 +92,7 @@ std::string modal_summary_content(const analysis::ModalResult& result, bool runn
   for (const auto& [name, seconds] : stages(result.timing)) json["timing"][name] = seconds;
   const auto memory = peak_memory();
   json["peak_memory_bytes"] = memory ? Json(*memory) : Json();
-  // Texts of the user may be no UTF-8; that must not lose the results.
+  // Texts of the user may not be UTF-8; the results must not be lost because of that.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -11,11 +11,11 @@ namespace scabo::result {
 /// A line for each mode: number, frequency, body, effective masses and their share of the total mass.
 std::string report_modes(const analysis::ModalResult& result);
 
-/// Content of summary.json; `running`: before there are modes.
+/// Content of summary.json; `running`: before modes are known.
 std::string modal_summary_content(const analysis::ModalResult& result, bool running = false);
 
-/// Writes the shapes into a directory that `prepare_directory` has made; adds the seconds it took to `result.timing`.
-/// Throws WriteError.
+/// Writes the mode shapes into a directory created by `prepare_directory`, and adds the time to `result.timing`. Throws
+/// WriteError.
 void write_shapes(const std::filesystem::path& directory, analysis::ModalResult& result);
 
 /// Writes log.txt and summary.json. Throws WriteError.

@@ -15,15 +15,15 @@ namespace scabo::result {
 
 namespace {
 
-/// Exponentials of a field at many points, with RadialTable: some hundred.
+/// Number of exponentials for a field at many points with RadialTable: some hundred.
 constexpr std::size_t of_table = 600;
-/// From so many points on, values along xi are interpolated.
+/// Number of points above which values are interpolated along xi.
 constexpr std::size_t many = 200;
 constexpr double most_condensed_bytes = 2e9;
-/// Of a body's size: nearer to the scaling centre a point counts as lying on it.
+/// Relative to the size of a body: a point closer to the scaling centre counts as lying on it.
 constexpr double on_centre = 1e-9;
 
-/// To condense a point costs five exponentials, once.
+/// Condensation of a point costs five exponentials, once.
 bool worth_condensing(std::size_t points, int increments) {
   return 5 * points <= static_cast<std::size_t>(increments) * std::min(points, of_table);
 }
@@ -32,7 +32,7 @@ bool loaded_inside(const analysis::IncrementResult& increment, std::size_t body)
   return !increment.interior[body].loads.empty();
 }
 
-/// Where a mesh has the point: arcs are divided into polynomials, which may pass it a little further inside.
+/// Position of the point in the mesh: arcs are divided into polynomials, which may pass slightly inside of it.
 std::optional<element::ScaledPoint> located(const element::Ring& ring, const Vec2& x, bool unbounded) {
   if (const auto point = element::locate(ring, x, unbounded)) return point;
   auto point = element::locate(ring, unbounded ? 2.0 * x : 0.5 * x, unbounded);
@@ -83,8 +83,7 @@ PointEvaluation::PointEvaluation(const analysis::StaticSolution& solution, std::
         body.infinite.push_back(infinite);
         if (infinite)
           warnings_.push_back(fmt::format(
-              "stress of body '{}' is infinite at ({:.6g}, {:.6g}), its scaling centre: '{}' has "
-              "no stress there",
+              "stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
               solution.model.bodies[index].name, points_[row].at.x(), points_[row].at.y(), points_[row].name));
       }
       const double bytes =

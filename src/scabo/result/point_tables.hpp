@@ -1,7 +1,7 @@
 // points.csv, lines.csv and grid.csv: values at points inside bodies after every increment (docs/results.md).
 //
-// Values are those of the semi-analytical solution (finite elements: of their shape functions). Where many increments
-// are to come, the points of a super-element are condensed to its boundary first (element/point_operator.hpp).
+// Values are those of the semi-analytical solution (finite elements: of their shape functions). If there are many
+// increments, the points of a super-element are first condensed to its boundary (element/point_operator.hpp).
 #pragma once
 
 #include <memory>
@@ -22,18 +22,18 @@ std::string_view file_of(PointTable table);
 std::string_view header_of(PointTable table);  ///< first line, with the names of the columns
 bool wanted(const model::Output& output, PointTable table);
 
-/// Values at a point; stress is that of the point's body there.
+/// Results at a point; the stress is that of its body there.
 struct PointResult {
   element::PointValues values;
   double stress_zz = 0.0;
-  double energy_density = 0.0;  ///< strain energy over volume, force / length^2
-  bool has_stress = true;       ///< false in rigid bodies, and where stress is infinite
+  double energy_density = 0.0;  ///< strain energy per volume, force / length^2
+  bool has_stress = true;       ///< false in rigid bodies and where stress is infinite
 };
 
-/// Points where a mesh has its values; holds for every increment of the analysis.
+/// Evaluation of results at given points, for every increment of the analysis.
 class PointEvaluation {
  public:
-  /// `increments`: how many will be asked for. Keeps references to the solution.
+  /// `increments`: expected number of increments. Keeps references to the solution.
   PointEvaluation(const analysis::StaticSolution& solution, std::vector<mesh::OutputPoint> points, int increments);
   ~PointEvaluation();
   PointEvaluation(PointEvaluation&&) noexcept;
@@ -41,17 +41,17 @@ class PointEvaluation {
   const std::vector<mesh::OutputPoint>& points() const { return points_; }
   std::vector<PointResult> at(const analysis::StaticSolution& solution,
                               const analysis::IncrementResult& increment) const;
-  /// Sentences about points that have no stress because it is infinite there.
+  /// Warnings about points without stress because it is infinite there.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  struct Body;  // its points
+  struct Body;  // a body with its points
   std::vector<mesh::OutputPoint> points_;
   std::vector<Body> bodies_;
   std::vector<std::string> warnings_;
 };
 
-/// Lines of a table; numbers as short as they can be read back exactly, nothing where there is no value.
+/// Lines of a table, with the shortest numbers that read back exactly; a field without a value is empty.
 std::string point_table_rows(PointTable table, const PointEvaluation& evaluation,
                              const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
 

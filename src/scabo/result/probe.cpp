@@ -9,7 +9,7 @@ namespace scabo::result {
 namespace {
 
 bool inside(const model::Outline& outline, const Vec2& x) {
-  // Turns of the boundary around x, in pieces short enough for arcs.
+  // Winding of the boundary around x, in pieces that are short enough for arcs.
   double turn = 0.0;
   for (const model::Edge& edge : outline.edges) {
     const int pieces = edge.arc ? 64 : 1;
@@ -48,10 +48,10 @@ std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const 
     high = high.cwiseMax(corner);
   }
   const Vec2 size = high - low;
-  // Curved sides may bulge out of the box of their nodes, by less than a quarter of it.
+  // Curved sides may extend beyond the bounding box of their nodes by less than a quarter of its size.
   if (((x - low).array() < -0.25 * size.array()).any() || ((x - high).array() > 0.25 * size.array()).any())
     return std::nullopt;
-  // Position and its gradient are those of a displacement field whose nodal values are the coordinates.
+  // Position and its gradient are computed like a displacement field whose nodal values are the coordinates.
   element::Vector16 nodal;
   for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(static_cast<Eigen::Index>(2 * i)) = corners[i];
   const auto position = [&](const Vec2& at) {

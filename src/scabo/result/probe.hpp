@@ -1,4 +1,4 @@
-// Displacement, strain and stress at single points, without any mesh for output.
+// Displacement, strain and stress at single points, without an output mesh.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace scabo::result {
 
-/// Values of one body after one increment at any point (x, y) of its undeformed shape. Keeps references to
-/// the solution and the increment.
+/// Values of one body after one increment at any point (x, y) of its undeformed shape. Keeps references to the solution
+/// and the increment.
 class Probe {
  public:
   Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body);
@@ -20,13 +20,13 @@ class Probe {
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
 
-  /// Makes many points cheap: fields of super-elements are interpolated along xi, to rounding.
+  /// Prepares for many points: fields of super-elements are then interpolated along xi, to rounding accuracy.
   void expect_many();
 
-  /// Nothing when the point lies outside the body. Between finite elements (super-elements: boundary
-  /// elements) that of one of them is taken. A rigid body has displacement only.
+  /// Nothing if the point lies outside the body. Between finite elements (in super-elements: boundary elements) the
+  /// value of one of them is returned. A rigid body has only a displacement.
   std::optional<element::PointValues> at(const Vec2& x) const;
-  /// The same where its place in the super-element is known already.
+  /// The same for known scaled boundary coordinates.
   element::PointValues at(const Vec2& x, const element::ScaledPoint& place) const;
 
  private:
@@ -53,10 +53,10 @@ struct FiniteElementState {
 FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element,
                                         const Vector& u);
 
-/// Natural coordinates of `x` in an element; nothing when it lies outside.
+/// Natural coordinates of `x` in an element; nothing if it lies outside.
 std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x);
 
-/// Displacement of a point of a rigid body, `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.
+/// Displacement of a point of a rigid body at `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.
 Vec2 rigid_displacement(const Vector& motion, const Vec2& arm);
 
 }  // namespace scabo::result

@@ -28,8 +28,8 @@ Vec2 on_ring(const mesh::BodyMesh& body, int node, double xi) {
   return xi == 1.0 ? x : Vec2(centre + xi * (x - centre));
 }
 
-/// Rings from the boundary inwards, then the centre: quadrilaterals between the rings, triangles at the
-/// centre. Of an unbounded domain, rings from the boundary outwards.
+/// Rings from the boundary inwards, then the centre: quadrilaterals between the rings, triangles at the centre. For an
+/// unbounded domain, rings from the boundary outwards.
 void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSampling& sampling, std::int32_t number) {
   const auto first = static_cast<std::int32_t>(grid.point_count());
   const auto n = static_cast<std::int32_t>(sampling.nodes.size());
@@ -193,7 +193,8 @@ std::vector<double> ring_levels(const element::Ring& ring) {
   std::vector<double> levels;
   double xi = 1.0, next = width;
   for (int i = 0; i < ring_count; ++i, xi -= next, next *= low) levels.push_back(xi);
-  // Stresses may grow without bound towards the centre of an open super-element: rings half as far away each.
+  // Stresses may be unbounded towards the centre of an open super-element: each ring is at half the distance of the
+  // previous one.
   if (ring.is_open())
     for (int i = 0; i < inner_rings; ++i) levels.push_back(0.5 * levels.back());
   return levels;
@@ -208,7 +209,7 @@ std::vector<double> outer_ring_levels() {
 
 namespace {
 
-/// Points of the elements of a ring: a node of its own for each material that meets there.
+/// Points of the elements of a ring: where materials meet, one point for each of them.
 void share_points(const element::Ring& ring, const element::Sectors& sectors, RingSampling& sampling) {
   const std::size_t count = ring.elements.size();
   std::vector<int> point_of(ring.nodes.size(), -1), material_at(ring.nodes.size(), -1);

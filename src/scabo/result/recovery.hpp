@@ -1,11 +1,11 @@
-// Displacement and stress of every body, for output files and pictures.
+// Displacement and stress of every body, for output files and figures.
 //
-// A super-element is sampled on rings xi = const, at the boundary nodes of every ring, closer towards the
-// boundary. Both displacement and stress come from its semi-analytical solution u(xi) = xi^S u(1), strain =
-// B1 u,xi + 1/xi B2 u; where two boundary elements meet, the mean of both, and two points where their materials differ.
-// At a scaling centre where strains are infinite (a crack's tip), stress is not a number. An unbounded body is shown as
-// far as `farthest` radii. A FE body is given at its nodes, stress as the mean over the elements of a node. A rigid
-// body is its outline, moved, without stress.
+// A super-element is sampled on rings xi = const at the boundary nodes, with smaller distances towards the boundary.
+// Displacement and stress follow from its semi-analytical solution u(xi) = xi^S u(1), strain = B1 u,xi + 1/xi B2 u.
+// Where two boundary elements meet, the mean of both is given, or two points if their materials differ. At a scaling
+// centre where strains are infinite (the tip of a crack), stress is not a number. An unbounded body is shown up to
+// `farthest` radii. A finite element body is given at its nodes, with the mean stress of the elements of each node. A
+// rigid body is its displaced outline, without stress.
 #pragma once
 
 #include <memory>
@@ -17,19 +17,19 @@
 
 namespace scabo::result {
 
-/// Strain matrices of a super-element at the points of a ring. They hold on every ring, and for all bodies that share
-/// the super-element.
+/// Strain matrices of a super-element at the points of a ring. They are valid on every ring and for all bodies that
+/// share the super-element.
 struct RingSampling {
   struct Sample {
-    int point = 0;        // of the ring, to which the strain belongs
+    int point = 0;        // point of the ring to which the strain belongs
     double weight = 1.0;  // 1 / number of boundary elements that meet there
     std::size_t element = 0;
     Eigen::Matrix<double, 3, Eigen::Dynamic> B1, B2;
   };
-  std::vector<int> nodes;            ///< boundary node of every point: all in order, then again where materials meet
-  std::vector<std::size_t> sectors;  ///< an element at every point, for its material
-  std::vector<std::vector<int>> points;  ///< of every element, one for each of its nodes
-  std::vector<int> centre;  ///< of every element: which centre point, one for each run of elements of one material
+  std::vector<int> nodes;            ///< boundary node of every point: all in order, then those where materials meet
+  std::vector<std::size_t> sectors;  ///< a boundary element at every point, for its material
+  std::vector<std::vector<int>> points;  ///< points of every element, one for each of its nodes
+  std::vector<int> centre;               ///< centre point of every element; one for each run of equal material
   std::vector<Sample> samples;
   std::vector<double> levels;  ///< xi of the rings, from the boundary (1) inwards; the centres come after them
 };
@@ -43,7 +43,7 @@ struct RigidBody {
   std::vector<Vec2> arms;  // outline relative to its centroid
 };
 
-/// Made once for a mesh; then gives the fields of any increment.
+/// Created once for a mesh; gives the fields of any increment.
 class Recovery {
  public:
   explicit Recovery(const analysis::StaticSolution& solution);
@@ -57,11 +57,11 @@ class Recovery {
   std::vector<std::variant<SuperElementBody, FiniteElementBody, RigidBody>> bodies_;
 };
 
-/// Rings on which a super-element with `nodes` boundary nodes is sampled: the outermost about as wide as
-/// boundary nodes are apart, those further inside wider by a constant factor.
+/// Rings on which a super-element is sampled: the outermost is about as wide as boundary nodes are apart, and those
+/// further inside are wider by a constant factor.
 std::vector<double> ring_levels(const element::Ring& ring);
 
-/// Of an unbounded domain, outwards.
+/// Rings of an unbounded domain, outwards.
 std::vector<double> outer_ring_levels();
 constexpr double farthest = 6.0;
 

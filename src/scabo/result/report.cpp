@@ -33,13 +33,13 @@ std::string pairs_in_contact(const analysis::ContactResult& contact) {
 
 constexpr double rounding = 1e-12;
 
-/// Forces as small are rounding.
+/// Smaller forces are rounding.
 double force_level(const analysis::IncrementResult& increment) {
   const contact::Certificate& certificate = increment.certificate;
   return increment.largest_force * std::max({rounding, certificate.equilibrium, certificate.rigid_balance});
 }
 
-/// Lengths as small are rounding.
+/// Smaller lengths are rounding.
 double length_level(const analysis::IncrementResult& increment) {
   double motion = 0.0, place = 0.0;
   for (const Vector& u : increment.displacements)
@@ -54,7 +54,7 @@ std::string shown(double value, double level, int digits = 6) {
   return fmt::format("{:.{}g}", std::abs(value) <= level ? 0.0 : value, digits);
 }
 
-/// 0 also where the forces that it stands for are rounding.
+/// Also 0 if the corresponding forces are rounding.
 std::string shown_pressure(const analysis::ContactResult& contact, double level) {
   const bool pressed = std::any_of(contact.pairs.begin(), contact.pairs.end(), [&](const analysis::PairResult& pair) {
     return std::abs(pair.normal_force) > level;
@@ -131,7 +131,7 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
     }
     return text + '\n';
   }
-  if (increment.reason.starts_with("mechanism")) return text + "; mechanism\n";  // named at the end
+  if (increment.reason.starts_with("mechanism")) return text + "; mechanism\n";  // described at the end
   return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
 }
 

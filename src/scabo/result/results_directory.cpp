@@ -32,7 +32,7 @@ bool is_vtu_name(const std::string& name, std::string_view begin) {
          std::all_of(number.begin(), number.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-/// What the beginning of a result file holds; nothing for names that no result has.
+/// Text at the beginning of a result file; nothing for names that are not results.
 std::optional<std::string_view> mark_of(const std::string& name) {
   if (is_vtu_name(name, "fields_") || is_vtu_name(name, "contact_")) return vtk_mark;
   if (name == "fields.pvd" || name == "contact.pvd") return vtk_mark;
@@ -46,7 +46,7 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   return std::nullopt;
 }
 
-/// True also for a file that a full disk or a kill left empty: nothing is lost with it.
+/// Also true for a file that a full disk or a kill left empty: nothing is lost by removing it.
 bool written_by_scabo(const fs::path& file, std::string_view mark) {
   std::array<char, 512> beginning{};
   std::ifstream stream(file, std::ios::binary);
@@ -56,10 +56,10 @@ bool written_by_scabo(const fs::path& file, std::string_view mark) {
   return read.empty() || read.find(mark) != std::string_view::npos;
 }
 
-/// The system's words, and what to do where they do not say it.
+/// The message of the system, with a remedy if it lacks one.
 std::string reason_of(const std::error_code& error) {
   if (error == std::errc::too_many_symbolic_link_levels)
-    return "symbolic links on the way lead in a circle: remove them, or choose another directory";
+    return "the symbolic links in its path form a loop: remove them, or choose another directory";
   if (error == std::errc::filename_too_long) return "the name is too long: choose a shorter one";
   if (error == std::errc::permission_denied || error == std::errc::read_only_file_system)
     return error.message() + ": choose a directory that you may write to";
@@ -79,7 +79,7 @@ void create(const fs::path& path) {
   if (error) throw WriteError("cannot create the directory", path, reason_of(error));
 }
 
-/// The discrete problems of an earlier run: HDF5 files with the group `scabo`, whose name stands near the beginning.
+/// The discrete problems of an earlier run: HDF5 files with the group `scabo`, whose name occurs near the beginning.
 void add_old_problems(const fs::path& path, std::vector<fs::path>& old) {
   std::error_code error;
   const auto refuse = [&](const std::string& name) {
@@ -101,8 +101,7 @@ void add_old_problems(const fs::path& path, std::vector<fs::path>& old) {
   if (error) throw WriteError("cannot read the directory", path, error.message());
 }
 
-/// Takes away the results of an earlier run. First looks at everything, so that an error leaves the directory
-/// as it was.
+/// Removes the results of an earlier run. All files are checked first, so that an error leaves the directory unchanged.
 void remove_old_results(const fs::path& path) {
   std::error_code error;
   std::vector<fs::path> old;
@@ -121,7 +120,7 @@ void remove_old_results(const fs::path& path) {
     fs::remove(file, error);
     if (error) throw WriteError("cannot remove", file, error.message());
   }
-  fs::remove(path / problems_name, error);  // only when it is empty
+  fs::remove(path / problems_name, error);  // only if it is empty
 }
 
 /// A model without contact has none.
@@ -146,7 +145,7 @@ void mark_failed(const fs::path& directory, const std::string& reason) noexcept 
   std::ifstream stream(file, std::ios::binary);
   const std::string before((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   replace_file(file, failed_summary(before, reason));
-} catch (...) {  // the caller tells why the run ended
+} catch (...) {  // the caller reports why the run ended
 }
 
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mesh::Mesh mesh)
@@ -177,7 +176,7 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution, const analy
   const Stopwatch writing(write_seconds_);
   if (Clock::now() >= next_summary_) write_running_summary(solution);
 } catch (const WriteError&) {
-  try {  // the increment is solved: its totals may still find room
+  try {  // the increment is solved, and there may be room for its totals
     replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true));
   } catch (const WriteError&) {
   }
@@ -198,7 +197,7 @@ void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const
   log_->append(report_increment(solution.model, increment));
 }
 
-/// Collections last: they name only files that are complete.
+/// Collections are written last, because they may name only complete files.
 void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
                                   const analysis::IncrementResult& increment) {
   if (fields_collection_) {
@@ -255,7 +254,7 @@ void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
 }
 
 void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
-  // Where the run ended early, the last increment that converged was not known to be the last.
+  // If the run ended early, the last converged increment was not known to be the last.
   const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
                                  [](const auto& increment) { return increment.converged; });
   if (fields_written_ < finished_ && last != solution.increments.rend()) add_fields(solution, *last);
@@ -266,7 +265,7 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
     for (const std::string& warning : warnings_) log_->append("warning: " + warning + "\n");
     log_->append(report_end(solution, complete(solution.timing)));
   }
-  // Not in `write`: a file cannot hold the time it took to write it.
+  // Not counted in `write`, because a file cannot contain the time of its own writing.
   replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), false));
 }
 
@@ -293,7 +292,7 @@ void ResultsDirectory::begin_log(const analysis::StaticSolution& solution) {
   log_begun_ = true;
 }
 
-/// Long runs write a long file: it may take a twentieth of the time.
+/// For long runs the file is long: writing it may take a twentieth of the time.
 void ResultsDirectory::write_running_summary(const analysis::StaticSolution& solution) {
   const Clock::time_point start = Clock::now();
   replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true));

@@ -1,7 +1,7 @@
-// The directory that a run leaves: summary.json, contact.csv, fields.pvd with one .vtu for each increment, contact.pvd
-// with one .vtu of the contacts for each (both as `output` asks for them), convergence.csv and .svg, log.txt, and where
-// they are asked for points.csv, lines.csv, grid.csv and problems/ (docs/results.md). Increments are added as they
-// finish, so that they can be read while the run goes on, and after it was interrupted or killed.
+// The results directory of a run: summary.json, contact.csv, fields.pvd with one .vtu for each increment, contact.pvd
+// with one .vtu of the contacts for each (both as requested by `output`), convergence.csv and .svg, log.txt, and if
+// requested points.csv, lines.csv, grid.csv and problems/ (docs/results.md). Increments are added as they finish, so
+// that they can be read while the run continues and after it was interrupted or killed.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,13 @@
 
 namespace scabo::result {
 
-/// Creates the directory, or clears it of the results of an earlier run. Only files that Scabo wrote are
-/// removed; one of another origin that stands where a result has to go is an error, and so is another run at work
-/// there. The directory is held for the caller as long as the lock lives. Throws WriteError.
+/// Creates the directory, or removes the results of an earlier run from it. Only files written by Scabo are removed; a
+/// file of another origin in the place of a result is an error, and so is another run that writes there. The directory
+/// is locked for the caller as long as the lock exists. Throws WriteError.
 [[nodiscard]] DirectoryLock prepare_directory(const std::filesystem::path& path);
 
-/// Says in summary.json that an error ended the run: status `failed`, with the reason. Where that cannot be written
-/// (a full disk), the file stays as it was: readable, with status `running`.
+/// Records in summary.json that an error ended the run: status `failed`, with the reason. If that cannot be written (a
+/// full disk), the file remains as it was: readable, with status `running`.
 void mark_failed(const std::filesystem::path& directory, const std::string& reason) noexcept;
 
 class ResultsDirectory {
@@ -34,22 +34,22 @@ class ResultsDirectory {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes what an increment came to; for one that did not converge a line of log.txt only. Also summary.json, as far
-  /// as it is known, unless that would take more than a twentieth of the time. Throws WriteError.
+  /// Writes the results of an increment; for one that did not converge, only a line of log.txt. Also writes
+  /// summary.json with the results so far, unless that would take more than a twentieth of the time. Throws WriteError.
   void add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
 
-  /// Writes summary.json and ends log.txt, however the run ended. `solution.timing` with the figures that
-  /// only the caller knows: read and total. Throws WriteError.
+  /// Writes summary.json and completes log.txt, however the run ended. `solution.timing` contains the figures that only
+  /// the caller knows: read and total. Throws WriteError.
   void finish(const analysis::StaticSolution& solution);
 
-  /// Where the discrete problem of attempt `attempt` (from 0) of an increment goes: problems/STEP_INCREMENT.hdf5 for
-  /// the last attempt, problems/STEP_INCREMENT.attempt_1.hdf5 and so on for those before it. Creates the directory.
-  /// Throws WriteError.
+  /// File for the discrete problem of attempt `attempt` (from 0) of an increment: problems/STEP_INCREMENT.hdf5 for the
+  /// last attempt, problems/STEP_INCREMENT.attempt_1.hdf5 and so on for the earlier ones. Creates the directory. Throws
+  /// WriteError.
   std::filesystem::path problem_file(const analysis::IncrementResult& increment, std::size_t attempt) const;
 
-  const std::vector<std::string>& warnings() const { return warnings_; }  ///< about what was written
-  double recover_seconds() const { return recover_seconds_; }             ///< for interior fields
-  double write_seconds() const { return write_seconds_; }                 ///< for files
+  const std::vector<std::string>& warnings() const { return warnings_; }  ///< about the files written
+  double recover_seconds() const { return recover_seconds_; }             ///< time for interior fields
+  double write_seconds() const { return write_seconds_; }                 ///< time for writing files
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -67,7 +67,7 @@ class ResultsDirectory {
   void add_fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
   std::vector<int> increments_of_step_;
   int finished_ = 0;        // converged increments
-  int fields_written_ = 0;  // number of the last one whose fields are written
+  int fields_written_ = 0;  // number of the last increment whose fields are written
   bool log_begun_ = false;
   double recover_seconds_ = 0.0, write_seconds_ = 0.0;
   Clock::time_point next_summary_;
@@ -79,7 +79,7 @@ class ResultsDirectory {
     std::optional<PointEvaluation> evaluation;
   };
   std::vector<PointFile> point_files_;
-  std::vector<std::string> warnings_;  // of the tables
+  std::vector<std::string> warnings_;  // of the point tables
   model::Output output_;
   std::optional<FieldCollection> fields_collection_, contact_collection_;
   std::optional<Recovery> recovery_;

@@ -8,7 +8,7 @@ namespace scabo::result {
 StressMeasures stress_measures(const element::Vec3& stress, double zz) {
   const double mean = 0.5 * (stress[0] + stress[1]);
   const double half_difference = 0.5 * (stress[0] - stress[1]);
-  const double radius = std::hypot(half_difference, stress[2]);  // of Mohr's circle
+  const double radius = std::hypot(half_difference, stress[2]);  // radius of Mohr's circle
   StressMeasures measures;
   const double larger = mean + radius, smaller = mean - radius;
   const double s1 = std::max(larger, zz), s3 = std::min(smaller, zz);

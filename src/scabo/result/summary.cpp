@@ -113,7 +113,7 @@ Json json_of(const analysis::ErrorEstimate& error, const model::Model& model) {
   return json;
 }
 
-/// An increment that did not converge has no contacts, reactions, certificate or energy: it is no result.
+/// An increment that did not converge has no contacts, reactions, certificate or energy, because it is not a result.
 Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
   Json json = {{"step", increment.step}, {"increment", increment.increment}};
   json["factors"] = Json::object();
@@ -190,7 +190,7 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution) {
     sizes.super_elements += static_cast<int>(body.super_elements.size());
     sizes.finite_elements += static_cast<int>(body.elements.size());
   }
-  // Only an increment tells which pairs can move.
+  // Only an increment shows which pairs can move.
   if (!solution.increments.empty() && solution.increments.front().converged) {
     for (const analysis::ContactResult& contact : solution.increments.front().contacts)
       sizes.contact_pairs += static_cast<int>(contact.pairs.size());
@@ -202,7 +202,7 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution) {
 }
 
 std::optional<long long> peak_memory() {
-  // getrusage() would count the program that started this one as well.
+  // getrusage() would include the program that started this one.
   std::ifstream status("/proc/self/status");
   for (std::string key; status >> key; std::getline(status, key))
     if (long long kilobytes = 0; key == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
@@ -234,7 +234,7 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
     json["increments"].push_back(json_of(increment, solution.model));
   json["timing"] = json_of(timing, running);
   json["peak_memory_bytes"] = value_or_null(peak_memory());
-  // Texts of the user may be no UTF-8; that must not lose the results.
+  // Texts of the user may not be UTF-8; the results must not be lost because of that.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -1,4 +1,4 @@
-// summary.json: the results of a run, for programs (docs/results.md names every key).
+// summary.json: the results of a run, for programs (docs/results.md describes every key).
 #pragma once
 
 #include <optional>
@@ -8,24 +8,24 @@
 
 namespace scabo::result {
 
-/// Sizes of what was solved.
+/// Sizes of the model.
 struct ModelSizes {
   int nodes = 0;
   int dofs = 0;  ///< two for each node, supported ones included
   int super_elements = 0;
   int finite_elements = 0;
-  int contact_pairs = 0;  ///< those that can move; pairs held by supports on both sides are none
+  int contact_pairs = 0;  ///< pairs that can move; pairs held by supports on both sides do not count
 };
 ModelSizes sizes_of(const analysis::StaticSolution& solution);
 
-/// The most memory this process has used so far, in bytes; nothing where the system does not say.
+/// Peak memory of this process in bytes; nothing if the system does not report it.
 std::optional<long long> peak_memory();
 
-/// Content of summary.json. `running`: not at its end yet, so without the figures of the whole run. `timing`
-/// instead of the solution's. Values that do not exist are null.
+/// Content of summary.json. `running`: the run has not ended, so that figures of the whole run are omitted. `timing`
+/// replaces that of the solution. Values that do not exist are null.
 std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running);
 
-/// The summary of a run that an error ended: `summary` with status `failed` and the reason.
+/// The summary of a run ended by an error: `summary` with status `failed` and the reason.
 std::string failed_summary(const std::string& summary, const std::string& reason);
 
 /// `solved`, `not_converged`, `mechanism` or `interrupted`.

@@ -1,4 +1,4 @@
-// The version of Scabo that is written into results.
+// The version of Scabo, as written into results.
 #pragma once
 
 #include <string_view>

@@ -30,19 +30,20 @@ constexpr std::string_view name_of() {
   if constexpr (std::is_same_v<Value, std::uint8_t>) return "UInt8";
 }
 
-/// Numbers as text, for small files, or appended as they lie in memory. (meshio 5.3 mixes up appended arrays where the
-/// offset of one equals that of another in its own encoding, which small arrays bring about.)
+/// Arrays as text, for small files, or appended in binary form. (meshio 5.3 confuses appended arrays if the offset of
+/// one equals that of another in its own encoding, which occurs with small arrays.)
 enum class Encoding { text, appended };
 
-/// Elements that describe arrays, and the data they describe. A block of data is its length in bytes (64
-/// bits), then the values as they lie in memory; offsets count from the underscore that begins the data.
+/// XML elements that describe arrays, and the data they describe. A block of data is its length in bytes (64 bits),
+/// followed by the values as stored in memory; offsets are counted from the underscore at the beginning of the data.
 class Document {
  public:
   explicit Document(std::string beginning, Encoding encoding) : text_(std::move(beginning)), encoding_(encoding) {}
 
   void add(std::string_view text) { text_ += text; }
 
-  /// A scalar has no number of components, as in VTK's own files: readers give one number for each point, not a list.
+  /// A scalar has no number of components, as in files written by VTK: readers then return one number for each point,
+  /// not a list.
   template <typename Value>
   void add_array(std::string_view name, int components, const std::vector<Value>& values,
                  std::string_view attributes = "") {

@@ -1,6 +1,5 @@
-// VTK's XML files, for ParaView: .vtu (an unstructured grid with fields, appended raw binary data) and .pvd
-// (the .vtu files of a run over time). docs/decisions/0002-vtu-writer.md says why VTK's own library does not
-// write them.
+// XML files of VTK for ParaView: .vtu (an unstructured grid with fields, appended raw binary data) and .pvd (the .vtu
+// files of a run over time). docs/decisions/0002-vtu-writer.md explains why they are not written by the VTK library.
 #pragma once
 
 #include <filesystem>
@@ -14,18 +13,18 @@
 
 namespace scabo::result {
 
-/// Stands near the beginning of every .vtu and .pvd of Scabo's, so that they are told from others.
+/// Text near the beginning of every .vtu and .pvd file of Scabo, by which it is recognised.
 inline constexpr std::string_view vtk_mark = "<!-- written by Scabo";
 
-/// Content of a .vtu file, with the arrays that are wanted.
+/// Content of a .vtu file with the requested arrays.
 std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {});
 std::string vtu_content(const ContactLines& lines);
 
-/// A .pvd file, complete after every call.
+/// A .pvd file, which is complete after every call.
 class FieldCollection {
  public:
   explicit FieldCollection(const std::filesystem::path& path);
-  /// `file` relative to the .pvd.
+  /// `file` is relative to the .pvd file.
   void add(double time, std::string_view file);
 
  private:

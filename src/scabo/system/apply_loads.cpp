@@ -1,4 +1,4 @@
-// The loads of a model as nodal forces, and what they do inside bodies.
+// The loads of a model as nodal forces and as loads inside bodies.
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/element/plane_element8.hpp"
 #include "scabo/element/sectors.hpp"
@@ -125,7 +125,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
     std::vector<Vector>& forces = structure.loads.emplace_back(model.bodies.size());
     std::vector<element::InteriorLoads>& interior = structure.interior.emplace_back(model.bodies.size());
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      // Without a place: on every elastic body of finite size.
+      // Without a place, the load acts on every bounded elastic body.
       if (load.on ? load.on->body != static_cast<int>(b) : model.bodies[b].rigid || model.bodies[b].outside) continue;
       Applied applied(model, mesh, *structure.bodies[b], b, load.on ? &*load.on : nullptr);
       std::visit(applied, load.kind);

@@ -1,18 +1,18 @@
-// One body with its supports: how it moves under nodal forces, prescribed displacements and its own rigid motions.
+// One body with its supports: its displacement under nodal forces, prescribed displacements and rigid motions.
 //
-// Displacement vectors hold two components per node; of a rigid body three, [u_x, u_y, L rotation] about its centroid,
-// with L half its size so that all three are lengths. For both,
+// Displacement vectors have two components per node; those of a rigid body have three, [u_x, u_y, L rotation] about its
+// centroid, with L half its size so that all three are lengths. For both,
 //
 //     u = u_p(f, d) + A C'p + Nn a
 //
-// u_p: under applied forces f and prescribed displacements d; A: flexibility, zero on the supports and, where supports
-// leave rigid motions Nn free, on as many further degrees of freedom; a: the amplitudes of those motions, found from
-// their equilibrium Nn'(f + C'p) = 0. No springs are added anywhere.
+// u_p: displacement under applied forces f and prescribed displacements d. A: flexibility, which is zero on the
+// supports and, if supports leave rigid motions Nn free, on as many further degrees of freedom. a: amplitudes of those
+// motions, which follow from their equilibrium Nn'(f + C'p) = 0. No springs are added anywhere.
 //
-// In slender bodies K u is a small difference of large numbers: of a cantilever of length L and depth h they are
-// (L/h)^3 times the load, and rounding u alone leaves 4e-9 of it at 100:1. There displacement, flexibility, reactions,
-// imbalance and energy are found with twice the working precision (linalg/twofold.hpp): u is refined to its last digit,
-// and reactions and imbalance are those of the displacement that u is the rounded value of.
+// In slender bodies K u is a small difference of large numbers: for a cantilever of length L and depth h they are
+// (L/h)^3 times the load, and rounding u alone causes a relative error of 4e-9 at 100:1. In such bodies displacement,
+// flexibility, reactions, imbalance and energy are computed with twice the working precision (linalg/twofold.hpp): u is
+// refined to its last digit, and reactions and imbalance are those of the displacement of which u is the rounded value.
 #pragma once
 
 #include <limits>
@@ -25,7 +25,7 @@
 
 namespace scabo::system {
 
-/// Stiffness of an elastic body: full for one super-element, sparse for finite elements.
+/// Stiffness of an elastic body: dense for one super-element, sparse for finite elements.
 struct Stiffness {
   std::shared_ptr<const Matrix> dense;
   linalg::SparseMatrix sparse;
@@ -39,12 +39,12 @@ struct Stiffness {
   Eigen::Index entries() const { return dense ? dense->size() : sparse.nonZeros(); }
 };
 
-/// A linear combination of degrees of freedom held at a value by a support.
+/// A linear combination of degrees of freedom that a support holds at a prescribed value.
 struct Constraint {
   int dof = -1;               ///< elastic body: the degree of freedom
   Vec2 point = Vec2::Zero();  ///< rigid body: the point (absolute)
   int component = 0;          ///< rigid body: 0 x, 1 y
-  bool rotation = false;      ///< rigid body: the rotation itself, held by a support on the whole body
+  bool rotation = false;      ///< rigid body: its rotation, held by a support on the whole body
   int support = -1;           ///< index into Model::supports
   double value = 0.0;         ///< length, at factor 1
 };
@@ -59,13 +59,13 @@ class BodySystem {
   /// Columns of Nn as [u_x, u_y, L rotation] at the reference point, 3 x m.
   const Matrix& rigid_coordinates() const { return rigid_coordinates_; }
 
-  /// u_p for applied forces f and the prescribed values of every constraint.
+  /// u_p for the applied forces f and the prescribed values of all constraints.
   virtual Vector displacement(const Vector& f, const Vector& prescribed) const = 0;
   /// A on the given degrees of freedom.
   virtual Matrix flexibility(const std::vector<int>& dofs) const = 0;
-  /// Forces that the constraints exert, one for each, for displacements u under the forces f (contact forces included).
+  /// Forces exerted by the constraints, one for each, for displacements u under the forces f (contact forces included).
   virtual Vector reactions(const Vector& u, const Vector& f) const = 0;
-  /// Largest force that remains on a degree of freedom that nothing holds.
+  /// Largest unbalanced force on a degree of freedom without constraint.
   virtual double imbalance(const Vector& u, const Vector& f) const = 0;
   /// 1/2 u'K u.
   virtual double elastic_energy(const Vector& u) const = 0;
@@ -88,13 +88,13 @@ class BodySystem {
 std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
                                          std::vector<Constraint> constraints);
 
-/// A rigid body about `reference`; `size`: its extent. Constraints that contradict each other are the caller's to find:
-/// `contradiction` (of the first that does) is empty otherwise.
+/// A rigid body with reference point `reference` and extent `size`. If constraints contradict each other,
+/// `contradiction` is set to a description of the first that does, which the caller must report; otherwise it is empty.
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
                                        std::string& contradiction);
 
-/// Rigid motions that constraints leave an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the centre of rotation
-/// and L.
+/// Rigid motions that the constraints leave free in an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the centre
+/// of rotation and L.
 Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints, Vec2& reference,
                     double& lever);
 

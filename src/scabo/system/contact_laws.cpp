@@ -14,7 +14,7 @@ namespace {
 
 using LawPointer = std::shared_ptr<const contact::Law>;
 
-/// Linear between the points given, constant beyond them.
+/// Linear between the given points, constant beyond them.
 double coefficient_at(const std::vector<model::FrictionPoint>& along, double s) {
   std::size_t next = 0;
   while (next < along.size() && along[next].position < s) ++next;

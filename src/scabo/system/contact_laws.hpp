@@ -1,12 +1,12 @@
-// The laws of the pairs, from the contacts of the model. Strengths are per area; a pair's area is its tributary length
-// (tributary_lengths.hpp) times the thickness, the same that pressures are taken over.
+// Laws of the contact pairs, from the contacts of the model. Strengths are per area; the area of a pair is its
+// tributary length (tributary_lengths.hpp) times the thickness, as for pressures.
 #pragma once
 
 #include "scabo/system/contact_system.hpp"
 
 namespace scabo::system {
 
-/// Position of the pairs of a contact from its first (0) to its last (1), by length along them.
+/// Position of every pair of a contact along its length, from 0 at the first pair to 1 at the last.
 std::vector<double> positions_along(const mesh::Interface& interface);
 
 contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, const model::Model& model,

@@ -48,7 +48,7 @@ std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSyst
   return motion;
 }
 
-/// What one body adds to W: B A B' on the rows of the pairs that touch it.
+/// Contribution of one body to W: B A B' on the rows of the pairs that touch it.
 struct BodyFlexibility {
   std::vector<int> rows;
   Matrix block;  // rows x rows, symmetric
@@ -79,10 +79,10 @@ BodyFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const 
   return result;
 }
 
-/// W on the rows that `place` keeps (-1: left out): dense where bodies couple most pairs with each other, or where it is
-/// small; sparse otherwise.
+/// W on the rows kept by `place` (-1: left out): dense if bodies couple most pairs with each other or if it is small,
+/// otherwise sparse.
 contact::Delassus sum_of(const std::vector<BodyFlexibility>& bodies, const std::vector<int>& place, Eigen::Index rows) {
-  constexpr Eigen::Index least_sparse = 400;  // rows: below, dense factors are as fast
+  constexpr Eigen::Index least_sparse = 400;  // rows: below this, dense factors are as fast
   constexpr double most_filled = 0.2;
   double entries = 0.0;
   for (const BodyFlexibility& body : bodies) entries += std::pow(static_cast<double>(body.rows.size()), 2);
@@ -154,7 +154,7 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
     for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
       moved[it.row()] = std::max(moved[it.row()], std::abs(it.value()));
 
-  // A pair whose gap no force and no rigid motion changes is held by supports on both sides.
+  // A pair whose gap is changed by no force and no rigid motion is held by supports on both sides.
   const double largest = rows > 0 ? diagonal.maxCoeff() : 0.0;
   std::vector<int> moving, held, place(static_cast<std::size_t>(rows), -1);
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
@@ -176,7 +176,8 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
     Triplets entries;
     for (Eigen::Index k = 0; k < columns; ++k)
       for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
-        if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0) entries.emplace_back(row, k, it.value());
+        if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0)
+          entries.emplace_back(row, k, it.value());
     G = Eigen::SparseMatrix<double>(kept, columns);
     G.setFromTriplets(entries.begin(), entries.end());
   }

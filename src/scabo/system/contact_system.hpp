@@ -9,7 +9,7 @@
 
 namespace scabo::system {
 
-/// What stays the same over all increments.
+/// The part of the contact problem that does not change from increment to increment.
 struct ContactSystem {
   /// A pair that can move: contact, index into the interface's pairs, number shown to users (from 1 in each contact).
   struct Pair {
@@ -17,11 +17,11 @@ struct ContactSystem {
   };
   std::vector<Pair> pairs;                               // N
   std::vector<Eigen::SparseMatrix<double>> motion;       // per body, 2N x size of u: B side positive, A side negative
-  std::vector<Pair> held;                                // pairs whose supports fix the gap: they take no part
+  std::vector<Pair> held;                                // pairs whose gap is fixed by supports, which are left out
   std::vector<Eigen::SparseMatrix<double>> held_motion;  // per body, rows [n, t] as above
-  Vector gap;                                            // N, initial; 0 where the pair is bonded as it is
-  contact::JointLaws laws;                               // what each pair carries
-  contact::Delassus W;                                   // 2N x 2N, a sum over bodies: sparse where they are many
+  Vector gap;                                            // N, initial; 0 if the pair is bonded in its initial position
+  contact::JointLaws laws;                               // law of every pair
+  contact::Delassus W;                                   // 2N x 2N, a sum over bodies; sparse if there are many
   contact::RigidMap G;                                   // 2N x m
   std::vector<int> first_rigid;                          // per body: its first column in G
 

@@ -13,7 +13,7 @@ namespace scabo::system {
 
 namespace {
 
-constexpr Eigen::Index dense_at_most = 300;  // sparse matrices below this size are no gain
+constexpr Eigen::Index dense_at_most = 300;  // below this size sparse matrices bring no advantage
 
 using Sparse = linalg::SparseMatrix;
 
@@ -70,7 +70,7 @@ linalg::EigenPairs elastic_modes(const Matrix& K, const Matrix& M, const Matrix&
   return pairs;
 }
 
-/// Whether as many eigenvalues lie below the widest gap behind the wanted ones as were found there.
+/// Whether the number of eigenvalues below the widest gap behind the requested ones is the number found there.
 bool none_missed(const Sparse& K, const Sparse& M, const Vector& inverses, int count, int rigid) {
   Eigen::Index widest = count;  // the gap between the modes widest - 1 and widest
   for (Eigen::Index k = count; k < inverses.size(); ++k)
@@ -79,7 +79,7 @@ bool none_missed(const Sparse& K, const Sparse& M, const Vector& inverses, int c
   return linalg::eigenvalues_below(K, M, shift) == widest + rigid;
 }
 
-/// Eq. (2); `body` knows the displacement under forces in equilibrium.
+/// Eq. (2); `body` gives the displacement under forces in equilibrium.
 linalg::EigenPairs elastic_modes(const Sparse& K, const Sparse& M, const Matrix& N, int count, const BodySystem& body,
                                  const std::vector<int>& dofs) {
   const Matrix MN = M * N;
@@ -90,14 +90,14 @@ linalg::EigenPairs elastic_modes(const Sparse& K, const Sparse& M, const Matrix&
     Vector u = body.displacement(forces, held)(dofs);
     return Vector(u - N * (MN.transpose() * u));
   };
-  constexpr int more = 6;  // to find a gap behind the wanted ones
+  constexpr int more = 6;  // to find a gap behind the requested ones
   const int all = std::min(count + more, static_cast<int>(dofs.size() - N.cols()) - 1);
   for (unsigned attempt = 0; attempt < 3; ++attempt) {
     linalg::EigenPairs pairs = linalg::largest_by_lanczos(inverse, M, all, attempt);
     if (pairs.values.size() < all || !none_missed(K, M, pairs.values, count, static_cast<int>(N.cols()))) continue;
     return {pairs.values.head(count), pairs.vectors.leftCols(count)};
   }
-  throw BrokenInvariant("natural modes were missed: Lanczos did not find as many as there are");
+  throw BrokenInvariant("natural modes were missed: the Lanczos iterations did not find all of them");
 }
 
 template <typename Symmetric>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* component_name[2] = {"x", "y"};
 
-/// The two supports move alike in every step.
+/// Whether the two supports have the same motion in every step.
 bool same_history(const model::Model& model, int a, int b) {
   for (const model::Step& step : model.steps)
     if (step.support_factors[static_cast<std::size_t>(a)] != step.support_factors[static_cast<std::size_t>(b)])
@@ -83,8 +83,8 @@ class ConstraintCollector {
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
     const Vec2& x = mesh_.bodies[body].nodes[static_cast<std::size_t>(node)];
     diagnostics_.push_back(
-        {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), which support '{}' (line {}) prescribes "
-                                     "otherwise: give the two the same value there, or hold one of them elsewhere",
+        {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
+                                     "another value: give both the same value there, or move one of them",
                                      component_name[component], x.x(), x.y(),
                                      model_.supports[static_cast<std::size_t>(other.support)].name,
                                      model_.supports[static_cast<std::size_t>(other.support)].source.line)});
@@ -103,15 +103,14 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   const int last_support = constraints.empty() ? -1 : constraints.back().support;
   auto system = rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), contradiction);
   if (!contradiction.empty())
-    throw InputError(model.file,
-                     {{model.supports[static_cast<std::size_t>(last_support)].source,
-                       fmt::format("the supports of rigid body '{}' contradict each other: a rigid body can "
-                                   "only move and turn as a whole",
-                                   body.name)}});
+    throw InputError(model.file, {{model.supports[static_cast<std::size_t>(last_support)].source,
+                                   fmt::format("the supports of rigid body '{}' contradict each other: a rigid body "
+                                               "can only translate and rotate as a whole",
+                                               body.name)}});
   return system;
 }
 
-/// Of each body: whether it has a contact with pairs.
+/// For each body: whether it has a contact with pairs.
 std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<bool> found(model.bodies.size(), false);
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
@@ -136,7 +135,7 @@ std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& bod
       return {place.near};
     case model::Place::Kind::face:
     case model::Place::Kind::mouth:
-      break;  // of elastic bodies
+      break;  // only for elastic bodies
   }
   return {};
 }
@@ -216,11 +215,10 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     try {
       structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
     } catch (const linalg::NotPositiveDefinite&) {
-      throw InputError(model.file,
-                       {{body.source,
-                         "its stiffness matrix is not positive definite to working precision: the body is too "
-                         "slender (3000:1 or more), or the constants of its materials (by a factor of 1e12 or so) or "
-                         "the sizes of its elements are too far apart"}});
+      throw InputError(model.file, {{body.source,
+                                     "its stiffness matrix is not positive definite to working precision: the body is "
+                                     "too slender (3000:1 or more), or its material constants (by a factor of about "
+                                     "1e12) or its element sizes differ too much"}});
     }
   }
   return structure;

@@ -8,7 +8,7 @@ namespace scabo::system {
 
 namespace {
 
-/// Eq. (1) of the nodes of one elastic side, in the order given.
+/// Eq. (1) for the nodes of one elastic side, in the given order.
 std::vector<double> lengths_of_side(const model::Place& place, const mesh::Mesh& mesh, const std::vector<int>& paired) {
   const std::vector<Vec2>& nodes = mesh.bodies[static_cast<std::size_t>(place.body)].nodes;
   std::vector<bool> takes_part(nodes.size(), false);

@@ -5,14 +5,15 @@
 //
 //     w_i = | sum over its elements of the Gauss-Lobatto weight of the node times x,eta |                      (1)
 //
-// on a straight quadratic element 1/6, 4/6 and 1/6 of its length. The sum is one of vectors: turned by 90 degrees, it
-// is the integral of N_i n along which contact presses (mesh/contact_side.hpp), so that a uniform pressure p has the
-// nodal forces p w_i exactly, on curved edges too.
+// On a straight quadratic element these are 1/6, 4/6 and 1/6 of its length. The sum is one of vectors: rotated by 90
+// degrees it is the integral of N_i n, along which contact presses (mesh/contact_side.hpp), so that a uniform pressure
+// p has exactly the nodal forces p w_i, also on curved edges.
 //
-// Of a contact, only its own edges count, and of them only elements all of whose nodes take part: under the corner of a
-// block that stands in the middle of a floor, the floor's elements beside the block do not count. A node without such
-// an element keeps the lengths of all its elements. Where both sides are elastic, the mean of both is taken: it is the
-// same when they are swapped, and where elements match they agree but for the gap between curved sides.
+// Only the edges of the contact itself count, and of them only elements all of whose nodes take part: under the corner
+// of a block that stands in the middle of a floor, the elements of the floor beside the block do not count. A node
+// without such an element keeps the lengths of all its elements. If both sides are elastic, the mean of both is used.
+// It does not change if the sides are swapped, and on matching elements both sides agree except for the gap between
+// curved sides.
 #pragma once
 
 #include <vector>

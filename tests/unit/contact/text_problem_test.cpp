@@ -102,8 +102,8 @@ TEST(TextProblem, EveryMistakeHasItsPlace) {
   expect(replaced(dense + vectors, "1.125", "1,125"), "p.dat:7:3: W: must be a number, not '1,125'");
   expect(replaced(dense + vectors, "1e-1", "inf"), "p.dat:11:8: q: must be a finite number, not 'inf'");
   expect(replaced(dense + vectors, "7e-1", "-7e-1"),
-         "p.dat:12:5: mu: a coefficient of friction is 0 or more, not -0.7");
-  expect(dense + vectors + "1", "p.dat:13:1: end: the problem ends with mu");
+         "p.dat:12:5: mu: a coefficient of friction must be 0 or more, not -0.7");
+  expect(dense + vectors + "1", "p.dat:13:1: end: data follow after mu");
   expect(dense + "-1 0.5", "p.dat:11:7: q: the file ends here");
   expect(replaced(columns + vectors, "col 1", "col 2"), "p.dat:13:9: column of W: must be 1, not 2");
   expect(replaced(columns + vectors, "9 to 11", "9 to 12"), "p.dat:21:28: last location: must be from 8 to 11, not 12");

@@ -113,7 +113,7 @@ TEST(BoundaryDivision, NamesAnArcThatItsElementsHide) {
   cap.mesh.centre = {0.9, 0.0};
   const std::string message = message_of(with({cap}));
   EXPECT_THAT(message, HasSubstr("model.yaml:7:11: bodies.cap.mesh: the arc cap.rim in 1 element of order 1 is not "
-                                 "wholly seen from the scaling centre (0.9, 0)"));
+                                 "entirely visible from the scaling centre (0.9, 0)"));
   EXPECT_THAT(message, HasSubstr("use a smaller 'size' or a higher 'order', or set 'centre'"));
   cap.mesh.size = 0.1;
   EXPECT_EQ(message_of(with({cap})), "no error");
@@ -122,16 +122,17 @@ TEST(BoundaryDivision, NamesAnArcThatItsElementsHide) {
 TEST(BoundaryDivision, NamesAnEdgeThatTheCentreDoesNotSee) {
   model::Body block = elastic("block", test::rectangle({0, 0}, {1, 1}), 0.5);
   block.mesh.centre = {1.5, 0.5};
-  EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not seen from the scaling centre"));
+  EXPECT_THAT(message_of(with({block})),
+              HasSubstr("the edge block.right is not entirely visible from the scaling centre"));
   block.mesh.centre = {1.0, 0.5};  // on the edge itself
-  EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not seen"));
+  EXPECT_THAT(message_of(with({block})), HasSubstr("the edge block.right is not entirely visible"));
 }
 
 TEST(BoundaryDivision, RefusesMeshesTooLargeToBeMeant) {
   const model::Body block = elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-9);
   EXPECT_EQ(message_of(with({block})),
-            "model.yaml:7:11: bodies.block.mesh: size 1e-09 would make 8e+09 nodes, more than the 1000000 allowed: "
-            "use a larger 'size'");
+            "model.yaml:7:11: bodies.block.mesh: size 1e-09 would give 8e+09 nodes, more than the 1000000 allowed: use "
+            "a larger 'size'");
   EXPECT_THAT(message_of(with({fem(block)})), HasSubstr("3e+18 nodes"));
   EXPECT_THAT(message_of(with({elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-300)})), HasSubstr("8e+300"));
   const model::Body large = elastic("large", test::rectangle({0, 0}, {1, 1}), 1e-5);
@@ -203,7 +204,8 @@ TEST(Grid, HasTheEdgeNodesOfASuperElementOfOrderTwo) {
 }
 
 TEST(Grid, NeedsARectangleAndOrderTwo) {
-  EXPECT_THAT(message_of(with({fem(elastic("disc", quarter_disc(), 0.1))})), HasSubstr("divides rectangles only"));
+  EXPECT_THAT(message_of(with({fem(elastic("disc", quarter_disc(), 0.1))})),
+              HasSubstr("available only for rectangles"));
   EXPECT_THAT(message_of(with({fem(elastic("plate", test::rectangle({0, 0}, {1, 1}), 0.1, 3))})),
               HasSubstr("elements of order 2, not 3"));
 }

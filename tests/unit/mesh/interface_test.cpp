@@ -409,7 +409,7 @@ TEST(MatchingMistake, EdgesThatLookAway) {
   EXPECT_THAT(of("top", "top"), HasSubstr("lower.top and upper.top do not face each other"));
   EXPECT_THAT(of("top", "left"), HasSubstr("do not"));
   EXPECT_THAT(of("bottom", "top"),
-              HasSubstr("lower.bottom and upper.top face away from each other, 3.01 back to back"));
+              HasSubstr("lower.bottom and upper.top face away from each other at a distance of 3.01"));
   EXPECT_EQ(of("top", "bottom"), "no error");
 }
 
@@ -418,8 +418,8 @@ TEST(MatchingMistake, EdgesThatDoNotOverlap) {
     return message_of(pair_of(elastic("floor", rectangle({0, 0}, {6, 1}), 0.5), "top",
                               elastic("block", rectangle({x, 1}, {1.5, 1}), 0.5), "bottom"));
   };
-  EXPECT_THAT(at(7.0), HasSubstr("floor.top and block.bottom do not lie over each other anywhere"));
-  EXPECT_THAT(at(6.0), HasSubstr("do not lie over each other anywhere"));  // corner on corner only
+  EXPECT_THAT(at(7.0), HasSubstr("floor.top and block.bottom are nowhere opposite each other"));
+  EXPECT_THAT(at(6.0), HasSubstr("are nowhere opposite each other"));  // corner on corner only
   EXPECT_EQ(at(5.5), "no error");
 }
 

@@ -168,10 +168,10 @@ TEST(RigidInterfaceMistake, NothingAboveOrBelow) {
   model::Model model = punch();
   model.bodies[1].outline = rectangle({3, 0}, {1, 1});
   EXPECT_EQ(message_of(model),
-            "model.yaml:24:3: contacts.joint: no node of block.top lies over the rigid punch.bottom: "
-            "move a body, name other edges, or use a smaller mesh size");
+            "model.yaml:24:3: contacts.joint: no node of block.top lies opposite the rigid punch.bottom: move a body, "
+            "name other edges, or use a smaller mesh size");
   model.bodies[1].outline = rectangle({0.01, 0}, {0.02, 1});  // between two nodes
-  EXPECT_THAT(message_of(swapped(model)), HasSubstr("no node of block.top lies over the rigid punch.bottom"));
+  EXPECT_THAT(message_of(swapped(model)), HasSubstr("no node of block.top lies opposite the rigid punch.bottom"));
 }
 
 TEST(RigidInterfaceMistake, TheWrongEdgeOfThePunch) {
@@ -179,7 +179,7 @@ TEST(RigidInterfaceMistake, TheWrongEdgeOfThePunch) {
   model.contacts[0].b = test::edge_of(model, "punch", "top");
   EXPECT_THAT(message_of(model), HasSubstr("block.top and punch.top do not face each other"));
   model.contacts[0].a = test::edge_of(model, "block", "bottom");
-  EXPECT_THAT(message_of(model), HasSubstr("face away from each other, 3 back to back"));
+  EXPECT_THAT(message_of(model), HasSubstr("face away from each other at a distance of 3"));
 }
 
 TEST(RigidInterfaceMistake, TwoRigidBodies) {

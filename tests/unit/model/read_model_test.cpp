@@ -101,8 +101,8 @@ TEST(ReadModel, InterferenceAloneLoadsAModel) {
     result.replace(result.find("GAP"), 3, gap);
     return result;
   };
-  EXPECT_THAT(mistakes_in(with("1", "")), HasSubstr("nothing loads the model"));
-  EXPECT_THAT(mistakes_in(with("1", ", gap: 1e-4")), HasSubstr("nothing loads the model"));
+  EXPECT_THAT(mistakes_in(with("1", "")), HasSubstr("the model has no loading"));
+  EXPECT_THAT(mistakes_in(with("1", ", gap: 1e-4")), HasSubstr("the model has no loading"));
   EXPECT_THAT(mistakes_in(with("1", ", gap: -1e-4")), IsEmpty());
   EXPECT_THAT(mistakes_in(with("0.999", "")), IsEmpty());  // interference by geometry
 }

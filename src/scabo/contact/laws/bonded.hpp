@@ -1,4 +1,4 @@
-// Bonded: the two points stay together as they are at the start, g = g_0 and u_t = 0, whatever the force.
+// Bonded: the two points keep their initial relative position, g = g_0 and u_t = 0, under any force.
 #pragma once
 
 #include <limits>

@@ -1,9 +1,9 @@
-// Cohesion and tensile strength until first failure, friction of any law beside and after them:
+// Cohesion and tensile strength until first failure, in addition to friction of any law, which remains afterwards:
 //
 //     p_n >= -tau_t A,   |p_t| <= c A + mu (p_n)+       until the pair opens or slips for the first time
 //     p_n >= 0,          |p_t| <= mu (p_n)+             ever after
 //
-// The joint is brittle: it loses both strengths at once, and the forces they carried go to its neighbours.
+// The joint is brittle: it loses both strengths at once, and its forces are redistributed to its neighbours.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,7 @@ namespace scabo::contact {
 
 namespace {
 
-/// Motions that need less force than this part of what the pair carries are rounding.
+/// Motions that need less than this fraction of the strength of the pair are rounding.
 constexpr double noticeable = 1e-9;
 
 struct Ends {
@@ -36,7 +36,7 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
     PairEnd& end = ends.of_pair[static_cast<std::size_t>(i)];
     end.opened = state == ContactState::open && opening > rounding;
     end.slid = state == ContactState::slip && sliding > rounding;
-    // An open pair without tension still slides where it has cohesion.
+    // An open pair without tension can still slide if it has cohesion.
     if (state == ContactState::open && problem.cohesion_of(i) > 0.0 && sliding > rounding) end.slid = true;
     end.slip = end.slid && state == ContactState::slip ? slip : 0.0;
     ends.overload[i] = ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
@@ -44,8 +44,8 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
   return ends;
 }
 
-/// The pairs most overloaded among those whose marks the solution changes take their new marks. Whether there
-/// was one.
+/// Updates the flags of the most overloaded pairs among those whose flags the solution changes. Returns whether there
+/// were any.
 bool let_fall(const JointLaws& laws, const Ends& ends, History& trial) {
   History next = trial;
   double largest = -1.0;
@@ -65,10 +65,10 @@ bool let_fall(const JointLaws& laws, const Ends& ends, History& trial) {
   return true;
 }
 
-/// Coefficients that follow the slip: Aitken's extrapolation of each pair's slip from three rounds.
+/// Coefficients that depend on slip: Aitken's extrapolation of the slip of each pair from three rounds.
 class Following {
  public:
-  /// Slip of the next round from what this round gave for `used`; false when all are settled.
+  /// Slip of the next round from the result of this round for `used`; false if all have converged.
   bool next(const JointLaws& laws, const History& from, const Ends& ends, double tolerance, History& trial) {
     bool settled = true;
     const bool extrapolate = ++round_ % 3 == 0;
@@ -96,7 +96,7 @@ class Following {
   std::vector<double> before_;
 };
 
-/// The force that motions and loads of the problem stand for.
+/// The force scale of the motions and loads of the problem.
 double reference_force(const Problem& problem, const Vector& diagonal, const Start& start,
                        const SolverOptions& options) {
   const auto largest = [](const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; };
@@ -105,9 +105,9 @@ double reference_force(const Problem& problem, const Vector& diagonal, const Sta
       {options.force_scale, largest(problem.f), largest(start.p), mean > 0.0 ? largest(problem.q) / mean : 0.0});
 }
 
-/// Solves with strengths cut to a multiple of the forces at work, which they would drown in rounding (p_n + c_t), and
-/// again with a larger multiple where a pair comes near what was cut: as long as none does, nothing depends on it.
-/// `problem` keeps the strengths of the last solve.
+/// Solves with strengths limited to a multiple of the acting forces, which would otherwise be lost in rounding (p_n +
+/// c_t). If a pair comes close to the limit, the problem is solved again with a larger multiple; otherwise the solution
+/// does not depend on the limit. `problem` keeps the strengths of the last solve.
 Solution solve_within(Problem& problem, const Start& start, const SolverOptions& options, double force) {
   const Vector cohesion = problem.cohesion, tension = problem.tension;
   const Eigen::Index d = problem.dimension;
@@ -159,7 +159,7 @@ void set_limits(const JointLaws& laws, const History& history, Problem& problem)
 Evolution evolve(Problem problem, const JointLaws& laws, const History& from, const Start& start,
                  const SolverOptions& options) {
   ensure(laws.of_pair.size() == from.size(), "laws and histories of contact pairs differ in number");
-  constexpr int gradual = 200;  // rounds without anything that falls at once
+  constexpr int gradual = 200;  // rounds in which no strength drops at once
   const bool with_memory = remembers(laws);
   const Vector diagonal = problem.W.diagonal();
   Evolution result;
@@ -203,8 +203,8 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   result.problem = std::move(problem);
   result.solution.trace = std::move(total.trace);
   result.solution.status = Status::not_converged;
-  result.solution.reason = "the strengths of the joints did not settle within " + std::to_string(result.rounds) +
-                           " rounds; the increment may be too large, or failure runs away";
+  result.solution.reason = "the failure states of the joints did not converge within " + std::to_string(result.rounds) +
+                           " iterations; the increment may be too large, or failure propagates without limit";
   return result;
 }
 

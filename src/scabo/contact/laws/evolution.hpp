@@ -1,17 +1,17 @@
-// One increment of pairs whose laws depend on history: solve, determine which histories the solution changes, solve
-// again with the resulting strengths, until nothing changes.
+// One increment with laws that depend on history: solve, determine which histories the solution changes, and solve
+// again with the resulting strengths until nothing changes.
 //
 //     set limits by the trial histories -> solve -> ends of the pairs -> new histories
 //
-// Strengths that fall at once (a joint breaks, slip begins) fall for the most overloaded pairs first, so that
-// failure runs through a joint pair by pair and neighbours that are relieved stay whole:
+// Strengths that drop at once (a joint breaks, slip begins) drop for the most overloaded pairs first, so that failure
+// propagates through a joint pair by pair and unloaded neighbours stay intact:
 //
 //     overload = ((g)+ / W_nn + |ds| / W_tt) / (c A + tau_t A + mu (p_n)+)
 //
-// where the motions are those beyond the strength, which is held meanwhile; pairs within 1e-6 of the largest
-// overload go together (symmetry stays). What fell stays so within the increment. Coefficients that fall
-// gradually follow the slip of the solution by fixed-point iteration with Aitken's extrapolation. Rounds are
-// bounded by the number of strengths that can fall; beyond that the increment has not converged.
+// where the motions are those beyond the strength, which is kept meanwhile; pairs within 1e-6 of the largest overload
+// fail together (to preserve symmetry). A drop is permanent within the increment. Coefficients that decrease gradually
+// follow the slip of the solution by fixed-point iteration with Aitken's extrapolation. The number of rounds is limited
+// by the number of strengths that can drop; beyond that the increment has not converged.
 #pragma once
 
 #include <memory>
@@ -28,16 +28,15 @@ struct JointLaws {
   Vector area;                                      // N, length^2, > 0: tributary length times thickness
 };
 
-using History = std::vector<PairHistory>;  // N; a value, handed from increment to increment
+using History = std::vector<PairHistory>;  // N; a value, passed from increment to increment
 
-/// mu, cohesion and tension of the problem for these histories; vectors of strengths stay empty where all are
-/// zero.
+/// Sets mu, cohesion and tension of the problem for these histories; vectors of strengths remain empty if all are zero.
 void set_limits(const JointLaws& laws, const History& history, Problem& problem);
 
 struct Evolution {
-  Solution solution;  ///< of the last round; iterations and trace of all
+  Solution solution;  ///< of the last round; iterations and trace are those of all rounds
   Problem problem;    ///< of the last round
-  History history;    ///< after the increment; as before it where it was not solved
+  History history;    ///< after the increment; unchanged if it was not solved
   int rounds = 0;
 };
 
@@ -45,8 +44,8 @@ struct Evolution {
 Evolution evolve(Problem problem, const JointLaws& laws, const History& from, const Start& start,
                  const SolverOptions& options);
 
-/// Of a problem for which no forces were found: the motion that nothing holds once every joint that can break is
-/// broken. Nothing where the loads are held without those strengths.
+/// For a problem without a solution found: the rigid motion that nothing restrains once all joints that can break are
+/// broken. Nothing if the loads can be carried without those strengths.
 std::optional<Vector> mechanism_once_broken(Problem problem, const JointLaws& laws, History history);
 
 }  // namespace scabo::contact

@@ -1,4 +1,4 @@
-// Coulomb's law whose coefficient falls with the slip s that the pair has been through, in contact:
+// Coulomb's law with a coefficient that decreases with the accumulated slip s in contact:
 //
 //     mu(s) = mu_s - (mu_s - mu_d) min(s / L, 1)          L > 0
 //     mu    = mu_s until slip begins, mu_d afterwards     L = 0

@@ -1,5 +1,5 @@
-// Tresca's law: the bound of the tangential force is prescribed and does not depend on pressure, |p_t| <= k A,
-// p_n >= 0. Slip does not reduce it. It acts on an open pair as well, because the bound does not depend on p_n: use it
+// Tresca's law: the bound of the tangential force is prescribed and independent of pressure, |p_t| <= k A, p_n >= 0.
+// Slip does not reduce it. It also acts on open pairs, because the bound does not depend on p_n; it is therefore meant
 // for the parts of a joint that stay closed.
 #pragma once
 

@@ -34,10 +34,10 @@ class AlartCurnier {
     return result;
   }
 
-  /// J d = -F; W + alpha in the Jacobian. Nothing where J is singular.
+  /// Solves J d = -F, with W + alpha in the Jacobian. Nothing if J is singular.
   bool direction(const Equations& at, double alpha, Vector& step) const {
     const Eigen::Index d = problem_.dimension, N = problem_.pairs(), m = problem_.G.cols();
-    // Pairs in the air have dp = -F: they go to the right-hand side.
+    // Open pairs have dp = -F, which is moved to the right-hand side.
     std::vector<Eigen::Index> held;
     step = -at.F;
     for (Eigen::Index i = 0; i < N; ++i) {
@@ -152,7 +152,7 @@ End alart_curnier(const Problem& problem, Vector p, Vector a, const Control& con
     for (double alpha : {0.0, 1e-10, 1e-6})
       if ((found = newton.direction(at, alpha, d))) break;
     if (!found) {
-      end.reason = "the Jacobian is singular: no direction exists";
+      end.reason = "the Jacobian is singular, so that there is no search direction";
       return end;
     }
     ++end.iterations;
@@ -171,7 +171,7 @@ End alart_curnier(const Problem& problem, Vector p, Vector a, const Control& con
       end.reason = "no step along Newton's direction lowers the residual";
       return end;
     }
-    if (!descended) step_length = 1.0;  // a full step may lead past a kink where no shorter one descends
+    if (!descended) step_length = 1.0;  // a full step may pass a kink where no shorter step descends
     p += step_length * d.head(size);
     a += step_length * d.tail(a.size());
     if (!descended) at = newton.at(p, a);

@@ -131,7 +131,7 @@ End fischer_burmeister(const Problem& problem, Vector p, Vector a, const Control
     }
     Vector d;
     if (!direction(problem, now, d)) {
-      end.reason = "the Jacobian is singular: no direction exists";
+      end.reason = "the Jacobian is singular, so that there is no search direction";
       return end;
     }
     ++end.iterations;
@@ -143,7 +143,7 @@ End fischer_burmeister(const Problem& problem, Vector p, Vector a, const Control
       p = p_next;
       a = a_next;
       descended = true;
-      // Near enough to the path of solutions: less smoothing, the faster the better the step went.
+      // Close enough to the path of solutions: reduce smoothing, more so after a good step.
       if (largest(next.F) <= eps) eps *= step_length == 1.0 ? 0.02 : 0.2;
       break;
     }

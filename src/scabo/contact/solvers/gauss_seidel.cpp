@@ -13,7 +13,7 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
   const int sweeps = 400 * control.iterations;
   for (int sweep = 0;; ++sweep) {
     if (sweep % 10 == 0 || sweep == sweeps) {
-      iteration.start(p);  // afresh: rounding piles up
+      iteration.start(p);  // anew, because rounding accumulates
       const Vector H = residual_of(problem, r, p, Vector());
       best.offer(p, Vector(), largest(H));
       const std::vector<int> states = states_at(problem, r, p, iteration.motion());
@@ -26,7 +26,8 @@ End gauss_seidel(const Problem& problem, Vector p, const Control& control) {
     }
     iteration.sweep(p);
   }
-  end.reason = p.allFinite() ? "the sweeps did not reach the tolerance in their limit" : "the sweeps went to infinity";
+  end.reason =
+      p.allFinite() ? "the sweeps did not reach the tolerance within the limit of iterations" : "the sweeps diverged";
   return end;
 }
 

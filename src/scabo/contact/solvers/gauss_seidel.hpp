@@ -1,8 +1,8 @@
-// Nonsmooth Gauss-Seidel in the plane and in space, alone and to the end: the sweeps of ../gauss_seidel.hpp.
+// Nonsmooth Gauss-Seidel in the plane and in space as a solver of its own, with the sweeps of ../gauss_seidel.hpp.
 //
-// Sparse W is swept by its columns: the cheapest sweeps of all roads, and the only one that needs no
-// factorisation. Good for: very many pairs, W without full rank, rough accuracy. Convergence is linear at
-// best, and not certain.
+// A sparse W is used column by column. These are the cheapest iterations of all solvers, and the only ones without a
+// factorisation. Suitable for very many pairs, rank-deficient W and low accuracy. Convergence is at best linear and not
+// guaranteed.
 #pragma once
 
 #include "scabo/contact/solvers/road.hpp"

@@ -49,7 +49,7 @@ End proximal_point(const Problem& problem, Vector p, Vector a, const Control& co
     end.converged = largest(H) <= control.small;
     if (end.converged) return end;
     if (round >= 4 * control.iterations || control.deadline.passed()) {
-      end.reason = "the proximal points did not settle in their limit";
+      end.reason = "the proximal-point iterations did not converge within the limit of iterations";
       return end;
     }
     const Problem held = held_at(problem, p, a, alpha, alpha);
@@ -57,7 +57,7 @@ End proximal_point(const Problem& problem, Vector p, Vector a, const Control& co
     const End solved = alart_curnier(held, p, Vector(), inner, bound);
     end.iterations += solved.iterations;
     if (!solved.converged && (alpha *= 10.0) > 1e4) {
-      end.reason = "even the problem held softly was not solved: " + solved.reason;
+      end.reason = "even the regularised problem was not solved: " + solved.reason;
       return end;
     }
     if (!solved.converged) continue;

@@ -1,14 +1,15 @@
-// Proximal point (Rockafellar, SIAM J. Control Optim. 14 (1976) 877): a sequence of problems that are easier
-// because they are held where the last one ended. In the forces
+// Proximal point method (Rockafellar, SIAM J. Control Optim. 14 (1976) 877): a sequence of regularised, easier
+// problems, each centred at the solution of the previous one. In the forces
 //
 //     (W + alpha) p + q - alpha p_k,
 //
-// and where rigid motions are free, in these: G'p + f = beta (a - a_k). Where p and a stand still, the terms
-// are gone and the problem itself is solved. W + alpha has full rank, so Alart and Curnier's Newton does well
-// inside; alpha and beta fall tenfold where a problem was quickly solved, and rise where it was not.
+// and, if rigid motions are free, in these: G'p + f = beta (a - a_k). When p and a no longer change, the additional
+// terms vanish and the original problem is solved. W + alpha has full rank, so that the Newton method of Alart and
+// Curnier works well for these problems; alpha and beta are reduced tenfold when a problem was solved quickly, and
+// increased when it was not.
 //
-// Good for: W without full rank (redundant pairs, stacks of rigid bodies), floating bodies. Forces that are
-// not unique end near where they started.
+// Suitable for rank-deficient W (redundant pairs, stacks of rigid bodies) and floating bodies. Forces that are not
+// unique end near their start.
 #pragma once
 
 #include "scabo/contact/solvers/road.hpp"
@@ -19,8 +20,8 @@ namespace scabo::contact::solvers {
 /// `bound` as in alart_curnier.
 End proximal_point(const Problem& problem, Vector p, Vector a, const Control& control, const Vector* bound = nullptr);
 
-/// Where rigid motions are free and there are no forces to start from, nothing holds the bodies yet: (p, a)
-/// becomes the solution with the bodies held softly where they are. Returns the iterations it took.
+/// If rigid motions are free and there are no forces to start from, nothing holds the bodies yet: (p, a) is set to the
+/// solution with the bodies held by soft springs at their position. Returns the number of iterations.
 int start_softly(const Problem& problem, Vector& p, Vector& a, const Control& control);
 
 }  // namespace scabo::contact::solvers

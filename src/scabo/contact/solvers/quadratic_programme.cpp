@@ -8,8 +8,8 @@ namespace scabo::contact::solvers {
 
 namespace {
 
-/// Where the forces of the set want to go: to the minimum on the set, or, where it has none, along a force
-/// that moves nothing but lowers the value for ever.
+/// Step for the forces of the active set: to the minimum on the set or, if it has none, along a force that causes no
+/// motion and decreases the objective without limit.
 struct Way {
   Vector d;
   bool endless = false;
@@ -67,7 +67,9 @@ End quadratic_programme(const Problem& problem, const Control& control) {
     end.residual = largest(H);
     end.converged = end.residual <= control.small;
     if (!end.converged)
-      end.reason = reason.empty() ? "rounding: the set is right, its equations are not solved well enough" : reason;
+      end.reason = reason.empty()
+                       ? "the active set is found, but rounding prevents an accurate solution of its equations"
+                       : reason;
     return end;
   };
   while (true) {
@@ -90,7 +92,7 @@ End quadratic_programme(const Problem& problem, const Control& control) {
         const double change = go.d[static_cast<Eigen::Index>(k)];
         if (change < 0.0) step = std::min(step, p_n[in[k]] / -change);
       }
-      if (std::isinf(step)) return finish("the gaps cannot be closed by any forces");
+      if (std::isinf(step)) return finish("no forces can close the gaps");
       for (std::size_t k = 0; k < in.size(); ++k) p_n[in[k]] += step * go.d[static_cast<Eigen::Index>(k)];
       if (step == 1.0 && !go.endless) break;
       std::vector<Eigen::Index> kept;

@@ -10,9 +10,8 @@
 //     p_n - (p_n - r_n g)+                                     = min(r_n g, p_n)
 //     p_t - P_D( p_t - r_t ds ),  D = { |p_t| <= mu (p_n)+ }    P: nearest point of the disk (2D: interval)
 //
-// with cohesion c and tensile strength T: (p_n + T) in the place of p_n in the first row, c + mu (p_n)+ as
-// bound. r_n = 1/W_nn, r_t = 1/mean of W_tt for each pair: one r for both tangents, so that the cone stays
-// round.
+// with cohesion c and tensile strength T: (p_n + T) replaces p_n in the first row, and c + mu (p_n)+ is the bound. r_n
+// = 1/W_nn, r_t = 1/mean of W_tt for each pair: one r for both tangents, so that the cone remains circular.
 #pragma once
 
 #include <string>
@@ -24,13 +23,13 @@
 
 namespace scabo::contact::solvers {
 
-/// Parts of one pair: motions or forces [n, t] or [n, t1, t2]. Room for four: whole vector registers.
+/// Motions or forces of one pair, [n, t] or [n, t1, t2]. Capacity of four for whole vector registers.
 using Local = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
 using LocalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
 
 struct Control {
-  double small = 1e-12;  ///< force: a largest residual below this is the end
-  int iterations = 50;   ///< of Newton's kind; each road says what it makes of it
+  double small = 1e-12;  ///< force: the solver ends when the largest residual is below this
+  int iterations = 50;   ///< number of Newton iterations; each solver states how it uses it
   Deadline deadline;     ///< no iteration begins after it
 };
 
@@ -39,26 +38,25 @@ struct End {
   bool converged = false;  ///< residual <= small
   int iterations = 0;
   double residual = 0.0;  ///< largest, force
-  std::string reason;     ///< where not converged: what happened
+  std::string reason;     ///< why it did not converge
   std::vector<Iteration> trace;
 };
 
-/// Law of pair i with its numbers: mu, cohesion (0 where the problem has none), tension (likewise).
+/// Law of pair i: mu, cohesion and tension (0 if the problem has none).
 struct PairLaw {
   double mu = 0.0, cohesion = 0.0, tension = 0.0;
   double bound(double p_n) const { return cohesion + mu * std::max(p_n, 0.0); }
 };
 PairLaw pair_law(const Problem& problem, Eigen::Index i);
 
-/// r_n and r_t of every pair, 2 x N. Where W_ii is nearly 0: of the mean.
+/// r_n and r_t of every pair, 2 x N. Where W_ii is nearly 0, those of the mean.
 Matrix pair_stiffness(const Problem& problem);
 
-/// The vector of the residual above, dN + m: last G'p + f.
+/// The residual vector above, dN + m: G'p + f at the end.
 Vector residual_of(const Problem& problem, const Matrix& r, const Vector& p, const Vector& a);
 double largest(const Vector& v);
 
-/// State of every pair by its forces and motions, for the count of changes in a trace: open 0, stick 1,
-/// slip 2.
+/// State of every pair from its forces and motions, to count the changes in a trace: open 0, stick 1, slip 2.
 std::vector<int> states_at(const Problem& problem, const Matrix& r, const Vector& p, const Vector& motion);
 int changes(const std::vector<int>& before, const std::vector<int>& after);
 

@@ -22,13 +22,13 @@ namespace {
 using Options = std::unique_ptr<SolverOptions, decltype(&solver_options_delete)>;
 using Value = std::unique_ptr<FrictionContactProblem, decltype(&frictionContactProblem_free)>;
 
-double* copied(const double* from, Eigen::Index size) {  // Siconos frees what it is given
+double* copied(const double* from, Eigen::Index size) {  // Siconos frees its input
   auto* to = static_cast<double*>(std::malloc(sizeof(double) * static_cast<std::size_t>(size)));
   std::copy(from, from + size, to);
   return to;
 }
 
-/// Gauss-Seidel in the plane and Lemke want W dense, the solvers in space do better with it sparse.
+/// Gauss-Seidel in the plane and Lemke require a dense W; the solvers in space are faster with a sparse one.
 NumericsMatrix* matrix_of(const Problem& problem) {
   const Matrix& W = problem.W.dense();
   const auto n = static_cast<int>(W.rows());
@@ -53,8 +53,8 @@ int solver_of(const std::string& name, int dimension) {
 
 constexpr int gave_up = -1000;
 
-/// The driver. Siconos ends the process on its own fatal errors unless somebody catches its long jump: no C++
-/// object lives here.
+/// Calls the driver. Siconos ends the process on its own fatal errors unless its long jump is caught; no C++ object may
+/// exist in this function.
 int drive(int dimension, FrictionContactProblem* problem, double* p, double* u, SolverOptions* options) {
   if (setjmp(*sn_get_jmp_buf()) != 0) return gave_up;
   const int status = dimension == 2 ? fc2d_driver(problem, p, u, options) : fc3d_driver(problem, p, u, options);
@@ -71,7 +71,7 @@ End siconos(const std::string& name, const Problem& problem, const Vector& p, co
   const int solver = solver_of(name, problem.dimension);
   End end;
   end.p = p;
-  if (size > 0 && !(problem.W.diagonal().minCoeff() > 0.0)) {  // it asserts this
+  if (size > 0 && !(problem.W.diagonal().minCoeff() > 0.0)) {  // required by Siconos
     end.residual = largest(residual_of(problem, pair_stiffness(problem), p, Vector()));
     end.reason = "Siconos needs W_ii > 0";
     return end;

@@ -1,10 +1,10 @@
-// Solvers of Siconos (Acary, Bremond, Huber; libsiconos-numerics 4.4), called through its C interface:
-// nonsmooth Gauss-Seidel in the plane and in space, Lemke's pivots in the plane, the nonsmooth Newton methods
-// of Alart and Curnier and of Fischer and Burmeister in space. Only with the CMake option SCABO_SICONOS;
-// Siconos is an Apache-licensed library of its own, never needed.
+// Solvers of Siconos (Acary, Bremond, Huber; libsiconos-numerics 4.4), called through its C interface: nonsmooth
+// Gauss-Seidel in the plane and in space, Lemke's pivoting in the plane, the nonsmooth Newton methods of Alart and
+// Curnier and of Fischer and Burmeister in space. Only with the CMake option SCABO_SICONOS; Siconos is a separate,
+// Apache-licensed library and never required.
 //
-// Siconos has no rigid motions beside W and no cohesion: problems in W, q, mu only. It judges by its own
-// residual; what it returns is certified as all else.
+// Siconos has neither rigid motions besides W nor cohesion: it accepts only problems in W, q, mu. It uses its own
+// residual; its results are certified like all others.
 #pragma once
 
 #include <string>

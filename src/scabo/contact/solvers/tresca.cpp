@@ -22,12 +22,12 @@ End tresca(const Problem& problem, Vector p, Vector a, const Control& control) {
     end.converged = largest(H) <= control.small;
     if (end.converged) return end;
     if (round >= 4 * control.iterations || control.deadline.passed()) {
-      end.reason = "the rounds on the friction bound did not settle in their limit";
+      end.reason = "the iterations on the friction bounds did not converge within the limit of iterations";
       return end;
     }
     Vector bound(N);
     for (Eigen::Index i = 0; i < N; ++i) bound[i] = pair_law(problem, i).bound(p[d * i]);
-    // Well below what the next round needs: the error of the bound is the larger part.
+    // Well below what the next iteration needs, because the error of the bound dominates.
     const Control inner{std::max(0.3 * control.small, 1e-3 * largest(H)), control.iterations, control.deadline};
     End solved = alart_curnier(problem, p, a, inner, &bound);
     if (!solved.converged) solved = proximal_point(problem, p, a, inner, &bound);

@@ -1,21 +1,21 @@
-// Fixed point on the friction bound: with bounds b given, the law is Tresca's and the problem convex for
+// Fixed-point iteration on the friction bound. With given bounds b the law is Tresca's, and the problem is convex for
 // symmetric W,
 //
 //     minimise 1/2 p'W p + q'p   subject to p_n >= 0, |p_t| <= b
 //
-// solved, b = c + mu (p_n)+ of the result, and again (Panagiotopoulos, Ingenieur-Archiv 44 (1975) 421; Necas,
-// Jarusek, Haslinger, Boll. Un. Mat. Ital. B 17 (1980) 796). Inside: Alart and Curnier's Newton with the
-// bound held, and where that stalls, the same with W + 0.1 in the sense of the proximal point.
+// It is solved, b = c + mu (p_n)+ is computed from the result, and so on (Panagiotopoulos, Ingenieur-Archiv 44 (1975)
+// 421; Necas, Jarusek, Haslinger, Boll. Un. Mat. Ital. B 17 (1980) 796). The inner solver is the Newton method of Alart
+// and Curnier with fixed bounds and, if it stalls, the same with W + 0.1 as in the proximal point method.
 //
-// Each round makes the error smaller by about mu |coupling of normal and tangent|: sure and quick for little
-// friction, many rounds or none that helps for much.
+// Each iteration reduces the error by a factor of about mu |coupling of normal and tangent|: reliable and fast for low
+// friction, slow or not convergent for high friction.
 #pragma once
 
 #include "scabo/contact/solvers/road.hpp"
 
 namespace scabo::contact::solvers {
 
-/// At most 4 rounds for each of control.iterations.
+/// At most 4 outer iterations for each of control.iterations.
 End tresca(const Problem& problem, Vector p, Vector a, const Control& control);
 
 }  // namespace scabo::contact::solvers

@@ -36,12 +36,12 @@ Trials first_guess(const Problem& problem, const Matrix& r, const Vector& p, con
   return trials;
 }
 
-/// The linear equations of the states: [p; a], shortest where they do not fix it, nothing where they cannot
-/// hold.
+/// Solves the linear equations for the states: [p; a], the shortest solution if they do not determine it, nothing if
+/// they contradict each other.
 std::optional<Vector> solve(const Problem& problem, const Trials& trials) {
   const Eigen::Index d = problem.dimension, N = problem.pairs(), m = problem.G.cols(), t = d - 1;
   const Matrix& W = problem.W.dense();
-  // p = P y: y the forces whose row is a motion; tangents that slip follow their normal force.
+  // p = P y: y are the forces whose row is a motion; tangential forces of slipping pairs follow their normal force.
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < N; ++i) {
     const Trial& trial = trials[static_cast<std::size_t>(i)];
@@ -97,7 +97,7 @@ std::optional<Vector> solve(const Problem& problem, const Trials& trials) {
   return solved;
 }
 
-/// What the solution contradicts, changed.
+/// Changes the states that the solution contradicts.
 Trials corrected(const Problem& problem, const Matrix& r, const Trials& trials, const Vector& p, const Vector& motion) {
   const Eigen::Index d = problem.dimension, t = d - 1;
   const double rounding = 1e-14 * (largest(p) + largest(problem.q));
@@ -129,7 +129,7 @@ Trials corrected(const Problem& problem, const Matrix& r, const Trials& trials, 
   return next;
 }
 
-/// States and directions as a key; directions to rounding.
+/// States and directions as a key, with directions rounded.
 std::vector<long> key_of(const Trials& trials) {
   std::vector<long> key;
   for (const Trial& trial : trials) {
@@ -159,7 +159,7 @@ End trial_and_error(const Problem& problem, Vector p_start, Vector a_start, cons
   std::vector<int> before;
   while (true) {
     if (!tried.insert(key_of(trials)).second) {
-      end.reason = "it cycles: the states tried now were tried before";
+      end.reason = "the iterations cycle: these states were tried before";
       return end;
     }
     if (end.iterations >= 4 * control.iterations || control.deadline.passed()) {
@@ -169,7 +169,7 @@ End trial_and_error(const Problem& problem, Vector p_start, Vector a_start, cons
     ++end.iterations;
     const std::optional<Vector> solved = solve(problem, trials);
     if (!solved) {
-      end.reason = "on the states tried, no forces exist that balance loads and close gaps";
+      end.reason = "in the states tried, no forces exist that balance the loads and close the gaps";
       return end;
     }
     const Vector p = solved->head(size), a = solved->tail(m);
