@@ -7,7 +7,12 @@ Collapse of the whole (width B, height H, weight rho g per volume), for a push q
 
     the first course slides     q H = mu rho g B H      q = mu rho g B       (every joint slides at the same q)
     it turns about its toe      q H^2 / 2 = rho g B H B / 2      q = rho g B^2 / H
+
+A wall of separate blocks may fall before: parts of it turn, along steps in its bond. Limit analysis takes all of that into
+account, see limit_load.
 """
+import functools
+
 DENSITY, GRAVITY = 2000.0, 9.81
 
 
@@ -60,3 +65,71 @@ def model(columns, courses, friction, push, increments=1):
         *([f"  - {{name: push, loads: {{weight: 1, {pushes}}}}}"] if increments == 1 else
           ["  - {name: weight, loads: {weight: 1}}",
            f"  - {{name: push, increments: {increments}, loads: {{weight: 1, {pushes}}}}}"]), ""])
+
+
+@functools.lru_cache(None)
+def limit_load(columns, courses, friction):
+    """Largest push (Pa) for which forces within the friction cones balance every block: the static theorem of limit analysis
+    as a linear programme (Livesley, Int. J. Numer. Methods Eng. 12 (1978) 1853). Above it nothing can stand; below it a wall
+    whose joints slide without opening may still fall. Every joint carries forces at its two ends. Needs SciPy."""
+    import numpy
+    import scipy.optimize
+    import scipy.sparse
+
+    height = height_of(columns)
+    spans = courses_of(columns, courses, height)
+    number = {}
+    for z, course in enumerate(spans):
+        for k in range(len(course)):
+            number[z, k] = len(number)
+    middle = {number[z, k]: ((a + b) / 2, (z + 0.5) * height) for z, course in enumerate(spans) for k, (a, b) in enumerate(course)}
+    entries, count = [], 0  # (equation, unknown, value); unknowns: normal and tangential force of each joint end
+
+    def touch(below, above, x, y, normal):
+        nonlocal count
+        tangent = (-normal[1], normal[0])
+        for body, sign in ((below, -1.0), (above, 1.0)):
+            if body is None:
+                continue
+            arm = (x - middle[body][0], y - middle[body][1])
+            for k, (f_x, f_y) in enumerate((normal, tangent)):
+                for row, value in enumerate((f_x, f_y, arm[0] * f_y - arm[1] * f_x)):
+                    entries.append((3 * body + row, 2 * count + k, sign * value))
+        count += 1
+
+    for z, course in enumerate(spans):
+        for k, (a, b) in enumerate(course):
+            if k > 0:
+                for y in (z * height, (z + 1) * height):
+                    touch(number[z, k - 1], number[z, k], a, y, (1.0, 0.0))
+            if z == 0:
+                for x in (a, b):
+                    touch(None, number[z, k], x, 0.0, (0.0, 1.0))
+                continue
+            for j, (c, d) in enumerate(spans[z - 1]):
+                if min(b, d) - max(a, c) > 0.1:
+                    for x in (max(a, c), min(b, d)):
+                        touch(number[z - 1, j], number[z, k], x, z * height, (0.0, 1.0))
+    # In units in which a block weighs about 1 and the push for the whole to slide or turn is 1.
+    weight, push = numpy.zeros(3 * len(number)), numpy.zeros(3 * len(number))
+    unit = collapse_load(columns, courses, friction) / (DENSITY * GRAVITY)
+    for (z, k), body in number.items():
+        a, b = spans[z][k]
+        weight[3 * body + 1] = -(b - a)
+        if k == 0:
+            push[3 * body] = unit
+    rows, columns_of, values = zip(*entries)
+    balance = scipy.sparse.coo_matrix((values, (rows, columns_of)), shape=(len(weight), 2 * count))
+    equal = scipy.sparse.hstack([balance, push[:, None]])
+    ends = numpy.arange(count)
+    cones = scipy.sparse.coo_matrix(
+        (numpy.r_[numpy.ones(count), -numpy.ones(count), numpy.full(2 * count, -friction)],
+         (numpy.r_[ends, ends + count, ends, ends + count],
+          numpy.r_[2 * ends + 1, 2 * ends + 1, 2 * ends, 2 * ends])), shape=(2 * count, 2 * count + 1))
+    objective = numpy.zeros(2 * count + 1)
+    objective[-1] = -1.0
+    bounds = [(0, None), (None, None)] * count + [(0, None)]
+    found = scipy.optimize.linprog(objective, cones, numpy.zeros(2 * count), equal, -weight, bounds, method="highs-ipm")
+    if found.status != 0:
+        raise ArithmeticError(f"{columns} x {courses} blocks, friction {friction}: {found.message}")
+    return -found.fun * collapse_load(columns, courses, friction)

@@ -135,6 +135,36 @@ TEST(Wall, InRunningBondCarriesWeightAndPush) {
       for (const double part : {0.0, 0.5}) holds({size, size, friction}, part, 1);
 }
 
+TEST(Tower, OfTwoHundredBlocksStandsToItsCollapsePush) {
+  for (const double friction : {0.3, 1.0})
+    for (const double part : {0.5, 0.9, 0.99}) holds({1, 200, friction}, part, 1);
+}
+
+// Near its collapse load hundreds of joints of a wall have opened or slip, and interior points follow Newton.
+TEST(Wall, CarriesNearlyItsCollapsePush) {
+  const auto carries = [](const Blocks& blocks, double part) {
+    const double push = part * blocks.collapse_push();
+    const analysis::StaticSolution solution = run(model_of(blocks, push, 1));
+    const Vec2 carried = floor_forces(blocks, solution, last(solution));
+    EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
+    EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
+    EXPECT_LE(last(solution).newton_iterations, 75);
+    EXPECT_EQ(last(solution).halvings, 0);
+  };
+  for (const double friction : {0.3, 0.6, 1.0}) carries({4, 4, friction}, 0.99);
+  for (const double friction : {0.3, 0.6}) carries({8, 8, friction}, 0.99);
+  carries({8, 8, 1.0}, 0.9);
+}
+
+// A wall of separate blocks falls before the whole slides or turns: parts of it turn, along steps in the bond. Limit
+// analysis (the largest push for which forces within the friction cones of all joints balance every block, a linear
+// programme, benchmarks/blocks) gives 0.978 of that push for 16 x 16 blocks and friction 0.6; no solution exists above.
+TEST(Wall, OfManyBlocksFallsBeforeTheWholeSlides) {
+  const Blocks blocks{16, 16, 0.6};
+  const auto solution = run(model_of(blocks, 0.98 * blocks.collapse_push(), 1));
+  EXPECT_EQ(solution.outcome, analysis::Outcome::mechanism) << solution.reason;
+}
+
 TEST(Wall, SlidesAtItsCollapsePush) {
   const Blocks blocks{4, 4, 0.3};
   EXPECT_EQ(run(model_of(blocks, 0.99 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::solved);

@@ -74,7 +74,11 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   if (!cold && better(newton_alone(p, a, {"newton"}))) return best;
   if (many && better(bonded(touching))) return best;
   if (hopeless && hopeless()) return best;
-  if (many && may_take_interior_points(problem_) && better(inside())) return best;
+  if (many && may_take_interior_points(problem_)) {
+    if (better(inside())) return best;
+    // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.
+    if (has_many_motions(problem_)) return best;
+  }
   if (cold && better(may_sweep() ? without_history(p, a) : newton_alone(p, a, {"newton"}))) return best;
   const bool held = problem_.G.cols() == 0;
   if (!held && better(floating_proximal(p, a))) return best;

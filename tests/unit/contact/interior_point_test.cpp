@@ -8,7 +8,9 @@
 #include <cmath>
 #include <random>
 
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/solve.hpp"
+#include "unit/contact/problems.hpp"
 
 namespace scabo::contact {
 namespace {
@@ -146,6 +148,29 @@ TEST(InteriorPoints, AreNotForOtherLaws) {
   problem.mu[1] = 0.4;
   problem.cohesion = Vector::Ones(problem.pairs());
   EXPECT_FALSE(may_take_interior_points(problem));
+}
+
+// Elastic bodies that contact alone holds: the balance of the rigid motions belongs to the system. Newton on the same
+// problems, and a judge that shares nothing with either, are the oracle.
+TEST(InteriorPoints, BalanceTheRigidMotionsOfElasticBodies) {
+  std::mt19937 random(11);
+  int reached = 0;
+  for (int sample = 0; sample < 40; ++sample) {
+    const Problem problem = test::floating_problem(random, 8 + sample, 1.0);
+    if (problem.mu.minCoeff() <= 0.0 || !may_take_interior_points(problem)) continue;
+    const Solution by_newton = solve(problem);
+    if (by_newton.status != Status::solved) continue;
+    const Measure measure(problem);
+    const auto content = [&](const Vector& p, const Vector& motion) {
+      return judge(problem, p, motion, measure, Judge::certificate).solved(1e-10);
+    };
+    const InteriorPointEnd end = interior_points(problem, content);
+    if (!end.content) continue;  // the problem is not convex
+    ++reached;
+    EXPECT_LT(test::violation(problem, end.p, end.a), 1e-6) << sample;
+    EXPECT_LT((problem.G.transpose() * end.p + problem.f).norm(), 1e-9 * problem.f.norm()) << sample;
+  }
+  EXPECT_GE(reached, 30);
 }
 
 }  // namespace

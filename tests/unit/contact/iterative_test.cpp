@@ -1,11 +1,25 @@
 // Large problems whose W is known by its products alone: GMRES on the generalised Jacobian against dense LU.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "scabo/contact/gmres.hpp"
 #include "scabo/contact/solve.hpp"
 #include "unit/contact/layer.hpp"
 
 namespace scabo::contact {
 namespace {
+
+TEST(Gmres, EndsOnNumbersThatAreNone) {
+  const auto copy = [](const Vector& x, Vector& result) { result = x; };
+  const Vector b = Vector::Constant(3, std::numeric_limits<double>::quiet_NaN());
+  Vector x = Vector::Zero(3);
+  EXPECT_FALSE(gmres(copy, copy, b, x, {}) < 1.0);
+  const auto overflow = [](const Vector& v, Vector& result) { result = 1e308 * (1e308 * v); };
+  x.setZero();
+  EXPECT_FALSE(gmres(overflow, overflow, Vector::Ones(3), x, {}) < 1e-3);
+}
 
 TEST(IterativeDirections, AgreeWithDenseOnesOnTwoThousandPairs) {
   for (double mu : {0.5}) {
