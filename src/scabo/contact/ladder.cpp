@@ -202,7 +202,11 @@ NewtonEnd Ladder::inside() {
   if (best.p.size() == 0) return best;
   if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points", held ? 1e-6 : 0.0});
   best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
-  return best;
+  if (judges_all() || late()) return best;
+  // States are certain when Newton has confirmed them. Where pairs are redundant it may not.
+  constexpr int few = 2;
+  NewtonEnd confirmed = newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few});
+  return confirmed.converged && confirmed.residual < best.residual ? confirmed : best;
 }
 
 NewtonEnd Ladder::enough(Vector p, int sweeps) {
