@@ -175,7 +175,8 @@ struct BlockResult {
 /// K of a bounded block from what ring doubling made of it, with its last digits where they are needed and the block is
 /// not too large for them.
 void finish_bounded(const Whole& whole, Block& block, BlockResult& result) {
-  auto& [K, ring, all_digits] = result;
+  Matrix& K = result.K;
+  RingStiffness& ring = result.ring;
   const auto is_right = [&] { return ring.residual <= too_much && is_definite(block, K, whole.motions); };
   const Eigen::Index rows = block.E0.rows();
   if (rows > whole.all_digits) {
@@ -184,7 +185,7 @@ void finish_bounded(const Whole& whole, Block& block, BlockResult& result) {
   }
   if (rows <= std::max(whole.all_digits, most_exact_rows)) {
     K = correct_last_digits(whole.ring, whole.D, whole.thickness, block, ring);
-    all_digits = true;
+    result.all_digits = true;
     if (is_right()) return;
   }
   if (!(ring.residual <= too_much)) throw digits_lost(ring.residual);
