@@ -232,7 +232,7 @@ class InteriorPoints {
       least_gap = std::min(least_gap, gap_);
       if (residual < end.residual) end.residual = residual, end.p = p, end.a = a;
       end.trace.push_back({end.iterations, residual, 0.5 * gap_, step_, 0, "interior point"});
-      if (content(p, motion)) {
+      if (content && content(p, motion)) {
         // What is open carries nothing, what slips carries all it can: where that is a solution too, it is the better one.
         const Vector snapped = at_the_boundary();
         end.p = content(snapped, motion_of(problem_, snapped, a)) ? snapped : p;

@@ -55,7 +55,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
 NewtonEnd Ladder::climb(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                         const std::function<bool()>& hopeless) {
   return options_.judge == Judge::natural_map && problem_.G.cols() == 0 && may_sweep()
-             ? climb_rank_deficient(p)
+             ? climb_rank_deficient(p, hopeless)
              : climb_elastic(p, a, touching, hopeless);
 }
 
@@ -115,11 +115,11 @@ NewtonEnd Ladder::after_start(ColdStart start, const std::string& stage) {
 }
 
 // Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps
-// and 1e-2 those. Stacks of rigid bodies need their states nearly right before Newton converges, and either sweeps or
+// and 1e-2 those; long sweeps solve the three Capsules before any Newton iteration. Stacks of rigid bodies need their states nearly right before Newton converges, and either sweeps or
 // interior points find them (34 towers, walls and piles, benchmarks/contact/rigid.py). Sweeps are cheap and come first:
 // they solve piles and broad walls. Interior points solve tall towers and large ratios of masses, from one start or
 // another. They take turns, the sweeps for longer each time.
-NewtonEnd Ladder::climb_rank_deficient(const Vector& p) {
+NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless) {
   // Of many pairs sweeps tell little before they have carried forces from one end to the other.
   constexpr int many = 2000;
   const bool inner = problem_.W.is_sparse() && may_take_interior_points(problem_);
@@ -132,17 +132,26 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p) {
     if (end.converged || end.residual < best.residual) best = std::move(end);
     return best.converged || late();
   };
-  if (entwined && better(swept_on(sweeps, 500))) return best;
+  if (problem_.pairs() <= many && better(swept_on(sweeps, 500))) return best;
+  if (hopeless && hopeless()) return best;
   // FCLIB needs 27 iterations at most.
   const int few = entwined ? 4 : inner ? 30 : 0;
   if (better(problem_.pairs() > many ? swept(p, 200, 1e-2, few) : swept(p, 20, 1e-4, few))) return best;
   struct Turn {
     int sweeps;
-    double start;
+    double start;  // of the interior points after them; 0: none
   };
-  for (const Turn turn : {Turn{2000, 1.0}, Turn{10000, 0.1}, Turn{30000, 10.0}}) {
+  double tried = 1e-5;  // natural map from which Newton was last tried
+  // A bound of what a factorisation costs: there a step of interior points takes as long as a thousand sweeps.
+  const bool dear = inner && 1.0 * problem_.W.sparse().nonZeros() * problem_.W.size() > 5e8;
+  for (const Turn turn : {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0}, Turn{25000, dear ? 1.0 : 0.1},
+                          Turn{60000, dear ? 0.1 : 10.0}}) {
     if (better(swept_on(sweeps, turn.sweeps))) return best;
-    if (inner && better(inside_from(turn.start))) return best;
+    if (sweeps.natural_map() <= 0.3 * tried) {  // nearly all states are right
+      tried = sweeps.natural_map();
+      if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4, 1.0, 12}))) return best;
+    }
+    if (inner && turn.start > 0.0 && better(inside_from(turn.start))) return best;
   }
   if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4}))) return best;
   if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;

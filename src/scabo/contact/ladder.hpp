@@ -47,7 +47,7 @@ class Ladder {
   NewtonEnd bonded(const std::vector<bool>& touching);
   NewtonEnd without_history(const Vector& p, const Vector& a);
   NewtonEnd after_start(ColdStart start, const std::string& stage);
-  NewtonEnd climb_rank_deficient(const Vector& p);
+  NewtonEnd climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless);
   NewtonEnd swept(const Vector& p, int sweeps, double regularisation, int iterations = 0);
   NewtonEnd swept_on(LongSweeps& sweeps, int most);
   InteriorPointEnd interior_points_from(double start_factor);

@@ -9,9 +9,9 @@ namespace scabo::contact {
 
 namespace {
 
-constexpr int round_of = 20;  // sweeps
-constexpr int depth = 8;      // changes remembered
-constexpr int window = 500;   // sweeps that halve the natural map: they gain
+constexpr int round_of = 20;         // sweeps
+constexpr int depth = 8;             // changes remembered
+constexpr int least_patience = 500;  // sweeps in which the natural map is halved: they gain
 
 }  // namespace
 
@@ -30,7 +30,10 @@ LongSweeps::LongSweeps(const Problem& problem, Vector p)
 
 bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vector&)>& content,
                      const Deadline& deadline) {
-  while (!deadline.passed() && (sweeps_ < most || sweeps_ - gained_ <= window)) {
+  const auto go_on = [&] {
+    return sweeps_ < most || (sweeps_ < 4 * most && sweeps_ - gained_ <= std::max(least_patience, sweeps_ / 2));
+  };
+  while (!deadline.passed() && go_on()) {
     const Vector before = p_;
     iteration_.start(p_);  // afresh, without what rounding added from pair to pair
     bool moved = false;

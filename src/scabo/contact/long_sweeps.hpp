@@ -27,7 +27,8 @@ class LongSweeps {
   LongSweeps(const Problem& problem, Vector p);
 
   /// Goes on where it ended before, until `content` accepts forces and motions (true), the deadline has passed, or
-  /// `most` sweeps are done in all and the last 500 did not halve the least natural map.
+  /// `most` sweeps are done in all; up to four times as many where the second half of them, or the last 500, halved the
+  /// least natural map.
   bool run(int most, const std::function<bool(const Vector& p, const Vector& motion)>& content,
            const Deadline& deadline = {});
 

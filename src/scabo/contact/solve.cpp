@@ -113,7 +113,7 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
 }
 
 Solution climbed_solution(const Problem& problem, const Measure& measure, const Vector& p_start, const Start& start,
-                          const SolverOptions& options) {
+                          const SolverOptions& options, const std::function<bool()>& hopeless = {}) {
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, N = problem.pairs();
   Solution solution;
   const Scaled scaled_problem = scaled(problem);
@@ -149,7 +149,7 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
   Ladder ladder(scaled_problem.problem, options, small, std::move(content));
   NewtonEnd end;
   if (solution.status != Status::mechanism) {
-    end = ladder.climb(p_start, a_start, start.touching, asked_first ? std::function<bool()>() : is_mechanism);
+    end = ladder.climb(p_start, a_start, start.touching, asked_first ? hopeless : is_mechanism);
   }
   if (solution.status != Status::mechanism) {
     solution.p = end.p.size() == d * N ? end.p : p_start;
@@ -174,7 +174,13 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
   if (options.judge == Judge::natural_map && may_accelerate(problem)) {
     SweepsEnd end = accelerated_sweeps(problem, p_start, 0.9 * options.tolerance, measure, options.deadline);
     if (end.content || options.deadline.passed()) return swept_solution(problem, measure, std::move(end), options);
-    const std::optional<Infeasibility> found = find_infeasibility(problem, options.deadline);
+    // It costs as much as a hundred sweeps or more, and few problems have no solution: the ladder asks when it must.
+    std::optional<Infeasibility> found;
+    const auto infeasible = [&] {
+      found = find_infeasibility(problem, options.deadline);
+      return found && found->proven;
+    };
+    Solution climbed = climbed_solution(problem, measure, p_start, start, options, infeasible);
     if (found && found->proven) {
       // No point is the best one: sweeps run away along r.
       end.p = p_start;
@@ -183,7 +189,6 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
       mark_infeasible(none, *found);
       return none;
     }
-    Solution climbed = climbed_solution(problem, measure, p_start, start, options);
     // Not solved: the best point of all is handed back.
     if (climbed.status == Status::not_converged && end.natural_map < climbed.natural_map_residual) {
       climbed.p = std::move(end.p);
