@@ -136,7 +136,8 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
   if (hopeless && hopeless()) return best;
   // FCLIB needs 27 iterations at most.
   const int few = entwined ? 4 : inner ? 30 : 0;
-  if (better(problem_.pairs() > many ? swept(p, 200, 1e-2, few) : swept(p, 20, 1e-4, few))) return best;
+  const Run from_sweeps{"newton after " + std::to_string(sweeps.sweeps()) + " sweeps", 1e-4, 1.0, few};
+  if (better(problem_.pairs() > many ? swept(p, 200, 1e-2, few) : newton_alone(sweeps.p(), Vector(), from_sweeps))) return best;
   struct Turn {
     int sweeps;
     double start;  // of the interior points after them; 0: none

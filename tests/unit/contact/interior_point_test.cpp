@@ -189,7 +189,7 @@ TEST(LongSweeps, EndWhereNothingIsGainedOrTheTimeIsOver) {
   problem.mu = Vector::Constant(2, 0.5);
   LongSweeps sweeps(problem, Vector::Zero(4));
   EXPECT_FALSE(sweeps.run(1000, within_1e10(problem)));
-  EXPECT_LE(sweeps.sweeps(), 2000);
+  EXPECT_LE(sweeps.sweeps(), 4000);  // four times what was asked for, however much they seem to gain
   EXPECT_TRUE(sweeps.p().allFinite());
   EXPECT_FALSE(LongSweeps(problem, Vector::Zero(4)).run(1000, {}, Deadline::in(0.0)));
 }
