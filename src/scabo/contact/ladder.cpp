@@ -143,8 +143,9 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
     double start;  // of the interior points after them; 0: none
   };
   double tried = 1e-5;  // natural map from which Newton was last tried
-  // A bound of what a factorisation costs: there a step of interior points takes as long as a thousand sweeps.
-  const bool dear = inner && 1.0 * problem_.W.sparse().nonZeros() * problem_.W.size() > 5e8;
+  // What a factorisation without fill would cost. Above, a step of interior points takes as long as a thousand sweeps.
+  const double entries = inner ? static_cast<double>(problem_.W.sparse().nonZeros()) : 0.0;
+  const bool dear = entries * entries > 6e7 * static_cast<double>(problem_.W.size());
   for (const Turn turn : {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0}, Turn{25000, dear ? 1.0 : 0.1},
                           Turn{60000, dear ? 0.1 : 10.0}}) {
     if (better(swept_on(sweeps, turn.sweeps))) return best;
