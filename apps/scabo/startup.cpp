@@ -89,8 +89,8 @@ void keep_open(int descriptor, int mode) {
   for (std::size_t i = 0; i < stack.size(); i += 4096) stack[i] = 0;
 }
 
-/// BLAS keeps its buffers, and needs as many as threads are in it at once. A thread that comes first when the matrices have
-/// taken the memory would wait for its buffer for ever.
+/// BLAS keeps its buffers, and needs as many as threads are in it at once. A thread that comes first when the matrices
+/// have taken the memory would wait for its buffer for ever.
 void take_blas_buffers(int count) {
   if (!blas_memory_alloc || !blas_memory_free) return;
   std::vector<void*> buffers;

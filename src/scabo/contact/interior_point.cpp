@@ -23,8 +23,8 @@ struct Constants {
   double distance_lag = 10.0;  ///< |b| may fall so many times more slowly than g; beyond it ...
   double lagging = 0.9;        ///< ... sigma is at least this, so that y does not reach the boundary before the motions
   double small_scaling = 1.0;  ///< phi below which y' is computed from x'
-  double least_of_mean = 1e-6; ///< of the mean W_ii: least by which a pair is scaled
-  double settled = 1e-13;      ///< of |q'|: |b| below it is rounding
+  double least_of_mean = 1e-6;  ///< of the mean W_ii: least by which a pair is scaled
+  double settled = 1e-13;       ///< of |q'|: |b| below it is rounding
 };
 constexpr Constants constants;
 
@@ -129,8 +129,8 @@ struct Cone<3> {
     const double size = t.norm(), most = std::sqrt(1.0 + size * size) + size;
     const Vec2 along = size > 0.0 ? Vec2(t / size) : Vec2(1.0, 0.0);
     const double half = std::sqrt(0.5);
-    Q << half, half, 0.0,                                  //
-        half * along[0], -half * along[0], -along[1],      //
+    Q << half, half, 0.0,                              //
+        half * along[0], -half * along[0], -along[1],  //
         half * along[1], -half * along[1], along[0];
     phi = std::sqrt(size_y / size_x) * V(most, 1.0 / most, 1.0);
   }
@@ -207,8 +207,7 @@ class InteriorPoints {
     G_ = whole_.topRightCorner(d * N_, m_);
     size_of_loads_ = std::hypot(q_.norm(), f_.norm());
     const double start =
-        start_factor *
-        std::max(problem.q.cwiseQuotient(S_).template lpNorm<Eigen::Infinity>(), balancing_force());
+        start_factor * std::max(problem.q.cwiseQuotient(S_).template lpNorm<Eigen::Infinity>(), balancing_force());
     x_.resize(d * N_);
     for (Index i = 0; i < N_; ++i) x_.segment<d>(d * i) = start * C::normal();
     y_ = x_;
@@ -233,7 +232,8 @@ class InteriorPoints {
       if (residual < end.residual) end.residual = residual, end.p = p, end.a = a;
       end.trace.push_back({end.iterations, residual, 0.5 * gap_, step_, 0, "interior point"});
       if (content && content(p, motion)) {
-        // What is open carries nothing, what slips carries all it can: where that is a solution too, it is the better one.
+        // What is open carries nothing, what slips carries all it can: where that is a solution too, it is the better
+        // one.
         const Vector snapped = at_the_boundary();
         end.p = content(snapped, motion_of(problem_, snapped, a)) ? snapped : p;
         end.a = a;
@@ -349,7 +349,8 @@ class InteriorPoints {
     const double reached = (x_ + step * dx_).dot(y_ + step * dy_) / static_cast<double>(N_);
     double sigma = std::pow(std::clamp(reached / gap_, 0.0, 1.0), 3);
     const double size = std::hypot(distance_.norm(), balance_.norm());
-    if (size * first_gap_ > constants.distance_lag * gap_ * first_distance_ && size > constants.settled * size_of_loads_)
+    if (size * first_gap_ > constants.distance_lag * gap_ * first_distance_ &&
+        size > constants.settled * size_of_loads_)
       sigma = std::max(sigma, constants.lagging);
     Vector corrected = affine;
     for (Index i = 0; i < N_; ++i)

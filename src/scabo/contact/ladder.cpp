@@ -57,7 +57,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
 NewtonEnd Ladder::climb(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                         const std::function<bool()>& hopeless) {
   return options_.judge == Judge::natural_map && problem_.G.cols() == 0 && may_sweep()
-             ? climb_rank_deficient(p)
+             ? climb_rank_deficient(p, hopeless)
              : climb_elastic(p, a, touching, hopeless);
 }
 
@@ -121,35 +121,56 @@ NewtonEnd Ladder::after_start(ColdStart start, const std::string& stage) {
 }
 
 // Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps
-// and 1e-2 those. Stacks of rigid bodies need their states nearly right before Newton converges: the pile of 150
-// spheres (701 contacts, mu 0.4) leaves a natural map of 1.1e-4 after 500 sweeps, 1.4e-5 after 2,000 and 1.1e-6 after
-// 8,000, and only then Newton converges from there. A sweep of 700 contacts takes 0.2 ms, an iteration of Newton 50 to
-// 500 ms.
-NewtonEnd Ladder::climb_rank_deficient(const Vector& p) {
+// and 1e-2 those; long sweeps solve the three Capsules before any Newton iteration. Stacks of rigid bodies need their
+// states nearly right before Newton converges, and either sweeps or interior points find them (34 towers, walls and
+// piles, benchmarks/contact/rigid.py). Sweeps are cheap and come first: they solve piles and broad walls. Interior
+// points solve tall towers and large ratios of masses, from one start or another. They take turns, the sweeps for
+// longer each time.
+NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless) {
   // Of many pairs sweeps tell little before they have carried forces from one end to the other.
   constexpr int many = 2000;
   const bool inner = problem_.W.is_sparse() && may_take_interior_points(problem_);
-  // FCLIB needs 27 iterations at most. Where a row of W has many entries, many pairs lie between the same bodies:
-  // nearly all states must be right before Newton converges, and an iteration costs as much as a step of interior
-  // points.
+  // Where a row of W has many entries, many pairs lie between the same bodies: nearly all states must be right before
+  // Newton converges, and an iteration costs as much as hundreds of sweeps.
   const bool entwined = inner && problem_.W.sparse().nonZeros() > 60 * problem_.W.size();
-  const int few = entwined ? 4 : inner ? 30 : 0;
-  NewtonEnd best = problem_.pairs() > many ? swept(p, 200, 1e-2, few) : swept(p, 20, 1e-4, few);
+  LongSweeps sweeps(problem_, p);
+  NewtonEnd best = nothing();
   const auto better = [&](NewtonEnd end) {
     if (end.converged || end.residual < best.residual) best = std::move(end);
     return best.converged || late();
   };
-  if (best.converged || late()) return best;
-  if (inner && better(inside())) return best;
-  if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;
-  for (int sweeps : {8000, 32000}) {
-    if (better(swept(p, sweeps, 1e-4))) return best;
+  if (problem_.pairs() <= many && better(swept_on(sweeps, 500))) return best;
+  if (hopeless && hopeless()) return best;
+  // FCLIB needs 27 iterations at most.
+  const int few = entwined ? 4 : inner ? 30 : 0;
+  const Run from_sweeps{"newton after " + std::to_string(sweeps.sweeps()) + " sweeps", 1e-4, 1.0, few};
+  if (better(problem_.pairs() > many ? swept(p, 200, 1e-2, few) : newton_alone(sweeps.p(), Vector(), from_sweeps)))
+    return best;
+  struct Turn {
+    int sweeps;
+    double start;  // of the interior points after them; 0: none
+  };
+  double tried = 1e-5;  // natural map from which Newton was last tried
+  // What a factorisation without fill would cost. Above, a step of interior points takes as long as a thousand sweeps.
+  const double entries = inner ? static_cast<double>(problem_.W.sparse().nonZeros()) : 0.0;
+  const bool dear = entries * entries > 6e7 * static_cast<double>(problem_.W.size());
+  for (const Turn turn :
+       {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0}, Turn{25000, dear ? 1.0 : 0.1}, Turn{60000, dear ? 0.1 : 10.0}}) {
+    if (better(swept_on(sweeps, turn.sweeps))) return best;
+    if (sweeps.natural_map() <= 0.3 * tried) {  // nearly all states are right
+      tried = sweeps.natural_map();
+      if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4, 1.0, 12}))) return best;
+    }
+    if (inner && turn.start > 0.0 && better(inside_from(turn.start))) return best;
   }
+  if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4}))) return best;
+  if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;
   if (better(vanishing_proximal(best.p))) return best;
   if (better(after_pivoting(problem_))) return best;
   if (better(growing_friction(p, Vector()))) return best;
   for (double factor : {0.1, 10.0, 0.01, 100.0})
     if (better(newton_alone(best.p, Vector(), {"newton, other r", 1e-2, factor}))) return best;
+  better(swept_on(sweeps, 200000));
   return best;
 }
 
@@ -176,21 +197,54 @@ NewtonEnd Ladder::swept(const Vector& p, int sweeps, double regularisation, int 
                       {"newton after " + std::to_string(sweeps) + " sweeps", regularisation, 1.0, iterations});
 }
 
-/// Interior points from several starts, then Newton from the best of them.
+/// Until `most` sweeps are done in all, and longer while they gain.
+NewtonEnd Ladder::swept_on(LongSweeps& sweeps, int most) {
+  if (sweeps.run(most, content_, options_.deadline)) return enough(sweeps.p(), sweeps.sweeps());
+  NewtonEnd end;
+  end.p = sweeps.p();
+  const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(end.p, Vector());
+  end.residual = at.largest();
+  trace_.push_back({iterations_ + coarse_iterations_, end.residual, at.merit(), 1.0, 0,
+                    std::to_string(sweeps.sweeps()) + " sweeps"});
+  return end;
+}
+
+InteriorPointEnd Ladder::interior_points_from(double start_factor) {
+  InteriorPointEnd reached = interior_points(problem_, content_, options_.deadline, start_factor);
+  const double force = Measure(problem_).reference();
+  for (Iteration& iteration : reached.trace) {
+    iteration.iteration += iterations_ + coarse_iterations_;
+    iteration.residual *= force;
+    trace_.push_back(std::move(iteration));
+  }
+  iterations_ += reached.iterations;
+  return reached;
+}
+
+/// Interior points from one start. Where their steps collapse near a solution, a few sweeps or a few Newton iterations
+/// reach it.
+NewtonEnd Ladder::inside_from(double start_factor) {
+  constexpr double near = 1e-4;  // natural map
+  InteriorPointEnd reached = interior_points_from(start_factor);
+  if (reached.p.size() == 0) return nothing();
+  NewtonEnd end;
+  end.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(reached.p, Vector()).largest();
+  end.p = std::move(reached.p);
+  end.converged = reached.content;
+  if (end.converged || late()) return end;
+  LongSweeps sweeps(problem_, end.p);
+  NewtonEnd after = swept_on(sweeps, 200);
+  if (after.converged || late() || reached.residual > near) return after;
+  return newton_alone(end.p, Vector(), {"newton after interior points", 1e-6, 1.0, 12});
+}
+
+/// Interior points for elastic bodies from several starts, then Newton from the best of them.
 NewtonEnd Ladder::inside() {
   NewtonEnd best = nothing();
-  // Walls near their collapse load (mu 1, 8 x 8 blocks, 0.80 to 0.92 of it) are solved from one of these and not from the
-  // others; the same holds for piles of rigid bodies.
-  const bool held = problem_.G.cols() == 0;
-  const double force = Measure(problem_).reference();
-  for (const double factor : {1.0, held ? 0.1 : 10.0, held ? 10.0 : 1000.0}) {
-    InteriorPointEnd reached = interior_points(problem_, content_, options_.deadline, factor);
-    for (Iteration& iteration : reached.trace) {
-      iteration.iteration += iterations_ + coarse_iterations_;
-      iteration.residual *= force;
-      trace_.push_back(std::move(iteration));
-    }
-    iterations_ += reached.iterations;
+  // Walls near their collapse load (mu 1, 8 x 8 blocks, 0.80 to 0.92 of it) are solved from one of these and not from
+  // the others.
+  for (const double factor : {1.0, 10.0, 1000.0}) {
+    InteriorPointEnd reached = interior_points_from(factor);
     if (reached.p.size() > 0 && (reached.content || reached.residual < best.residual)) {
       best.p = std::move(reached.p);
       best.a = std::move(reached.a);
@@ -200,9 +254,9 @@ NewtonEnd Ladder::inside() {
     if (best.converged || late()) break;
   }
   if (best.p.size() == 0) return best;
-  if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points", held ? 1e-6 : 0.0});
+  if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points"});
   best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
-  if (judges_all() || late()) return best;
+  if (late()) return best;
   // States are certain when Newton has confirmed them. Where pairs are redundant it may not.
   constexpr int few = 2;
   NewtonEnd confirmed = newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few});

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "scabo/contact/cold_start.hpp"
+#include "scabo/contact/interior_point.hpp"
+#include "scabo/contact/long_sweeps.hpp"
 #include "scabo/contact/newton.hpp"
 #include "scabo/contact/solve.hpp"
 
@@ -45,8 +47,11 @@ class Ladder {
   NewtonEnd bonded(const std::vector<bool>& touching);
   NewtonEnd without_history(const Vector& p, const Vector& a);
   NewtonEnd after_start(ColdStart start, const std::string& stage);
-  NewtonEnd climb_rank_deficient(const Vector& p);
+  NewtonEnd climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless);
   NewtonEnd swept(const Vector& p, int sweeps, double regularisation, int iterations = 0);
+  NewtonEnd swept_on(LongSweeps& sweeps, int most);
+  InteriorPointEnd interior_points_from(double start_factor);
+  NewtonEnd inside_from(double start_factor);
   NewtonEnd inside();
   NewtonEnd enough(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);

@@ -57,11 +57,11 @@ class Newton {
     return false;
   }
 
-  /// Of a wall hundreds of joints change their state together, and have ties besides: they just touch or are about to slip.
-  /// One kink after the other stops the line search, while full steps pass them all: up to `watched` full steps without
-  /// descent are tried before the search is believed (watchdog of Chamberlain, Powell, Lemarechal and Pedersen, Math.
-  /// Programming Study 16 (1982) 1). A tower of 50 blocks at half of its overturning load: 43 iterations with the search
-  /// alone.
+  /// Of a wall hundreds of joints change their state together, and have ties besides: they just touch or are about to
+  /// slip. One kink after the other stops the line search, while full steps pass them all: up to `watched` full steps
+  /// without descent are tried before the search is believed (watchdog of Chamberlain, Powell, Lemarechal and Pedersen,
+  /// Math. Programming Study 16 (1982) 1). A tower of 50 blocks at half of its overturning load: 43 iterations with the
+  /// search alone.
   bool step_of_many_bodies(double first) {
     constexpr int watched = 6, patience = 8;
     constexpr double long_enough = 0.5;
@@ -159,7 +159,7 @@ class Newton {
   std::vector<Branch> before_;
   NewtonEnd end_;
   double best_merit_ = HUGE_VAL, step_ = 0.0;
-  int unchecked_ = 0;  // full steps without descent
+  int unchecked_ = 0;             // full steps without descent
   int watch_ = 0, patience_ = 0;  // full steps since watched_; line searches to go before the next
   Vector watched_p_, watched_a_;
   double watched_merit_ = 0.0;

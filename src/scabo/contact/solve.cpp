@@ -114,7 +114,7 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
 }
 
 Solution climbed_solution(const Problem& problem, const Measure& measure, const Vector& p_start, const Start& start,
-                          const SolverOptions& options) {
+                          const SolverOptions& options, const std::function<bool()>& hopeless = {}) {
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, N = problem.pairs();
   Solution solution;
   const Scaled scaled_problem = scaled(problem);
@@ -144,15 +144,15 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
   const double asked = 0.9 * options.tolerance;
   // The certificate knows complementarity as a product, p_n g; where it decides, the natural map must be small as well.
   const double asked_of_map = by_map ? asked : 100.0 * asked;
-  std::function<bool(const Vector&, const Vector&)> content =
-      [&, in_forces = measure.of_forces()](const Vector& p, const Vector& motion) {
-        return in_forces.natural_map(problem, p, motion) <= asked_of_map &&
-               judge(scaled_problem.problem, p, motion, in_forces, options.judge).solved(asked);
-      };
+  std::function<bool(const Vector&, const Vector&)> content = [&, in_forces = measure.of_forces()](
+                                                                  const Vector& p, const Vector& motion) {
+    return in_forces.natural_map(problem, p, motion) <= asked_of_map &&
+           judge(scaled_problem.problem, p, motion, in_forces, options.judge).solved(asked);
+  };
   Ladder ladder(scaled_problem.problem, options, small, std::move(content));
   NewtonEnd end;
   if (solution.status != Status::mechanism) {
-    end = ladder.climb(p_start, a_start, start.touching, asked_first ? std::function<bool()>() : is_mechanism);
+    end = ladder.climb(p_start, a_start, start.touching, asked_first ? hopeless : is_mechanism);
   }
   if (solution.status != Status::mechanism) {
     solution.p = end.p.size() == d * N ? end.p : p_start;
@@ -177,7 +177,13 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
   if (options.judge == Judge::natural_map && may_accelerate(problem)) {
     SweepsEnd end = accelerated_sweeps(problem, p_start, 0.9 * options.tolerance, measure, options.deadline);
     if (end.content || options.deadline.passed()) return swept_solution(problem, measure, std::move(end), options);
-    const std::optional<Infeasibility> found = find_infeasibility(problem, options.deadline);
+    // It costs as much as a hundred sweeps or more, and few problems have no solution: the ladder asks when it must.
+    std::optional<Infeasibility> found;
+    const auto infeasible = [&] {
+      found = find_infeasibility(problem, options.deadline);
+      return found && found->proven;
+    };
+    Solution climbed = climbed_solution(problem, measure, p_start, start, options, infeasible);
     if (found && found->proven) {
       // There is no best iterate: sweeps diverge along r.
       end.p = p_start;
@@ -186,7 +192,6 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
       mark_infeasible(none, *found);
       return none;
     }
-    Solution climbed = climbed_solution(problem, measure, p_start, start, options);
     // Not solved: the best iterate of all attempts is returned.
     if (climbed.status == Status::not_converged && end.natural_map < climbed.natural_map_residual) {
       climbed.p = std::move(end.p);

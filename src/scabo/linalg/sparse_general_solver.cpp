@@ -37,8 +37,9 @@ struct SparseGeneralSolver::Factor {
     symbolic = nullptr;
   }
   bool same_pattern(const Eigen::SparseMatrix<double>& other) const {
-    return symbolic != nullptr && std::equal(outer.begin(), outer.end(), other.outerIndexPtr(),
-                                             other.outerIndexPtr() + other.outerSize() + 1) &&
+    return symbolic != nullptr &&
+           std::equal(outer.begin(), outer.end(), other.outerIndexPtr(),
+                      other.outerIndexPtr() + other.outerSize() + 1) &&
            std::equal(inner.begin(), inner.end(), other.innerIndexPtr(), other.innerIndexPtr() + other.nonZeros());
   }
 };
@@ -49,7 +50,8 @@ SparseGeneralSolver::SparseGeneralSolver(SparseGeneralSolver&&) noexcept = defau
 SparseGeneralSolver& SparseGeneralSolver::operator=(SparseGeneralSolver&&) noexcept = default;
 
 bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A) {
-  ensure(A.rows() == A.cols() && A.isCompressed(), "SparseGeneralSolver: a square matrix in compressed columns is wanted");
+  ensure(A.rows() == A.cols() && A.isCompressed(),
+         "SparseGeneralSolver: a square matrix in compressed columns is wanted");
   factor_->forget();
   factor_->A = &A;
   reciprocal_condition_ = 1.0;
@@ -65,8 +67,8 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A) {
                                  factor_->control, info);
   }
   if (status == UMFPACK_OK)
-    status = umfpack_di_numeric(A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), factor_->symbolic, &factor_->numeric,
-                                factor_->control, info);
+    status = umfpack_di_numeric(A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), factor_->symbolic,
+                                &factor_->numeric, factor_->control, info);
   if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
   reciprocal_condition_ = status == UMFPACK_OK ? info[UMFPACK_RCOND] : 0.0;
   return status == UMFPACK_OK;
@@ -79,8 +81,8 @@ void SparseGeneralSolver::solve(const Vector& b, Vector& x) const {
   if (b.size() == 0) return;
   factor_->indices.resize(static_cast<std::size_t>(b.size()));
   factor_->room.resize(static_cast<std::size_t>(b.size()));
-  umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), x.data(), b.data(),
-                    factor_->numeric, factor_->control, nullptr, factor_->indices.data(), factor_->room.data());
+  umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), x.data(), b.data(), factor_->numeric,
+                    factor_->control, nullptr, factor_->indices.data(), factor_->room.data());
 }
 
 }  // namespace scabo::linalg

@@ -1,14 +1,18 @@
-// Interior points on towers of rigid blocks: W = H' M^-1 H has far fewer independent rows than pairs. What they find is
-// asked of the law itself, pair by pair.
+// Interior points and long sweeps on towers of rigid blocks: W = H' M^-1 H has far fewer independent rows than pairs.
+// What they find is asked of the law itself, pair by pair.
 #include "scabo/contact/interior_point.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <tuple>
 
+#include "scabo/contact/gauss_seidel.hpp"
 #include "scabo/contact/judge.hpp"
+#include "scabo/contact/long_sweeps.hpp"
 #include "scabo/contact/solve.hpp"
 #include "unit/contact/problems.hpp"
 
@@ -139,6 +143,56 @@ TEST(InteriorPoints, OneCubePushedSidewaysSlides) {
   problem.mu = Vector::Constant(1, 0.4);
   const Vector p = interior_points(problem, {}).p;
   EXPECT_LE((p - Eigen::Vector3d(1.0, -0.24, -0.32)).norm(), 1e-8);
+}
+
+/// Accepts a natural map of 1e-10.
+std::function<bool(const Vector&, const Vector&)> within_1e10(const Problem& problem) {
+  return [&problem, measure = Measure(problem)](const Vector& p, const Vector& motion) {
+    return measure.natural_map(problem, p, motion) <= 1e-10;
+  };
+}
+
+TEST(LongSweeps, ReachTheLawWithAThirdOfThePlainOnes) {
+  for (const TowerCase& tower : {TowerCase{2, 6, 2}, TowerCase{2, 4, 4}, TowerCase{3, 3, 3}}) {
+    const Problem problem = tower_of_blocks(tower.dimension, tower.blocks, tower.points, 0.4);
+    LongSweeps sweeps(problem, Vector::Zero(problem.q.size()));
+    ASSERT_TRUE(sweeps.run(100000, within_1e10(problem)));
+    EXPECT_LE(sweeps.natural_map(), 1e-10);
+    EXPECT_GT(sweeps.extrapolations(), 0);
+    expect_the_law(problem, sweeps.p(), 1e-8);
+    const Vector plain = gauss_seidel(problem, Vector::Zero(problem.q.size()), 3 * sweeps.sweeps());
+    EXPECT_GT(natural_map_residual(problem, plain, Vector()), 1e-10) << sweeps.sweeps();
+  }
+}
+
+TEST(LongSweeps, GoOnWhereTheyEndedWithoutLosingABit) {
+  const Problem problem = tower_of_blocks(3, 12, 3, 0.4);
+  LongSweeps once(problem, Vector::Zero(problem.q.size())), twice = once;
+  EXPECT_FALSE(once.run(4000, {}));
+  EXPECT_FALSE(twice.run(1000, {}));
+  const double before = twice.natural_map();
+  EXPECT_FALSE(twice.run(4000, {}));
+  EXPECT_GE(once.sweeps(), 4000);
+  EXPECT_EQ(twice.sweeps(), once.sweeps());
+  EXPECT_EQ(twice.p(), once.p());
+  EXPECT_LE(twice.natural_map(), before);
+}
+
+TEST(LongSweeps, EndWhereNothingIsGainedOrTheTimeIsOver) {
+  // Both normals want the force up, and what one gives the other takes: forces run away for ever.
+  Problem problem;
+  problem.dimension = 2;
+  Eigen::SparseMatrix<double> W(4, 4);
+  for (const auto& [row, column, value] : {std::tuple(0, 0, 1.0), {0, 2, -1.0}, {2, 0, -1.0}, {2, 2, 1.0}})
+    W.insert(row, column) = value;
+  problem.W = Delassus(W);
+  problem.q = (Vector(4) << -1.0, 0.0, -1.0, 0.0).finished();
+  problem.mu = Vector::Constant(2, 0.5);
+  LongSweeps sweeps(problem, Vector::Zero(4));
+  EXPECT_FALSE(sweeps.run(1000, within_1e10(problem)));
+  EXPECT_LE(sweeps.sweeps(), 4000);  // four times what was asked for, however much they seem to gain
+  EXPECT_TRUE(sweeps.p().allFinite());
+  EXPECT_FALSE(LongSweeps(problem, Vector::Zero(4)).run(1000, {}, Deadline::in(0.0)));
 }
 
 TEST(InteriorPoints, AreNotForOtherLaws) {
