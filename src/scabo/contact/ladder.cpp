@@ -115,7 +115,7 @@ NewtonEnd Ladder::after_start(ColdStart start, const std::string& stage) {
 }
 
 // Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps
-// and 1e-2 those; long sweeps solve the three Capsules before any Newton iteration. Stacks of rigid bodies need their states nearly right before Newton converges, and either sweeps or
+// and 1e-2 those; long sweeps solve two of the three Capsules before any Newton iteration. Stacks of rigid bodies need their states nearly right before Newton converges, and either sweeps or
 // interior points find them (34 towers, walls and piles, benchmarks/contact/rigid.py). Sweeps are cheap and come first:
 // they solve piles and broad walls. Interior points solve tall towers and large ratios of masses, from one start or
 // another. They take turns, the sweeps for longer each time.
