@@ -120,12 +120,12 @@ NewtonEnd Ladder::after_start(ColdStart start, const std::string& stage) {
   return newton_alone(start.p, start.a, {stage});
 }
 
-// Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200 sweeps
-// and 1e-2 those; long sweeps solve the three Capsules before any Newton iteration. Stacks of rigid bodies need their
-// states nearly right before Newton converges, and either sweeps or interior points find them (34 towers, walls and
-// piles, benchmarks/contact/rigid.py). Sweeps are cheap and come first: they solve piles and broad walls. Interior
-// points solve tall towers and large ratios of masses, from one start or another. They take turns, the sweeps for
-// longer each time.
+// Measured on the 27 problems of FCLIB that come with Siconos: 20 sweeps and 1e-4 solve all but two of them, 200
+// sweeps and 1e-2 those; long sweeps solve two of the three Capsules before any Newton iteration. Stacks of rigid
+// bodies need their states nearly right before Newton converges, and either sweeps or interior points find them (34
+// towers, walls and piles, benchmarks/contact/rigid.py). Sweeps are cheap and come first: they solve piles and broad
+// walls. Interior points solve tall towers and large ratios of masses, from one start or another. They take turns, the
+// sweeps for longer each time.
 NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless) {
   // Of many pairs sweeps tell little before they have carried forces from one end to the other.
   constexpr int many = 2000;
