@@ -15,16 +15,16 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 struct Constants {
   int iterations = 100;        ///< most; towers and walls that are solved take 11 to 90
-  int patience = 5;            ///< steps without `gain` in the residual or in g: rounding, or steps that collapsed
+  int patience = 5;            ///< steps without `gain` in the residual or in m: rounding, or steps that collapsed
   double gain = 0.9;           ///< of the least so far
   double part = 0.95;          ///< of the way to the boundary of the cones
   double collapsed = 0.1;      ///< a step shorter than this is replaced by one that leads back to the middle, ...
   double centring = 0.8;       ///< ... with this sigma and no correction
-  double distance_lag = 10.0;  ///< |b| may fall so many times more slowly than g; beyond it ...
-  double lagging = 0.9;        ///< ... sigma is at least this, so that y does not reach the boundary before the motions
-  double small_scaling = 1.0;  ///< phi below which y' is computed from x'
+  double distance_lag = 10.0;  ///< |(b, g)| may fall so many times more slowly than m; ...
+  double lagging = 0.9;  ///< ... beyond it sigma is at least this: y must not reach the boundary before the motions
+  double small_scaling = 1.0;   ///< phi below which y' is computed from x'
   double least_of_mean = 1e-6;  ///< of the mean W_ii: least by which a pair is scaled
-  double settled = 1e-13;       ///< of |q'|: |b| below it is rounding
+  double settled = 1e-13;       ///< of |(q', f)|: |(b, g)| below it is rounding
 };
 constexpr Constants constants;
 

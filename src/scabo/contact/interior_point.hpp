@@ -4,7 +4,7 @@
 //
 // Variables. S_i = D_i diag(mu_i, 1[, 1]), D_i^2 the mean of the pair's own W_ii; with W' = S^-1 W S^-1, q' = S^-1 q,
 //
-//     x = S p = D (mu p_n, p_t)                                      forces
+//     x = S p = D (mu p_n, p_t)                                      forces; D_i >= 1e-3 of the root mean square of all
 //     u' = W' x + q' + G' a = S^-1 u,   y = (u'_n + |u'_t|, u'_t)    motions, signs of problem.hpp; G' = S^-1 G
 //     G'^T x + f = 0                                                 balance of the rigid motions, if there are any
 //
@@ -21,13 +21,14 @@
 //     l o (F dx + F^-1 dy) = sigma m e - l o l - correction =: l o c     m = x . y / N, e = (1, 0[, 0])
 //     (phi^2 + Q'T W'Q) z + Q'T G' da = phi Q'c - Q'b,   G'^T Q z = -g,   dx = Q z
 //
-// T W' is not symmetric, so the matrix is factorised by LU; it is regular where W has rank too. Components with large phi
-// (open, or slipping) stand alone in their rows, and the others keep the size of W: multiplied by F^-1 from both sides,
-// as is usual, the same matrix loses four to six digits more near the solution. First sigma = 0 (where does that lead?),
-// then sigma = (m reached / m)^3 and the second-order correction (F^-1 dy) o (F dx) of that step (Mehrotra, SIAM J.
-// Optim. 2 (1992) 575). Acary, Armand, Nguyen, Shpakovych (Optim. Methods Softw. 38 (2023) 1071) solve the problem with
-// |u_t| held; here its derivative stands in T. The problem is not convex: where the steps collapse the best point met is
-// handed back. The last point is moved to the boundary of the cones, P_K(x - y), where that is a solution as well.
+// T W' is not symmetric, so the matrix is factorised by LU; it is regular also if W is rank deficient. Components with
+// large phi (open, or slipping) stand alone in their rows, and the others keep the size of W: multiplied by F^-1 from
+// both sides, as is usual, the same matrix loses four to six digits more near the solution. A predictor with sigma = 0
+// comes first, then sigma = (m reached / m)^3 and the second-order correction (F^-1 dy) o (F dx) of that step
+// (Mehrotra, SIAM J. Optim. 2 (1992) 575). Acary, Armand, Nguyen, Shpakovych (Optim. Methods Softw. 38 (2023) 1071)
+// solve the problem with |u_t| held; here its derivative stands in T. The problem is not convex: where the steps
+// collapse the best point met is returned. The last point is moved to the boundary of the cones, P_K(x - y), if that is
+// a solution as well.
 #pragma once
 
 #include <functional>
@@ -51,8 +52,8 @@ struct InteriorPointEnd {
 /// Coulomb's law alone with mu > 0; W sparse, or dense with at most 1,000 rows.
 bool may_take_interior_points(const Problem& problem);
 
-/// `content` is asked of forces and motions after each step. All pairs start with one force, which presses them together,
-/// `start_factor` times what the loads suggest.
+/// `content`, which may be empty, judges forces and motions after each step. All pairs start with the same normal
+/// force, `start_factor` times what the loads suggest.
 InteriorPointEnd interior_points(const Problem& problem,
                                  const std::function<bool(const Vector& p, const Vector& motion)>& content,
                                  const Deadline& deadline = {}, double start_factor = 1.0);
