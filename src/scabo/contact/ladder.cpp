@@ -189,7 +189,11 @@ NewtonEnd Ladder::swept(const Vector& p, int sweeps, double regularisation, int 
     const bool still = iteration.sweep(swept) <= 1e-12 * swept.lpNorm<Eigen::Infinity>();
     if (judges_all() && content_(swept, iteration.motion())) {
       iteration.start(swept);  // the motion afresh, without what rounding added from pair to pair
-      if (content_(swept, iteration.motion())) return enough(std::move(swept), sweep + 1);
+      if (content_(swept, iteration.motion())) {
+        NewtonEnd end = end_of_sweeps(std::move(swept), sweep + 1);
+        end.converged = true;
+        return end;
+      }
     }
     if (still || late()) break;
   }
@@ -199,13 +203,9 @@ NewtonEnd Ladder::swept(const Vector& p, int sweeps, double regularisation, int 
 
 /// Until `most` sweeps are done in all, and longer while they gain.
 NewtonEnd Ladder::swept_on(LongSweeps& sweeps, int most) {
-  if (sweeps.run(most, content_, options_.deadline)) return enough(sweeps.p(), sweeps.sweeps());
-  NewtonEnd end;
-  end.p = sweeps.p();
-  const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(end.p, Vector());
-  end.residual = at.largest();
-  trace_.push_back({iterations_ + coarse_iterations_, end.residual, at.merit(), 1.0, 0,
-                    std::to_string(sweeps.sweeps()) + " sweeps"});
+  const bool accepted = sweeps.run(most, content_, options_.deadline);
+  NewtonEnd end = end_of_sweeps(sweeps.p(), sweeps.sweeps());
+  end.converged = accepted;
   return end;
 }
 
@@ -263,11 +263,11 @@ NewtonEnd Ladder::inside() {
   return confirmed.converged && confirmed.residual < best.residual ? confirmed : best;
 }
 
-NewtonEnd Ladder::enough(Vector p, int sweeps) {
+/// The point that sweeps ended with, and its line in the trace.
+NewtonEnd Ladder::end_of_sweeps(Vector p, int sweeps) {
   NewtonEnd end;
   const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(p, Vector());
   end.p = std::move(p);
-  end.converged = true;
   end.residual = at.largest();
   trace_.push_back(
       {iterations_ + coarse_iterations_, end.residual, at.merit(), 1.0, 0, std::to_string(sweeps) + " sweeps"});

@@ -53,7 +53,7 @@ class Ladder {
   InteriorPointEnd interior_points_from(double start_factor);
   NewtonEnd inside_from(double start_factor);
   NewtonEnd inside();
-  NewtonEnd enough(Vector p, int sweeps);
+  NewtonEnd end_of_sweeps(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);
   NewtonEnd vanishing_proximal(Vector p);
   NewtonEnd growing_friction(const Vector& p, const Vector& a);

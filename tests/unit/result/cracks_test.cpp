@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "scabo/result/report.hpp"
 #include "scabo/result/summary.hpp"
@@ -127,6 +128,35 @@ TEST(CrackResults, OfAnInterfaceCrackAndACorner) {
   EXPECT_EQ(corner["exponents"].size(), 2u);
   for (const char* key : {"K_tt", "K_rt", "ray", "reference_length"}) EXPECT_TRUE(corner[key].is_number()) << key;
   EXPECT_NE(report_cracks(solution.increments[0]).find("0.544"), std::string::npos);
+}
+
+// The strain e along the crack is the same in both halves, and the stress E' e: 4 times as much above. Left of who
+// walks from the mouth to the tip is above.
+TEST(InterfaceCrack, HasItsTStressOnEitherSide) {
+  const test::Kolosov above(4.0, 0.3, model::Plane::strain), below(1.0, 0.3, model::Plane::strain);
+  const double e = 0.3;
+  for (const double angle : {0.0, 2.0}) {
+    const element::Ring ring = test::cracked_square(1, 12, angle);
+    std::vector<element::Mat3> laws;
+    for (const double at : test::middle_angles(ring))  // from the right face on
+      laws.push_back(test::elasticity(at < std::numbers::pi ? 1.0 : 4.0, 0.3, model::Plane::strain));
+    const Vector u = test::around_tip(ring, [&](double r, double t) {
+      return test::interface_crack(above, below, {1.0, 0.5}, 1.0, e, r, t);
+    });
+    analysis::StaticSolution solution = solution_of(ring, laws, u);
+    solution.model.bodies.front().cracks.push_back({"flaw", {0, 0}, {-1, 0}, {}, {}});
+    analysis::IncrementResult& increment = solution.increments.front();
+    increment.cracks = analysis::crack_results(solution, increment);
+
+    const nlohmann::json flaw = cracks_in_summary(solution)["plate.flaw"];
+    EXPECT_EQ(flaw["kind"], "interface_crack");
+    const double left = 4.0 / 0.91 * e, right = 1.0 / 0.91 * e;
+    EXPECT_NEAR(flaw["T_left"].get<double>(), left, 1e-8);
+    EXPECT_NEAR(flaw["T_right"].get<double>(), right, 1e-8);
+    EXPECT_FALSE(flaw.contains("T"));
+    const std::string log = report_cracks(increment);
+    EXPECT_NE(log.find("1.31868, 0.32967"), std::string::npos) << log;
+  }
 }
 
 }  // namespace
