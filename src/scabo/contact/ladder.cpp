@@ -255,12 +255,15 @@ NewtonEnd Ladder::inside() {
   }
   if (best.p.size() == 0) return best;
   if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points"});
-  best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
+  const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a);
+  best.residual = at.largest();
   if (late()) return best;
   // States are certain when Newton has confirmed them. Where pairs are redundant it may not.
   constexpr int few = 2;
   NewtonEnd confirmed = newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few});
-  return confirmed.converged && confirmed.residual < best.residual ? confirmed : best;
+  if (confirmed.converged && confirmed.residual < best.residual) return confirmed;
+  trace_.push_back({iterations_ + coarse_iterations_, best.residual, at.merit(), 0.0, 0, "interior point kept"});
+  return best;
 }
 
 /// The point that sweeps ended with, and its line in the trace.
