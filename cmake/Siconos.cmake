@@ -1,4 +1,4 @@
-# SCABO_SICONOS: solvers of Siconos (contact/solvers/siconos.hpp), from Debian's libsiconos-numerics-dev, which has no CMake package.
+# SCABO_SICONOS: solvers of Siconos (compare/siconos.hpp), from Debian's libsiconos-numerics-dev, which has no CMake package.
 if(SCABO_SICONOS)
   find_path(SCABO_SICONOS_INCLUDE SiconosConfig.h PATH_SUFFIXES siconos)
   find_library(SCABO_SICONOS_NUMERICS siconos_numerics)
@@ -7,7 +7,7 @@ if(SCABO_SICONOS)
     message(FATAL_ERROR "SCABO_SICONOS needs libsiconos-numerics-dev, which was not found.\n"
                         "Install it, or configure with -DSCABO_SICONOS=OFF.")
   endif()
-  target_compile_definitions(scabo_contact PRIVATE SCABO_SICONOS)
-  target_include_directories(scabo_contact SYSTEM PRIVATE ${SCABO_SICONOS_INCLUDE} ${SCABO_SICONOS_INCLUDE}/numerics)
-  set(scabo_siconos ${SCABO_SICONOS_NUMERICS})
+  target_compile_definitions(scabo_compare PRIVATE SCABO_SICONOS)
+  target_include_directories(scabo_compare SYSTEM PRIVATE ${SCABO_SICONOS_INCLUDE} ${SCABO_SICONOS_INCLUDE}/numerics)
+  target_link_libraries(scabo_compare PRIVATE ${SCABO_SICONOS_NUMERICS})
 endif()

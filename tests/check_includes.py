@@ -15,12 +15,15 @@ ALLOWED = {
     "base": [],
     "linalg": ["base"],
     "contact": ["base", "linalg"],
-    "model": ["base"],
-    "mesh": ["base", "model"],
-    "element": ["base", "linalg", "model", "mesh"],
-    "system": ["base", "linalg", "contact", "model", "mesh", "element"],
-    "analysis": ["base", "linalg", "contact", "model", "mesh", "element", "system"],
-    "result": ["base", "model", "mesh", "element", "analysis"],
+    "geometry": ["base"],
+    "model": ["base", "geometry"],
+    "input": ["base", "geometry", "model"],
+    "mesh": ["base", "geometry", "model"],
+    "element": ["base", "linalg", "geometry", "model", "mesh"],
+    "system": ["base", "linalg", "contact", "geometry", "model", "mesh", "element"],
+    "analysis": ["base", "linalg", "contact", "geometry", "model", "mesh", "element", "system"],
+    "result": ["base", "geometry", "model", "mesh", "element", "analysis"],
+    "compare": ["base", "linalg", "contact"],  # beside src, for comparison
 }
 
 # Headers of plain values that `result` reads although it never includes a solver. They include only base/ and
@@ -61,9 +64,11 @@ def violations(root):
     """Every violation below `root`, as `file:line: reason`."""
     source = root / "src"
     found = []
-    for folder in ("src", "apps", "tests", "benchmarks", "examples"):
+    for folder in ("src", "compare", "apps", "tests", "benchmarks", "examples"):
         for path in files(root / folder):
-            own = path.relative_to(source / "scabo").as_posix() if folder == "src" else None
+            own = path.relative_to(source / "scabo" if folder == "src" else root).as_posix()
+            if folder not in ("src", "compare"):
+                own = None
             part = own.split("/")[0] if own else None
             if part is not None and part not in ALLOWED:
                 found.append(f"{path.relative_to(root)}:1: not in a part of src/scabo")
@@ -74,7 +79,10 @@ def violations(root):
                     if name.startswith("scabo/") and folder != "tests":
                         found.append(where + "our own headers are included in quotes")
                     continue
-                if not name.startswith("scabo/"):
+                if name.startswith("compare/") and folder not in ("src", "examples"):
+                    if not (root / name).is_file():
+                        found.append(where + "no such header")
+                elif not name.startswith("scabo/"):
                     # A test or a program may share helpers with its neighbours; the library may not.
                     beside = [path.parent / name, root / folder / name]
                     if own or not any(file.is_file() for file in beside):
@@ -97,6 +105,7 @@ class SelfTest(unittest.TestCase):
         "contact/solution.hpp": ["contact/problem.hpp"],
         "contact/newton.hpp": ["contact/problem.hpp", "linalg/dense.hpp"],
         "model/model.hpp": ["base/types.hpp"],
+        "input/read.hpp": ["model/model.hpp"],
         "mesh/mesh.hpp": ["model/model.hpp"],
         "element/stiffness.hpp": ["mesh/mesh.hpp", "linalg/dense.hpp"],
         "system/system.hpp": ["element/stiffness.hpp", "contact/newton.hpp"],
@@ -142,6 +151,10 @@ class SelfTest(unittest.TestCase):
             ("src/scabo/mesh/mesh.cpp", "#include <scabo/mesh/mesh.hpp>", "in quotes"),
             ("src/scabo/gadgets/new.hpp", "", "not in a part"),
             ("src/scabo/stray.hpp", "", "not in a part"),
+            ("src/scabo/contact/newton.hpp", '#include "compare/solvers.hpp"', "quotes are for"),
+            ("compare/solvers.cpp", '#include "scabo/mesh/mesh.hpp"', "not mesh/"),
+            ("apps/scabo/main.cpp", '#include "compare/gone.hpp"', "no such header"),
+            ("src/scabo/model/model.hpp", '#include "scabo/input/read.hpp"', "not input/"),
             ("apps/scabo/main.cpp", '#include "scabo/gone.hpp"', "no such header"),
             ("tests/unit/test.cpp", '#include "gone.hpp"', "quotes are for"),
         ]:

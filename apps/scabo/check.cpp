@@ -47,7 +47,7 @@ std::string steps_table(const model::Model& model) {
 }  // namespace
 
 ExitStatus check(const CheckOptions& options) {
-  const model::Model model = model::read_model(options.model, parse_settings(options.settings));
+  const model::Model model = input::read_model(options.model, parse_settings(options.settings));
   const mesh::Mesh mesh = analysis::check(model);
   for (const std::string& warning : model.warnings) print_warning(warning);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
@@ -59,7 +59,7 @@ ExitStatus check(const CheckOptions& options) {
 }
 
 ExitStatus print_schema() {
-  print_output(fmt::format("{}\n", model::model_schema()));
+  print_output(fmt::format("{}\n", input::model_schema()));
   return ExitStatus::solved;
 }
 

@@ -34,7 +34,7 @@ struct ExponentsOptions {
 
 struct ContactOptions {
   std::string file;                         ///< a discrete problem: HDF5 in FCLIB's layout, or Siconos's text
-  std::string solver = "b_differentiable";  ///< one of contact::method_names()
+  std::string solver = "b_differentiable";  ///< one of compare::method_names()
   double tolerance = 1e-10;                 ///< of natural-map residual and certificate, > 0
   int iterations = 0;                       ///< in one attempt, > 0; 0: default of the solver
   double time_limit = 0.0;                  ///< seconds of the solve, > 0; 0: none

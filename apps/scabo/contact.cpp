@@ -7,10 +7,10 @@
 
 #include "commands.hpp"
 #include "contact_report.hpp"
-#include "scabo/contact/fclib.hpp"
-#include "scabo/contact/solvers.hpp"
-#include "scabo/contact/text_problem.hpp"
-#include "scabo/model/suggestions.hpp"
+#include "scabo/contact/files/fclib.hpp"
+#include "compare/solvers.hpp"
+#include "scabo/contact/files/text_problem.hpp"
+#include "scabo/input/suggestions.hpp"
 #include "scabo/result/convergence.hpp"
 #include "scabo/result/files.hpp"
 #include "terminal.hpp"
@@ -21,15 +21,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-contact::Method method_of(const std::string& name) {
-  if (const auto method = contact::method_named(name)) return *method;
-  const std::vector<std::string> names = contact::method_names();
+compare::Method method_of(const std::string& name) {
+  if (const auto method = compare::method_named(name)) return *method;
+  const std::vector<std::string> names = compare::method_names();
   std::string all;
   for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
-  const std::string nearest = model::nearest_name(name, names);
+  const std::string nearest = input::nearest_name(name, names);
   throw InputError("--solver",
                    {{{},
-                     fmt::format("there is no solver called {}{}; available are {}", model::quoted_name(name),
+                     fmt::format("there is no solver called {}{}; available are {}", input::quoted_name(name),
                                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
 }
 
@@ -48,7 +48,7 @@ Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) 
   if (options.time_limit > 0.0) solver.deadline = contact::Deadline::in(options.time_limit);
 
   const Clock::time_point start = Clock::now();
-  judged.solution = contact::solve_with(method_of(options.solver), saved.problem, saved.start, solver);
+  judged.solution = compare::solve_with(method_of(options.solver), saved.problem, saved.start, solver);
   judged.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return judged;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scabo/contact/saved_problem.hpp"
+#include "scabo/contact/files/saved_problem.hpp"
 #include "scabo/contact/uniqueness.hpp"
 
 namespace scabo::app {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "scabo/contact/solvers.hpp"
+#include "compare/solvers.hpp"
 #include "scabo/result/version.hpp"
 #include "startup.hpp"
 #include "terminal.hpp"
@@ -184,7 +184,7 @@ class CommandLine {
  private:
   static std::string solver_help() {
     std::string names;
-    for (const std::string& name : contact::method_names()) names += (names.empty() ? "" : ", ") + name;
+    for (const std::string& name : compare::method_names()) names += (names.empty() ? "" : ", ") + name;
     return "Default b_differentiable; there are " + names;
   }
 

@@ -9,7 +9,7 @@
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "scabo/analysis/static_analysis.hpp"
-#include "scabo/contact/fclib.hpp"
+#include "scabo/contact/files/fclib.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/results_directory.hpp"
 #include "scabo/result/version.hpp"
@@ -110,7 +110,7 @@ void print_reason(const analysis::StaticSolution& solution, ExitStatus status) {
 
 ExitStatus run(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
-  const model::Model model = model::read_model(options.model, parse_settings(options.settings));
+  const model::Model model = input::read_model(options.model, parse_settings(options.settings));
   const double reading = seconds_since(start);
   const auto output = options.output.empty() ? default_output(options.model) : options.output;
   if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);

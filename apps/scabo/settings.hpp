@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace scabo::app {
 
 /// Throws InputError with every setting that cannot be understood.
-std::vector<model::Override> parse_settings(const std::vector<std::string>& settings);
+std::vector<input::Override> parse_settings(const std::vector<std::string>& settings);
 
 }  // namespace scabo::app

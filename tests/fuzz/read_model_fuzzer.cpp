@@ -8,19 +8,19 @@
 #include <string_view>
 #include <vector>
 
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace {
 
 constexpr std::string_view override_mark = "# --set ";
 
 /// Takes the leading `# --set path=value` lines as overrides.
-std::vector<scabo::model::Override> overrides_in(std::string_view text) {
-  std::vector<scabo::model::Override> overrides;
+std::vector<scabo::input::Override> overrides_in(std::string_view text) {
+  std::vector<scabo::input::Override> overrides;
   while (text.substr(0, override_mark.size()) == override_mark && overrides.size() < 10) {
     const auto end = text.find('\n');
     if (end == std::string_view::npos) break;
-    overrides.push_back(scabo::model::parse_override(text.substr(override_mark.size(), end - override_mark.size())));
+    overrides.push_back(scabo::input::parse_override(text.substr(override_mark.size(), end - override_mark.size())));
     text.remove_prefix(end + 1);
   }
   return overrides;
@@ -31,7 +31,7 @@ std::vector<scabo::model::Override> overrides_in(std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    const scabo::model::Model model = scabo::model::parse_model(text, "fuzz.yaml", overrides_in(text));
+    const scabo::model::Model model = scabo::input::parse_model(text, "fuzz.yaml", overrides_in(text));
     // What the parts that follow rely on.
     for (const scabo::model::Body& body : model.bodies) {
       if (body.outline.edges.size() < 2 || !((body.outside ? -1.0 : 1.0) * body.outline.area() > 0.0)) __builtin_trap();

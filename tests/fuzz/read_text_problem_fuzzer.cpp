@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "scabo/contact/text_problem.hpp"
+#include "scabo/contact/files/text_problem.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

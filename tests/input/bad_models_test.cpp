@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace scabo::model {
 namespace {

@@ -16,7 +16,7 @@ run(${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
 file(RENAME ${prefix} ${scratch}/moved)
 set(prefix ${scratch}/moved)
 
-foreach(file bin/scabo include/scabo/model/read_model.hpp ${libdir}/cmake/scabo/scaboConfig.cmake
+foreach(file bin/scabo include/scabo/input/read_model.hpp ${libdir}/cmake/scabo/scaboConfig.cmake
              share/scabo/model.schema.json share/scabo/examples share/doc/scabo/LICENSE)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "not installed: ${file}")

@@ -7,14 +7,14 @@
 #include "scabo/analysis/super_elements.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/mesh/mesh.hpp"
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 #include "scabo/system/contact_system.hpp"
 
 namespace scabo::verification {
 
 /// W of the pairs of a model whose bodies are all held by supports; the mean of its diagonal is 1.
 inline Matrix flexibility_of(const std::string& text) {
-  const model::Model model = model::parse_model(text, "campaign.yaml", {});
+  const model::Model model = input::parse_model(text, "campaign.yaml", {});
   const mesh::Mesh mesh = mesh::make_mesh(model);
   const auto solved = analysis::solve_super_elements(model, mesh, 1);
   std::vector<const element::SuperElementSolution*> solutions;

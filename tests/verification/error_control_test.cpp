@@ -149,7 +149,7 @@ TEST(Refinement, TakesFewerDegreesOfFreedomThanEqualElements) {
 
 TEST(Refinement, SaysWhyAToleranceIsNotReachedAndKeepsTheLastMesh) {
   const model::Model model =
-      model::parse_model(cooks_membrane, "test.yaml", {model::parse_override("bodies.panel.mesh.tolerance=1e-3")});
+      input::parse_model(cooks_membrane, "test.yaml", {input::parse_override("bodies.panel.mesh.tolerance=1e-3")});
   analysis::RefinementLimits limits;
   limits.dofs = 150;
   int reported = 0;

@@ -47,8 +47,8 @@ Jam jam(double closed_at, int halvings) {
     }
   };
   result.solution =
-      analysis::solve_static(model::parse_model(self_locking_bar(closed_at), "test.yaml",
-                                                {model::parse_override(fmt::format("solver.halvings={}", halvings))}),
+      analysis::solve_static(input::parse_model(self_locking_bar(closed_at), "test.yaml",
+                                                {input::parse_override(fmt::format("solver.halvings={}", halvings))}),
                              options);
   return result;
 }

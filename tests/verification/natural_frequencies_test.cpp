@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scabo/analysis/modal_analysis.hpp"
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace scabo::verification {
 namespace {
@@ -26,9 +26,9 @@ supports: [{on: beam.left, fix: [x, y]}]
 )";
 
 analysis::ModalResult run(const std::string& text, const std::vector<std::string>& settings = {}) {
-  std::vector<model::Override> overrides;
-  for (const std::string& setting : settings) overrides.push_back(model::parse_override(setting));
-  return analysis::solve_modal(model::parse_model(text, "test.yaml", overrides));
+  std::vector<input::Override> overrides;
+  for (const std::string& setting : settings) overrides.push_back(input::parse_override(setting));
+  return analysis::solve_modal(input::parse_model(text, "test.yaml", overrides));
 }
 
 /// Frequencies of the modes that deform.

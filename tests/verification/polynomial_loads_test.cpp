@@ -148,7 +148,7 @@ supports:
     return model;
   };
   const std::string simple = "  - {on: plate.edge_1, fix: [x, y]}\n";
-  const model::Model first = model::parse_model(text(simple), "test.yaml");
+  const model::Model first = input::parse_model(text(simple), "test.yaml");
   std::string supports;
   const auto support = [&](const std::string& place, const Vec2& x) {
     const Vec2 value = u.at(x, 0, 0);

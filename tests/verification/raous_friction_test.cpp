@@ -41,7 +41,7 @@ Solved solve_block(int pairs, double friction) {
     result.problem = problems.back();
   };
   result.solution =
-      analysis::solve_static(model::parse_model(block(pairs, friction, "superelement"), "test.yaml", {}), options);
+      analysis::solve_static(input::parse_model(block(pairs, friction, "superelement"), "test.yaml", {}), options);
   return result;
 }
 

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "scabo/analysis/static_analysis.hpp"
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace scabo::verification {
 
 inline analysis::StaticSolution run(const std::string& text, const std::vector<std::string>& settings = {}) {
-  std::vector<model::Override> overrides;
-  for (const std::string& setting : settings) overrides.push_back(model::parse_override(setting));
-  return analysis::solve_static(model::parse_model(text, "test.yaml", overrides));
+  std::vector<input::Override> overrides;
+  for (const std::string& setting : settings) overrides.push_back(input::parse_override(setting));
+  return analysis::solve_static(input::parse_model(text, "test.yaml", overrides));
 }
 
 /// Increment `index`, which must have converged: what does not exist is thrown as a sentence, so that a test whose run

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "scabo/contact/bonded_start.hpp"
-#include "scabo/contact/cold_start.hpp"
-#include "scabo/contact/gauss_seidel.hpp"
+#include "scabo/contact/starts/bonded_start.hpp"
+#include "scabo/contact/starts/cold_start.hpp"
+#include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/interior_point.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/lemke.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/contact/bonded_start.hpp"
+#include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/newton_direction.hpp"
 
 namespace scabo::contact {

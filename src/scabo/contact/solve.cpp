@@ -12,7 +12,7 @@
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/rigid_motions.hpp"
-#include "scabo/contact/sweeps.hpp"
+#include "scabo/contact/starts/sweeps.hpp"
 
 namespace scabo::contact {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "scabo/mesh/edge_geometry.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/mesh/lobatto.hpp"
 
 namespace scabo::mesh {
@@ -59,7 +59,7 @@ ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement
   }
   for (int i = 0; i < count; ++i) {
     normals[i].normalize();
-    const std::optional<Foot> foot = foot_on(*edge, points[i]);
+    const std::optional<geometry::Foot> foot = geometry::foot_on(*edge, points[i]);
     true_normals.push_back(foot ? foot->normal : normals[i]);
   }
 }

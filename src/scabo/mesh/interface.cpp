@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "scabo/mesh/contact_side.hpp"
-#include "scabo/mesh/edge_geometry.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/mesh/node_matching.hpp"
 
 namespace scabo::mesh {
@@ -61,7 +61,7 @@ class Matching {
 
  private:
   static bool holds(const model::Body& body, const Vec2& point) {
-    return encloses(body.outline, point) != body.outside;
+    return geometry::encloses(body.outline, point) != body.outside;
   }
 
   static ContactSide side_of(const model::Place& place, const model::Edge& edge, const std::vector<BodyMesh>& bodies) {
@@ -127,11 +127,11 @@ class Matching {
     const bool a_is_rigid = !side_a_;
     const ContactSide& side = a_is_rigid ? *side_b_ : *side_a_;
     const model::Edge& edge = a_is_rigid ? edge_a_ : edge_b_;
-    std::vector<std::optional<Foot>> feet(side.size());
+    std::vector<std::optional<geometry::Foot>> feet(side.size());
     bool over = false;
     bool facing = false;
     for (int i = 0; i < side.size(); ++i) {
-      const std::optional<Foot> foot = foot_on(edge, side.points[i]);
+      const std::optional<geometry::Foot> foot = geometry::foot_on(edge, side.points[i]);
       if (!foot || foot->t < -end_tolerance || foot->t > 1.0 + end_tolerance) continue;
       over = true;
       const double cosine = side.normals[i].dot(foot->normal);

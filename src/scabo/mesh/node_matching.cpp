@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scabo/mesh/edge_geometry.hpp"
+#include "scabo/geometry/foot_points.hpp"
 
 namespace scabo::mesh {
 
@@ -52,7 +52,7 @@ std::vector<Lie> lies_of(const ContactSide& side, const ContactSide& other) {
       matching_tolerance * std::min(side.element_length, other.element_length) / other.edge->length();
   std::vector<Lie> lies;
   for (int i = 0; i < side.size(); ++i) {
-    const std::optional<Foot> foot = foot_on(*other.edge, side.points[i]);
+    const std::optional<geometry::Foot> foot = geometry::foot_on(*other.edge, side.points[i]);
     if (!foot || foot->t < -tolerance || foot->t > 1.0 + tolerance) {
       lies.push_back(Lie::beyond);
     } else if (side.normals[i].dot(foot->normal) > facing_cosine - 1e-9) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "scabo/mesh/edge_geometry.hpp"
+#include "scabo/geometry/foot_points.hpp"
 
 namespace scabo::mesh {
 
@@ -19,7 +19,7 @@ constexpr double most_points = 1e6;
 
 double distance_to(const model::Edge& edge, const Vec2& point) {
   const double ends = std::min((point - edge.start).norm(), (point - edge.end).norm());
-  const std::optional<Foot> foot = foot_on(edge, point);
+  const std::optional<geometry::Foot> foot = geometry::foot_on(edge, point);
   if (!foot) return edge.arc->radius;
   return foot->t >= 0.0 && foot->t <= 1.0 ? std::min(ends, (point - foot->point).norm()) : ends;
 }
@@ -43,7 +43,7 @@ void add(Box& box, const model::Outline& outline) {
     if (!edge.arc) continue;
     for (const Vec2& side : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
       const Vec2 extreme = edge.arc->centre + edge.arc->radius * side;
-      const std::optional<Foot> foot = foot_on(edge, extreme);
+      const std::optional<geometry::Foot> foot = geometry::foot_on(edge, extreme);
       if (foot && foot->t >= 0.0 && foot->t <= 1.0) box.add(extreme);
     }
   }
@@ -196,8 +196,8 @@ bool holds(const model::Body& body, const Vec2& point) {
   const double slack = on_outline * size_of(body.outline);
   if (before_side_faces(body, point, slack)) return false;
   if (distance_to(body.outline, point) <= slack) return true;
-  if (!body.outside) return encloses(body.outline, point);
-  return !encloses(body.outline, point) && between_side_faces(body, point, slack);
+  if (!body.outside) return geometry::encloses(body.outline, point);
+  return !geometry::encloses(body.outline, point) && between_side_faces(body, point, slack);
 }
 
 OutputPoints output_points(const model::Model& model) {

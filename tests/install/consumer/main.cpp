@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <scabo/analysis/static_analysis.hpp>
-#include <scabo/model/read_model.hpp>
+#include <scabo/input/read_model.hpp>
 
 int main() {
   const char* text = R"(
@@ -21,7 +21,7 @@ steps:
   - {name: pull, increments: 1}
 )";
   try {
-    const scabo::model::Model model = scabo::model::parse_model(text, "block.yaml");
+    const scabo::model::Model model = scabo::input::parse_model(text, "block.yaml");
     const double area = model.bodies.at(0).outline.area();
     std::printf("%s: area %g\n", model.bodies.at(0).name.c_str(), area);
     if (area < 1.999 || area > 2.001) return 1;
@@ -37,7 +37,7 @@ steps:
 
   // A mistake arrives as an exception of the library's type.
   try {
-    scabo::model::parse_model("scabo: 1\nbodeis: {}\n", "wrong.yaml");
+    scabo::input::parse_model("scabo: 1\nbodeis: {}\n", "wrong.yaml");
   } catch (const scabo::InputError& error) {
     return error.diagnostics().empty() ? 1 : 0;
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace scabo::analysis {
 namespace {
@@ -39,7 +39,7 @@ std::string stack(double overlap, const std::string& rest = "", const std::strin
          rest;
 }
 
-StaticSolution solve(const std::string& text) { return solve_static(model::parse_model(text, "model.yaml")); }
+StaticSolution solve(const std::string& text) { return solve_static(input::parse_model(text, "model.yaml")); }
 
 TEST(Warnings, AnOrdinaryModelHasNone) {
   EXPECT_THAT(solve(stack(1e-4)).warnings, IsEmpty());

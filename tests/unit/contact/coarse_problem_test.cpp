@@ -1,12 +1,12 @@
 // The problem of half as many pairs: what Galerkin and the weakest member's law promise, and where it must
 // change nothing.
-#include "scabo/contact/coarse_problem.hpp"
+#include "scabo/contact/starts/coarse_problem.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "scabo/contact/cold_start.hpp"
+#include "scabo/contact/starts/cold_start.hpp"
 #include "support/decompositions.hpp"
 #include "unit/contact/problems.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scabo/contact/solvers.hpp"
+#include "compare/solvers.hpp"
 #include "scabo/linalg/nonnegative_least_squares.hpp"
 #include "unit/contact/problems.hpp"
 

@@ -10,9 +10,9 @@
 #include <random>
 #include <tuple>
 
-#include "scabo/contact/gauss_seidel.hpp"
+#include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/judge.hpp"
-#include "scabo/contact/long_sweeps.hpp"
+#include "scabo/contact/starts/long_sweeps.hpp"
 #include "scabo/contact/solve.hpp"
 #include "unit/contact/problems.hpp"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "scabo/contact/solvers.hpp"
+#include "compare/solvers.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace scabo::contact {

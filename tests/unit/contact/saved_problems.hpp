@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "scabo/contact/saved_problem.hpp"
+#include "scabo/contact/files/saved_problem.hpp"
 
 namespace scabo::contact {
 

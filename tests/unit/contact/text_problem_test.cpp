@@ -1,6 +1,6 @@
 // The text layout: read from texts as Siconos writes them, written and read with equal bits; every mistake
 // has its place.
-#include "scabo/contact/text_problem.hpp"
+#include "scabo/contact/files/text_problem.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "scabo/mesh/mesh.hpp"
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace scabo::mesh {
 namespace {
 
 model::Model read(const std::string& bodies, const std::string& more) {
-  return model::parse_model("scabo: 1\nmaterials: {rock: {young: 1, poisson: 0.2}}\nbodies:\n" + bodies + more,
+  return input::parse_model("scabo: 1\nmaterials: {rock: {young: 1, poisson: 0.2}}\nbodies:\n" + bodies + more,
                             "test.yaml");
 }
 

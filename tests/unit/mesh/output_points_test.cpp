@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "scabo/model/read_model.hpp"
+#include "scabo/input/read_model.hpp"
 
 namespace scabo::mesh {
 namespace {
 
 model::Model model_of(const std::string& body) {
-  return model::parse_model(
+  return input::parse_model(
       "scabo: 1\nmaterials: {rock: {young: 1, poisson: 0.2}}\nbodies:\n  ground: {material: rock, " + body +
           "}\nloads: {p: {on: ground.edge_2, pressure: 1}}\nsupports: [{on: ground.edge_3, fix: [x, y]}]\n",
       "test.yaml");

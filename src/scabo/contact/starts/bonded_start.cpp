@@ -1,0 +1,83 @@
+#include "scabo/contact/starts/bonded_start.hpp"
+
+#include "scabo/linalg/general_solver.hpp"
+#include "scabo/linalg/sparse_general_solver.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+constexpr double softness = 1e-3;  // eps
+constexpr double least_condition = 1e-12;
+
+std::optional<Vector> solve_sparse(const Problem& problem, const std::vector<int>& place, Eigen::Index size,
+                                   const Vector& right) {
+  const Eigen::SparseMatrix<double>&W = problem.W.sparse(), &G = problem.G.sparse();
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(W.nonZeros() + 2 * G.nonZeros()));
+  for (Eigen::Index column = 0; column < W.cols(); ++column) {
+    const int j = place[static_cast<std::size_t>(column)];
+    if (j < 0) continue;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, column); it; ++it)
+      if (const int i = place[static_cast<std::size_t>(it.row())]; i >= 0)
+        entries.emplace_back(i, j, i == j ? (1.0 + softness) * it.value() : it.value());
+  }
+  for (Eigen::Index k = 0; k < G.cols(); ++k)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
+      if (const int i = place[static_cast<std::size_t>(it.row())]; i >= 0) {
+        entries.emplace_back(i, size + k, it.value());
+        entries.emplace_back(size + k, i, it.value());
+      }
+  Eigen::SparseMatrix<double> A(right.size(), right.size());
+  A.setFromTriplets(entries.begin(), entries.end());
+  linalg::SparseGeneralSolver solver;
+  if (!solver.factorise(A) || !(solver.reciprocal_condition() > least_condition)) return std::nullopt;
+  Vector x;
+  solver.solve(right, x);
+  return x;
+}
+
+std::optional<Vector> solve_dense(const Problem& problem, const std::vector<int>& rows, const Vector& right) {
+  const Eigen::Index size = static_cast<Eigen::Index>(rows.size()), m = problem.G.cols();
+  Matrix A = Matrix::Zero(size + m, size + m);
+  A.topLeftCorner(size, size) = problem.W.dense()(rows, rows);
+  A.diagonal().head(size) *= 1.0 + softness;
+  A.topRightCorner(size, m) = problem.G.dense()(rows, Eigen::all);
+  A.bottomLeftCorner(m, size) = A.topRightCorner(size, m).transpose();
+  linalg::GeneralSolver solver;
+  if (!solver.factorise(A, size + m) || !(solver.reciprocal_condition() > least_condition)) return std::nullopt;
+  Vector x = right;
+  solver.solve_in_place(x);
+  return x;
+}
+
+}  // namespace
+
+std::optional<BondedStart> bonded_start(const Problem& problem, const std::vector<bool>& touching) {
+  const Eigen::Index N = problem.pairs(), d = problem.dimension, m = problem.G.cols();
+  std::vector<int> rows, place(static_cast<std::size_t>(d * N), -1);
+  const Vector diagonal = problem.W.diagonal();
+  for (Eigen::Index i = 0; i < N; ++i)
+    for (Eigen::Index k = d * i; k < d * (i + 1); ++k)
+      if ((touching.empty() || touching[static_cast<std::size_t>(i)]) && diagonal[k] > 0.0) {
+        place[static_cast<std::size_t>(k)] = static_cast<int>(rows.size());
+        rows.push_back(static_cast<int>(k));
+      }
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  Vector right(size + m);
+  right << -problem.q(rows), -problem.f;
+  const std::optional<Vector> x =
+      problem.W.is_sparse() ? solve_sparse(problem, place, size, right) : solve_dense(problem, rows, right);
+  if (!x || !x->allFinite()) return std::nullopt;
+  BondedStart start{Vector::Zero(d * N), x->tail(m)};
+  start.p(rows) = x->head(size);
+  return start;
+}
+
+bool may_bond(const Problem& problem) {
+  constexpr Eigen::Index motions_of_one_body = 3;
+  return problem.dimension == 2 && problem.G.cols() > motions_of_one_body &&
+         (problem.W.is_sparse() || problem.W.is_dense());
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,116 @@
+#include "scabo/contact/starts/gauss_seidel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scabo::contact {
+
+using Index = Eigen::Index;
+
+template <int d>
+PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {
+  if (problem.W.is_sparse()) {
+    const Eigen::SparseMatrix<double>& W = problem.W.sparse();
+    columns_ = W.outerIndexPtr();
+    rows_ = W.innerIndexPtr();
+    values_ = W.valuePtr();
+  } else {
+    values_ = problem.W.dense().data();
+  }
+  pairs_.reserve(static_cast<std::size_t>(problem.pairs()));
+  for (Index i = 0; i < problem.pairs(); ++i) {
+    double block[d * d];
+    read_block(i, block);
+    pairs_.emplace_back(block, problem.mu[i], problem.cohesion_of(i), problem.tension_of(i));
+  }
+}
+
+template <int d>
+void PairSweeps<d>::read_block(Index i, double* block) const {
+  const Index size = problem_->q.size(), first = d * i;
+  for (int k = 0; k < d; ++k) {
+    double* const column = block + d * k;
+    if (columns_ == nullptr) {
+      for (int j = 0; j < d; ++j) column[j] = values_[(first + k) * size + first + j];
+      continue;
+    }
+    for (int j = 0; j < d; ++j) column[j] = 0.0;
+    for (int t = columns_[first + k]; t < columns_[first + k + 1]; ++t) {
+      const Index row = rows_[t] - first;
+      if (row >= 0 && row < d) column[row] += values_[t];
+    }
+  }
+}
+
+/// motion += W (columns of pair i) change.
+template <int d>
+void PairSweeps<d>::add(Index i, const double* change, double* motion) const {
+  const Index size = problem_->q.size(), first = d * i;
+  if (columns_ == nullptr) {
+    const double *W_n = values_ + first * size, *W_t = W_n + size, *W_s = W_n + (d - 1) * size;
+    if (d == 2)
+      for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1];
+    else
+      for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1] + W_s[k] * change[d - 1];
+    return;
+  }
+  for (int k = 0; k < d; ++k)
+    if (const double step = change[k]; step != 0.0)
+      for (int t = columns_[first + k]; t < columns_[first + k + 1]; ++t) motion[rows_[t]] += values_[t] * step;
+}
+
+template <int d>
+void PairSweeps<d>::start(const Vector& p, Vector& motion) const {
+  motion = problem_->q;
+  for (Index i = 0; i < problem_->pairs(); ++i) add(i, p.data() + d * i, motion.data());
+}
+
+template <int d>
+double PairSweeps<d>::sweep(Vector& p, Vector& motion) {
+  double largest = 0.0;
+  for (Index i = 0; i < problem_->pairs(); ++i) {
+    PairProblem<d>& pair = pairs_[static_cast<std::size_t>(i)];
+    double* const force = p.data() + d * i;
+    double free[d], next[d], change[d], size = 0.0;
+    for (int k = 0; k < d; ++k) {
+      free[k] = motion[d * i + k];
+      for (int j = 0; j < d; ++j) free[k] -= pair.W()[d * j + k] * force[j];
+    }
+    pair.solve(free, next);
+    for (int k = 0; k < d; ++k) {
+      change[k] = next[k] - force[k];
+      size += std::abs(change[k]);
+    }
+    if (!(size > 0.0 && size < HUGE_VAL)) continue;
+    for (int k = 0; k < d; ++k) {
+      force[k] = next[k];
+      largest = std::max(largest, std::abs(change[k]));
+    }
+    add(i, change, motion.data());
+  }
+  return largest;
+}
+
+template class PairSweeps<2>;
+template class PairSweeps<3>;
+
+GaussSeidel::GaussSeidel(const Problem& problem)
+    : sweeps_(problem.dimension == 2 ? decltype(sweeps_)(PairSweeps<2>(problem)) : PairSweeps<3>(problem)) {}
+
+void GaussSeidel::start(const Vector& p) {
+  std::visit([&](const auto& sweeps) { sweeps.start(p, motion_); }, sweeps_);
+}
+
+double GaussSeidel::sweep(Vector& p) {
+  return std::visit([&](auto& sweeps) { return sweeps.sweep(p, motion_); }, sweeps_);
+}
+
+Vector gauss_seidel(const Problem& problem, Vector p, int sweeps) {
+  GaussSeidel iteration(problem);
+  iteration.start(p);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    if (iteration.sweep(p) <= 1e-12 * p.lpNorm<Eigen::Infinity>()) break;
+  return p;
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,96 @@
+#include "scabo/contact/starts/long_sweeps.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace scabo::contact {
+
+namespace {
+
+constexpr int round_of = 20;         // sweeps
+constexpr int depth = 8;             // changes remembered
+constexpr int least_patience = 500;  // sweeps in which the natural map is halved: they gain
+
+}  // namespace
+
+LongSweeps::LongSweeps(const Problem& problem, Vector p)
+    : problem_(problem),
+      measure_(problem),
+      iteration_(problem),
+      p_(std::move(p)),
+      best_(p_),
+      changes_f_(p_.size(), depth),
+      changes_p_(p_.size(), depth),
+      least_(HUGE_VAL),
+      halved_(HUGE_VAL) {
+  iteration_.start(p_);
+}
+
+bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vector&)>& content,
+                     const Deadline& deadline) {
+  const auto go_on = [&] {
+    return sweeps_ < most || (sweeps_ < 4 * most && sweeps_ - gained_ <= std::max(least_patience, sweeps_ / 2));
+  };
+  while (!deadline.passed() && go_on()) {
+    const Vector before = p_;
+    iteration_.start(p_);  // afresh, without what rounding added from pair to pair
+    bool moved = false;
+    for (int sweep = 0; sweep < round_of; ++sweep) moved = iteration_.sweep(p_) > 0.0 || moved;
+    sweeps_ += round_of;
+    const double map = measure_.natural_map(problem_, p_, iteration_.motion());
+    if (extrapolated_ && !(map <= map_of_round_)) {
+      p_ = round_;
+      extrapolated_ = false;
+      forget();
+      continue;
+    }
+    extrapolations_ += extrapolated_;
+    if (map < least_) {
+      least_ = map;
+      best_ = p_;
+    }
+    if (content && content(p_, iteration_.motion())) {
+      iteration_.start(p_);
+      if (content(p_, iteration_.motion())) {
+        best_ = p_;
+        return true;
+      }
+    }
+    if (!moved || !std::isfinite(map)) break;
+    if (least_ <= 0.5 * halved_) {
+      halved_ = least_;
+      gained_ = sweeps_;
+    }
+    remember(before);
+    round_ = p_;
+    map_of_round_ = map;
+    extrapolated_ = extrapolate();
+  }
+  return false;
+}
+
+void LongSweeps::remember(const Vector& before) {
+  Vector f = p_ - before;
+  if (has_last_) {
+    changes_f_.col(next_) = f - last_f_;
+    changes_p_.col(next_) = p_ - last_p_;
+    next_ = (next_ + 1) % depth;
+    count_ = std::min(count_ + 1, depth);
+  }
+  last_f_ = std::move(f);
+  last_p_ = p_;
+  has_last_ = true;
+}
+
+/// False where there is too little to go by.
+bool LongSweeps::extrapolate() {
+  if (count_ < 2) return false;
+  const Vector gamma = Matrix(changes_f_.leftCols(count_)).colPivHouseholderQr().solve(last_f_);
+  if (!gamma.allFinite()) return false;
+  p_.noalias() -= changes_p_.leftCols(count_) * gamma;
+  return true;
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,70 @@
+// Geometry of outlines: points, lengths, area and centroid, arcs included exactly.
+#include <cmath>
+
+#include "scabo/geometry/outline.hpp"
+
+namespace scabo::geometry {
+
+Vec2 Edge::at(double t) const {
+  if (t <= 0.0) return start;
+  if (t >= 1.0) return end;
+  if (!arc) return start + t * (end - start);
+  // Radii at both ends may differ by the rounding of the given coordinates; in between they are interpolated.
+  const double radius = (1.0 - t) * (start - arc->centre).norm() + t * (end - arc->centre).norm();
+  const double angle = arc->start_angle + t * arc->sweep;
+  return arc->centre + radius * Vec2(std::cos(angle), std::sin(angle));
+}
+
+double Edge::length() const { return arc ? arc->radius * std::abs(arc->sweep) : (end - start).norm(); }
+
+namespace {
+
+/// Twice the area between an arc and its chord, and three times its first moment about the centre of the arc;
+/// negative where the arc runs clockwise.
+struct Segment {
+  double twice_area = 0.0;
+  Vec2 triple_moment = Vec2::Zero();
+};
+
+Segment segment_of(const Arc& arc) {
+  const double half = std::sin(0.5 * arc.sweep);
+  const double middle = arc.start_angle + 0.5 * arc.sweep;
+  const double r2 = arc.radius * arc.radius;
+  return {r2 * (arc.sweep - std::sin(arc.sweep)),
+          2.0 * r2 * arc.radius * half * half * half * Vec2(std::cos(middle), std::sin(middle))};
+}
+
+}  // namespace
+
+double Outline::area() const {
+  if (edges.empty()) return 0.0;
+  const Vec2 origin = edges.front().start;  // near the body, because large coordinates would lose digits
+  double twice = 0.0;
+  for (const Edge& edge : edges) {
+    twice += cross(edge.start - origin, edge.end - origin);
+    if (edge.arc) twice += segment_of(*edge.arc).twice_area;
+  }
+  return 0.5 * twice;
+}
+
+Vec2 Outline::centroid() const {
+  if (edges.empty()) return Vec2::Zero();
+  const Vec2 origin = edges.front().start;
+  double twice = 0.0;
+  Vec2 sixfold = Vec2::Zero();  // six times the first moment about the origin
+  for (const Edge& edge : edges) {
+    const Vec2 a = edge.start - origin;
+    const Vec2 b = edge.end - origin;
+    const double c = cross(a, b);
+    twice += c;
+    sixfold += c * (a + b);
+    if (edge.arc) {
+      const Segment segment = segment_of(*edge.arc);
+      twice += segment.twice_area;
+      sixfold += 3.0 * segment.twice_area * (edge.arc->centre - origin) + 2.0 * segment.triple_moment;
+    }
+  }
+  return origin + sixfold / (3.0 * twice);
+}
+
+}  // namespace scabo::geometry

@@ -1,0 +1,50 @@
+// Closed boundaries of straight lines and circular arcs, with the names that a model file gives them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scabo/base/error.hpp"
+#include "scabo/base/types.hpp"
+
+namespace scabo::geometry {
+
+/// An arc of a circle from `start_angle` through `sweep` (radians, counter-clockwise positive).
+struct Arc {
+  Vec2 centre = Vec2::Zero();
+  double radius = 0.0;
+  double start_angle = 0.0;
+  double sweep = 0.0;
+};
+
+/// One edge of the boundary of a body, a straight line or an arc, directed counter-clockwise around the body (material
+/// on the left).
+struct Edge {
+  std::vector<std::string> names;  ///< its own name first (`edge_3`), then those given by the user
+  Vec2 start = Vec2::Zero();
+  Vec2 end = Vec2::Zero();
+  std::optional<Arc> arc;  ///< empty for a straight line
+  Source source;
+
+  Vec2 at(double t) const;  ///< point at 0 <= t <= 1 of the edge's length
+  double length() const;
+};
+
+/// A corner is the start of the edge with the same index.
+struct Corner {
+  std::vector<std::string> names;
+  Vec2 position = Vec2::Zero();
+};
+
+/// A simple closed boundary. edges[i] ends where edges[i + 1] starts.
+struct Outline {
+  std::vector<Edge> edges;
+  std::vector<Corner> corners;
+  bool rectangle = false;  ///< given as `rectangle`, which `fem` meshes require
+
+  double area() const;    ///< arcs included exactly
+  Vec2 centroid() const;  ///< arcs included exactly
+};
+
+}  // namespace scabo::geometry

@@ -1,0 +1,184 @@
+// `cracks` and `sectors` of a body.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/input/reading.hpp"
+#include "scabo/input/suggestions.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+constexpr const char* crack_example = "{tip: [0.5, 0], mouth: [0, 0], name: flaw}";
+
+/// Position of a point of the boundary along an edge.
+struct OnEdge {
+  int edge = -1;
+  double at = 0.0;
+};
+
+/// Position, as a fraction of the length of the edge, of its point closest to `x`.
+double closest_fraction(const Edge& edge, const Vec2& x) {
+  if (!edge.arc) {
+    const Vec2 along = edge.end - edge.start;
+    return std::clamp((x - edge.start).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  }
+  const Vec2 from = edge.start - edge.arc->centre, to = x - edge.arc->centre;
+  double turn = std::atan2(cross(from, to), from.dot(to)) / edge.arc->sweep;
+  const double full = 2.0 * std::numbers::pi / std::abs(edge.arc->sweep);
+  if (turn < -1e-9) turn += full;
+  return std::clamp(turn, 0.0, 1.0);
+}
+
+std::optional<OnEdge> find_on_outline(const Outline& outline, const Vec2& x) {
+  const double size = outline_size(outline);
+  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
+    const double at = closest_fraction(outline.edges[e], x);
+    if ((outline.edges[e].at(at) - x).norm() <= 1e-9 * size) return OnEdge{static_cast<int>(e), at};
+  }
+  return {};
+}
+
+/// The middle of an edge, or a corner, of this body by its name, `left` or `plate.left`.
+std::optional<OnEdge> mouth_named(Reading& reading, const Value& value, const Body& body) {
+  const auto text = read_text(reading.report, value);
+  if (!text) return {};
+  const std::string prefix = body.name + ".";
+  const std::string name = text->starts_with(prefix) ? text->substr(prefix.size()) : *text;
+  std::vector<std::string> known;
+  const auto has = [&](const std::vector<std::string>& names) {
+    known.insert(known.end(), names.rbegin(), names.rend());
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (std::size_t e = 0; e < body.outline.edges.size(); ++e)
+    if (has(body.outline.edges[e].names)) return OnEdge{static_cast<int>(e), 0.5};
+  for (std::size_t c = 0; c < body.outline.corners.size(); ++c)  // corner c is the start of edge c
+    if (has(body.outline.corners[c].names)) return OnEdge{static_cast<int>(c), 0.0};
+  reading.report.error(value, fmt::format("body '{}' has no edge or corner named {}{}", body.name, quoted_name(name),
+                                          suggestion(name, known)));
+  return {};
+}
+
+/// `mouth`: a point of the outline, a corner, or an edge, which stands for its middle.
+std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Body& body) {
+  if (value.node->kind == Node::Kind::scalar) return mouth_named(reading, value, body);
+  const auto point = read_vector(reading.report, value);
+  if (!point) return {};
+  const auto found = find_on_outline(body.outline, *point);
+  if (!found) {
+    reading.report.error(
+        value, fmt::format("{} does not lie on the boundary of '{}': place the mouth of the crack on the boundary",
+                           point_text(*point), body.name));
+    return {};
+  }
+  const int count = static_cast<int>(body.outline.edges.size());
+  const Edge& edge = body.outline.edges[static_cast<std::size_t>(found->edge)];
+  const double size = outline_size(body.outline), from_start = (edge.start - *point).norm(),
+               from_end = (edge.end - *point).norm();
+  if (from_start <= 1e-9 * size) return OnEdge{found->edge, 0.0};
+  if (from_end <= 1e-9 * size) return OnEdge{(found->edge + 1) % count, 0.0};
+  if (std::min(from_start, from_end) < 1e-6 * size) {
+    reading.report.error(
+        value,
+        fmt::format("{} is close to a corner of '{}' but not on it: place the mouth on the corner, or farther from it",
+                    point_text(*point), body.name));
+    return {};
+  }
+  return found;
+}
+
+std::optional<Crack> read_crack(Reading& reading, const Value& value, const Body& body) {
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"tip", "mouth", "name"}, crack_example,
+                      {{"kink", "cracks are straight; divide the body at the kink"}});
+  Crack crack;
+  crack.source = value.source();
+  crack.name = "crack";
+  if (const auto name = map.get("name")) {
+    const auto text = read_text(reading.report, *name);
+    if (text && check_name(reading.report, name->source(), *text)) crack.name = *text;
+  }
+  if (const auto tip = map.need("tip")) {
+    const auto point = read_vector(reading.report, *tip);
+    if (point) crack.tip = *point;
+    if (point && !is_inside(body.outline, *point))
+      reading.report.error(
+          *tip, fmt::format("the tip {} is not inside body '{}': move the tip", point_text(*point), body.name));
+  }
+  if (const auto mouth = map.need("mouth")) {
+    if (const auto at = read_mouth(reading, *mouth, body)) {
+      crack.edge = at->edge;
+      crack.at = at->at;
+      crack.mouth = body.outline.edges[static_cast<std::size_t>(at->edge)].at(at->at);
+    }
+  }
+  for (const Edge& edge : body.outline.edges)
+    if (std::find(edge.names.begin(), edge.names.end(), crack.name) != edge.names.end())
+      reading.report.error(
+          value, fmt::format("an edge of '{}' is also named '{}': give the crack another name", body.name, crack.name));
+  for (const Corner& corner : body.outline.corners)
+    if (std::find(corner.names.begin(), corner.names.end(), crack.name) != corner.names.end())
+      reading.report.error(value, fmt::format("a corner of '{}' is also named '{}': give the crack another name",
+                                              body.name, crack.name));
+  if (reading.report.count() > before) return {};
+  return crack;
+}
+
+}  // namespace
+
+std::optional<std::vector<Crack>> read_cracks(Reading& reading, const Value& value, const Body& body) {
+  const std::size_t before = reading.report.count();
+  const auto items = read_list(reading.report, value, fmt::format("[{}]", crack_example));
+  if (!items) return {};
+  if (items->size() > 1) {
+    reading.report.error((*items)[1], "a body may have only one crack in this version: divide it into several bodies");
+    return {};
+  }
+  std::vector<Crack> cracks;
+  for (const Value& item : *items)
+    if (auto crack = read_crack(reading, item, body)) cracks.push_back(std::move(*crack));
+  if (reading.report.count() > before) return {};
+  return cracks;
+}
+
+std::optional<std::vector<int>> read_sectors(Reading& reading, const Value& value, const Body& body) {
+  const std::size_t before = reading.report.count();
+  std::vector<int> materials(body.outline.edges.size(), body.material);
+  std::set<int> told;
+  for (const Entry& entry : read_named(reading.report, value, "sectors", "{edge_1: steel}")) {
+    std::vector<std::string> known;
+    int found = -1;
+    for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
+      const auto& names = body.outline.edges[e].names;
+      if (std::find(names.begin(), names.end(), entry.key) != names.end()) found = static_cast<int>(e);
+      known.insert(known.end(), names.rbegin(), names.rend());
+    }
+    if (found < 0) {
+      reading.report.error(entry.key_source, fmt::format("body '{}' has no edge named {}{}", body.name,
+                                                         quoted_name(entry.key), suggestion(entry.key, known)));
+      continue;
+    }
+    if (!told.insert(found).second) {
+      reading.report.error(entry.key_source,
+                           fmt::format("the sector over {} already has a material: remove one of the two",
+                                       shown_name(body.outline.edges[static_cast<std::size_t>(found)])));
+      continue;
+    }
+    const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
+    if (corner >= 0 && (found == corner || found == (corner + count - 1) % count)) {
+      reading.report.error(entry.key_source, "this edge is a side face, which has no sector: leave it out");
+      continue;
+    }
+    if (const auto material = read_material_name(reading, entry.value))
+      materials[static_cast<std::size_t>(found)] = *material;
+  }
+  if (reading.report.count() > before) return {};
+  return materials;
+}
+
+}  // namespace scabo::input

@@ -1,0 +1,191 @@
+// Loads on side faces and inside bodies: tractions on side faces, body forces, temperature.
+#include "scabo/input/read_inner_loads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/input/numbers.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+constexpr std::size_t most_points = 10;
+constexpr double highest_power = 100.0;
+
+/// A traction `[tx, ty]`, or a pressure.
+std::optional<Vec2> read_value(Reading& reading, const Value& value, bool pressure) {
+  if (!pressure) return read_vector(reading.report, value);
+  const auto number = read_number(reading.report, value);
+  if (!number) return {};
+  return Vec2(*number, 0.0);
+}
+
+std::optional<std::vector<FaceTraction::Term>> read_powers(Reading& reading, const Value& value, bool pressure) {
+  if (value.node->kind != Node::Kind::map || value.node->entries.empty()) {
+    reading.report.error(value, fmt::format("must be powers of xi, as in {{0: {0}, 1: {0}}}, not {1}",
+                                            pressure ? "1e3" : "[0, -1e3]", describe(*value.node)));
+    return {};
+  }
+  std::vector<FaceTraction::Term> terms;
+  for (const MapEntry& entry : value.node->entries) {
+    const Value item{entry.value, value.path + "." + entry.key};
+    const Source key{entry.line, entry.column, item.path};
+    const auto power = parse_number(entry.key);
+    if (const std::string* why = std::get_if<std::string>(&power)) {
+      reading.report.error(key, "a power of xi " + *why);
+      return {};
+    }
+    FaceTraction::Term term{std::get<double>(power), Vec2::Zero()};
+    if (!(term.power > -1.0 && term.power <= highest_power)) {
+      reading.report.error(
+          key,
+          fmt::format(
+              "a power of xi must be greater than -1 (otherwise the total force is infinite) and at most {}, not {}",
+              highest_power, entry.key));
+      return {};
+    }
+    if (std::any_of(terms.begin(), terms.end(), [&](const auto& other) { return other.power == term.power; })) {
+      reading.report.error(key,
+                           fmt::format("the power {} is given twice: remove one of the two", number_text(term.power)));
+      return {};
+    }
+    const auto read = read_value(reading, item, pressure);
+    if (!read) return {};
+    term.value = *read;
+    terms.push_back(term);
+  }
+  return terms;
+}
+
+struct Sample {
+  double xi = 0.0;
+  Vec2 value = Vec2::Zero();
+};
+
+/// Coefficients of the polynomial through the points (Newton's divided differences, expanded).
+std::vector<FaceTraction::Term> polynomial_through(const std::vector<Sample>& samples) {
+  const std::size_t n = samples.size();
+  std::vector<Vec2> differences;
+  for (const Sample& sample : samples) differences.push_back(sample.value);
+  for (std::size_t level = 1; level < n; ++level)
+    for (std::size_t i = n - 1; i >= level; --i)
+      differences[i] = (differences[i] - differences[i - 1]) / (samples[i].xi - samples[i - level].xi);
+  std::vector<Vec2> coefficients(n, Vec2::Zero());  // Horner, from the last difference
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t i = n - 1; i > 0; --i) coefficients[i] = coefficients[i - 1] - samples[k].xi * coefficients[i];
+    coefficients[0] = differences[k] - samples[k].xi * coefficients[0];
+  }
+  std::vector<FaceTraction::Term> terms;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!coefficients[i].isZero(0.0)) terms.push_back({static_cast<double>(i), coefficients[i]});
+  if (terms.empty()) terms.push_back({0.0, Vec2::Zero()});
+  return terms;
+}
+
+std::optional<std::vector<FaceTraction::Term>> read_points(Reading& reading, const Value& value, bool pressure) {
+  const std::size_t before = reading.report.count();
+  const char* example = pressure ? "[[0, 0], [1, 1e3]]" : "[[0, 0, 0], [1, 0, -1e3]]";
+  const auto items = read_list(reading.report, value, example);
+  if (!items) return {};
+  if (items->empty() || items->size() > most_points) {
+    reading.report.error(
+        value, fmt::format("must be 1 to {} points, not {}: a polynomial through more points oscillates; use powers",
+                           most_points, items->size()));
+    return {};
+  }
+  std::vector<Sample> samples;
+  for (const Value& item : *items) {
+    const std::size_t size = pressure ? 2 : 3;
+    if (item.node->kind != Node::Kind::sequence || item.node->items.size() != size) {
+      reading.report.error(item, fmt::format("must be {}, not {}", pressure ? "[xi, p]" : "[xi, tx, ty]",
+                                             item.node->kind == Node::Kind::sequence
+                                                 ? fmt::format("a list of {}", item.node->items.size())
+                                                 : describe(*item.node)));
+      continue;
+    }
+    Sample sample;
+    const auto xi = read_number(reading.report, item.item(0));
+    if (xi && !(*xi >= 0.0 && *xi <= 1.0))
+      reading.report.error(
+          item.item(0),
+          fmt::format("xi must be from 0 (the scaling centre) to 1 (the boundary), not {}", item.item(0).node->text));
+    sample.xi = xi.value_or(0.0);
+    for (std::size_t c = 1; c < size; ++c)
+      sample.value[static_cast<Eigen::Index>(c - 1)] = read_number(reading.report, item.item(c)).value_or(0.0);
+    if (std::any_of(samples.begin(), samples.end(),
+                    [&](const Sample& other) { return std::abs(other.xi - sample.xi) < 1e-6; }))
+      reading.report.error(item, "two points have the same xi: remove one of them");
+    samples.push_back(sample);
+  }
+  if (reading.report.count() > before) return {};
+  return polynomial_through(samples);
+}
+
+}  // namespace
+
+std::optional<FaceTraction> read_face_traction(Reading& reading, const Value& value, bool pressure) {
+  FaceTraction traction;
+  traction.pressure = pressure;
+  if (value.node->kind != Node::Kind::map) {
+    const auto constant = read_value(reading, value, pressure);
+    if (!constant) return {};
+    traction.terms = {{0.0, *constant}};
+    return traction;
+  }
+  const MapReader map(reading.report, value, {"powers", "points"}, "{powers: {0: 1e3, 1: -1e3}}");
+  const auto powers = map.get("powers"), points = map.get("points");
+  if (powers.has_value() == points.has_value()) {
+    if (map.all_known()) reading.report.error(value, "needs exactly one of powers and points");
+    return {};
+  }
+  auto terms = powers ? read_powers(reading, *powers, pressure) : read_points(reading, *points, pressure);
+  if (!terms) return {};
+  traction.terms = std::move(*terms);
+  return traction;
+}
+
+std::optional<BodyForce> read_body_force(Reading& reading, const Value& value) {
+  BodyForce force;
+  if (value.node->kind != Node::Kind::map) {
+    const auto constant = read_vector(reading.report, value);
+    if (!constant) return {};
+    force.x.constant = constant->x();
+    force.y.constant = constant->y();
+    return force;
+  }
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"constant", "x", "y"}, "{constant: [0, -1e3], x: [0, 0], y: [0, 10]}");
+  const auto part = [&](const char* key) {
+    const auto at = map.get(key);
+    return at ? read_vector(reading.report, *at).value_or(Vec2::Zero()) : Vec2(Vec2::Zero());
+  };
+  const Vec2 constant = part("constant"), per_x = part("x"), per_y = part("y");
+  if (map.is_map() && value.node->entries.empty()) reading.report.error(value, "needs constant, x or y");
+  if (reading.report.count() > before) return {};
+  return BodyForce{{constant.x(), per_x.x(), per_y.x()}, {constant.y(), per_x.y(), per_y.y()}};
+}
+
+std::optional<Temperature> read_temperature(Reading& reading, const Value& value) {
+  Temperature temperature;
+  if (value.node->kind != Node::Kind::map) {
+    const auto constant = read_number(reading.report, value);
+    if (!constant) return {};
+    temperature.change.constant = *constant;
+    return temperature;
+  }
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"constant", "x", "y"}, "{constant: 20, x: 0, y: -2.5}");
+  const auto part = [&](const char* key) {
+    const auto at = map.get(key);
+    return at ? read_number(reading.report, *at).value_or(0.0) : 0.0;
+  };
+  temperature.change = {part("constant"), part("x"), part("y")};
+  if (map.is_map() && value.node->entries.empty()) reading.report.error(value, "needs constant, x or y");
+  if (reading.report.count() > before) return {};
+  return temperature;
+}
+
+}  // namespace scabo::input

@@ -1,0 +1,18 @@
+// Loads on side faces and inside bodies, where there are no boundary elements. Each function reads one value and
+// returns nothing if it is broken.
+#pragma once
+
+#include "scabo/input/reading.hpp"
+
+namespace scabo::input {
+
+/// `traction` or `pressure` on a side face: a constant, {powers: ...} or {points: ...} in xi.
+std::optional<FaceTraction> read_face_traction(Reading& reading, const Value& value, bool pressure);
+
+/// `[bx, by]` or {constant: [...], x: [...], y: [...]}.
+std::optional<BodyForce> read_body_force(Reading& reading, const Value& value);
+
+/// A number or {constant: ..., x: ..., y: ...}.
+std::optional<Temperature> read_temperature(Reading& reading, const Value& value);
+
+}  // namespace scabo::input

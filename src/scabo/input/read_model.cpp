@@ -1,0 +1,239 @@
+// Reading of a model file: text, tree, sections, checks of the whole model.
+#include "scabo/input/read_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/input/overrides.hpp"
+#include "scabo/input/reading.hpp"
+
+namespace scabo::input {
+
+namespace {
+constexpr long most_modes = 1000;
+}
+
+void read_analysis(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"type", "plane", "thickness", "modes"},
+                      "{plane: strain, thickness: 1.0}");
+  Analysis& analysis = reading.model.analysis;
+  bool type_known = true;
+  if (const auto type = map.get("type")) {
+    const std::string remedy = "write static";
+    const auto choice =
+        read_choice(reading.report, *type, {"static", "modal"},
+                    {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}});
+    if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
+    type_known = choice.has_value();
+  }
+  if (const auto modes = map.get("modes")) {
+    if (analysis.type == AnalysisType::modal || !type_known) {
+      analysis.modes = static_cast<int>(read_integer(reading.report, *modes, 1, most_modes).value_or(10));
+    } else {
+      map.refuse("modes", "belongs to a modal analysis: write type: modal, or leave it out");
+    }
+  }
+  if (const auto plane = map.get("plane")) {
+    const auto choice =
+        read_choice(reading.report, *plane, {"stress", "strain"}, {{"axisymmetric", "use stress or strain"}});
+    if (choice && *choice == "strain") reading.model.analysis.plane = Plane::strain;
+  }
+  if (const auto thickness = map.get("thickness")) {
+    reading.model.analysis.thickness = read_positive(reading.report, *thickness).value_or(1.0);
+  }
+}
+
+void read_solver(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings", "uniqueness"},
+                      "{tolerance: 1e-10}");
+  SolverOptions& solver = reading.model.solver;
+  if (const auto tolerance = map.get("tolerance")) {
+    const auto number = read_number(reading.report, *tolerance);
+    if (number && *number >= 1e-14 && *number <= 1e-3) {
+      solver.tolerance = *number;
+    } else if (number) {
+      reading.report.error(*tolerance, fmt::format("must be from 1e-14 to 1e-3, not {}", tolerance->node->text));
+    }
+  }
+  if (const auto iterations = map.get("iterations")) {
+    solver.iterations = static_cast<int>(read_integer(reading.report, *iterations, 1, 10'000).value_or(50));
+  }
+  if (const auto halvings = map.get("halvings")) {
+    solver.halvings = static_cast<int>(read_integer(reading.report, *halvings, 0, 30).value_or(6));
+  }
+  if (const auto uniqueness = map.get("uniqueness"))
+    solver.uniqueness = read_flag(reading.report, *uniqueness).value_or(false);
+}
+
+namespace {
+
+constexpr long format_version = 1;
+
+void check_version(Reading& reading, const MapReader& map) {
+  if (!map.has("scabo") && map.all_known()) {
+    reading.report.error(map.map(), "the format version is missing: write 'scabo: 1' in the first line");
+  }
+  const auto value = map.get("scabo");
+  if (!value) return;
+  const auto version = read_number(reading.report, *value);
+  if (version && *version != static_cast<double>(format_version)) {
+    reading.report.error(
+        *value, fmt::format("this program reads format version {}, not {}", format_version, value->node->text));
+  }
+}
+
+/// Reads all sections; each may use those before it.
+void read_sections(Reading& reading, const Value& root) {
+  const MapReader map(reading.report, root,
+                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "steps",
+                       "solver", "output"},
+                      "'scabo: 1' and sections");
+  if (!map.is_map()) return;
+  check_version(reading, map);
+  if (const auto title = map.get("title")) reading.model.title = read_text(reading.report, *title).value_or("");
+  if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);
+  if (const auto solver = map.get("solver")) read_solver(reading, *solver);
+
+  reading.materials_known = map.has("materials");
+  if (const auto materials = map.get("materials")) read_materials(reading, *materials);
+  if (const auto bodies = map.need("bodies")) {
+    read_bodies(reading, *bodies);
+  } else {
+    reading.bodies_known = false;
+  }
+  const auto& bodies = reading.model.bodies;
+  if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.rigid; })) map.need("materials");
+
+  if (const auto supports = map.get("supports")) read_supports(reading, *supports);
+  if (const auto loads = map.get("loads")) read_loads(reading, *loads);
+  if (const auto contacts = map.get("contacts")) read_contacts(reading, *contacts);
+  const std::size_t before_steps = reading.report.count();
+  read_steps(reading, map.get("steps"));
+  reading.steps_known = reading.report.count() == before_steps;
+  if (const auto output = map.get("output")) read_output(reading, *output);
+  // A misspelt section may be the missing one.
+  if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
+}
+
+/// Warns about parts of the file that have no effect in a modal analysis, so that one file can be used for both kinds
+/// of analysis.
+void tell_what_has_no_effect(Reading& reading, const Value& root) {
+  Model& model = reading.model;
+  if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
+  std::vector<std::string> parts;
+  for (const char* section : {"loads", "contacts", "steps", "solver", "output"}) {
+    const MapEntry* entry = root.node->find(section);
+    if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
+  }
+  if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.rigid; }))
+    parts.emplace_back("rigid bodies");
+  if (std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.mesh.tolerance.has_value(); }))
+    parts.emplace_back("tolerances of the mesh");
+  if (!parts.empty()) {
+    std::string list = parts.front();
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      list += i + 1 < parts.size() ? ", " : " and ";
+      list += parts[i];
+    }
+    model.warnings.push_back(fmt::format("a modal analysis ignores the model's {}{}", list,
+                                         model.contacts.empty() ? "" : ": each body vibrates by itself"));
+  }
+  for (const Support& support : model.supports)
+    if (std::any_of(support.displacement.begin(), support.displacement.end(),
+                    [](const auto& u) { return u.value_or(0.0) != 0.0; }))
+      model.warnings.push_back(
+          fmt::format("a modal analysis takes support '{}' as fixed and ignores the displacement that it prescribes",
+                      support.name));
+}
+
+/// Edges that coincide everywhere have neither gap nor interference.
+bool coincide(const Edge& a, const Edge& b, double tolerance) {
+  return (a.start - b.end).norm() <= tolerance && (a.end - b.start).norm() <= tolerance &&
+         (a.at(0.5) - b.at(0.5)).norm() <= tolerance;
+}
+
+/// Whether a contact alone may press its bodies together.
+bool may_interfere(const Reading& reading, const Contact& contact) {
+  if (contact.gap < 0.0) return true;
+  const Outline& a = reading.body(contact.a.body).outline;
+  const Outline& b = reading.body(contact.b.body).outline;
+  const double tolerance = 1e-9 * std::max(outline_size(a), outline_size(b));
+  return !coincide(a.edges[static_cast<std::size_t>(contact.a.index)],
+                   b.edges[static_cast<std::size_t>(contact.b.index)], tolerance);
+}
+
+}  // namespace
+
+void check_something_loads(Reading& reading, const Value& root) {
+  const Model& model = reading.model;
+  if (!reading.conditions_known || !model.loads.empty() || model.bodies.empty()) return;
+  for (const Support& support : model.supports) {
+    for (const auto& displacement : support.displacement) {
+      if (displacement.value_or(0.0) != 0.0) return;
+    }
+  }
+  for (const Contact& contact : model.contacts) {
+    if (may_interfere(reading, contact)) return;
+  }
+  Source at = root.source();
+  at.path = "loads";
+  if (const MapEntry* loads = root.node->find("loads"); loads != nullptr && loads->line > 0) {
+    at = {loads->line, loads->column, "loads"};
+  }
+  reading.report.error(at, "the model has no loading: give a load, a prescribed displacement or an interference fit");
+}
+
+void check_bodies_held(Reading& reading) {
+  if (!reading.places_known) return;
+  for (std::size_t i = 0; i < reading.bodies.size(); ++i) {
+    const Body& body = reading.model.bodies[i];
+    const BodyState& state = reading.bodies[i];
+    if (body.rigid && !state.touched) {
+      reading.report.error(
+          body.source,
+          fmt::format("rigid body '{}' is in no contact and has no effect: add a contact, or remove the body",
+                      body.name));
+    } else if (!state.held && !state.touched) {
+      reading.report.error(
+          body.source,
+          fmt::format("body '{}' is insufficiently supported: it has no support and no contact", body.name));
+    }
+  }
+}
+
+Model parse_model(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
+  Reading reading;
+  reading.model.file = file;
+  std::vector<Diagnostic> mistakes;
+  NodePtr root = parse_yaml(text, mistakes);
+  for (const Diagnostic& mistake : mistakes) reading.report.error(mistake.at, mistake.message);
+  if (!root) reading.report.throw_if_any(file);
+  if (root->kind == Node::Kind::null) refuse_file(file, "is empty: a model file starts with 'scabo: 1'");
+  root = apply_overrides(root, overrides, reading.report);
+
+  const Value whole{root, ""};
+  read_sections(reading, whole);
+  check_density(reading);
+  check_expansion(reading);
+  const bool modal = reading.model.analysis.type == AnalysisType::modal;
+  if (!modal) {
+    check_bodies_held(reading);
+    check_something_loads(reading, whole);
+  }
+  if (reading.steps_known) {
+    if (!modal) check_never_applied(reading);
+    check_conflicting_supports(reading);
+  }
+  tell_what_has_no_effect(reading, whole);
+  reading.report.throw_if_any(file);
+  return std::move(reading.model);
+}
+
+Model read_model(const std::string& file, const std::vector<Override>& overrides) {
+  return parse_model(read_text_file(file), file, overrides);
+}
+
+}  // namespace scabo::input

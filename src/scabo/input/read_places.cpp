@@ -1,0 +1,159 @@
+// Places: `upper`, `upper.top`, `upper.top_right`, `{body: upper, near: [6, 3]}`.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/input/reading.hpp"
+#include "scabo/input/suggestions.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+std::optional<int> read_body_name(Reading& reading, const Value& at, std::string_view name) {
+  const int body = reading.body_index(name);
+  if (body >= 0) return body;
+  reading.places_known = false;
+  if (!reading.bodies_known) return {};
+  std::vector<std::string> known;
+  if (!reading.report.full())
+    for (const Body& candidate : reading.model.bodies) known.push_back(candidate.name);
+  reading.report.error(at, fmt::format("there is no body named {}{}", quoted_name(name), suggestion(name, known)));
+  return {};
+}
+
+bool has_name(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Number of the side face that an edge forms at a notch or corner: 0 at the start of the boundary, 1 at its end; -1
+/// for other edges.
+int face_of_edge(const Body& body, int edge) {
+  const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
+  if (corner < 0) return -1;
+  if (edge == corner) return body.outside ? 1 : 0;
+  return edge == (corner + count - 1) % count ? (body.outside ? 0 : 1) : -1;
+}
+
+/// Faces and mouths of a crack: looking from the mouth towards the tip, `left` is the end of the boundary.
+void add_crack_places(const Crack& crack, std::vector<std::pair<std::string, Place>>& places) {
+  const auto add = [&](const char* part, Place::Kind kind, int index) {
+    Place place;
+    place.kind = kind;
+    place.index = index;
+    places.emplace_back(crack.name + part, place);
+  };
+  add(".left", Place::Kind::face, 1);
+  add(".right", Place::Kind::face, 0);
+  add(".mouth_left", Place::Kind::mouth, 1);
+  add(".mouth_right", Place::Kind::mouth, 0);
+}
+
+ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_view part, const std::string& text) {
+  ReadPlace result{{}, body};
+  if (!reading.state(body).shape) return result;
+  const Outline& outline = reading.body(body).outline;
+  std::vector<std::string> known;
+  for (const Crack& crack : reading.body(body).cracks) {
+    std::vector<std::pair<std::string, Place>> places;
+    add_crack_places(crack, places);
+    for (auto& [name, place] : places) {
+      known.push_back(name);
+      if (name != part) continue;
+      place.body = body;
+      place.text = text;
+      place.source = value.source();
+      result.place = place;
+      return result;
+    }
+  }
+  for (std::size_t i = 0; i < outline.edges.size(); ++i) {
+    if (has_name(outline.edges[i].names, part)) {
+      const int face = face_of_edge(reading.body(body), static_cast<int>(i));
+      result.place = Place{face >= 0 ? Place::Kind::face : Place::Kind::edge,
+                           body,
+                           face >= 0 ? face : static_cast<int>(i),
+                           Vec2::Zero(),
+                           text,
+                           value.source()};
+      return result;
+    }
+    known.insert(known.end(), outline.edges[i].names.rbegin(), outline.edges[i].names.rend());
+  }
+  for (std::size_t i = 0; i < outline.corners.size(); ++i) {
+    if (has_name(outline.corners[i].names, part)) {
+      if (static_cast<int>(i) == reading.body(body).mesh.centre_corner) {
+        reading.report.error(
+            value,
+            fmt::format("'{}' is the scaling centre, which has no node: no load or support can act there", text));
+        return result;
+      }
+      for (const Crack& crack : reading.body(body).cracks)
+        if (crack.at == 0.0 && crack.edge == static_cast<int>(i)) {
+          reading.report.error(
+              value,
+              fmt::format("'{0}' is the mouth of crack '{1}', where there are two nodes: write {2}.{1}.mouth_left "
+                          "or {2}.{1}.mouth_right",
+                          text, crack.name, reading.body(body).name));
+          return result;
+        }
+      result.place = Place{Place::Kind::corner, body, static_cast<int>(i), Vec2::Zero(), text, value.source()};
+      return result;
+    }
+    known.insert(known.end(), outline.corners[i].names.rbegin(), outline.corners[i].names.rend());
+  }
+  reading.report.error(value, fmt::format("body '{}' has no edge or corner named {}{}", reading.body(body).name,
+                                          quoted_name(part), reading.report.full() ? "" : suggestion(part, known)));
+  return result;
+}
+
+ReadPlace read_near(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"body", "near"}, place_example);
+  const auto body_value = map.need("body");
+  const auto near_value = map.need("near");
+  const auto name = body_value ? read_text(reading.report, *body_value) : std::nullopt;
+  const auto near = near_value ? read_vector(reading.report, *near_value) : std::nullopt;
+  if (!name) reading.places_known = false;
+  const auto body = name ? read_body_name(reading, *body_value, *name) : std::nullopt;
+  if (!body) return {};
+  ReadPlace result{{}, *body};
+  if (!near || !reading.state(*body).shape) return result;
+  if (reading.body(*body).rigid) {
+    reading.report.error(*near_value,
+                         "a rigid body has no nodes, so that 'near' does not apply: name a corner or the body");
+    return result;
+  }
+  const Outline& outline = reading.body(*body).outline;
+  double distance = (outline.edges.front().start - *near).norm();
+  for (const Edge& edge : outline.edges) distance = std::min(distance, (edge.at(0.5) - *near).norm());
+  if (distance > 2.0 * outline_size(outline)) {
+    reading.report.error(
+        *near_value,
+        fmt::format("{} is not near '{}': its distance is greater than the size of the body; check the coordinates",
+                    point_text(*near), *name));
+    return result;
+  }
+  const std::string text = fmt::format("{} near {}", *name, point_text(*near));
+  result.place = Place{Place::Kind::near, *body, -1, *near, text, value.source()};
+  return result;
+}
+
+}  // namespace
+
+ReadPlace read_place(Reading& reading, const Value& value) {
+  if (value.node->kind == Node::Kind::map) return read_near(reading, value);
+  if (value.node->kind != Node::Kind::scalar) {
+    reading.places_known = false;
+    reading.report.error(value, fmt::format("must be a place, as in {}, not {}", place_example, describe(*value.node)));
+    return {};
+  }
+  const std::string& text = value.node->text;
+  const auto dot = text.find('.');
+  const auto body = read_body_name(reading, value, std::string_view(text).substr(0, dot));
+  if (!body) return {};
+  if (dot != std::string::npos) return read_part(reading, value, *body, std::string_view(text).substr(dot + 1), text);
+  return {Place{Place::Kind::body, *body, -1, Vec2::Zero(), text, value.source()}, *body};
+}
+
+}  // namespace scabo::input

@@ -1,0 +1,378 @@
+// `shape` of a body -> a closed outline, counter-clockwise.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include "scabo/input/numbers.hpp"
+#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/input/reading.hpp"
+#include "scabo/input/suggestions.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+constexpr std::size_t most_edges = 20'000;
+
+constexpr const char* shape_example = "{rectangle: {corner: [0, 0], size: [6, 1.5]}}";
+constexpr const char* piece_example = "{line: {from: [0, 0], to: [1, 0]}, name: bottom}";
+
+Arc make_arc(const Vec2& start, const Vec2& end, const Vec2& centre, bool counter_clockwise) {
+  const Vec2 a = start - centre;
+  const Vec2 b = end - centre;
+  Arc arc;
+  arc.centre = centre;
+  arc.radius = 0.5 * (a.norm() + b.norm());
+  arc.start_angle = std::atan2(a.y(), a.x());
+  arc.sweep = std::atan2(cross(a, b), a.dot(b));
+  if (counter_clockwise && arc.sweep <= 0.0) arc.sweep += 2.0 * std::numbers::pi;
+  if (!counter_clockwise && arc.sweep >= 0.0) arc.sweep -= 2.0 * std::numbers::pi;
+  return arc;
+}
+
+/// Gives every edge and corner its own name, `edge_1` and `vertex_1` from the first.
+void number_names(Outline& outline) {
+  for (std::size_t i = 0; i < outline.edges.size(); ++i) {
+    outline.edges[i].names.insert(outline.edges[i].names.begin(), fmt::format("edge_{}", i + 1));
+    outline.corners.push_back({{fmt::format("vertex_{}", i + 1)}, outline.edges[i].start});
+  }
+}
+
+}  // namespace
+
+void turn_round(Outline& outline) {
+  const std::size_t n = outline.edges.size();
+  // Edge i, from corner i to i + 1, becomes number n - 1 - i and then starts at corner i + 1.
+  Outline turned;
+  for (std::size_t k = 0; k < n; ++k) {
+    Edge edge = outline.edges[n - 1 - k];
+    std::swap(edge.start, edge.end);
+    if (edge.arc) {
+      edge.arc->start_angle += edge.arc->sweep;
+      edge.arc->sweep = -edge.arc->sweep;
+    }
+    turned.edges.push_back(std::move(edge));
+    turned.corners.push_back(outline.corners[(n - k) % n]);
+  }
+  turned.rectangle = outline.rectangle;
+  outline = std::move(turned);
+}
+
+namespace {
+
+/// Checks the extent of the outline; `at`: position of messages about the outline as a whole.
+bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
+  const double size = outline_size(outline);
+  double farthest = 0.0;
+  for (const Edge& edge : outline.edges) farthest = std::max(farthest, edge.start.cwiseAbs().maxCoeff());
+  if (!(size > 0.0)) {
+    reading.report.error(at, "has no extent: all its points coincide");
+    return false;
+  }
+  if (size < 1e-30 || size > 1e30) {
+    reading.report.error(
+        at,
+        fmt::format("has a size of {:.2g}, but sizes must be from 1e-30 to 1e30: use another unit of length", size));
+    return false;
+  }
+  if (farthest > 1e10 * size) {
+    reading.report.error(at, fmt::format("lies {:.1e} times its own size away from the origin, so that its coordinates "
+                                         "lose precision: move the origin closer",
+                                         farthest / size));
+    return false;
+  }
+  for (const Edge& edge : outline.edges) {
+    if (edge.length() > 1e-9 * size) continue;
+    reading.report.error(edge.source,
+                         fmt::format("{} has no length because both its ends are at {}: remove it, or move one end",
+                                     shown_name(edge), point_text(edge.start)));
+    return false;
+  }
+  return true;
+}
+
+/// Checks that the outline is simple and has an area, and makes it counter-clockwise.
+bool finish_outline(Reading& reading, const Value& at, Outline& outline) {
+  if (!check_extent(reading, at, outline)) return false;
+  const double size = outline_size(outline);
+  const double area = outline.area();
+  if (std::abs(area) <= 1e-12 * size * size && outline.edges.size() < 4) {
+    reading.report.error(at, "has no area because its points lie on one line: move some of them");
+    return false;
+  }
+  if (const auto crossing = find_crossing(outline)) {
+    const Edge& first = outline.edges[static_cast<std::size_t>(crossing->first)];
+    const Edge& second = outline.edges[static_cast<std::size_t>(crossing->second)];
+    const bool folds = crossing->kind == Crossing::Kind::fold_back;
+    reading.report.error(at,
+                         fmt::format("{} and {} {} {}: the outline must not {}", shown_name(first), shown_name(second),
+                                     folds ? "overlap, beginning at" : "meet at", point_text(crossing->point),
+                                     folds ? "fold back on itself" : "cross or touch itself"));
+    return false;
+  }
+  if (std::abs(area) <= 1e-12 * size * size) {
+    reading.report.error(at, "has no area because its points lie on one line: move some of them");
+    return false;
+  }
+  if (area < 0.0) turn_round(outline);
+  return true;
+}
+
+/// `names: {crest: edge_3}`: additional names for edges and corners.
+void read_names(Reading& reading, const Value& value, Outline& outline) {
+  std::unordered_map<std::string, std::vector<std::string>*> owners;
+  std::vector<std::string> known;
+  const auto collect = [&](std::vector<std::string>& names) {
+    known.push_back(names.front());
+    for (const std::string& name : names) owners.emplace(name, &names);
+  };
+  for (Edge& edge : outline.edges) collect(edge.names);
+  for (Corner& corner : outline.corners) collect(corner.names);
+  for (const Entry& entry : read_named(reading.report, value, "edges and corners", "{crest: edge_3}")) {
+    const auto text = read_text(reading.report, entry.value);
+    if (!text) continue;
+    const auto owner = owners.find(*text);
+    if (owner == owners.end()) {
+      reading.report.error(entry.value, fmt::format("there is no edge or corner named {}{}", quoted_name(*text),
+                                                    suggestion(*text, known)));
+    } else if (owners.contains(entry.key)) {
+      reading.report.error(entry.key_source, fmt::format("'{}' already names {}: choose another name", entry.key,
+                                                         owners.at(entry.key)->front()));
+    } else {
+      owner->second->push_back(entry.key);
+      owners.emplace(entry.key, owner->second);
+    }
+  }
+}
+
+std::optional<Outline> read_rectangle(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"corner", "size"}, "{corner: [0, 0], size: [6, 1.5]}");
+  const auto corner_value = map.need("corner");
+  const auto size_value = map.need("size");
+  const auto corner = corner_value ? read_vector(reading.report, *corner_value) : std::nullopt;
+  const auto size = size_value ? read_vector(reading.report, *size_value) : std::nullopt;
+  if (size && !(size->x() > 0.0 && size->y() > 0.0)) {
+    reading.report.error(*size_value, fmt::format("width and height must be greater than 0, not {} and {}",
+                                                  number_text(size->x()), number_text(size->y())));
+    return {};
+  }
+  if (!corner || !size) return {};
+  const Vec2& a = *corner;
+  const Vec2 b = a + *size;
+  const std::array<Vec2, 4> points{a, Vec2(b.x(), a.y()), b, Vec2(a.x(), b.y())};
+  const std::array<const char*, 4> edge_names{"bottom", "right", "top", "left"};
+  const std::array<const char*, 4> corner_names{"bottom_left", "bottom_right", "top_right", "top_left"};
+  Outline outline;
+  outline.rectangle = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Edge edge;
+    edge.names = {edge_names[i]};
+    edge.start = points[i];
+    edge.end = points[(i + 1) % 4];
+    edge.source = value.source();
+    outline.edges.push_back(edge);
+    outline.corners.push_back({{corner_names[i]}, points[i]});
+  }
+  if (!finish_outline(reading, value, outline)) return {};
+  return outline;
+}
+
+std::optional<Outline> read_polygon(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"vertices", "names"}, "{vertices: [[0, 0], [4, 0], [0, 3]]}");
+  const auto vertices_value = map.need("vertices");
+  if (!vertices_value) return {};
+  const auto items = read_list(reading.report, *vertices_value, "[[0, 0], [4, 0], [0, 3]]");
+  if (!items) return {};
+  if (items->size() < 3 || items->size() > most_edges) {
+    reading.report.error(
+        *vertices_value,
+        items->size() < 3 ? fmt::format("a polygon needs at least three vertices, not {}", items->size())
+                          : fmt::format("{} vertices are too many: at most {} are allowed", items->size(), most_edges));
+    return {};
+  }
+  Outline outline;
+  for (const Value& item : *items) {
+    const auto vertex = read_vector(reading.report, item);
+    if (!vertex) continue;
+    Edge edge;
+    edge.start = *vertex;
+    edge.source = item.source();
+    outline.edges.push_back(edge);
+  }
+  if (outline.edges.size() < items->size()) return {};
+  for (std::size_t i = 0; i < outline.edges.size(); ++i) {
+    outline.edges[i].end = outline.edges[(i + 1) % outline.edges.size()].start;
+  }
+  number_names(outline);
+  if (const auto names = map.get("names")) read_names(reading, *names, outline);
+  if (!finish_outline(reading, *vertices_value, outline)) return {};
+  return outline;
+}
+
+/// A piece of an outline before omitted points are filled in.
+struct Piece {
+  Value at;
+  std::optional<Vec2> from;
+  Vec2 to = Vec2::Zero();
+  bool is_arc = false;
+  Vec2 centre = Vec2::Zero();
+  Source centre_source;
+  bool counter_clockwise = true;
+  std::vector<std::string> names;
+};
+
+std::optional<Piece> read_piece(Reading& reading, const Value& value) {
+  Report& report = reading.report;
+  const std::size_t before = report.count();
+  const MapReader map(report, value, {"line", "arc", "name"}, piece_example);
+  if (!map.is_map()) return {};
+  if (map.has("line") == map.has("arc")) {
+    if (report.count() == before) {
+      report.error(value, map.has("arc") ? "needs either line or arc, not both" : "needs line or arc");
+    }
+    return {};
+  }
+  Piece piece{value, {}, Vec2::Zero(), map.has("arc"), Vec2::Zero(), {}, true, {}};
+  std::vector<std::string> keys{"from", "to"};
+  if (piece.is_arc) keys.insert(keys.end(), {"centre", "direction"});
+  const MapReader ends(report, *map.get(piece.is_arc ? "arc" : "line"), keys,
+                       piece.is_arc ? "{from: [1, 0], to: [0, 1], centre: [0, 0]}" : "{from: [0, 0], to: [1, 0]}");
+  if (const auto from = ends.get("from")) piece.from = read_vector(report, *from);
+  if (const auto to = ends.need("to")) piece.to = read_vector(report, *to).value_or(Vec2::Zero());
+  if (piece.is_arc) {
+    if (const auto centre = ends.need("centre")) {
+      piece.centre = read_vector(report, *centre).value_or(Vec2::Zero());
+      piece.centre_source = centre->source();
+    }
+    if (const auto direction = ends.get("direction")) {
+      const auto choice = read_choice(report, *direction, {"counter_clockwise", "clockwise"});
+      piece.counter_clockwise = choice.value_or("counter_clockwise") == "counter_clockwise";
+    }
+  }
+  if (const auto name = map.get("name")) {
+    const auto text = read_text(report, *name);
+    if (text && check_name(report, name->source(), *text)) piece.names = {*text};
+  }
+  if (report.count() > before) return {};
+  return piece;
+}
+
+/// The edge of a piece that starts at `start`; nothing if its arc is invalid.
+std::optional<Edge> make_edge(Reading& reading, const Piece& piece, const Vec2& start, std::size_t number) {
+  Edge edge;
+  edge.names = piece.names;
+  edge.start = start;
+  edge.end = piece.to;
+  edge.source = piece.at.source();
+  if (!piece.is_arc) return edge;
+  const double ra = (start - piece.centre).norm();
+  const double rb = (piece.to - piece.centre).norm();
+  const double larger = std::max(ra, rb);
+  if ((piece.to - start).norm() <= 1e-9 * larger) {
+    reading.report.error(piece.at, fmt::format("edge_{} is an arc that ends where it starts: write a full circle "
+                                               "as two arcs",
+                                               number));
+    return {};
+  }
+  if (std::abs(ra - rb) > 1e-6 * larger) {
+    reading.report.error(piece.centre_source,
+                         fmt::format("the ends of an arc must be equally far from its centre: from {} it is {:.9g}, "
+                                     "to {} it is {:.9g}",
+                                     point_text(start), ra, point_text(piece.to), rb));
+    return {};
+  }
+  edge.arc = make_arc(start, piece.to, piece.centre, piece.counter_clockwise);
+  return edge;
+}
+
+/// Whether no two edges or corners have the same name; reports the first that do.
+bool check_piece_names(Reading& reading, const Outline& outline) {
+  std::unordered_map<std::string, std::string> owners;
+  for (const Corner& corner : outline.corners) owners.emplace(corner.names.front(), corner.names.front());
+  for (const Edge& edge : outline.edges) owners.emplace(edge.names.front(), edge.names.front());
+  for (const Edge& edge : outline.edges) {
+    for (std::size_t k = 1; k < edge.names.size(); ++k) {
+      const auto [owner, is_new] = owners.emplace(edge.names[k], edge.names.front());
+      if (is_new) continue;
+      Source at = edge.source;
+      at.path += ".name";
+      reading.report.error(at, fmt::format("'{}' already names {}: choose another name", edge.names[k], owner->second));
+      return false;
+    }
+  }
+  return true;
+}
+
+std::optional<Outline> read_outline(Reading& reading, const Value& value, const std::optional<Value>& names) {
+  const auto items = read_list(reading.report, value, "[{line: {to: [1, 0]}}, ...]");
+  if (!items) return {};
+  if (items->size() < 2 || items->size() > most_edges) {
+    reading.report.error(
+        value, items->size() < 2
+                   ? fmt::format("an outline needs at least two pieces, not {}", items->size())
+                   : fmt::format("{} pieces are too many: at most {} are allowed", items->size(), most_edges));
+    return {};
+  }
+  std::vector<Piece> pieces;
+  for (const Value& item : *items) {
+    if (auto piece = read_piece(reading, item)) pieces.push_back(std::move(*piece));
+  }
+  if (pieces.size() < items->size()) return {};
+  double size = 0.0;
+  for (const Piece& piece : pieces) size = std::max(size, (piece.to - pieces.front().to).norm());
+  Outline outline;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Vec2 before = pieces[(i + pieces.size() - 1) % pieces.size()].to;
+    const Vec2 start = pieces[i].from.value_or(before);
+    if ((start - before).norm() > 1e-9 * size) {
+      const std::string why = fmt::format("edge_{} starts at {}, but {} ends at {}", i + 1, point_text(start),
+                                          i == 0 ? "the last piece" : "the piece before", point_text(before));
+      reading.report.error(pieces[i].at, why + (i == 0 ? ": the outline is not closed" : ""));
+      return {};
+    }
+    // Exactly the same point, so that neighbouring edges share their corner.
+    const auto edge = make_edge(reading, pieces[i], before, i + 1);
+    if (!edge) return {};
+    outline.edges.push_back(*edge);
+  }
+  number_names(outline);
+  if (!check_piece_names(reading, outline)) return {};
+  if (names) read_names(reading, *names, outline);
+  if (!finish_outline(reading, value, outline)) return {};
+  return outline;
+}
+
+}  // namespace
+
+const std::string& shown_name(const Edge& edge) { return edge.names.size() > 1 ? edge.names[1] : edge.names[0]; }
+
+std::string point_text(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
+
+std::optional<Outline> read_shape(Reading& reading, const Value& value) {
+  const std::size_t before = reading.report.count();
+  const MapReader map(
+      reading.report, value, {"rectangle", "polygon", "outline", "names"}, shape_example,
+      {{"holes", "divide the body into bodies without holes"}, {"circle", "write it as an outline of two arcs"}});
+  if (!map.is_map()) return {};
+  const int kinds = int(map.has("rectangle")) + int(map.has("polygon")) + int(map.has("outline"));
+  if (kinds != 1) {
+    if (kinds > 1 || reading.report.count() == before) {
+      reading.report.error(value, fmt::format("needs exactly one of rectangle, polygon and outline, not {}",
+                                              kinds == 0 ? "none" : std::to_string(kinds)));
+    }
+    return {};
+  }
+  if (!map.has("outline")) {
+    map.refuse("names", map.has("polygon")
+                            ? "belongs inside polygon: {vertices: [...], names: {crest: edge_3}}"
+                            : "the edges of a rectangle have fixed names: use a polygon for other names");
+  }
+  if (const auto rectangle = map.get("rectangle")) return read_rectangle(reading, *rectangle);
+  if (const auto polygon = map.get("polygon")) return read_polygon(reading, *polygon);
+  return read_outline(reading, *map.get("outline"), map.get("names"));
+}
+
+}  // namespace scabo::input

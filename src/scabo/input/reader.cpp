@@ -1,0 +1,305 @@
+#include "scabo/input/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "scabo/input/numbers.hpp"
+#include "scabo/input/suggestions.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+std::string join_path(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
+constexpr std::size_t longest_path = 300;
+
+Source source_of(const Node& node, const std::string& path) {
+  // A value from the command line has no line; its position is the path with which it was given.
+  if (!node.override_path.empty()) {
+    const bool inside = path.size() > node.override_path.size();
+    const std::string rest = inside ? path.substr(node.override_path.size()) : "";
+    return {0, 0, "--set " + node.override_path + rest};
+  }
+  return {node.line, node.column, path};
+}
+
+}  // namespace
+
+Source Value::source() const { return source_of(*node, path); }
+
+Value Value::item(std::size_t index) const { return {node->items[index], join_path(path, std::to_string(index))}; }
+
+void Report::error(const Source& at, std::string message) {
+  ++count_;
+  if (full()) return;
+  Source place = at;
+  place.path = one_line(at.path);  // keys may be any text
+  if (place.path.size() > longest_path) place.path = shortened(place.path, longest_path);
+  diagnostics_.push_back({place, std::move(message)});
+}
+
+void Report::throw_if_any(const std::string& file) {
+  if (count_ == 0) return;
+  std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::tie(a.at.line, a.at.column) < std::tie(b.at.line, b.at.column);
+  });
+  if (count_ > most) {
+    diagnostics_.emplace_back();
+    diagnostics_.back().message = fmt::format("and {} more mistakes", count_ - most);
+  }
+  throw InputError(file, std::move(diagnostics_));
+}
+
+std::string describe(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::null:
+      return "nothing";
+    case Node::Kind::map:
+      return "a map";
+    case Node::Kind::sequence:
+      return "a list";
+    case Node::Kind::scalar:
+      break;
+  }
+  return quoted_name(node.text);
+}
+
+std::optional<double> read_number(Report& report, const Value& value) {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::scalar) {
+    report.error(value, fmt::format("must be a number, not {}", describe(node)));
+    return {};
+  }
+  const auto number = parse_number(node.text);
+  if (const auto* why = std::get_if<std::string>(&number)) {
+    report.error(value, *why);
+    return {};
+  }
+  if (node.quoted) {
+    report.error(value, fmt::format("the number {} is in quotation marks: remove them", quoted_name(node.text)));
+    return {};
+  }
+  return std::get<double>(number);
+}
+
+std::optional<double> read_positive(Report& report, const Value& value) {
+  const auto number = read_number(report, value);
+  if (!number || *number > 0.0) return number;
+  report.error(value, fmt::format("must be greater than 0, not {}", value.node->text));
+  return {};
+}
+
+std::optional<double> read_not_negative(Report& report, const Value& value) {
+  const auto number = read_number(report, value);
+  if (!number || *number >= 0.0) return number;
+  report.error(value, fmt::format("must be 0 or more, not {}", value.node->text));
+  return {};
+}
+
+std::optional<long> read_integer(Report& report, const Value& value, long least, long most) {
+  const auto number = read_number(report, value);
+  if (!number) return {};
+  if (std::floor(*number) != *number || *number < static_cast<double>(least) || *number > static_cast<double>(most)) {
+    report.error(value, fmt::format("must be a whole number from {} to {}, not {}", least, most, value.node->text));
+    return {};
+  }
+  return static_cast<long>(*number);
+}
+
+std::optional<bool> read_flag(Report& report, const Value& value) {
+  const Node& node = *value.node;
+  if (node.kind == Node::Kind::scalar && !node.quoted) {
+    if (node.text == "true") return true;
+    if (node.text == "false") return false;
+  }
+  report.error(value, fmt::format("must be true or false, not {}", describe(node)));
+  return {};
+}
+
+std::optional<std::string> read_text(Report& report, const Value& value) {
+  if (value.node->kind == Node::Kind::scalar) return value.node->text;
+  report.error(value, fmt::format("must be text, not {}", describe(*value.node)));
+  return {};
+}
+
+std::optional<Vec2> read_vector(Report& report, const Value& value) {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
+    const std::string what =
+        node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size()) : describe(node);
+    report.error(value, fmt::format("must be two numbers, as in [x, y], not {}", what));
+    return {};
+  }
+  const auto x = read_number(report, value.item(0));
+  const auto y = read_number(report, value.item(1));
+  if (!x || !y) return {};
+  return Vec2(*x, *y);
+}
+
+std::optional<std::string> read_choice(Report& report, const Value& value, const std::vector<std::string>& known,
+                                       const Later& later) {
+  auto text = read_text(report, value);
+  if (!text) return {};
+  if (std::find(known.begin(), known.end(), *text) != known.end()) return text;
+  for (const auto& [name, remedy] : later) {
+    if (*text == name) {
+      report.error(value, fmt::format("'{}' is not available in this version: {}", name, remedy));
+      return {};
+    }
+  }
+  std::string choice = known.front();
+  for (std::size_t i = 1; i < known.size(); ++i) {
+    choice += (i + 1 == known.size() ? " or " : ", ") + known[i];
+  }
+  const std::string nearest = nearest_name(*text, known);
+  const std::string hint = nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
+  report.error(value, fmt::format("must be {}, not {}{}", choice, quoted_name(*text), hint));
+  return {};
+}
+
+std::optional<std::vector<Value>> read_list(Report& report, const Value& value, std::string_view example) {
+  const Node& node = *value.node;
+  if (node.kind == Node::Kind::null) return std::vector<Value>{};
+  if (node.kind != Node::Kind::sequence) {
+    report.error(value, fmt::format("must be a list, as in {}, not {}", example, describe(node)));
+    return {};
+  }
+  std::vector<Value> items;
+  items.reserve(node.items.size());
+  for (std::size_t i = 0; i < node.items.size(); ++i) items.push_back(value.item(i));
+  return items;
+}
+
+namespace {
+
+Source source_of_key(const Value& map, const MapEntry& entry) {
+  const std::string path = join_path(map.path, entry.key);
+  if (!entry.value->override_path.empty()) return source_of(*entry.value, path);
+  return {entry.line, entry.column, path};
+}
+
+/// What writers of YAML 1.1 turn the key `on` into, because they treat it as a truth value.
+constexpr std::string_view written_for_on = "true";
+
+}  // namespace
+
+std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what, std::string_view example) {
+  const Node& node = *value.node;
+  std::vector<Entry> entries;
+  if (node.kind == Node::Kind::null) return entries;
+  if (node.kind != Node::Kind::map) {
+    report.error(value, fmt::format("must be a map of named {}, as in {}, not {}", what, example, describe(node)));
+    return entries;
+  }
+  for (const MapEntry& entry : node.entries) {
+    const Source at = source_of_key(value, entry);
+    if (!check_name(report, at, entry.key)) continue;
+    entries.push_back({entry.key, at, {entry.value, join_path(value.path, entry.key)}});
+  }
+  return entries;
+}
+
+bool is_name(std::string_view text) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto is_rest = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
+  return !text.empty() && is_letter(text[0]) && std::all_of(text.begin(), text.end(), is_rest);
+}
+
+bool check_name(Report& report, const Source& at, std::string_view text) {
+  if (is_name(text)) return true;
+  const char* why = "";
+  if (text.find('.') != std::string_view::npos) why = "; a dot separates a body from its edge";
+  if (text.find(':') != std::string_view::npos) why = "; put a space after the colon";
+  report.error(at, fmt::format("{} is not a valid name: use letters, digits, _ and -, and begin with a letter or _{}",
+                               quoted_name(text), why));
+  return false;
+}
+
+MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, std::string_view example,
+                     const Later& later)
+    : report_(report), map_(std::move(map)) {
+  const Node& node = *map_.node;
+  if (node.kind != Node::Kind::map) {
+    report_.error(map_, fmt::format("must be a map, as in {}, not {}", example, describe(node)));
+    return;
+  }
+  is_map_ = true;
+  std::vector<std::string> absent;  // a key that is present was not meant
+  for (const std::string& key : known) {
+    if (entry_of(key) == nullptr) absent.push_back(key);
+  }
+  const bool takes_on = std::find(known.begin(), known.end(), "on") != known.end();
+  for (const MapEntry& entry : node.entries) {
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    if (report_.full()) {
+      broken_ = true;
+      report_.error(map_, "");  // counted
+      continue;
+    }
+    const Source at = source_of_key(map_, entry);
+    if (takes_on && entry.key == written_for_on) {
+      if (node.find("on") != nullptr)
+        report_.error(at, "is read as 'on', which is given as well: remove one of the two");
+      continue;
+    }
+    const auto planned =
+        std::find_if(later.begin(), later.end(), [&](const auto& pair) { return pair.first == entry.key; });
+    if (planned != later.end()) {
+      broken_ = true;
+      report_.error(at, fmt::format("'{}' is not available in this version: {}", entry.key, planned->second));
+      continue;
+    }
+    const auto colon = entry.key.find(':');
+    if (entry.value->kind == Node::Kind::null && colon != std::string::npos) {
+      broken_ = true;
+      report_.error(at, fmt::format("unknown key {}: put a space after the colon", quoted_name(entry.key)));
+      continue;
+    }
+    const std::string synonym = key_of_synonym(entry.key, absent);
+    const std::string nearest = synonym.empty() ? nearest_name(entry.key, absent) : synonym;
+    const std::string hint = nearest.empty() ? suggestion("", known) : fmt::format(" (did you mean '{}'?)", nearest);
+    if (nearest.empty()) broken_ = true;
+    misspelt_.push_back(nearest);
+    report_.error(at, fmt::format("unknown key {}{}", quoted_name(entry.key), hint));
+  }
+}
+
+const MapEntry* MapReader::entry_of(std::string_view key) const {
+  const MapEntry* entry = map_.node->find(key);
+  return entry == nullptr && key == "on" ? map_.node->find(written_for_on) : entry;
+}
+
+std::optional<Value> MapReader::get(std::string_view key) const {
+  if (!is_map_) return {};
+  const MapEntry* entry = entry_of(key);
+  if (entry == nullptr || entry->value->kind == Node::Kind::null) return {};
+  return Value{entry->value, join_path(map_.path, key)};
+}
+
+std::optional<Value> MapReader::need(std::string_view key) const {
+  auto value = get(key);
+  if (value || !is_map_) return value;
+  if (entry_of(key) != nullptr) {
+    report_.error(key_source(key), "has no value: give one");
+  } else if (!broken_ && std::find(misspelt_.begin(), misspelt_.end(), key) == misspelt_.end()) {
+    report_.error(map_, fmt::format("'{}' is missing", key));
+  }
+  return {};
+}
+
+Source MapReader::key_source(std::string_view key) const {
+  const MapEntry* entry = is_map_ ? entry_of(key) : nullptr;
+  return entry == nullptr ? map_.source() : source_of_key(map_, *entry);
+}
+
+void MapReader::refuse(std::string_view key, std::string_view why) const {
+  if (is_map_ && entry_of(key) != nullptr) report_.error(key_source(key), std::string(why));
+}
+
+}  // namespace scabo::input

@@ -1,5 +1,0 @@
-# Puts schema.json into scabo_model.
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/schema.json)
-file(READ ${CMAKE_CURRENT_LIST_DIR}/schema.json SCABO_MODEL_SCHEMA)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/schema.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/model/schema.cpp @ONLY)
-target_sources(scabo_model PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/model/schema.cpp)

@@ -1,0 +1,76 @@
+// Factors of loads and prescribed displacements at the end of every step.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/input/models.hpp"
+
+namespace scabo::model {
+namespace {
+
+using namespace testing_models;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* pressed =
+    "scabo: 1\n"
+    "materials: {m: {young: 1, poisson: 0}}\n"
+    "bodies: {b: {material: m, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}, mesh: {size: 1}}}\n"
+    "supports:\n"
+    "  - {on: b.bottom, fix: [x, y]}\n"
+    "  - {on: b.top_left, displacement: [null, 1]}\n"
+    "  - {on: b.top_right, displacement: [null, 2], name: stroke}\n"
+    "loads: {first: {on: b.right, force: [1, 0]}, second: {on: b.left, force: [1, 0]}}\n";
+
+TEST(Steps, WithoutStepsEverythingGoesToOne) {
+  const Model model = parse(pressed);
+  ASSERT_EQ(model.steps.size(), 1u);
+  EXPECT_EQ(model.steps[0].name, "step_1");
+  EXPECT_EQ(model.steps[0].increments, 1);
+  EXPECT_THAT(model.steps[0].load_factors, ElementsAre(1.0, 1.0));
+  EXPECT_THAT(model.steps[0].support_factors, ElementsAre(1.0, 1.0, 1.0));
+}
+
+TEST(Steps, NamedFactorsChangeAndOthersStay) {
+  const Model model = parse(std::string(pressed) +
+                            "steps:\n"
+                            "  - {name: one, loads: {first: 0.5}}\n"
+                            "  - {increments: 3, loads: {second: -2, stroke: 0.25}}\n"
+                            "  - {loads: {first: 0}}\n"
+                            "  - {name: all}\n");
+  ASSERT_EQ(model.steps.size(), 4u);
+  EXPECT_EQ(model.steps[1].name, "step_2");
+  EXPECT_EQ(model.steps[1].increments, 3);
+  EXPECT_THAT(model.steps[0].load_factors, ElementsAre(0.5, 0.0));
+  EXPECT_THAT(model.steps[1].load_factors, ElementsAre(0.5, -2.0));
+  EXPECT_THAT(model.steps[2].load_factors, ElementsAre(0.0, -2.0));
+  EXPECT_THAT(model.steps[3].load_factors, ElementsAre(1.0, 1.0));
+  // Without a name of its own, a displacement is there from the first step.
+  EXPECT_THAT(model.steps[0].support_factors, ElementsAre(1.0, 1.0, 0.0));
+  EXPECT_THAT(model.steps[1].support_factors, ElementsAre(1.0, 1.0, 0.25));
+  EXPECT_THAT(model.steps[2].support_factors, ElementsAre(1.0, 1.0, 0.25));
+  EXPECT_THAT(model.steps[3].support_factors, ElementsAre(1.0, 1.0, 1.0));
+}
+
+TEST(Steps, WhatIsNeverAppliedIsAMistake) {
+  const std::string mistakes = mistakes_in(std::string(pressed) + "steps: [{loads: {first: 1, second: 0}}]\n");
+  EXPECT_THAT(mistakes, HasSubstr("load 'second' is never applied"));
+  EXPECT_THAT(mistakes, HasSubstr("the displacement of support 'stroke' is never applied"));
+  EXPECT_THAT(mistakes, testing::Not(HasSubstr("'first'")));
+}
+
+TEST(Steps, SupportsThatMoveAlikeDoNotConflict) {
+  std::string text = pressed;
+  const auto with = [&](const std::string& second, const std::string& steps) {
+    std::string result = text;
+    result.insert(result.find("loads:"), "  - " + second + "\n");
+    return result + steps;
+  };
+  EXPECT_THAT(mistakes_in(with("{on: b.top_right, displacement: [null, 2]}", "")), testing::IsEmpty());
+  // The same displacement, but one of the two only in the second step.
+  EXPECT_THAT(mistakes_in(with("{on: b.top_right, displacement: [null, 2]}",
+                               "steps: [{loads: {first: 1, second: 1}}, {loads: {stroke: 1}}]\n")),
+              HasSubstr("they share a point"));
+}
+
+}  // namespace
+}  // namespace scabo::model
