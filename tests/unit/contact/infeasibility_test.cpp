@@ -14,6 +14,7 @@ namespace scabo::contact {
 namespace {
 
 using namespace test;
+using namespace compare;
 
 Problem coulomb(int d, const Matrix& W, const Vector& q, double mu) {
   Problem problem;

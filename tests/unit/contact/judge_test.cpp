@@ -13,6 +13,7 @@ namespace scabo::contact {
 namespace {
 
 using namespace test;
+using namespace compare;
 
 /// Motions times `s t`, flexibilities times `s`, so forces times `t`.
 Problem in_other_units(const Problem& problem, double s, double t) {

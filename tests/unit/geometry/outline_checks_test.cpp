@@ -10,10 +10,10 @@
 
 #include "unit/input/models.hpp"
 
-namespace scabo::model {
+namespace scabo::geometry {
 namespace {
 
-using namespace testing_models;
+using namespace input::testing_models;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -163,4 +163,4 @@ TEST(Inside, ConcaveOutline) {
 }
 
 }  // namespace
-}  // namespace scabo::model
+}  // namespace scabo::geometry

@@ -6,10 +6,10 @@
 
 #include "unit/input/models.hpp"
 
-namespace scabo::model {
+namespace scabo::geometry {
 namespace {
 
-using namespace testing_models;
+using namespace input::testing_models;
 using std::numbers::pi;
 
 Edge quarter(double radius, const Vec2& centre, double start_angle, double sweep) {
@@ -152,4 +152,4 @@ TEST(Outline, CentroidKeepsItsDigitsFarFromTheOrigin) {
 }
 
 }  // namespace
-}  // namespace scabo::model
+}  // namespace scabo::geometry

@@ -6,7 +6,7 @@
 
 #include "scabo/input/read_model.hpp"
 
-namespace scabo::model::testing_models {
+namespace scabo::input::testing_models {
 
 /// A block held at its bottom, pushed by the load `push` and, where there is more, by `rest`.
 inline std::string block(const std::string& rest = "") {
@@ -31,6 +31,9 @@ inline std::string shaped(const std::string& shape, const std::string& mesh = "{
          "loads: {push: {on: body.edge_2, force: [1, 0]}}\n";
 }
 
+using namespace model;  // what the reader gives
+using geometry::Outline;
+
 inline Model parse(const std::string& text, const std::vector<Override>& overrides = {}) {
   return parse_model(text, "model.yaml", overrides);
 }
@@ -50,4 +53,4 @@ inline std::string mistakes_in(const std::string& text, const std::vector<Overri
   return "";
 }
 
-}  // namespace scabo::model::testing_models
+}  // namespace scabo::input::testing_models

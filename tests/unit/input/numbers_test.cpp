@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace scabo::model {
+namespace scabo::input {
 namespace {
 
 using testing::HasSubstr;
@@ -68,4 +68,4 @@ TEST(Numbers, LongTextsAreNotRepeatedInMessages) {
 }
 
 }  // namespace
-}  // namespace scabo::model
+}  // namespace scabo::input

@@ -4,7 +4,7 @@
 
 #include "unit/input/models.hpp"
 
-namespace scabo::model {
+namespace scabo::input {
 namespace {
 
 using namespace testing_models;
@@ -81,4 +81,4 @@ TEST(Overrides, MistakesNameTheOverride) {
 }
 
 }  // namespace
-}  // namespace scabo::model
+}  // namespace scabo::input

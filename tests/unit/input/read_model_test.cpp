@@ -8,7 +8,7 @@
 
 #include "unit/input/models.hpp"
 
-namespace scabo::model {
+namespace scabo::input {
 namespace {
 
 using namespace testing_models;
@@ -197,4 +197,4 @@ TEST(ReadModel, FieldsAreAllUnlessSomeAreNamed) {
 }
 
 }  // namespace
-}  // namespace scabo::model
+}  // namespace scabo::input

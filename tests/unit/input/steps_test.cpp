@@ -4,7 +4,7 @@
 
 #include "unit/input/models.hpp"
 
-namespace scabo::model {
+namespace scabo::input {
 namespace {
 
 using namespace testing_models;
@@ -73,4 +73,4 @@ TEST(Steps, SupportsThatMoveAlikeDoNotConflict) {
 }
 
 }  // namespace
-}  // namespace scabo::model
+}  // namespace scabo::input

@@ -9,7 +9,7 @@
 
 #include "unit/input/models.hpp"
 
-namespace scabo::model {
+namespace scabo::input {
 namespace {
 
 using namespace testing_models;
@@ -144,4 +144,4 @@ TEST(TextFile, WhatCannotBeReadIsOneMessage) {
 }
 
 }  // namespace
-}  // namespace scabo::model
+}  // namespace scabo::input
