@@ -145,8 +145,9 @@ BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) 
   mesh.nodes.reserve(static_cast<std::size_t>(total));
   mesh.edges.resize(edges);
   mesh.corners.assign(edges, -1);
-  SuperElement whole;
+  Cell whole;
   whole.centre = body.mesh.centre;
+  if (body.sector_materials.empty()) whole.materials = {body.material};
   const std::vector<Run> runs = runs_of(body);
   for (const Run& run : runs) {
     const auto e = static_cast<std::size_t>(run.edge);
@@ -157,14 +158,15 @@ BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) 
     if (run.to == 0.0 || run.to == 1.0) corner_at(run.to) = line.back().nodes.back();
     whole.boundary.insert(whole.boundary.end(), line.begin(), line.end());
     if (!body.sector_materials.empty())
-      mesh.materials.insert(mesh.materials.end(), line.size(), body.sector_materials[e]);
+      whole.materials.insert(whole.materials.end(), line.size(), body.sector_materials[e]);
   }
   if (body.open()) {
     const Run& last = runs.back();
     mesh.nodes.push_back(body.outline.edges[static_cast<std::size_t>(last.edge)].at(last.to));
+    mesh.mouth = {0, total - 1};
   }
   ensure(static_cast<int>(mesh.nodes.size()) == total, "the boundary has the nodes that were counted");
-  mesh.super_elements.push_back(std::move(whole));
+  mesh.cells.push_back(std::move(whole));
   return mesh;
 }
 
