@@ -45,20 +45,20 @@ std::vector<std::size_t> spatial_order(const std::vector<Vec2>& points) {
 
 std::vector<Triangle> triangulate(const std::vector<Vec2>& points, const std::vector<std::pair<int, int>>& segments) {
   Delaunay delaunay;
-  std::vector<Delaunay::Vertex_handle> vertices;
-  vertices.reserve(points.size());
+  std::vector<Delaunay::Vertex_handle> vertices(points.size());
   Delaunay::Face_handle near;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    vertices.push_back(delaunay.insert(point_of(points[i]), near));
-    vertices.back()->info() = static_cast<int>(i);
-    near = vertices.back()->face();
+  for (const std::size_t i : spatial_order(points)) {
+    vertices[i] = delaunay.insert(point_of(points[i]), near);
+    vertices[i]->info() = static_cast<int>(i);
+    near = vertices[i]->face();
   }
-  ensure(delaunay.number_of_vertices() == points.size(), "the points of a triangulation are distinct");
+  if (delaunay.number_of_vertices() != points.size())
+    throw InputError("", {Diagnostic{{}, "two lines of the shape touch between their ends"}});
   try {
     for (const auto& [a, b] : segments)
       delaunay.insert_constraint(vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)]);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
-    ensure(false, "the segments of a triangulation meet only at their ends");
+    throw InputError("", {Diagnostic{{}, "two lines of the shape cross, or their facets are too long to tell them apart"}});
   }
 
   int count = 0;

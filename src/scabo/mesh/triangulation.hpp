@@ -20,11 +20,12 @@ struct Triangle {
   std::array<bool, 3> constrained{};            ///< whether that side is one of the segments
 };
 
-/// An order of the points in which neighbours follow each other (a Hilbert curve); triangulate is fastest in it.
+/// An order of the points in which neighbours follow each other (a Hilbert curve).
 std::vector<std::size_t> spatial_order(const std::vector<Vec2>& points);
 
-/// The triangulation of distinct `points` with `segments`, pairs of indices of points. Segments meet only at their ends,
-/// and no other point lies on them: throws BrokenInvariant otherwise.
+/// The triangulation of distinct `points` with `segments`, pairs of indices of points, which meet only at their ends.
+/// Throws InputError, without a place in a file, if points coincide or segments cross; a segment that contains another
+/// point becomes two.
 std::vector<Triangle> triangulate(const std::vector<Vec2>& points, const std::vector<std::pair<int, int>>& segments);
 
 }  // namespace scabo::mesh
