@@ -352,7 +352,7 @@ void separate_cracks(Pieces& pieces, const std::vector<DomainLine>& lines) {
 
 PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
   const std::size_t original = pieces.nodes.size();
-  // Sides of cells along cracks, before their nodes are separated: cell and place of the first node.
+  // Sides of cells on lines, before nodes of cracks are separated: cell and place of the first node.
   std::unordered_map<std::uint64_t, std::pair<int, int>> beside;
   for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
     const PolygonCell& cell = pieces.cells[k];
@@ -361,7 +361,7 @@ PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
     for (std::size_t i = 0; may && i + (cell.open ? 1 : 0) < cell.nodes.size(); ++i) {
       const int a = cell.nodes[i], b = cell.nodes[i + 1 < cell.nodes.size() ? i + 1 : 0];
       const auto side = pieces.line_sides.find(side_key(a, b));
-      if (side == pieces.line_sides.end() || !lines[side->second].crack) continue;
+      if (side == pieces.line_sides.end()) continue;
       beside[(std::uint64_t(a) << 32) | std::uint32_t(b)] = {int(k), int(i)};
     }
   }
@@ -374,7 +374,7 @@ PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
   mesh.right = mesh.left;
   for (std::size_t line = 0; line < lines.size(); ++line) {
     const std::vector<int>& chain = pieces.chains[line];
-    for (std::size_t i = 0; lines[line].crack && i + 1 < chain.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       const auto left = beside.find((std::uint64_t(chain[i]) << 32) | std::uint32_t(chain[i + 1]));
       const auto right = beside.find((std::uint64_t(chain[i + 1]) << 32) | std::uint32_t(chain[i]));
       if (left != beside.end()) {
@@ -389,6 +389,11 @@ PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
         mesh.right[line][i + 1] = nodes[at];
         mesh.right[line][i] = nodes[at + 1 < nodes.size() ? at + 1 : 0];
       }
+      // Both sides of other lines are one; they may begin or end at the mouth of a crack.
+      if (lines[line].crack) continue;
+      auto &one = mesh.left[line], &other = mesh.right[line];
+      auto &from = left != beside.end() ? one : other, &to = left != beside.end() ? other : one;
+      std::copy_n(from.begin() + std::ptrdiff_t(i), 2, to.begin() + std::ptrdiff_t(i));
     }
   }
   // Nodes that no cell has are left out.
