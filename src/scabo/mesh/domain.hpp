@@ -43,7 +43,8 @@ struct PolygonMesh {
   std::vector<Vec2> nodes;
   std::vector<PolygonCell> cells;
   /// For each line of the domain the nodes along it from its start to its end, as its left side has them: one for each of
-  /// its points, except for an end that is a scaling centre. `right` differs from `left` only for cracks, whose sides
+  /// its points, except for an end that is a scaling centre (and one more at the middle of a single facet between two of
+  /// them, or between two crack tips). `right` differs from `left` only for cracks, whose sides
   /// share at most the node of a tip.
   std::vector<std::vector<int>> left, right;
 };

@@ -47,6 +47,9 @@ class SegmentTree {
     if (!segments.empty()) build(0, segments.size());
   }
 
+  // Whether p lies in the box around all segments; beyond, it is outside of every region.
+  bool box_contains(const Vec2& p) const { return !nodes_.empty() && distance_to_box(nodes_.front(), p) == 0.0; }
+
   Surroundings around(const Vec2& p) const {
     Surroundings found;
     if (!nodes_.empty()) search(0, p, found);
@@ -276,6 +279,7 @@ class Growth {
       distance = 0.5 * (distance + wanted);  // between two spacings the step is their mean
       point = from + distance * direction;
     }
+    if (!tree_.box_contains(point)) return;
     Surroundings around{around_from.distance - distance, around_from.clearance - distance,
                         around_from.spacing - growth_of_spacing * distance};
     const bool sure = around.clearance >= std::max(from_lines * wanted, 0.0) && around.spacing >= wanted;

@@ -28,6 +28,7 @@ struct Wedge {
   PieceEdge first, last;
   std::vector<int> triangles;
   int next = -1, previous = -1;  // wedge across `last` and across `first`, of the same body: no crack, no outside
+  int run = -1;                  // of wedges linked in this way
   int node = no_node;            // the corner as seen from here; no_node: it is a scaling centre
 };
 
@@ -41,6 +42,7 @@ class Dual {
     add_nodes_on_lines();
     find_cells();
     find_runs();
+    find_split_facets();
     add_corner_cells();
     collect_lines();
   }
@@ -188,17 +190,20 @@ class Dual {
     return number;
   }
 
+  // Number of an edge of the triangulation at the corner of a wedge, seen from there. A corner is at the start or at the
+  // end of a piece, so that piece and direction determine the edge.
+  int outgoing(const Wedge& wedge, const PieceEdge& edge) const {
+    return 2 * edge.piece + (runs_from(edge, wedge.vertex) ? 1 : 0);
+  }
+
   // Wedges at a corner that lie in the same piece of material, and their common node.
   void find_runs() {
-    std::unordered_map<long long, int> starting;  // wedge that starts at an edge, by vertex and other end
-    const auto key = [&](const Wedge& wedge, const PieceEdge& edge) {
-      return 2LL * (3LL * edge.piece + 0) + (runs_from(edge, wedge.vertex) ? 1 : 0);
-    };
-    // A corner is at the start or at the end of a piece, so that piece and direction determine the edge.
-    for (std::size_t w = 0; w < wedges_.size(); ++w) starting[key(wedges_[w], wedges_[w].first)] = static_cast<int>(w);
+    std::unordered_map<int, int> starting;  // wedge that starts at an edge
+    for (std::size_t w = 0; w < wedges_.size(); ++w)
+      starting[outgoing(wedges_[w], wedges_[w].first)] = static_cast<int>(w);
     for (std::size_t w = 0; w < wedges_.size(); ++w) {
       if (line_of(wedges_[w].last).crack) continue;
-      const auto found = starting.find(key(wedges_[w], wedges_[w].last));
+      const auto found = starting.find(outgoing(wedges_[w], wedges_[w].last));
       if (found == starting.end()) continue;
       wedges_[w].next = found->second;
       wedges_[at(found->second)].previous = static_cast<int>(w);
@@ -220,6 +225,7 @@ class Dual {
       for (const int k : run) {
         seen[at(k)] = true;
         wedges_[at(k)].node = node;
+        wedges_[at(k)].run = static_cast<int>(runs_.size());
       }
       runs_.push_back(run);
     }
@@ -236,6 +242,24 @@ class Dual {
     return run;
   }
 
+  // Facets that need a node at their middle: those between two scaling centres, and cracks of one facet that end in a tip
+  // on both sides, which could not open otherwise.
+  void find_split_facets() {
+    std::vector<int> tips(vertices_.pieces.size(), 0);
+    std::unordered_map<int, int> starting;  // run that starts at an edge
+    for (const Wedge& wedge : wedges_) starting[outgoing(wedge, wedge.first)] = wedge.run;
+    for (const Wedge& wedge : wedges_)
+      if (const auto found = starting.find(outgoing(wedge, wedge.last));
+          found != starting.end() && found->second == wedge.run && line_of(wedge.last).crack)
+        ++tips[at(wedge.last.piece)];
+    split_.assign(vertices_.pieces.size(), false);
+    for (std::size_t p = 0; p < vertices_.pieces.size(); ++p) {
+      const LinePiece& piece = vertices_.pieces[p];
+      if (piece.facets() > 1) continue;
+      split_[p] = tips[p] == 2 || (is_centre_[at(piece.vertices[0])] && is_centre_[at(piece.vertices[1])]);
+    }
+  }
+
   // Whether the cell at `vertex` has the facet of a piece of one facet: a scaling centre has it, otherwise its start.
   bool owns(const PieceEdge& edge, int vertex) const {
     const std::vector<int>& chain = vertices_.pieces[at(edge.piece)].vertices;
@@ -250,13 +274,13 @@ class Dual {
     const LinePiece& piece = vertices_.pieces[at(edge.piece)];
     if (piece.facets() > 1) return node_on(edge, side);
     const int other = piece.vertices[runs_from(edge, wedge.vertex) ? 1 : 0];
-    if (is_centre_[at(wedge.vertex)] && is_centre_[at(other)]) return middle_node(edge.piece, side);
+    if (split_[at(edge.piece)]) return middle_node(edge.piece, side);
     if (!owns(edge, wedge.vertex)) return wedge.node;
     const int triangle = start ? wedge.triangles.front() : wedge.triangles.back();
     return wedges_[at(wedge_of_.at(corner_in(triangle, other)))].node;
   }
 
-  // The middle of a facet between two scaling centres.
+  // The middle of a split facet.
   int middle_node(int piece, int side) {
     const DomainLine& line = domain_.lines[at(vertices_.pieces[at(piece)].line)];
     auto [found, is_new] = middles_.try_emplace(piece, std::array<int, 2>{});
@@ -381,7 +405,6 @@ class Dual {
 
   // Two centroids that are close to each other become one node between them.
   void collapse_short_sides() {
-    std::vector<Vec2> points;
     for (int t = 0; t < free_nodes_; ++t) {
       if (!inside(t)) continue;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -566,7 +589,8 @@ class Dual {
   std::unordered_map<std::size_t, int> wedge_of_;  // for each corner of a triangle at a corner of the domain
   std::vector<std::vector<int>> runs_;             // wedges
   std::vector<bool> is_centre_;                    // for each corner
-  std::unordered_map<int, std::array<int, 2>> middles_;  // of pieces between two scaling centres: left and right
+  std::vector<bool> split_;                        // for each piece: whether its only facet has a node at its middle
+  std::unordered_map<int, std::array<int, 2>> middles_;  // of those: left and right
   std::unordered_map<int, int> merged_, partner_;
   std::vector<Vec2> points_;
 };

@@ -13,8 +13,9 @@
 // cell (Domain::centres): a closed one if regions of material surround it, or an open one at a crack tip or a corner of
 // the body, with sides of several regions (PolygonCell::side_regions) where several meet.
 //
-// A line of a single facet has no vertex between its ends; the facet is a side of the cell at one of them. Only if both
-// are scaling centres it is divided, by a node at its middle. An arc whose facets turn by more than 30 degrees, or that
+// A line of a single facet has no vertex between its ends; the facet is a side of the cell at one of them. It is divided
+// by a node at its middle, the only nodes that are not given, if both ends are scaling centres or if it is a crack with
+// tips at both ends. An arc whose facets turn by more than 30 degrees, or that
 // shares its ends with another short line, is treated as a chain of such lines.
 //
 // The vertices inside are smoothed (each moves to the centroid of the triangles around it, weighted by the density of
