@@ -135,6 +135,10 @@ std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices, 
   }
   // What no line encloses lies between the shape and the convex hull.
   std::replace(region.begin(), region.end(), unknown, -1);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (region[t] >= 0 && triangles[t].neighbours[i] < 0 && !triangles[t].constrained[i])
+        refuse("the lines of the shape do not enclose its regions");
   return region;
 }
 

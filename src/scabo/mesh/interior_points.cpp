@@ -268,16 +268,17 @@ class Growth {
     return wanted;
   }
 
-  // Adds the point at `distance` from `from` if there is room for it; a little nearer, if it adapts and the wanted spacing
-  // decreases on the way.
+  // Adds the point at `distance` from `from` if there is room for it; a little nearer or farther, if it adapts and the
+  // wanted spacing changes on the way.
   void propose(const Vec2& from, double spacing, const Surroundings& around_from, const Vec2& direction, double distance,
                double angle, bool adapts) {
     Vec2 point = from + distance * direction;
     if (boxes_.any_within(result_.points, point, spacing, 0.5 * spacing)) return;
     double wanted = wanted_at(point);
-    if (adapts && wanted < spacing) {
-      distance = 0.5 * (distance + wanted);  // between two spacings the step is their mean
+    if (adapts && wanted != spacing) {  // between two spacings the step is their mean
+      distance = 0.5 * (distance + std::min(wanted, 1.5 * spacing));
       point = from + distance * direction;
+      wanted = wanted_at(point);
     }
     if (!tree_.box_contains(point)) return;
     Surroundings around{around_from.distance - distance, around_from.clearance - distance,

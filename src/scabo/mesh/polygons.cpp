@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 
 #include "scabo/base/error.hpp"
@@ -17,6 +18,7 @@ namespace {
 constexpr double short_side = 0.1;    // per local size: sides inside that are shorter are collapsed
 constexpr double well_visible = 0.1;  // h / L (polygon_kernel.hpp): cells below are improved by moving their corners
 constexpr double hardly_visible = 0.02;  // cells that remain below are divided, if that helps
+constexpr double largest_corner = 1.55 * std::numbers::pi;  // of a cell that has it as a node; beyond there are two cells
 constexpr int no_node = -1;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -301,15 +303,37 @@ class Dual {
         for (const int w : run) add_corner_cell(wedges_[at(w)]);
   }
 
-  // The cell of one region at a corner that is one of its nodes.
+  // The cell of one region at a corner that is one of its nodes; two where the region surrounds the corner almost.
   void add_corner_cell(const Wedge& wedge) {
-    PolygonCell cell;
-    cell.region = wedge.region;
-    if (const int node = node_at_edge(wedge, true); node != wedge.node) cell.nodes.push_back(node);
-    cell.nodes.insert(cell.nodes.end(), wedge.triangles.begin(), wedge.triangles.end());
-    if (const int node = node_at_edge(wedge, false); node != wedge.node) cell.nodes.push_back(node);
-    cell.nodes.push_back(wedge.node);
-    if (cell.nodes.size() > 2) add_cell(std::move(cell), corners_of(wedge));  // else its neighbours share its facets
+    const int first = node_at_edge(wedge, true), last = node_at_edge(wedge, false);
+    std::vector<std::size_t> corners = corners_of(wedge);
+    std::vector<double> angle{0.0};  // before each triangle
+    for (const std::size_t corner : corners) {
+      const auto& vertices = triangles_[corner / 3].vertices;
+      const Vec2 a = point(vertices[(corner % 3 + 1) % 3]) - point(wedge.vertex);
+      const Vec2 b = point(vertices[(corner % 3 + 2) % 3]) - point(wedge.vertex);
+      angle.push_back(angle.back() + std::atan2(cross(a, b), a.dot(b)));
+    }
+    std::size_t middle = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k)  // the angle of a centroid is about that of its triangle's middle
+      if (std::abs(angle[k] + angle[k + 1] - angle.back()) < std::abs(angle[middle] + angle[middle + 1] - angle.back()))
+        middle = k;
+    const bool two = angle.back() > largest_corner;
+    for (const bool second : {false, true}) {
+      if (second && !two) break;
+      const std::size_t begin = second ? middle : 0, end = two && !second ? middle + 1 : corners.size();
+      PolygonCell cell;
+      cell.region = wedge.region;
+      if (!second && first != wedge.node) cell.nodes.push_back(first);
+      cell.nodes.insert(cell.nodes.end(), wedge.triangles.begin() + static_cast<std::ptrdiff_t>(begin),
+                        wedge.triangles.begin() + static_cast<std::ptrdiff_t>(end));
+      if ((second || !two) && last != wedge.node) cell.nodes.push_back(last);
+      cell.nodes.push_back(wedge.node);
+      if (cell.nodes.size() < 3) continue;  // its neighbours share its facets
+      if (second) second_cell_[wedge.triangles[middle]].push_back(static_cast<int>(mesh_.cells.size()));
+      add_cell(std::move(cell), {corners.begin() + static_cast<std::ptrdiff_t>(second ? begin + 1 : begin),
+                                 corners.begin() + static_cast<std::ptrdiff_t>(end)});
+    }
   }
 
   // The cell whose scaling centre is the corner.
@@ -395,6 +419,9 @@ class Dual {
         if (const int cell = cell_of_[3 * at(t) + i];
             cell >= 0 && std::find(cells.begin(), cells.end(), cell) == cells.end())
           cells.push_back(cell);
+    for (const int t : {node, partner(node)})
+      if (const auto found = second_cell_.find(t); found != second_cell_.end())
+        cells.insert(cells.end(), found->second.begin(), found->second.end());
     return cells;
   }
 
@@ -582,6 +609,7 @@ class Dual {
   int free_nodes_ = 0;              // their number
   std::vector<double> spacing_;     // wanted size of cells at them
   std::vector<int> cell_of_;        // for each corner of each triangle; -1: none
+  std::unordered_map<int, std::vector<int>> second_cell_;  // of triangles where the cells at a corner are divided
   std::vector<bool> fixed_centre_;  // for each cell
   std::vector<double> visibility_;  // for each cell
   std::array<std::vector<std::vector<int>>, 2> line_nodes_;  // left and right, for each line and each of its points
