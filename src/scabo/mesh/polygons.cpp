@@ -15,10 +15,11 @@
 namespace scabo::mesh {
 namespace {
 
-constexpr double short_side = 0.1;    // per local size: sides inside that are shorter are collapsed
-constexpr double well_visible = 0.1;  // h / L (polygon_kernel.hpp): cells below are improved by moving their corners
+constexpr double short_side = 0.1;       // per local size: sides inside that are shorter are collapsed
+constexpr double well_visible = 0.1;     // h / L (polygon_kernel.hpp): cells below are improved by moving their corners
 constexpr double hardly_visible = 0.02;  // cells that remain below are divided, if that helps
-constexpr double largest_corner = 1.55 * std::numbers::pi;  // of a cell that has it as a node; beyond there are two cells
+constexpr double largest_corner =
+    1.55 * std::numbers::pi;  // of a cell that has it as a node; beyond there are two cells
 constexpr int no_node = -1;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -76,8 +77,9 @@ class Dual {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto& corner = triangles_[t].vertices;
       Vec2 centroid = (point(corner[0]) + point(corner[1]) + point(corner[2])) / 3.0;
-      spacing_[t] = (vertices_.spacing[at(corner[0])] + vertices_.spacing[at(corner[1])] +
-                     vertices_.spacing[at(corner[2])]) / (3.0 * spacing_per_size);
+      spacing_[t] =
+          (vertices_.spacing[at(corner[0])] + vertices_.spacing[at(corner[1])] + vertices_.spacing[at(corner[2])]) /
+          (3.0 * spacing_per_size);
       for (std::size_t i = 0; i < 3; ++i)
         if (triangles_[t].constrained[i]) {
           const int a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
@@ -114,7 +116,9 @@ class Dual {
   }
 
   // Side of a line on which a wedge at `vertex` lies that starts or ends at `edge`: 0 left, 1 right.
-  int side_of(const PieceEdge& edge, int vertex, bool starts) const { return runs_from(edge, vertex) == starts ? 0 : 1; }
+  int side_of(const PieceEdge& edge, int vertex, bool starts) const {
+    return runs_from(edge, vertex) == starts ? 0 : 1;
+  }
 
   // The node on an edge of a piece of several facets.
   int node_on(const PieceEdge& edge, int side) const {
@@ -192,8 +196,8 @@ class Dual {
     return number;
   }
 
-  // Number of an edge of the triangulation at the corner of a wedge, seen from there. A corner is at the start or at the
-  // end of a piece, so that piece and direction determine the edge.
+  // Number of an edge of the triangulation at the corner of a wedge, seen from there. A corner is at the start or at
+  // the end of a piece, so that piece and direction determine the edge.
   int outgoing(const Wedge& wedge, const PieceEdge& edge) const {
     return 2 * edge.piece + (runs_from(edge, wedge.vertex) ? 1 : 0);
   }
@@ -214,8 +218,9 @@ class Dual {
     for (const Vec2& centre : domain_.centres) {
       const int corner = corner_at(vertices_, centre);
       if (corner < 0)
-        throw InputError("", {Diagnostic{{}, fmt::format("the scaling centre ({}, {}) is not the end of a line",
-                                                         centre.x(), centre.y())}});
+        throw InputError(
+            "", {Diagnostic{
+                    {}, fmt::format("the scaling centre ({}, {}) is not the end of a line", centre.x(), centre.y())}});
       is_centre_[at(corner)] = true;
     }
     std::vector<bool> seen(wedges_.size(), false);
@@ -244,8 +249,8 @@ class Dual {
     return run;
   }
 
-  // Facets that need a node at their middle: those between two scaling centres, and cracks of one facet that end in a tip
-  // on both sides, which could not open otherwise.
+  // Facets that need a node at their middle: those between two scaling centres, and cracks of one facet that end in a
+  // tip on both sides, which could not open otherwise.
   void find_split_facets() {
     std::vector<int> tips(vertices_.pieces.size(), 0);
     std::unordered_map<int, int> starting;  // run that starts at an edge
@@ -482,7 +487,8 @@ class Dual {
   static void remove_node(PolygonCell& cell, std::ptrdiff_t k) {
     cell.nodes.erase(cell.nodes.begin() + k);
     if (!cell.side_regions.empty())
-      cell.side_regions.erase(cell.side_regions.begin() + std::min<std::ptrdiff_t>(k, static_cast<std::ptrdiff_t>(cell.side_regions.size()) - 1));
+      cell.side_regions.erase(cell.side_regions.begin() +
+                              std::min<std::ptrdiff_t>(k, static_cast<std::ptrdiff_t>(cell.side_regions.size()) - 1));
   }
 
   void place_centres() {
@@ -574,8 +580,10 @@ class Dual {
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
       if (!(visibility_[c] > 0.0)) {
         const Vec2& place = mesh_.nodes[at(mesh_.cells[c].nodes.front())];
-        throw InputError("", {Diagnostic{{}, fmt::format("no polygon fits between the lines near ({:.6g}, {:.6g}): "
-                                                         "give a smaller size there", place.x(), place.y())}});
+        throw InputError("", {Diagnostic{{},
+                                         fmt::format("no polygon fits between the lines near ({:.6g}, {:.6g}): "
+                                                     "give a smaller size there",
+                                                     place.x(), place.y())}});
       }
   }
 
@@ -605,13 +613,13 @@ class Dual {
   const DualTriangulation dual_;
   const DualVertices& vertices_;
   const std::vector<Triangle>& triangles_;
-  PolygonMesh mesh_;                // its first nodes are the centroids of all triangles
-  int free_nodes_ = 0;              // their number
-  std::vector<double> spacing_;     // wanted size of cells at them
-  std::vector<int> cell_of_;        // for each corner of each triangle; -1: none
-  std::unordered_map<int, std::vector<int>> second_cell_;  // of triangles where the cells at a corner are divided
-  std::vector<bool> fixed_centre_;  // for each cell
-  std::vector<double> visibility_;  // for each cell
+  PolygonMesh mesh_;                                         // its first nodes are the centroids of all triangles
+  int free_nodes_ = 0;                                       // their number
+  std::vector<double> spacing_;                              // wanted size of cells at them
+  std::vector<int> cell_of_;                                 // for each corner of each triangle; -1: none
+  std::unordered_map<int, std::vector<int>> second_cell_;    // of triangles where the cells at a corner are divided
+  std::vector<bool> fixed_centre_;                           // for each cell
+  std::vector<double> visibility_;                           // for each cell
   std::array<std::vector<std::vector<int>>, 2> line_nodes_;  // left and right, for each line and each of its points
   std::vector<Wedge> wedges_;
   std::unordered_map<std::size_t, int> wedge_of_;  // for each corner of a triangle at a corner of the domain

@@ -124,7 +124,8 @@ MeshFigures expect_valid(const Domain& domain, const PolygonMesh& mesh, const st
     const DomainLine& line = domain.lines[i];
     if (!line.crack) EXPECT_EQ(mesh.left[i], mesh.right[i]);
     const auto is_centre = [&](const Vec2& p) {
-      return std::any_of(domain.centres.begin(), domain.centres.end(), [&](const Vec2& c) { return (c - p).norm() == 0.0; });
+      return std::any_of(domain.centres.begin(), domain.centres.end(),
+                         [&](const Vec2& c) { return (c - p).norm() == 0.0; });
     };
     std::vector<Vec2> given;
     for (std::size_t k = 0; k < line.points.size(); ++k)
