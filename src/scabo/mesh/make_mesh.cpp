@@ -81,7 +81,7 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     if (body.rigid) continue;
-    if (body.mesh.kind == model::MeshKind::polygons || body.mesh.kind == model::MeshKind::quadtree) {
+    if (body.mesh.kind != model::MeshKind::superelement && !(body.mesh.kind == model::MeshKind::fem && body.outline.rectangle)) {
       auto divided = divide_into_cells(body, most_nodes - nodes);
       if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
         mistakes.push_back(*wrong);

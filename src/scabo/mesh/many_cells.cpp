@@ -10,8 +10,10 @@
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/domain_triangles.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
+#include "scabo/mesh/star_cells.hpp"
 
 namespace scabo::mesh {
 
@@ -125,6 +127,22 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
   return points;
 }
 
+PolygonMesh polygons_of(const Domain& domain, model::MeshKind kind) {
+  switch (kind) {
+    case model::MeshKind::polygons:
+      return polygon_mesh(domain);
+    case model::MeshKind::quadtree:
+      return quadtree_mesh(domain);
+    case model::MeshKind::parts:
+      return star_cells(domain);
+    case model::MeshKind::fem:
+      return triangle_mesh(domain);
+    case model::MeshKind::superelement:
+      break;
+  }
+  throw BrokenInvariant("one super-element is not made of polygons");
+}
+
 }  // namespace
 
 double wanted_size(const model::Body& body, const Vec2& x) {
@@ -191,6 +209,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
   };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
+    if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
     cell.centre = polygon.centre;
     const auto material_of = [&](int region) {
       return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
@@ -222,9 +241,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, do
                                                     body.mesh.size, nodes, most_nodes)};
   const Domain domain = domain_of(body);
   try {
-    const PolygonMesh polygons = body.mesh.kind == model::MeshKind::polygons ? polygon_mesh(domain)
-                                                                             : quadtree_mesh(domain, {});
-    return body_mesh_of(polygons, domain, body);
+    return body_mesh_of(polygons_of(domain, body.mesh.kind), domain, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
                       fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};

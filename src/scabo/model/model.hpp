@@ -59,8 +59,9 @@ using geometry::Corner;
 using geometry::Edge;
 using geometry::Outline;
 
-/// One super-element, finite elements, or many super-elements: polygons or the squares of a quadtree.
-enum class MeshKind { superelement, fem, polygons, quadtree };
+/// One super-element; finite elements; many super-elements: polygons, or the squares of a quadtree; few super-elements,
+/// for a shape that no point sees as a whole.
+enum class MeshKind { superelement, fem, polygons, quadtree, parts };
 
 /// Smaller cells near a point, or on an edge of the outline. Away from it sizes grow by `mesh_growth` of the distance.
 struct LocalSize {
