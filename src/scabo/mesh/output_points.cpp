@@ -17,7 +17,7 @@ namespace {
 constexpr double on_outline = 1e-9;
 constexpr double most_points = 1e6;
 
-double distance_to(const model::Edge& edge, const Vec2& point) {
+double distance_to_edge(const model::Edge& edge, const Vec2& point) {
   const double ends = std::min((point - edge.start).norm(), (point - edge.end).norm());
   const std::optional<geometry::Foot> foot = geometry::foot_on(edge, point);
   if (!foot) return edge.arc->radius;
@@ -26,7 +26,7 @@ double distance_to(const model::Edge& edge, const Vec2& point) {
 
 double distance_to(const model::Outline& outline, const Vec2& point) {
   double least = std::numeric_limits<double>::max();
-  for (const model::Edge& edge : outline.edges) least = std::min(least, distance_to(edge, point));
+  for (const model::Edge& edge : outline.edges) least = std::min(least, distance_to_edge(edge, point));
   return least;
 }
 
@@ -82,8 +82,8 @@ bool before_side_faces(const model::Body& body, const Vec2& point, double slack)
   const auto count = static_cast<int>(body.outline.edges.size());
   const model::Edge &arriving = body.outline.edges[static_cast<std::size_t>((corner + count - 1) % count)],
                     &leaving = body.outline.edges[static_cast<std::size_t>(corner)];
-  return (distance_to(arriving, point) <= slack && (point - arriving.start).norm() > slack) ||
-         (distance_to(leaving, point) <= slack && (point - leaving.end).norm() > slack);
+  return (distance_to_edge(arriving, point) <= slack && (point - arriving.start).norm() > slack) ||
+         (distance_to_edge(leaving, point) <= slack && (point - leaving.end).norm() > slack);
 }
 
 /// Bounding boxes, slightly larger than the bodies: of a million points and thousands of bodies only a few combinations

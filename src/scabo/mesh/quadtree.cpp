@@ -15,7 +15,7 @@ namespace scabo::mesh {
 namespace quadtree {
 namespace {
 
-constexpr double closed = 1e-6;  // in parts of a cell's size: lines this close to a cell touch it
+constexpr double margin_of_lists = 1e-6;  // in parts of a cell's size: lines this close to a cell touch it
 constexpr double rim = 0.02;     // lines in this outer part of a cell alone demand no refinement
 
 /// How many roots side by side make cells of at most `size` that are square, or nearly so.
@@ -112,7 +112,7 @@ class Grower {
   void list_block(int line, int x0, int y0, int x1, int y1, int nx) {
     const Vec2 size = forest_.size(0);
     const Box box{forest_.origin() + size.cwiseProduct(Vec2(x0, y0)), forest_.origin() + size.cwiseProduct(Vec2(x1, y1))};
-    if (!curves_.curves[line].meets(box.grown(closed * size.minCoeff()))) return;
+    if (!curves_.curves[line].meets(box.grown(margin_of_lists * size.minCoeff()))) return;
     if (x1 - x0 == 1 && y1 - y0 == 1) {
       TreeCell& cell = forest_.cells[y0 * nx + x0];
       if (cell.lines < 0) {
@@ -134,7 +134,7 @@ class Grower {
   void hand_down(int parent) {
     const TreeCell above = forest_.cells[parent];
     if (above.lines < 0) return;
-    const double margin = closed * forest_.size(above.level + 1).minCoeff();
+    const double margin = margin_of_lists * forest_.size(above.level + 1).minCoeff();
     for (int k = 0; k < 4; ++k) {
       TreeCell& cell = forest_.cells[above.child + k];
       const Box box = box_of(cell).grown(margin);

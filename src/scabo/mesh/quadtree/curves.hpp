@@ -9,7 +9,7 @@
 namespace scabo::mesh::quadtree {
 
 struct Box {
-  Vec2 lower, upper;
+  Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();
 
   bool contains(const Vec2& p) const { return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all(); }
   Box grown(double by) const { return {lower - Vec2::Constant(by), upper + Vec2::Constant(by)}; }

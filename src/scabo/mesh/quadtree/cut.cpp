@@ -77,7 +77,7 @@ class Cutter {
       if (leaf.region == TreeCell::cut || patch >= 0) {
         active_.push_back({index, patch, size.maxCoeff(), polygon});
       } else {
-        pieces_.cells.push_back({polygon, forest_.middle(leaf), leaf.region, false});
+        pieces_.cells.push_back({polygon, forest_.middle(leaf), leaf.region, {}, false});
         pieces_.sizes.push_back(size.maxCoeff());
       }
     }
@@ -367,7 +367,7 @@ class Cutter {
         std::vector<int>& chain = pieces_.chains[line];
         chain.erase(std::remove(chain.begin(), chain.end(), centre), chain.end());
       }
-      pieces_.cells.push_back({std::move(nodes), pieces_.nodes[centre], region, true});
+      pieces_.cells.push_back({std::move(nodes), pieces_.nodes[centre], region, {}, true});
       pieces_.sizes.push_back(size);
       return;
     }
@@ -383,7 +383,7 @@ class Cutter {
       add_cell(halves.second, region, size);
       return;
     }
-    pieces_.cells.push_back({std::move(nodes), Vec2::Zero(), region, false});
+    pieces_.cells.push_back({std::move(nodes), Vec2::Zero(), region, {}, false});
     pieces_.sizes.push_back(size);
   }
 

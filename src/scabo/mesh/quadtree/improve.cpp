@@ -176,7 +176,7 @@ void divide_unseen_cells(Pieces& pieces) {
       if (halves.first.empty() || !(halves.clearance > clearance_of(pieces, pieces.cells[k]) || halves.clearance <= 0.0)) {
         break;
       }
-      pieces.cells.push_back({std::move(halves.second), Vec2::Zero(), pieces.cells[k].region, false});
+      pieces.cells.push_back({std::move(halves.second), Vec2::Zero(), pieces.cells[k].region, {}, false});
       pieces.sizes.push_back(pieces.sizes[k]);
       pieces.cells[k].nodes = std::move(halves.first);
     }
