@@ -196,7 +196,7 @@ class Grower {
     return corners > 1 || apart || (corner < 0 && curves > 1) || curved;
   }
 
-  /// The points that become centres: tips of one crack, or corners of two lines, in one region.
+  /// The points that become centres: where at most one crack or one part of the outside ends.
   void find_centres() {
     const double near = 1e-9 * (curves_.box.upper - curves_.box.lower).norm();
     for (std::size_t corner = 0; corner < curves_.corners.size(); ++corner) {
@@ -204,17 +204,16 @@ class Grower {
         return (centre - curves_.corners[corner]).norm() <= near;
       });
       if (!wanted) continue;
-      int cracks = 0, borders = 0;
-      std::set<int> around;
+      int cracks = 0, borders = 0, lines = 0;  // borders: of the body
       for (const Curve& curve : curves_.curves) {
         for (int end : {curve.first, curve.last}) {
           if (end != int(corner)) continue;
-          ++(curve.crack ? cracks : borders);
-          around.insert({curve.left, curve.right});
+          ++lines;
+          cracks += curve.crack;
+          borders += curve.left < 0 || curve.right < 0;
         }
       }
-      around.erase(-1);
-      if (around.size() == 1 && ((cracks == 1 && borders == 0) || (cracks == 0 && borders == 2))) {
+      if ((2 * cracks + borders == 2) || (cracks + borders == 0 && lines >= 2)) {
         patches_.push_back({int(corner), {}});
       }
     }

@@ -246,6 +246,48 @@ TEST(QuadtreeMesh, InnerCrackWithAndWithoutCentres) {
   for (std::size_t k = 0; k < mesh.left[4].size(); ++k) EXPECT_NE(mesh.left[4][k], mesh.right[4][k]);
 }
 
+TEST(QuadtreeMesh, CornersOfRegionsAsCentres) {
+  // A quadrilateral inclusion with a corner at (0.43, 0.52), and an edge crack that ends on a border between two regions.
+  const std::vector<Vec2> p{{0.43, 0.52}, {0.7, 0.3}, {0.81, 0.66}, {0.52, 0.84}};
+  Domain domain = polygon_domain(rectangle(0, 0, 1, 1), 0.06);
+  add_polygon(domain, p, 1, 0);
+  domain.centres = {p[0]};
+  const PolygonMesh mesh = quadtree_mesh(domain);
+  const MeshSummary summary = valid(domain, mesh);
+  EXPECT_EQ(summary.open, 0);
+  EXPECT_NEAR(summary.areas[1], area_of(p), 1e-13);
+  int found = 0;
+  for (const PolygonCell& cell : mesh.cells) {
+    if (cell.side_regions.empty()) continue;
+    ++found;
+    EXPECT_EQ(cell.centre, p[0]);
+    EXPECT_EQ(cell.side_regions.size(), cell.nodes.size());
+    EXPECT_GE(std::count(cell.side_regions.begin(), cell.side_regions.end(), 0), 4);
+    EXPECT_GE(std::count(cell.side_regions.begin(), cell.side_regions.end(), 1), 2);
+  }
+  EXPECT_EQ(found, 1);
+
+  Domain second;
+  const std::vector<Vec2> q{{0, 0}, {0.55, 0}, {1, 0}, {1, 1}, {0.55, 1}, {0, 1}, {0, 0.47}, {0.55, 0.47}};
+  second.lines = {straight(q[0], q[1], 0), straight(q[1], q[2], 1), straight(q[2], q[3], 1), straight(q[3], q[4], 1),
+                  straight(q[4], q[5], 0), straight(q[5], q[6], 0), straight(q[6], q[0], 0), straight(q[1], q[7], 0, 1),
+                  straight(q[7], q[4], 0, 1), crack(q[6], q[7], 0)};
+  second.centres = {q[7]};
+  second.size = uniform_size(0.1);
+  const PolygonMesh other = quadtree_mesh(second);
+  const MeshSummary figures = valid(second, other);
+  EXPECT_EQ(figures.open, 1);
+  EXPECT_NEAR(figures.areas[0], 0.55, 1e-13);
+  for (const PolygonCell& cell : other.cells) {
+    if (!cell.open) continue;
+    EXPECT_EQ(other.nodes[cell.nodes.front()], other.nodes[cell.nodes.back()]);
+    EXPECT_NE(cell.nodes.front(), cell.nodes.back());
+    EXPECT_EQ(cell.side_regions.front(), 0);
+    EXPECT_EQ(cell.side_regions.back(), 0);
+    EXPECT_GE(std::count(cell.side_regions.begin(), cell.side_regions.end(), 1), 2);
+  }
+}
+
 TEST(QuadtreeMesh, BranchedCrack) {
   Domain domain = polygon_domain(rectangle(0, 0, 1, 1), 0.07);
   const Vec2 fork(0.51, 0.49);

@@ -20,10 +20,16 @@ std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes
   return corners;
 }
 
-double clearance_of(const Pieces& pieces, const PolygonCell& cell) {
-  const std::vector<Vec2> corners = corners_of(pieces, cell.nodes);
-  return cell.open ? clearance_from(cell.centre, corners, false) : best_sight(corners).clearance;
+/// Whether the centre is a point of the domain: of open cells, and of cells around a corner of several regions.
+bool is_fixed(const PolygonCell& cell) { return cell.open || !cell.side_regions.empty(); }
+
+/// Of a cell that is to have the given nodes.
+double clearance_with(const Pieces& pieces, const PolygonCell& cell, const std::vector<int>& nodes) {
+  const std::vector<Vec2> corners = corners_of(pieces, nodes);
+  return is_fixed(cell) ? clearance_from(cell.centre, corners, !cell.open) : best_sight(corners).clearance;
 }
+
+double clearance_of(const Pieces& pieces, const PolygonCell& cell) { return clearance_with(pieces, cell, cell.nodes); }
 
 /// The cells around the nodes of cut cells.
 class Surroundings {
@@ -73,6 +79,7 @@ bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
     std::vector<int> nodes = cell.nodes;
     const bool has_both = std::find(nodes.begin(), nodes.end(), kept) != nodes.end();
     if (cell.open && has_both && (nodes.front() == nodes.back())) return false;
+    if (!cell.side_regions.empty() && has_both) return false;
     std::replace(nodes.begin(), nodes.end(), gone, kept);
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (!cell.open && nodes.size() > 1 && nodes.front() == nodes.back()) nodes.pop_back();
@@ -90,10 +97,9 @@ bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
       changes.push_back({index, {}});
       continue;
     }
-    const std::vector<Vec2> corners = corners_of(pieces, nodes);
-    const double after = cell.open ? clearance_from(cell.centre, corners, false) : best_sight(corners).clearance;
+    const double after = clearance_with(pieces, cell, nodes);
     if (after < fair * pieces.sizes[index] && after < 0.8 * clearance_of(pieces, cell)) return false;
-    if (!(after > 0.0) && !(clearance_of(pieces, cell) <= 0.0 && polygon_area(corners) > 0.0)) return false;
+    if (!(after > 0.0) && !(clearance_of(pieces, cell) <= 0.0 && polygon_area(corners_of(pieces, nodes)) > 0.0)) return false;
     changes.push_back({index, std::move(nodes)});
   }
   // A cell on only one side of a piece of a line that vanishes would change the body.
@@ -170,7 +176,7 @@ void collapse_short_sides(Pieces& pieces, double shortest) {
 
 void divide_unseen_cells(Pieces& pieces) {
   for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
-    while (!pieces.cells[k].open && pieces.cells[k].nodes.size() > 3 &&
+    while (!is_fixed(pieces.cells[k]) && pieces.cells[k].nodes.size() > 3 &&
            clearance_of(pieces, pieces.cells[k]) < 0.4 * poor * pieces.sizes[k]) {
       Halves halves = best_division(pieces.cells[k].nodes, pieces.nodes);
       if (halves.first.empty() || !(halves.clearance > clearance_of(pieces, pieces.cells[k]) || halves.clearance <= 0.0)) {
@@ -227,14 +233,14 @@ void merge_small_cells(Pieces& pieces) {
   Surroundings surroundings(pieces);
   for (int round = 0; round < 2; ++round) {
     for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
-      if (pieces.cells[k].open || pieces.cells[k].nodes.empty()) continue;
+      if (is_fixed(pieces.cells[k]) || pieces.cells[k].nodes.empty()) continue;
       const double size = pieces.sizes[k];
       const double own = clearance_of(pieces, pieces.cells[k]);
       if (own >= poor * size && polygon_area(corners_of(pieces, pieces.cells[k].nodes)) >= small_area * size * size) continue;
       std::vector<int> neighbours;
       for (int node : pieces.cells[k].nodes) {
         for (int other : surroundings.around(node)) {
-          if (other == int(k) || pieces.cells[other].open || pieces.cells[other].region != pieces.cells[k].region) continue;
+          if (other == int(k) || is_fixed(pieces.cells[other]) || pieces.cells[other].region != pieces.cells[k].region) continue;
           if (std::find(neighbours.begin(), neighbours.end(), other) == neighbours.end()) neighbours.push_back(other);
         }
       }
@@ -271,7 +277,7 @@ void place_centres(Pieces& pieces, std::vector<Vec2>& trouble) {
   for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
     PolygonCell& cell = pieces.cells[k];
     if (cell.nodes.empty()) continue;
-    if (cell.open) {
+    if (is_fixed(cell)) {
       if (clearance_of(pieces, cell) < 0.02 * pieces.sizes[k]) trouble.push_back(cell.centre);
       continue;
     }
