@@ -39,7 +39,8 @@ class Blocks {
       for (int y = 0; y < coarse.height; ++y) {
         for (int x = 0; x < coarse.width; ++x) {
           const int one = fine.at(2 * x, 2 * y);
-          const bool uniform = one == fine.at(2 * x + 1, 2 * y) && one == fine.at(2 * x, 2 * y + 1) && one == fine.at(2 * x + 1, 2 * y + 1);
+          const bool uniform = one == fine.at(2 * x + 1, 2 * y) && one == fine.at(2 * x, 2 * y + 1) &&
+                               one == fine.at(2 * x + 1, 2 * y + 1);
           coarse.regions[std::size_t(y) * coarse.width + x] = uniform ? one : TreeCell::cut;
         }
       }
@@ -107,7 +108,7 @@ PolygonMesh image_mesh(const Image& image, const ImageOptions& options) {
   const Vec2 size = options.pixel * Vec2(image.width, image.height);
   mesh.left.resize(4);
   for (int line = 0; line < 4; ++line) {
-    const int along = line % 2;                                  // x on the bottom and top
+    const int along = line % 2;  // x on the bottom and top
     const double across = line == 1 || line == 2 ? size[1 - along] : 0.0;
     for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
       if (mesh.nodes[k][1 - along] == across) mesh.left[line].push_back(int(k));

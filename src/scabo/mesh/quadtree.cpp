@@ -16,7 +16,7 @@ namespace quadtree {
 namespace {
 
 constexpr double margin_of_lists = 1e-6;  // in parts of a cell's size: lines this close to a cell touch it
-constexpr double rim = 0.02;     // lines in this outer part of a cell alone demand no refinement
+constexpr double rim = 0.02;              // lines in this outer part of a cell alone demand no refinement
 
 /// How many roots side by side make cells of at most `size` that are square, or nearly so.
 std::pair<int, int> root_numbers(const Vec2& extent, double size) {
@@ -63,8 +63,9 @@ class Grower {
 
  private:
   [[noreturn]] void give_up(const std::string& reason) const {
-    throw InputError({}, {{{}, "the quadtree cannot divide the body: " + reason + " (" + std::to_string(last_trouble_.x()) +
-                                   ", " + std::to_string(last_trouble_.y()) + ")"}});
+    throw InputError({}, {{{},
+                           "the quadtree cannot divide the body: " + reason + " (" + std::to_string(last_trouble_.x()) +
+                               ", " + std::to_string(last_trouble_.y()) + ")"}});
   }
 
   Forest make_forest() {
@@ -111,7 +112,8 @@ class Grower {
   /// Enters a line in the lists of the roots it touches, by halving of blocks of roots.
   void list_block(int line, int x0, int y0, int x1, int y1, int nx) {
     const Vec2 size = forest_.size(0);
-    const Box box{forest_.origin() + size.cwiseProduct(Vec2(x0, y0)), forest_.origin() + size.cwiseProduct(Vec2(x1, y1))};
+    const Box box{forest_.origin() + size.cwiseProduct(Vec2(x0, y0)),
+                  forest_.origin() + size.cwiseProduct(Vec2(x1, y1))};
     if (!curves_.curves[line].meets(box.grown(margin_of_lists * size.minCoeff()))) return;
     if (x1 - x0 == 1 && y1 - y0 == 1) {
       TreeCell& cell = forest_.cells[y0 * nx + x0];
@@ -155,7 +157,8 @@ class Grower {
   void refine(std::size_t from) {
     for (std::size_t k = from; k < forest_.cells.size(); ++k) {
       if (forest_.cells[k].child < 0 && too_large(forest_.cells[k])) forest_.split(int(k));
-      if (forest_.cells.size() > 400000000) give_up("the wanted sizes make more than 400 million cells, for a body that begins at");
+      if (forest_.cells.size() > 400000000)
+        give_up("the wanted sizes make more than 400 million cells, for a body that begins at");
     }
   }
 
@@ -229,7 +232,6 @@ class Grower {
     }
   }
 
-
   void make_room(Patch& patch) {
     const Vec2& centre = curves_.corners[patch.corner];
     for (;;) {
@@ -288,7 +290,8 @@ class Grower {
     for (const Vec2& point : points) {
       const TreeCell leaf = forest_.cells[forest_.leaf_at(point)];
       const Vec2 near = 1e-3 * forest_.size(leaf.level);
-      for (int k = 0; k < 4; ++k) found.insert(forest_.leaf_at(point + near.cwiseProduct(Vec2(k & 1 ? 1 : -1, k >> 1 ? 1 : -1))));
+      for (int k = 0; k < 4; ++k)
+        found.insert(forest_.leaf_at(point + near.cwiseProduct(Vec2(k & 1 ? 1 : -1, k >> 1 ? 1 : -1))));
     }
     bool divided = false;
     for (int index : found) {

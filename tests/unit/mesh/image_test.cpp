@@ -53,16 +53,23 @@ void check_sides(const PolygonMesh& mesh, const Vec2& size) {
 }
 
 TEST(ImageMesh, FourByFourPixelsByHand) {
-  // The upper right quarter has one pixel of label 7 at its lower left: it is divided, the other three quarters are not.
-  const Image image{4, 4,
-                    {3, 3, 3, 3,   //
-                     3, 3, 7, 3,   //
-                     3, 3, 3, 3,   //
+  // The upper right quarter has one pixel of label 7 at its lower left: it is divided, the other three quarters are
+  // not.
+  const Image image{4,
+                    4,
+                    {3, 3, 3, 3,  //
+                     3, 3, 7, 3,  //
+                     3, 3, 3, 3,  //
                      3, 3, 3, 3}};
   const PolygonMesh mesh = image_mesh(image, {0.5, 0.0, {{3, 0}, {7, 1}}});
   using Squares = std::map<std::pair<double, double>, std::pair<double, int>>;
-  EXPECT_EQ(squares_of(mesh), (Squares{{{0, 0}, {1, 0}}, {{1, 0}, {1, 0}}, {{0, 1}, {1, 0}}, {{1, 1}, {0.5, 1}},
-                                       {{1.5, 1}, {0.5, 0}}, {{1, 1.5}, {0.5, 0}}, {{1.5, 1.5}, {0.5, 0}}}));
+  EXPECT_EQ(squares_of(mesh), (Squares{{{0, 0}, {1, 0}},
+                                       {{1, 0}, {1, 0}},
+                                       {{0, 1}, {1, 0}},
+                                       {{1, 1}, {0.5, 1}},
+                                       {{1.5, 1}, {0.5, 0}},
+                                       {{1, 1.5}, {0.5, 0}},
+                                       {{1.5, 1.5}, {0.5, 0}}}));
   EXPECT_EQ(mesh.nodes.size(), 9u + 5u);
   check_sides(mesh, {2, 2});
   // The lower right quarter has a hanging node in its upper side, the upper left one in its right side.
@@ -83,8 +90,10 @@ TEST(ImageMesh, FourByFourPixelsByHand) {
 }
 
 TEST(ImageMesh, VoidPixelsHaveNoCells) {
-  const Image image{3, 2, {0, 5, 0,  //
-                           0, 0, -1}};
+  const Image image{3,
+                    2,
+                    {0, 5, 0,  //
+                     0, 0, -1}};
   const PolygonMesh mesh = image_mesh(image, {});
   const auto squares = squares_of(mesh);
   EXPECT_EQ(squares.size(), 5u);
@@ -178,7 +187,8 @@ class PngFile {
       raw.insert(raw.end(), row.begin(), row.end());
     }
     const std::size_t n = raw.size();
-    for (std::size_t value : {std::size_t(1), n & 255, n >> 8, ~n & 255, (~n >> 8) & 255}) data.push_back(std::uint8_t(value));
+    for (std::size_t value : {std::size_t(1), n & 255, n >> 8, ~n & 255, (~n >> 8) & 255})
+      data.push_back(std::uint8_t(value));
     std::uint32_t a = 1, b = 0;
     for (std::uint8_t byte : raw) {
       data.push_back(byte);
@@ -201,7 +211,8 @@ class PngFile {
 
 Image read_bytes(const std::vector<std::uint8_t>& bytes) {
   const auto file = std::filesystem::path(testing::TempDir()) / ("image_test_" + std::to_string(::getpid()) + ".png");
-  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
   struct Remove {
     std::filesystem::path file;
     ~Remove() { std::filesystem::remove(file); }
@@ -214,7 +225,8 @@ TEST(PngImage, GreyOfAllDepths) {
   EXPECT_EQ(eight.width, 3);
   EXPECT_EQ(eight.height, 2);
   EXPECT_THAT(eight.labels, testing::ElementsAre(0, 100, 255, 1, 2, 3));
-  EXPECT_THAT(read_bytes(PngFile(2, 1, 16, 0).finish({{0x12, 0x34, 0xff, 0xfe}})).labels, testing::ElementsAre(0x1234, 0xfffe));
+  EXPECT_THAT(read_bytes(PngFile(2, 1, 16, 0).finish({{0x12, 0x34, 0xff, 0xfe}})).labels,
+              testing::ElementsAre(0x1234, 0xfffe));
   EXPECT_THAT(read_bytes(PngFile(4, 1, 1, 0).finish({{0b01100000}})).labels, testing::ElementsAre(0, 255, 255, 0));
   EXPECT_THAT(read_bytes(PngFile(2, 1, 8, 4).finish({{9, 0, 200, 255}})).labels, testing::ElementsAre(9, 200));
 }

@@ -68,7 +68,8 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       out.least_side = std::min(out.least_side, length / std::sqrt(area));
       if (!(clearance > 1e-6 * std::sqrt(area))) fault(name + fmt::format(" does not see its side {}", i));
       const int side_region = cell.side_regions.empty() ? cell.region : cell.side_regions[i];
-      if (!region_of.emplace(std::pair(cell.nodes[i], cell.nodes[j]), side_region).second) fault(name + " has a side of another cell");
+      if (!region_of.emplace(std::pair(cell.nodes[i], cell.nodes[j]), side_region).second)
+        fault(name + " has a side of another cell");
       for (int l = i + 2; l + (cell.open ? 1 : 0) < n; ++l) {
         if ((l + 1) % n != i && pieces_cross(p[i], p[j], p[l], p[(l + 1) % n])) fault(name + " is not simple");
       }
@@ -78,7 +79,7 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       lower = lower.cwiseMin(q);
       upper = upper.cwiseMax(q);
     }
-    if (!cell.open && std::abs(area - (upper - lower).prod()) < 1e-9 * area) {
+    if (!cell.open && cell.side_regions.empty() && std::abs(area - (upper - lower).prod()) < 1e-9 * area) {
       ++out.squares;
       widths[k] = upper.x() - lower.x();
       shapes[k] = (upper.y() - lower.y()) / widths[k];
@@ -107,8 +108,6 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
         if (p.empty() || ((front ? p.front() : p.back()) - end).norm() > 1e-12 * scale) {
           if (!domain.centres.empty() && is_centre(end)) {
             p.insert(front ? p.begin() : p.end(), end);
-          } else if (p.empty() && !domain.centres.empty()) {
-            p.insert(p.end(), end);
           } else {
             fault(name + " does not reach its end");
           }
@@ -117,14 +116,16 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       double before = -1.0;
       for (const Vec2& q : p) {
         if (line.arc) {
-          if (std::abs((q - line.arc->centre).norm() - line.arc->radius) > 1e-14 * scale) fault(name + " has a node beside its arc");
+          if (std::abs((q - line.arc->centre).norm() - line.arc->radius) > 1e-14 * scale)
+            fault(name + " has a node beside its arc");
           continue;
         }
         const Vec2 along = line.points.back() - line.points.front();
         const double t = (q - line.points.front()).dot(along) / along.squaredNorm();
         if (t <= before && &q != &p.front()) fault(name + " does not run forwards");
         before = t;
-        if (std::abs(cross(along, q - line.points.front())) / along.norm() > 1e-14 * scale) fault(name + " has a node beside it");
+        if (std::abs(cross(along, q - line.points.front())) / along.norm() > 1e-14 * scale)
+          fault(name + " has a node beside it");
       }
       const int region = left ? line.left : line.right;
       double twice = 0.0;
@@ -157,7 +158,8 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
   // Cut cells may be rectangles too, but rarely of the shape of the cells of the tree.
   std::vector<double> sorted = shapes;
   std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted.empty() ? 0.0 : sorted[sorted.size() - std::size_t(out.squares + 1) / 2 - (out.squares == 0)];
+  const double usual =
+      sorted.empty() ? 0.0 : sorted[sorted.size() - std::size_t(out.squares + 1) / 2 - (out.squares == 0)];
   std::vector<std::pair<double, double>> around(mesh.nodes.size(), {1e300, 0.0});
   for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
     for (int node : mesh.cells[k].nodes) {

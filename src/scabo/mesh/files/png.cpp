@@ -82,7 +82,8 @@ Image read_png(const std::string& file) {
   const std::unique_ptr<std::FILE, CloseFile> input(std::fopen(file.c_str(), "rb"));
   if (!input) throw refuse(std::strerror(errno));
   unsigned char signature[8] = {};
-  if (std::fread(signature, 1, 8, input.get()) != 8 || png_sig_cmp(signature, 0, 8) != 0) throw refuse("it is not a PNG file");
+  if (std::fread(signature, 1, 8, input.get()) != 8 || png_sig_cmp(signature, 0, 8) != 0)
+    throw refuse("it is not a PNG file");
   std::rewind(input.get());
 
   struct Reader {

@@ -11,8 +11,8 @@ namespace scabo::mesh {
 /// Images of 1, 2 or 4 bits are spread to 0 to 255. Colours, also those of a palette, become their grey,
 /// 0.299 red + 0.587 green + 0.114 blue, rounded. Transparency is ignored.
 ///
-/// Throws InputError with the name of the file and the reason if it cannot be read, is not a PNG file, is broken, or has
-/// more than 2^28 pixels.
+/// Throws InputError with the name of the file and the reason if it cannot be read, is not a PNG file, is broken, or
+/// has more than 2^28 pixels.
 Image read_png(const std::string& file);
 
 }  // namespace scabo::mesh

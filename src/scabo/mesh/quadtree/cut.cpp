@@ -20,9 +20,16 @@ struct HalfSide {
 class Cutter {
  public:
   Cutter(const Forest& forest, const std::vector<int>& leaves, const std::vector<std::vector<int>>& lists,
-         const Curves& curves, const RegionFinder& regions, const std::vector<Patch>& patches, std::vector<Vec2>& trouble)
-      : forest_(forest), leaves_(leaves), lists_(lists), curves_(curves), regions_(regions), patches_(patches),
-        trouble_(trouble), numbers_(forest, leaves) {}
+         const Curves& curves, const RegionFinder& regions, const std::vector<Patch>& patches,
+         std::vector<Vec2>& trouble)
+      : forest_(forest),
+        leaves_(leaves),
+        lists_(lists),
+        curves_(curves),
+        regions_(regions),
+        patches_(patches),
+        trouble_(trouble),
+        numbers_(forest, leaves) {}
 
   Pieces run() {
     start();
@@ -260,7 +267,8 @@ class Cutter {
   }
 
   void link() {
-    // Sides that leave a node, by their angle. Around a face the next side is the first one clockwise from the way back.
+    // Sides that leave a node, by their angle. Around a face the next side is the first one clockwise from the way
+    // back.
     const auto angle = [&](int from, int to) {
       const Vec2 along = pieces_.nodes[to] - pieces_.nodes[from];
       return std::atan2(along.y(), along.x());
@@ -328,14 +336,16 @@ class Cutter {
       };
       std::size_t first = 0;
       for (std::size_t k = 0; k < sectors.size(); ++k) {
-        if (std::none_of(sectors.begin(), sectors.end(), [&](const Sector& one) { return follows(sectors[k], one); })) first = k;
+        if (std::none_of(sectors.begin(), sectors.end(), [&](const Sector& one) { return follows(sectors[k], one); }))
+          first = k;
       }
       PolygonCell cell{sectors[first].nodes, centre, sectors[first].region, {}, true};
       cell.side_regions.assign(cell.nodes.size() - 1, cell.region);
       double size = sectors[first].size;
       std::size_t joined = 1;
       for (std::size_t last = first; joined <= sectors.size();) {
-        const auto next = std::find_if(sectors.begin(), sectors.end(), [&](const Sector& one) { return follows(one, sectors[last]); });
+        const auto next = std::find_if(sectors.begin(), sectors.end(),
+                                       [&](const Sector& one) { return follows(one, sectors[last]); });
         if (next == sectors.end()) break;
         last = std::size_t(next - sectors.begin());
         if (last == first) {
@@ -355,7 +365,8 @@ class Cutter {
       if (cell.open && sectors.size() == 1) cell.side_regions.clear();
       const int node = corner_node_[patches_[p].corner];
       for (const Sector& sector : sectors) {
-        for (int neighbour : {sector.nodes.front(), sector.nodes.back()}) pieces_.line_sides.erase(side_key(node, neighbour));
+        for (int neighbour : {sector.nodes.front(), sector.nodes.back()})
+          pieces_.line_sides.erase(side_key(node, neighbour));
       }
       for (std::size_t line = 0; line < pieces_.chains.size(); ++line) {
         const Curve& curve = curves_.curves[line];
@@ -407,7 +418,8 @@ class Cutter {
       const auto found = std::find(nodes.begin(), nodes.end(), centre);
       if (found == nodes.end()) continue;
       std::rotate(nodes.begin(), found, nodes.end());
-      if (std::count(nodes.begin(), nodes.end(), centre) != 1 || n < 3 || !pieces_.line_sides.count(side_key(centre, nodes[1])) ||
+      if (std::count(nodes.begin(), nodes.end(), centre) != 1 || n < 3 ||
+          !pieces_.line_sides.count(side_key(centre, nodes[1])) ||
           !pieces_.line_sides.count(side_key(centre, nodes.back()))) {
         trouble_.push_back(pieces_.nodes[centre]);
         return;
