@@ -75,8 +75,8 @@ bool before_side_faces(const model::Body& body, const Vec2& point, double slack)
   const auto count = static_cast<int>(body.outline.edges.size());
   const model::Edge &arriving = body.outline.edges[static_cast<std::size_t>((corner + count - 1) % count)],
                     &leaving = body.outline.edges[static_cast<std::size_t>(corner)];
-  return (distance_to_edge(arriving, point) <= slack && (point - arriving.start).norm() > slack) ||
-         (distance_to_edge(leaving, point) <= slack && (point - leaving.end).norm() > slack);
+  return (geometry::distance_to(arriving, point) <= slack && (point - arriving.start).norm() > slack) ||
+         (geometry::distance_to(leaving, point) <= slack && (point - leaving.end).norm() > slack);
 }
 
 /// Bounding boxes, slightly larger than the bodies: of a million points and thousands of bodies only a few combinations
