@@ -60,7 +60,7 @@ LinePoints coarse_points_of_lines(const Domain& domain, double turn) {
 RegionTriangles triangles_of(const std::vector<Vec2>& points, const LinePoints& lines, const Domain& domain) {
   std::vector<std::pair<int, int>> segments;
   for (const auto& [ends, segment] : lines.segments) segments.push_back(ends);
-  const std::vector<Triangle> all = triangulate(points, segments);
+  const std::vector<Triangle> all = triangulate(points, segments, spatial_order(points));
   constexpr int unknown = -2;
   std::vector<int> region(all.size(), unknown);
   std::vector<std::size_t> front;
