@@ -1,5 +1,6 @@
 // Geometry of outlines: points, lengths, area and centroid, arcs included exactly.
 #include <cmath>
+#include <utility>
 
 #include "scabo/geometry/outline.hpp"
 
@@ -65,6 +66,24 @@ Vec2 Outline::centroid() const {
     }
   }
   return origin + sixfold / (3.0 * twice);
+}
+
+void turn_round(Outline& outline) {
+  const std::size_t n = outline.edges.size();
+  // Edge i, from corner i to i + 1, becomes number n - 1 - i and then starts at corner i + 1.
+  Outline turned;
+  for (std::size_t k = 0; k < n; ++k) {
+    Edge edge = outline.edges[n - 1 - k];
+    std::swap(edge.start, edge.end);
+    if (edge.arc) {
+      edge.arc->start_angle += edge.arc->sweep;
+      edge.arc->sweep = -edge.arc->sweep;
+    }
+    turned.edges.push_back(std::move(edge));
+    turned.corners.push_back(outline.corners[(n - k) % n]);
+  }
+  turned.rectangle = outline.rectangle;
+  outline = std::move(turned);
 }
 
 }  // namespace scabo::geometry

@@ -47,4 +47,7 @@ struct Outline {
   Vec2 centroid() const;  ///< arcs included exactly
 };
 
+/// Reverses the direction of an outline; every edge and corner keeps its names.
+void turn_round(Outline& outline);
+
 }  // namespace scabo::geometry
