@@ -16,9 +16,11 @@ std::string bodies_table(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<std::vector<std::string>> rows = {{"body", "nodes", "dofs", "mesh"}};
   for (size_t i = 0; i < model.bodies.size(); ++i) {
     const mesh::BodyMesh& body = mesh.bodies[i];
-    const std::string kind = model.bodies[i].rigid          ? "rigid"
-                             : !body.super_elements.empty() ? count(body.super_elements.size(), "super-element")
-                                                            : count(body.elements.size(), "finite element");
+    const int super_elements = body.count(mesh::CellKind::superelement);
+    const int finite = body.count(mesh::CellKind::finite_element);
+    std::string kind = model.bodies[i].rigid ? "rigid" : "";
+    if (super_elements > 0) kind = count(static_cast<size_t>(super_elements), "super-element");
+    if (finite > 0) kind += (kind.empty() ? "" : ", ") + count(static_cast<size_t>(finite), "finite element");
     rows.push_back(
         {model.bodies[i].name, fmt::format("{}", body.nodes.size()), fmt::format("{}", 2 * body.nodes.size()), kind});
   }

@@ -55,8 +55,8 @@ Sizes sizes_of(const model::Model& model, const mesh::Mesh& mesh) {
   sizes.nodes = mesh.nodes();
   sizes.dofs = 2 * sizes.nodes;
   for (const mesh::BodyMesh& body : mesh.bodies) {
-    sizes.super_elements += static_cast<int>(body.super_elements.size());
-    sizes.finite_elements += static_cast<int>(body.elements.size());
+    sizes.super_elements += body.count(mesh::CellKind::superelement);
+    sizes.finite_elements += body.count(mesh::CellKind::finite_element);
   }
   for (const int pairs : moving_pairs(model, mesh)) sizes.contact_pairs += pairs;
   return sizes;

@@ -20,15 +20,24 @@ constexpr double aim = 0.7;
 /// Fraction of the largest nodal force below which a reaction is rounding.
 constexpr double some_reaction = 1e-6;
 
-using Frozen = std::vector<std::vector<bool>>;  // [body][boundary element]
+using Frozen = std::vector<std::vector<bool>>;  // [body][boundary element of all cells, in their order]
 
-/// Loads inside a body are not among the forces on its boundary.
-bool loaded_inside(const IncrementResult& increment, std::size_t body) {
-  return !increment.interior[body].loads.empty();
+/// Whether the body consists of super-elements, whose error can be estimated.
+bool has_estimate(const StaticSolution& solution, std::size_t body) {
+  const element::SolvedCells& cells = solution.cells[body];
+  return !cells.empty() && std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell != nullptr; });
 }
 
-const std::vector<mesh::LineElement>& boundary_of(const mesh::Mesh& mesh, std::size_t body) {
-  return mesh.bodies[body].super_elements.front().boundary;
+/// Displacements of a cell's own nodes.
+Vector displacement_of(const StaticSolution& solution, const IncrementResult& increment, std::size_t body,
+                       std::size_t cell) {
+  return increment.displacements[body](element::dofs_of(solution.mesh.bodies[body].cells[cell]));
+}
+
+std::size_t boundary_elements(const mesh::BodyMesh& mesh) {
+  std::size_t count = 0;
+  for (const mesh::Cell& cell : mesh.cells) count += cell.boundary.size();
+  return count;
 }
 
 bool is_point(const model::Place& place) {
@@ -48,11 +57,12 @@ Reactions reactions_of(const StaticSolution& solution) {
       reactions.largest[i] = std::max(reactions.largest[i], increment.reactions[i].norm());
       reactions.scale = std::max(reactions.scale, increment.reactions[i].norm());
     }
-    for (std::size_t b = 0; b < solution.super_elements.size(); ++b)
-      if (solution.super_elements[b]) {
-        const Vector forces = solution.super_elements[b]->solution.K * increment.displacements[b];
-        reactions.scale = std::max(reactions.scale, forces.lpNorm<Eigen::Infinity>());
-      }
+    for (std::size_t b = 0; b < solution.cells.size(); ++b)
+      for (std::size_t c = 0; c < solution.cells[b].size(); ++c)
+        if (const auto& cell = solution.cells[b][c]) {
+          const Vector forces = cell->solution.K * displacement_of(solution, increment, b, c);
+          reactions.scale = std::max(reactions.scale, forces.lpNorm<Eigen::Infinity>());
+        }
   }
   return reactions;
 }
@@ -63,14 +73,18 @@ Frozen frozen_elements(const StaticSolution& solution) {
   const mesh::Mesh& mesh = solution.mesh;
   Frozen frozen(mesh.bodies.size());
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
-    if (solution.super_elements[b]) frozen[b].assign(boundary_of(mesh, b).size(), false);
+    if (has_estimate(solution, b)) frozen[b].assign(boundary_elements(mesh.bodies[b]), false);
   const auto freeze = [&](const model::Place& place) {
     const auto b = static_cast<std::size_t>(place.body);
     if (frozen[b].empty()) return;
     const std::vector<int> nodes = mesh::nodes_of(place, mesh).nodes;
-    for (std::size_t e = 0; e < frozen[b].size(); ++e)
-      for (const int node : boundary_of(mesh, b)[e].nodes)
-        if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) frozen[b][e] = true;
+    std::size_t place_in_body = 0;
+    for (const mesh::Cell& cell : mesh.bodies[b].cells)
+      for (const mesh::LineElement& element : cell.boundary) {
+        for (const int node : element.nodes)
+          if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) frozen[b][place_in_body] = true;
+        ++place_in_body;
+      }
   };
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) freeze(*load.on);
@@ -162,7 +176,7 @@ void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
 void warn_of_frozen(StaticSolution& solution) {
   std::set<std::string> places;
   const auto add = [&](const model::Place& place) {
-    if (solution.super_elements[static_cast<std::size_t>(place.body)]) places.insert(place.text);
+    if (has_estimate(solution, static_cast<std::size_t>(place.body))) places.insert(place.text);
   };
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
@@ -187,7 +201,7 @@ void replay(StaticSolution& solution, const Options& options) {
 int largest_body(const mesh::Mesh& mesh) {
   std::size_t nodes = 0;
   for (const mesh::BodyMesh& body : mesh.bodies)
-    if (!body.super_elements.empty()) nodes = std::max(nodes, body.nodes.size());
+    if (body.cells.size() == 1) nodes = std::max(nodes, body.nodes.size());
   return 2 * static_cast<int>(nodes);
 }
 
@@ -218,7 +232,7 @@ std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const
   std::vector<std::vector<double>> shares(solution.model.bodies.size());
   for (std::size_t b = 0; b < shares.size(); ++b) {
     const auto& tolerance = solution.model.bodies[b].mesh.tolerance;
-    if (!tolerance || !solution.super_elements[b]) continue;
+    if (!tolerance || !has_estimate(solution, b)) continue;
     for (const double error : element_errors(solution, solution.increments[worst], wider, wider.increments[worst], b))
       shares[b].push_back(std::pow(error / *tolerance, 2));
   }
@@ -282,13 +296,16 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
   std::vector<double> squared(error.bodies.size(), 0.0);
   double energy = 0.0;
   for (std::size_t b = 0; b < error.bodies.size(); ++b) {
-    if (!solution.super_elements[b]) continue;
-    const Matrix& K = wider.super_elements[b]->solution.K;
-    const Vector& U = wider_increment.displacements[b];
-    squared[b] = element::squared_difference({boundary_of(solution.mesh, b), solution.super_elements[b]->solution.K,
-                                              increment.displacements[b], boundary_of(wider.mesh, b), K, U,
-                                              !loaded_inside(increment, b)});
-    energy += U.dot(K * U);
+    if (!has_estimate(solution, b)) continue;
+    for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
+      const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *wider.cells[b][c];
+      const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
+      // Loads inside a cell are not among the forces on its boundary.
+      const bool relaxed = element::loads_in(increment.interior[b], c).loads.empty();
+      squared[b] += element::squared_difference(
+          {narrow.ring.elements, narrow.solution.K, u, wide.ring.elements, wide.solution.K, U, relaxed});
+      energy += U.dot(wide.solution.K * U);
+    }
   }
   // Finite element bodies have energy too, although no error estimate.
   energy = std::max(energy, 2.0 * wider_increment.energy.elastic);
@@ -296,17 +313,21 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
   const auto relative = [&](double square) { return norm > 0.0 ? std::sqrt(square) / norm : 0.0; };
   error.relative = relative(std::accumulate(squared.begin(), squared.end(), 0.0));
   for (std::size_t b = 0; b < error.bodies.size(); ++b)
-    if (solution.super_elements[b]) error.bodies[b] = BodyError{std::sqrt(squared[b]), relative(squared[b])};
+    if (has_estimate(solution, b)) error.bodies[b] = BodyError{std::sqrt(squared[b]), relative(squared[b])};
   return error;
 }
 
 std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment,
                                    const StaticSolution& wider, const IncrementResult& wider_increment,
                                    std::size_t body) {
-  const SolvedSuperElement &narrow = *solution.super_elements[body], &wide = *wider.super_elements[body];
-  std::vector<double> errors = element::sector_differences(
-      {narrow.ring, narrow.solution, narrow.modes(), increment.displacements[body]},
-      {wide.ring, wide.solution, wide.modes(), wider_increment.displacements[body]}, wide.sectors.D);
+  std::vector<double> errors;
+  for (std::size_t c = 0; c < solution.cells[body].size(); ++c) {
+    const element::SolvedSuperElement &narrow = *solution.cells[body][c], &wide = *wider.cells[body][c];
+    const Vector u = displacement_of(solution, increment, body, c), U = displacement_of(wider, wider_increment, body, c);
+    for (const double error : element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), u},
+                                                          {wide.ring, wide.solution, wide.modes(), U}, wide.sectors.D))
+      errors.push_back(error);
+  }
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
   for (double& error : errors)
     error = sum > 0.0 ? increment.error->bodies[body]->relative * std::sqrt(error / sum) : 0.0;

@@ -76,14 +76,15 @@ std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks) 
 
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment) {
   std::vector<CrackResult> results;
-  for (std::size_t b = 0; b < solution.super_elements.size(); ++b) {
-    const auto& super_element = solution.super_elements[b];
-    if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
-    const std::vector<element::RadialLoad>& loads = increment.interior[b].loads;
-    results.push_back(
-        {name_of(solution.model.bodies[b]), super_element->corner().of(increment.displacements[b], loads)});
-    if (in_resonance(results.back().factors, loads)) take_back(results.back().factors);
-  }
+  for (std::size_t b = 0; b < solution.cells.size(); ++b)
+    for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
+      const auto& super_element = solution.cells[b][c];
+      if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
+      const std::vector<element::RadialLoad>& loads = element::loads_in(increment.interior[b], c).loads;
+      const Vector u = increment.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
+      results.push_back({name_of(solution.model.bodies[b]), super_element->corner().of(u, loads)});
+      if (in_resonance(results.back().factors, loads)) take_back(results.back().factors);
+    }
   return results;
 }
 

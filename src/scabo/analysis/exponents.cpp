@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/analysis/super_elements.hpp"
+#include "scabo/element/cell_library.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/ordered_schur.hpp"
 #include "scabo/mesh/mesh.hpp"
@@ -39,7 +39,7 @@ void explain(Exponent& exponent, bool open, bool unbounded) {
   if (exponent.defective) add("defective: power-logarithmic");
 }
 
-BodyExponents of_super_element(const SolvedSuperElement& super_element) {
+BodyExponents of_super_element(const element::SolvedSuperElement& super_element) {
   BodyExponents found;
   const bool unbounded = super_element.domain.unbounded, open = super_element.ring.is_open();
   found.kind = unbounded ? "outside" : open ? "open" : "closed";
@@ -75,11 +75,13 @@ BodyExponents of_super_element(const SolvedSuperElement& super_element) {
 
 std::vector<BodyExponents> exponents_of(const model::Model& model) {
   linalg::set_blas_threads(1);
-  const auto super_elements = solve_super_elements(model, mesh::make_mesh(model), 1);
+  const auto cells = element::solve_cells(model, mesh::make_mesh(model), 1);
   std::vector<BodyExponents> all;
-  for (std::size_t b = 0; b < super_elements.size(); ++b)
-    if (super_elements[b]) {
-      all.push_back(of_super_element(*super_elements[b]));
+  for (std::size_t b = 0; b < cells.size(); ++b)
+    for (const auto& cell : cells[b]) {
+      const bool worth_it = cell && (cells[b].size() == 1 || cell->ring.is_open());  // ordinary cells have none
+      if (!worth_it) continue;
+      all.push_back(of_super_element(*cell));
       all.back().body = static_cast<int>(b);
     }
   return all;

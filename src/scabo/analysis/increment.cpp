@@ -229,11 +229,14 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
   return results;
 }
 
-void add(element::InteriorLoads& to, const element::InteriorLoads& loads, double factor) {
-  element::add_radial_loads(to.loads, loads.loads, factor);
-  to.temperature.constant += factor * loads.temperature.constant;
-  to.temperature.per_x += factor * loads.temperature.per_x;
-  to.temperature.per_y += factor * loads.temperature.per_y;
+void add(element::CellLoads& to, const element::CellLoads& loads, double factor) {
+  if (to.size() < loads.size()) to.resize(loads.size());
+  for (std::size_t c = 0; c < loads.size(); ++c) {
+    element::add_radial_loads(to[c].loads, loads[c].loads, factor);
+    to[c].temperature.constant += factor * loads[c].temperature.constant;
+    to[c].temperature.per_x += factor * loads[c].temperature.per_x;
+    to[c].temperature.per_y += factor * loads[c].temperature.per_y;
+  }
 }
 
 /// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without

@@ -6,11 +6,12 @@
 #include <map>
 #include <numbers>
 
-#include "scabo/analysis/super_elements.hpp"
 #include "scabo/analysis/worthwhile_threads.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/element/mass.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "scabo/model/validate.hpp"
+#include "scabo/system/assembly.hpp"
 #include "scabo/system/natural_modes.hpp"
 #include "scabo/system/structure.hpp"
 
@@ -18,47 +19,14 @@ namespace scabo::analysis {
 
 namespace {
 
-const model::Material& material_of(const model::Model& model, std::size_t body) {
-  return model.materials[static_cast<std::size_t>(model.bodies[body].material)];
+/// Mass of a super-element.
+Matrix mass_of(const model::Model& model, const element::SolvedSuperElement& super_element, int threads) {
+  std::vector<double> density;
+  for (const int material : super_element.sectors.materials)
+    density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
+  return element::mass_matrix(super_element.ring, super_element.solution, super_element.modes(), density,
+                              model.analysis.thickness, threads);
 }
-
-/// Stiffness and mass of a body.
-struct BodyMatrices {
-  system::Stiffness K, M;
-};
-
-/// Identical super-elements share both.
-class Matrices {
- public:
-  Matrices(const StaticSolution& structure, int threads) : structure_(structure), threads_(threads) {}
-
-  BodyMatrices of(std::size_t body) {
-    const model::Model& model = structure_.model;
-    const double thickness = model.analysis.thickness;
-    BodyMatrices matrices;
-    if (const auto& super_element = structure_.super_elements[body]) {
-      std::vector<double> density;  // identical super-elements have the same materials
-      for (const int material : super_element->sectors.materials)
-        density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
-      std::shared_ptr<const Matrix>& mass = masses_[super_element.get()];
-      if (!mass)
-        mass = std::make_shared<const Matrix>(element::mass_matrix(
-            super_element->ring, super_element->solution, super_element->modes(), density, thickness, threads_));
-      matrices.K.dense = std::shared_ptr<const Matrix>(super_element, &super_element->solution.K);
-      matrices.M.dense = mass;
-    } else {
-      const auto D = element::elasticity_matrix(material_of(model, body), model.analysis.plane);
-      matrices.K.sparse = system::fem_stiffness(structure_.mesh.bodies[body], D, thickness);
-      matrices.M.sparse = system::fem_mass(structure_.mesh.bodies[body], *material_of(model, body).density, thickness);
-    }
-    return matrices;
-  }
-
- private:
-  const StaticSolution& structure_;
-  int threads_;
-  std::map<const SolvedSuperElement*, std::shared_ptr<const Matrix>> masses_;
-};
 
 /// M times a translation of the whole body.
 std::array<Vector, 2> mass_of_translations(const system::Stiffness& M) {
@@ -98,6 +66,7 @@ ModalResult solve_modal(model::Model model, const Options& options) {
   const auto stage = [&](const std::string& what) {
     if (options.on_stage) options.on_stage(what);
   };
+  model::require_valid(model);
   ModalResult result;
   StaticSolution& structure = result.structure;
   structure.model = std::move(model);
@@ -117,24 +86,25 @@ ModalResult solve_modal(model::Model model, const Options& options) {
   stage("super-elements");
   {
     const Stopwatch stopwatch(result.timing.super_elements);
-    structure.super_elements = solve_super_elements(structure.model, structure.mesh, threads);
+    structure.cells = element::solve_cells(structure.model, structure.mesh, threads);
   }
-  Matrices matrices(structure, threads);
-  std::vector<double> squares;
+  system::MassLibrary masses(
+      [&](const element::SolvedSuperElement& cell) { return mass_of(structure.model, cell, threads); });
   for (std::size_t b = 0; b < structure.model.bodies.size(); ++b) {
     if (structure.model.bodies[b].rigid) continue;
-    BodyMatrices body;
+    system::Stiffness K, M;
     stage(fmt::format("mass of body {}", structure.model.bodies[b].name));
     {
       const Stopwatch stopwatch(result.timing.mass);
-      body = matrices.of(b);
+      K = system::body_stiffness(structure.model, structure.mesh.bodies[b], structure.cells[b]);
+      M = system::body_mass(structure.model, structure.mesh.bodies[b], structure.cells[b], masses);
     }
     stage(fmt::format("modes of body {}", structure.model.bodies[b].name));
     const Stopwatch stopwatch(result.timing.eigenvalues);
-    const auto translations = mass_of_translations(body.M);
+    const auto translations = mass_of_translations(M);
     for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
     const system::NaturalModes modes =
-        system::natural_modes(body.K, body.M, structure.mesh.bodies[b].nodes, constraints[b], count);
+        system::natural_modes(K, M, structure.mesh.bodies[b].nodes, constraints[b], count);
     for (Eigen::Index k = 0; k < modes.eigenvalues.size(); ++k)
       result.modes.push_back(describe_mode(modes, k, b, translations));
   }

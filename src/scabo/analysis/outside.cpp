@@ -6,14 +6,23 @@
 
 namespace scabo::analysis {
 
+namespace {
+
+/// The super-element that is an unbounded body.
+const mesh::Cell& unbounded_cell(const mesh::BodyMesh& mesh) {
+  ensure(mesh.cells.size() == 1, "an unbounded body is one super-element");
+  return mesh.cells.front();
+}
+
+}  // namespace
+
 void check_references(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<Diagnostic> mistakes;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     if (!body.reference) continue;
-    const mesh::SuperElement& super_element = mesh.bodies[b].super_elements.front();
-    if (!element::locate(element::ring_of(super_element, mesh.bodies[b].nodes), *body.reference - super_element.centre,
-                         true))
+    const mesh::Cell& cell = unbounded_cell(mesh.bodies[b]);
+    if (!element::locate(element::ring_of(cell, mesh.bodies[b].nodes), *body.reference - cell.centre, true))
       mistakes.push_back({body.source, fmt::format("the reference point ({:.6g}, {:.6g}) does not lie in this body: "
                                                    "choose a point of the body far from the hole",
                                                    body.reference->x(), body.reference->y())});
@@ -59,8 +68,8 @@ void refer_displacements(const Prepared& prepared, const StaticSolution& solutio
   for (std::size_t b = 0; b < solution.model.bodies.size(); ++b) {
     const model::Body& body = solution.model.bodies[b];
     if (!body.outside || !body.reference) continue;
-    const SolvedSuperElement& super_element = *solution.super_elements[b];
-    const Vec2& centre = solution.mesh.bodies[b].super_elements.front().centre;
+    const Vec2& centre = unbounded_cell(solution.mesh.bodies[b]).centre;
+    const element::SolvedSuperElement& super_element = *solution.cells[b].front();
     const auto at = element::locate(super_element.ring, *body.reference - centre, true);
     ensure(at.has_value(), "the reference point of an outside body lies in it");
     const element::RadialField field(super_element.solution, super_element.modes(), result.displacements[b]);

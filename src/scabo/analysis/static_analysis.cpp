@@ -9,7 +9,6 @@
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
-#include "scabo/analysis/super_elements.hpp"
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/worthwhile_threads.hpp"
 #include "scabo/base/stopwatch.hpp"
@@ -17,6 +16,7 @@
 #include "scabo/contact/uniqueness.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/mesh/output_points.hpp"
+#include "scabo/model/validate.hpp"
 
 namespace scabo::analysis {
 
@@ -217,16 +217,10 @@ double force_scale(const system::Structure& structure) {
   return largest;
 }
 
-std::vector<const element::SuperElementSolution*> solutions_of(const StaticSolution& solution) {
-  std::vector<const element::SuperElementSolution*> pointers;
-  for (const auto& super_element : solution.super_elements)
-    pointers.push_back(super_element ? &super_element->solution : nullptr);
-  return pointers;
-}
-
 }  // namespace
 
 mesh::Mesh check(const model::Model& model) {
+  model::require_valid(model);
   if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free and do not interact
     model::Model apart = model;
     apart.contacts.clear();
@@ -265,13 +259,12 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   Timing& timing = solution.timing;
 
   stage("super-elements");
-  solution.super_elements =
-      timed(timing.super_elements, [&] { return solve_super_elements(solution.model, solution.mesh, threads); });
+  solution.cells =
+      timed(timing.super_elements, [&] { return element::solve_cells(solution.model, solution.mesh, threads); });
   stage("factorisation");
-  const auto pointers = solutions_of(solution);
   system::Structure structure =
-      timed(timing.factorise, [&] { return system::make_structure(solution.model, solution.mesh, pointers); });
-  timed(timing.assemble, [&] { system::add_loads(structure, solution.model, solution.mesh, pointers); });
+      timed(timing.factorise, [&] { return system::make_structure(solution.model, solution.mesh, solution.cells); });
+  timed(timing.assemble, [&] { system::add_loads(structure, solution.model, solution.mesh, solution.cells); });
   stage("condensation to the contact pairs");
   const system::ContactSystem contact =
       timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh); });

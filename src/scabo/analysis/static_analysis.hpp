@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "scabo/contact/solution.hpp"
-#include "scabo/element/modal_solution.hpp"
-#include "scabo/element/sectors.hpp"
-#include "scabo/element/stress_intensity.hpp"
+#include "scabo/element/cell_library.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
@@ -111,7 +109,7 @@ struct IncrementResult {
   /// Displacement of the reference point (analysis/outside.hpp). Displacements shown in results are relative to it;
   /// those of the pairs above are already relative.
   Vec2 reference_displacement = Vec2::Zero();
-  std::vector<element::InteriorLoads> interior;  ///< per body: loads inside it
+  std::vector<element::CellLoads> interior;       ///< [body][cell]: loads inside; empty for a body without any
   std::vector<CrackResult> cracks;               ///< of all bounded open super-elements
   std::string reason;                            ///< why it did not converge
   std::optional<UniquenessResult> uniqueness;    ///< if requested
@@ -135,24 +133,6 @@ struct Timing {
          recover = 0.0, write = 0.0, total = 0.0;
 };
 
-/// A super-element, solved once for all identical bodies.
-struct SolvedSuperElement {
-  element::Ring ring;
-  element::Sectors sectors;
-  double thickness = 1.0;
-  element::Domain domain;
-  int threads = 1;  ///< number of threads for its modes
-  element::SuperElementSolution solution;
-  /// Modes of the interior, computed when first needed.
-  const element::ModalSolution& modes() const;
-  /// Analysis of its crack or corner, computed when first needed; the ring must be open.
-  const element::CornerAnalysis& corner() const;
-
- private:
-  mutable std::unique_ptr<element::CornerAnalysis> corner_;
-  mutable std::unique_ptr<element::ModalSolution> modes_;
-};
-
 /// One pass of refinement (adaptive.hpp).
 struct RefinementPass {
   int dofs = 0;
@@ -167,8 +147,7 @@ enum class Outcome { solved, not_converged, mechanism, interrupted };
 struct StaticSolution {
   model::Model model;
   mesh::Mesh mesh;
-  /// Per body; null for rigid and finite element bodies.
-  std::vector<std::shared_ptr<const SolvedSuperElement>> super_elements;
+  std::vector<element::SolvedCells> cells;  ///< [body][cell]; null for finite elements
   std::vector<IncrementResult> increments;  ///< converged increments, then at most one that is not
   std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
   std::vector<std::string> warnings;
@@ -187,7 +166,7 @@ struct Options {
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };
 
-/// Meshes the model and checks, without solving anything, that every body is held (not required for a modal analysis)
+/// Validates the model (model/validate.hpp), meshes it and checks, without solving anything, that every body is held (not required for a modal analysis)
 /// and that every output point lies in a body. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 

@@ -180,8 +180,8 @@ std::vector<std::string> load_warnings(const model::Model& model, const system::
     double largest = 0.0, moving = 0.0;
     bool inside = false;
     for (std::size_t b = 0; b < structure.bodies.size(); ++b) {
-      const element::InteriorLoads& interior = structure.interior[load][b];
-      inside = inside || !interior.loads.empty() || !interior.temperature.is_zero();
+      for (const element::InteriorLoads& interior : structure.interior[load][b])
+        inside = inside || !interior.loads.empty() || !interior.temperature.is_zero();
       Vector forces = structure.loads[load][b];
       if (forces.size() == 0) continue;
       largest = std::max(largest, forces.lpNorm<Eigen::Infinity>());

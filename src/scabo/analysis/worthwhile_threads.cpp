@@ -16,7 +16,7 @@ double dense_work(const model::Model& model, const mesh::Mesh& mesh) {
   std::set<std::size_t> sizes;  // bodies of one size are usually identical
   for (const mesh::BodyMesh& body : mesh.bodies) {
     const double n = 2.0 * static_cast<double>(body.nodes.size());
-    if (!body.elements.empty())
+    if (body.cells.size() != 1)
       work += 600.0 * std::pow(n, 1.5);
     else if (sizes.insert(body.nodes.size()).second)
       work += 30.0 * n * n * n;

@@ -34,9 +34,16 @@ double Elasticity::contrast() const {
   return D_.empty() ? 1.0 : stiffest->trace() / softest->trace();
 }
 
-Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes) {
-  Ring ring{nodes, super_element.boundary};
-  for (Vec2& node : ring.nodes) node -= super_element.centre;
+Ring ring_of(const mesh::Cell& cell, const std::vector<Vec2>& nodes) {
+  Ring ring;
+  for (const int node : cell.nodes()) ring.nodes.push_back(nodes[static_cast<std::size_t>(node)] - cell.centre);
+  const auto total = static_cast<int>(ring.nodes.size());
+  int next = 0;
+  for (const mesh::LineElement& element : cell.boundary) {
+    mesh::LineElement& own = ring.elements.emplace_back();
+    for (std::size_t i = 0; i < element.nodes.size(); ++i) own.nodes.push_back((next + static_cast<int>(i)) % total);
+    next += static_cast<int>(element.nodes.size()) - 1;
+  }
   return ring;
 }
 

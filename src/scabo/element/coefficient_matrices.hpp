@@ -48,7 +48,8 @@ class Elasticity {
   std::vector<Mat3> D_;  // force / length^2
 };
 
-Ring ring_of(const mesh::SuperElement& super_element, const std::vector<Vec2>& nodes);
+/// The boundary of a cell with its own node numbers (mesh::Cell::nodes()). `nodes`: those of the body.
+Ring ring_of(const mesh::Cell& cell, const std::vector<Vec2>& nodes);
 
 /// Strain at a boundary point: strain = B1 u,xi + 1/xi B2 u, with the 2 (p + 1) displacements of its element.
 struct StrainMatrices {

@@ -100,4 +100,22 @@ PointValues plane_element8_values(const Corners8& x, const Vector16& u, const Ma
   return point;
 }
 
+std::array<int, 8> plane_element8_nodes_of(const mesh::Cell& cell) {
+  ensure(cell.boundary.size() == 4, "an 8-node element has four sides");
+  std::array<int, 8> nodes{};
+  for (std::size_t side = 0; side < 4; ++side) {
+    ensure(cell.boundary[side].nodes.size() == 3, "a side of an 8-node element has order 2");
+    nodes[side] = cell.boundary[side].nodes[0];
+    nodes[side + 4] = cell.boundary[side].nodes[1];
+  }
+  return nodes;
+}
+
+Corners8 corners8_of(const mesh::Cell& cell, const std::vector<Vec2>& nodes) {
+  Corners8 x;
+  const std::array<int, 8> numbers = plane_element8_nodes_of(cell);
+  for (std::size_t i = 0; i < 8; ++i) x[i] = nodes[static_cast<std::size_t>(numbers[i])];
+  return x;
+}
+
 }  // namespace scabo::element

@@ -9,6 +9,10 @@
 namespace scabo::element {
 
 using Corners8 = std::array<Vec2, 8>;  ///< four corners counter-clockwise, then the middles of sides 12, 23, 34, 41
+/// Node numbers of an 8-node cell in this order, and their positions.
+std::array<int, 8> plane_element8_nodes_of(const mesh::Cell& cell);
+Corners8 corners8_of(const mesh::Cell& cell, const std::vector<Vec2>& nodes);
+
 using Matrix16 = Eigen::Matrix<double, 16, 16>;
 using Vector16 = Eigen::Matrix<double, 16, 1>;
 

@@ -83,6 +83,11 @@ std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, con
   return loads;
 }
 
+const InteriorLoads& loads_in(const CellLoads& loads, std::size_t cell) {
+  static const InteriorLoads none;
+  return loads.empty() ? none : loads[cell];
+}
+
 void add_radial_loads(std::vector<RadialLoad>& to, const std::vector<RadialLoad>& loads, double factor) {
   if (factor == 0.0) return;
   for (const RadialLoad& load : loads) {

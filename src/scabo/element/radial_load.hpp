@@ -55,6 +55,10 @@ struct InteriorLoads {
   LinearField temperature;        ///< change of temperature as a function of absolute (x, y)
 };
 
+/// Loads inside the cells of a body, one entry for each cell; empty: none.
+using CellLoads = std::vector<InteriorLoads>;
+const InteriorLoads& loads_in(const CellLoads& loads, std::size_t cell);
+
 /// Adds `factor` times `loads` to `to`, combining loads of equal power.
 void add_radial_loads(std::vector<RadialLoad>& to, const std::vector<RadialLoad>& loads, double factor);
 

@@ -2,9 +2,9 @@
 
 namespace scabo::element {
 
-Sectors sectors_of(const model::Model& model, const model::Body& body, const mesh::BodyMesh& mesh) {
+Sectors sectors_of(const model::Model& model, const mesh::Cell& cell) {
   Sectors sectors;
-  sectors.materials = mesh.materials.empty() ? std::vector<int>{body.material} : mesh.materials;
+  sectors.materials = cell.materials;
   std::vector<Mat3> D;
   for (const int index : sectors.materials) {
     const model::Material& material = model.materials[static_cast<std::size_t>(index)];

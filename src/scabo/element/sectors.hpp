@@ -15,6 +15,6 @@ struct Sectors {
   const Vec3& unit_strain_of(std::size_t element) const { return unit_strain[unit_strain.size() == 1 ? 0 : element]; }
 };
 
-Sectors sectors_of(const model::Model& model, const model::Body& body, const mesh::BodyMesh& mesh);
+Sectors sectors_of(const model::Model& model, const mesh::Cell& cell);
 
 }  // namespace scabo::element

@@ -1,4 +1,5 @@
 // Geometry of outlines: points, lengths, area and centroid, arcs included exactly.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,27 @@ Vec2 Edge::at(double t) const {
   const double radius = (1.0 - t) * (start - arc->centre).norm() + t * (end - arc->centre).norm();
   const double angle = arc->start_angle + t * arc->sweep;
   return arc->centre + radius * Vec2(std::cos(angle), std::sin(angle));
+}
+
+namespace {
+
+/// First edge and last + 1 of the chain of an edge.
+std::pair<int, int> chain_of(const Outline& outline, int edge) {
+  const auto after = std::upper_bound(outline.holes.begin(), outline.holes.end(), edge);
+  return {after == outline.holes.begin() ? 0 : *(after - 1),
+          after == outline.holes.end() ? static_cast<int>(outline.edges.size()) : *after};
+}
+
+}  // namespace
+
+int Outline::next(int edge) const {
+  const auto [first, end] = chain_of(*this, edge);
+  return edge + 1 == end ? first : edge + 1;
+}
+
+int Outline::previous(int edge) const {
+  const auto [first, end] = chain_of(*this, edge);
+  return edge == first ? end - 1 : edge - 1;
 }
 
 double Edge::length() const { return arc ? arc->radius * std::abs(arc->sweep) : (end - start).norm(); }

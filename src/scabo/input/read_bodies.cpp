@@ -20,21 +20,61 @@ int corner_at(const Outline& outline, const Vec2& point) {
   return -1;
 }
 
+/// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02}]`.
+std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const Outline* outline) {
+  std::vector<LocalSize> sizes;
+  const auto items = read_list(reading.report, value, "[{near: [0, 0], size: 0.01}]");
+  if (!items) return sizes;
+  for (const Value& item : *items) {
+    const MapReader map(reading.report, item, {"near", "on", "size"}, "{near: [0, 0], size: 0.01}");
+    if (!map.is_map()) continue;
+    LocalSize local;
+    local.source = item.source();
+    local.size = number_or_unread(reading, map.need("size"));
+    if (map.has("near") == map.has("on")) {
+      reading.report.error(item, "needs either 'near', a point, or 'on', an edge of the body");
+      continue;
+    }
+    if (const auto near = map.get("near"))
+      local.near = read_vector(reading.report, *near).value_or(Vec2::Constant(unread));
+    if (const auto on = map.get("on")) {
+      const auto name = read_text(reading.report, *on);
+      if (!name || outline == nullptr) continue;
+      std::vector<std::string> known;
+      for (std::size_t e = 0; e < outline->edges.size(); ++e) {
+        const auto& names = outline->edges[e].names;
+        if (std::find(names.begin(), names.end(), *name) != names.end()) local.edge = static_cast<int>(e);
+        known.insert(known.end(), names.rbegin(), names.rend());
+      }
+      if (local.edge < 0)
+        reading.report.error(
+            *on, fmt::format("the body has no edge named {}{}", quoted_name(*name), suggestion(*name, known)));
+    }
+    sizes.push_back(std::move(local));
+  }
+  return sizes;
+}
+
 }  // namespace
 
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
-  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance"}, "{size: 0.1, order: 2}");
+  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance", "refine"},
+                      "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
   if (const auto kind = map.get("kind")) {
-    const Later later{{"polygons", "use superelement"}, {"quadtree", "use superelement"}};
-    const auto choice = read_choice(report, *kind, {"superelement", "fem"}, later);
+    const auto choice = read_choice(report, *kind, {"superelement", "polygons", "quadtree", "fem"});
     if (choice && *choice == "fem") mesh.kind = MeshKind::fem;
+    if (choice && *choice == "polygons") mesh.kind = MeshKind::polygons;
+    if (choice && *choice == "quadtree") mesh.kind = MeshKind::quadtree;
   }
   const bool fem = mesh.kind == MeshKind::fem;
+  const bool many = mesh.kind == MeshKind::polygons || mesh.kind == MeshKind::quadtree;
+  if (const auto refine = map.get("refine")) mesh.refine = read_refine(reading, *refine, outline);
+  if (many) map.refuse("centre", "every cell has a scaling centre of its own: leave 'centre' out");
   if (const auto tolerance = map.get("tolerance")) mesh.tolerance = number_or_unread(reading, tolerance);
-  const auto size = map.has("tolerance") && !fem ? map.get("size") : map.need("size");
+  const auto size = map.has("tolerance") && !fem && !many ? map.get("size") : map.need("size");
   mesh.size = number_or_unread(reading, size);
   if (!size && mesh.tolerance && outline != nullptr) {
     mesh.size = 0.0;
@@ -48,7 +88,7 @@ MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outli
     map.refuse("centre", "the scaling centre of a body with a crack is the tip of the crack: leave 'centre' out");
   if (outline == nullptr) return mesh;
   mesh.centre = crack != nullptr ? crack->tip : outline->centroid();
-  const auto centre = fem || crack != nullptr ? std::nullopt : map.get("centre");
+  const auto centre = fem || many || crack != nullptr ? std::nullopt : map.get("centre");
   if (!centre) return mesh;
   mesh.centre = read_vector(report, *centre).value_or(Vec2::Constant(unread));
   mesh.centre_corner = corner_at(*outline, mesh.centre);
@@ -91,8 +131,9 @@ void turn_outside(Body& body) {
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
-      report, entry.value, {"material", "shape", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
-      body_example, {{"file", "describe the body with shape"}, {"holes", "divide the body into bodies without holes"}});
+      report, entry.value,
+      {"material", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
+      body_example, {{"file", "describe the body with shape"}});
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -108,8 +149,9 @@ void read_body(Reading& reading, const Entry& entry) {
       state.shape = true;
     }
   }
+  if (const auto holes = map.get("holes"); holes && state.shape) state.shape = read_holes(reading, *holes, body.outline);
   if (body.rigid) {
-    for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference"})
+    for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"})
       map.refuse(key, not_for_rigid);
   } else if (!rigid) {  // the required keys are not known
     body.rigid = true;
@@ -117,6 +159,7 @@ void read_body(Reading& reading, const Entry& entry) {
     state.touched = true;
   } else {
     if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
+    if (const auto regions = map.get("regions")) read_regions(reading, *regions, body);
     const std::size_t before = report.count();
     const auto cracks = map.get("cracks");
     if (cracks && state.shape) body.cracks = read_cracks(reading, *cracks, body);
@@ -132,7 +175,7 @@ void read_body(Reading& reading, const Entry& entry) {
     if (const auto sectors = map.get("sectors"); sectors && state.shape)
       body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
     read_outside(reading, map, body);
-    if (body.outside && !body.outline.edges.empty()) turn_outside(body);
+    if (body.outside && !body.outline.edges.empty() && body.outline.holes.empty()) turn_outside(body);
   }
   reading.index_of_body.emplace(body.name, static_cast<int>(reading.model.bodies.size()));
   reading.model.bodies.push_back(std::move(body));

@@ -79,7 +79,10 @@ void read_sections(Reading& reading, const Value& root) {
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "steps",
                        "solver", "output"},
                       "'scabo: 1' and sections");
-  if (!map.is_map()) return;
+  if (!map.is_map()) {
+    reading.bodies_known = false;
+    return;
+  }
   check_version(reading, map);
   if (const auto title = map.get("title")) reading.model.title = read_text(reading.report, *title).value_or("");
   if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);

@@ -258,8 +258,8 @@ std::string as_written(const model::Mistake& mistake, const Located& at) {
 
 void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes) {
   const std::set<std::string> told = paths_;
-  const auto is_told = [&](const std::string& path) {
-    if (told.contains(path)) return true;
+  const auto is_told = [&](const std::string& path, bool with_parts) {
+    if (told.contains(path) || !with_parts) return told.contains(path);
     const auto below = told.lower_bound(path + ".");
     return below != told.end() && below->starts_with(path + ".");
   };
@@ -277,7 +277,7 @@ void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes)
       error(place, mistake.message);
       continue;
     }
-    if (is_told(at.value.path)) continue;
+    if (is_told(at.value.path, !mistake.of_whole)) continue;
     const bool whole_shape = at.complete && !mistake.of_key && at.value.path.ends_with(".shape");
     error(mistake.of_key && at.complete ? at.key : (whole_shape ? part_of_shape(at.value) : at.value).source(),
           as_written(mistake, at));

@@ -70,6 +70,10 @@ void read_law(Reading& reading, const MapReader& map, Contact& contact);
 
 /// `shape` of a body; nothing if it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);
+/// `holes` of a body with an outline, appended to it; false if they are broken.
+bool read_holes(Reading& reading, const Value& value, Outline& outline);
+/// `regions`: parts of a body with other materials.
+void read_regions(Reading& reading, const Value& value, Body& body);
 /// `mesh` of an elastic body. `outline`: null if it is not known. `crack`: null if there is none; its tip is the
 /// scaling centre.
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack);

@@ -145,26 +145,28 @@ BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) 
   mesh.nodes.reserve(static_cast<std::size_t>(total));
   mesh.edges.resize(edges);
   mesh.corners.assign(edges, -1);
-  SuperElement whole;
+  Cell whole;
   whole.centre = body.mesh.centre;
+  if (body.sector_materials.empty()) whole.materials = {body.material};
   const std::vector<Run> runs = runs_of(body);
   for (const Run& run : runs) {
     const auto e = static_cast<std::size_t>(run.edge);
     const std::vector<LineElement> line = divide_run(body.outline.edges[e], division[e], run, total, mesh.nodes);
     add_to_edge(run, line, mesh.edges[e]);
-    const auto corner_at = [&](double end) -> int& { return mesh.corners[(e + (end == 1.0 ? 1 : 0)) % edges]; };
+    const auto corner_at = [&](double end) -> int& { return mesh.corners[static_cast<std::size_t>(end == 1.0 ? body.outline.next(run.edge) : run.edge)]; };
     if (run.from == 0.0 || run.from == 1.0) corner_at(run.from) = line.front().nodes.front();
     if (run.to == 0.0 || run.to == 1.0) corner_at(run.to) = line.back().nodes.back();
     whole.boundary.insert(whole.boundary.end(), line.begin(), line.end());
     if (!body.sector_materials.empty())
-      mesh.materials.insert(mesh.materials.end(), line.size(), body.sector_materials[e]);
+      whole.materials.insert(whole.materials.end(), line.size(), body.sector_materials[e]);
   }
   if (body.open()) {
     const Run& last = runs.back();
     mesh.nodes.push_back(body.outline.edges[static_cast<std::size_t>(last.edge)].at(last.to));
+    mesh.mouth = {0, total - 1};
   }
   ensure(static_cast<int>(mesh.nodes.size()) == total, "the boundary has the nodes that were counted");
-  mesh.super_elements.push_back(std::move(whole));
+  mesh.cells.push_back(std::move(whole));
   return mesh;
 }
 

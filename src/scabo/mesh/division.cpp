@@ -28,41 +28,54 @@ std::vector<Vec2> inner_points(const std::vector<Vec2>& curve) {
   return points;
 }
 
+/// The element with the given ends, turned round if it runs the other way.
+const LineElement* find_element(const std::map<Ends, LineElement>& elements, Ends ends, LineElement& turned) {
+  if (const auto found = elements.find(ends); found != elements.end()) return &found->second;
+  std::swap(ends.first, ends.second);
+  const auto found = elements.find(ends);
+  if (found == elements.end()) return nullptr;
+  turned.nodes.assign(found->second.nodes.rbegin(), found->second.nodes.rend());
+  return &turned;
+}
+
+/// `frozen`: the boundary elements of all cells, in their order.
 BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
   BodyMesh fine = mesh;
   fine.nodes.clear();
   std::map<int, int> number;  // new numbers of the nodes that elements share
   std::map<Ends, LineElement> element_of;
+  LineElement turned;
   const auto shared = [&](int node) {
     const auto [found, is_new] = number.emplace(node, static_cast<int>(fine.nodes.size()));
     if (is_new) fine.nodes.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
     return found->second;
   };
-  std::vector<LineElement>& boundary = fine.super_elements.front().boundary;
-  for (std::size_t e = 0; e < boundary.size(); ++e) {
-    const LineElement old = boundary[e];
-    const bool stays = !frozen.empty() && frozen[e];
-    LineElement& element = boundary[e];
-    element.nodes = {shared(old.nodes.front())};
-    std::vector<Vec2> curve;
-    for (const int node : old.nodes) curve.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
-    for (const Vec2& x : stays ? std::vector<Vec2>(curve.begin() + 1, curve.end() - 1) : inner_points(curve)) {
-      element.nodes.push_back(static_cast<int>(fine.nodes.size()));
-      fine.nodes.push_back(x);
+  std::size_t place = 0;
+  for (Cell& cell : fine.cells)
+    for (LineElement& element : cell.boundary) {
+      const LineElement old = element;
+      const bool stays = !frozen.empty() && frozen[place];
+      ++place;
+      if (const LineElement* of_neighbour = find_element(element_of, ends_of(old), turned)) {
+        element = *of_neighbour;
+        continue;
+      }
+      element.nodes = {shared(old.nodes.front())};
+      std::vector<Vec2> curve;
+      for (const int node : old.nodes) curve.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+      for (const Vec2& x : stays ? std::vector<Vec2>(curve.begin() + 1, curve.end() - 1) : inner_points(curve)) {
+        element.nodes.push_back(static_cast<int>(fine.nodes.size()));
+        fine.nodes.push_back(x);
+      }
+      element.nodes.push_back(shared(old.nodes.back()));
+      element_of[ends_of(old)] = element;
     }
-    element.nodes.push_back(shared(old.nodes.back()));
-    element_of[ends_of(old)] = element;
-  }
   for (std::vector<LineElement>& edge : fine.edges)
-    for (LineElement& element : edge) {
-      Ends ends = ends_of(element);
-      const bool reversed = !element_of.contains(ends);
-      if (reversed) std::swap(ends.first, ends.second);
-      element = element_of.at(ends);
-      if (reversed) std::reverse(element.nodes.begin(), element.nodes.end());
-    }
+    for (LineElement& element : edge) element = *find_element(element_of, ends_of(element), turned);
   for (int& corner : fine.corners)
     if (corner >= 0) corner = number.at(corner);
+  for (int& node : fine.mouth)
+    if (node >= 0) node = number.at(node);
   return fine;
 }
 
@@ -121,7 +134,7 @@ Division uniform_division(const model::Model& model) {
 Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std::vector<bool>>& frozen) {
   Mesh fine;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    const bool divided = mesh.bodies[b].super_elements.size() == 1;
+    const bool divided = !mesh.bodies[b].cells.empty() && mesh.bodies[b].count(CellKind::finite_element) == 0;
     fine.bodies.push_back(divided ? enriched(mesh.bodies[b], frozen.empty() ? std::vector<bool>{} : frozen[b])
                                   : mesh.bodies[b]);
   }
@@ -145,12 +158,15 @@ PairedElements paired_elements(const model::Model& model, const Mesh& mesh) {
 }
 
 int boundary_element(const BodyMesh& mesh, int edge, int element) {
-  if (mesh.super_elements.empty()) return -1;
   const Ends ends = ends_of(mesh.edges[static_cast<std::size_t>(edge)][static_cast<std::size_t>(element)]);
-  const std::vector<LineElement>& boundary = mesh.super_elements.front().boundary;
-  for (std::size_t e = 0; e < boundary.size(); ++e)
-    if (ends_of(boundary[e]) == ends || ends_of(boundary[e]) == Ends(ends.second, ends.first))
-      return static_cast<int>(e);
+  int place = 0;
+  for (const Cell& cell : mesh.cells)
+    for (const LineElement& line : cell.boundary) {
+      if (cell.kind == CellKind::superelement &&
+          (ends_of(line) == ends || ends_of(line) == Ends(ends.second, ends.first)))
+        return place;
+      ++place;
+    }
   return -1;
 }
 

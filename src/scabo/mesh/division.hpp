@@ -27,8 +27,8 @@ Division uniform_division(const model::Model& model);
 /// make_mesh() (mesh.hpp) with the given division of super-elements.
 Mesh make_mesh(const model::Model& model, const Division& division);
 
-/// The same boundaries with all elements raised by one order, except those `frozen` ([body][boundary element]; empty:
-/// none). The geometry does not change: every displacement field of the old elements is also one of the new elements.
+/// The same boundaries with all elements raised by one order, except those `frozen` ([body][boundary element],
+/// those of all cells in their order; empty: none). The geometry does not change: every displacement field of the old elements is also one of the new elements.
 Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std::vector<bool>>& frozen);
 
 /// An element of an edge of a body.
@@ -44,7 +44,8 @@ struct PairedElements {
 };
 PairedElements paired_elements(const model::Model& model, const Mesh& mesh);
 
-/// Index of an element of an edge in the boundary of the super-element.
+/// Index of an element of an edge among the boundary elements of all cells, in their order; -1 if it belongs to a finite
+/// element.
 int boundary_element(const BodyMesh& mesh, int edge, int element);
 
 }  // namespace scabo::mesh

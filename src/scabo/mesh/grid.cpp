@@ -48,8 +48,14 @@ BodyMesh divide_grid(const model::Body& body) {
   }
   for (int j = 0; j < 2 * ny; j += 2) {
     for (int i = 0; i < 2 * nx; i += 2) {
-      mesh.elements.push_back({node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2),  //
-                               node(i + 1, j), node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)});
+      Cell cell;
+      cell.kind = CellKind::finite_element;
+      cell.materials = {body.material};
+      cell.boundary = {{{node(i, j), node(i + 1, j), node(i + 2, j)}},
+                       {{node(i + 2, j), node(i + 2, j + 1), node(i + 2, j + 2)}},
+                       {{node(i + 2, j + 2), node(i + 1, j + 2), node(i, j + 2)}},
+                       {{node(i, j + 2), node(i, j + 1), node(i, j)}}};
+      mesh.cells.push_back(std::move(cell));
     }
   }
 

@@ -105,6 +105,19 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
   return mesh;
 }
 
+std::vector<int> Cell::nodes() const {
+  std::vector<int> numbers;
+  for (const LineElement& element : boundary)
+    numbers.insert(numbers.end(), element.nodes.begin(), element.nodes.end() - 1);
+  if (is_open()) numbers.push_back(boundary.back().nodes.back());
+  return numbers;
+}
+
+int BodyMesh::count(CellKind kind) const {
+  return static_cast<int>(
+      std::count_if(cells.begin(), cells.end(), [kind](const Cell& cell) { return cell.kind == kind; }));
+}
+
 int Mesh::nodes() const {
   std::size_t count = 0;
   for (const BodyMesh& body : bodies) count += body.nodes.size();

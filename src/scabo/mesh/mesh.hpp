@@ -1,4 +1,4 @@
-// Model -> Mesh: nodes, super-elements or finite elements, named places, matched contact pairs.
+// Model -> Mesh: nodes, cells, named places, matched contact pairs.
 #pragma once
 
 #include <array>
@@ -16,27 +16,36 @@ struct LineElement {
   std::vector<int> nodes;
 };
 
-/// A super-element. Its boundary nodes are the nodes 0, 1, 2 ... of the body, counter-clockwise around the centre. An
-/// open super-element extends from side face to side face, so that its last node is not its first; at the mouth of a
+enum class CellKind { superelement, finite_element };
+
+/// A part of a body whose stiffness is computed as a whole, from its boundary. A super-element has a boundary of any
+/// number of line elements of any order. A finite element has three or four sides of order 1 or 2, and no other nodes.
+///
+/// An open super-element extends from side face to side face, so that its last node is not its first; at the mouth of a
 /// crack the two nodes have the same position.
-struct SuperElement {
+struct Cell {
+  CellKind kind = CellKind::superelement;
   Vec2 centre = Vec2::Zero();         ///< scaling centre, from which the whole boundary is visible
-  std::vector<LineElement> boundary;  ///< counter-clockwise
+  std::vector<LineElement> boundary;  ///< counter-clockwise; each begins where the one before ends
+  std::vector<int> materials;         ///< indices into Model::materials: one, or one for each boundary element
+
+  bool is_open() const { return boundary.front().nodes.front() != boundary.back().nodes.back(); }
+  /// Numbers in the body of the cell's own nodes 0, 1, 2 ...: those along its boundary, each once.
+  std::vector<int> nodes() const;
 };
 
-/// 8-node serendipity element: four corners counter-clockwise, then the middles of sides 12, 23, 34, 41.
-using PlaneElement8 = std::array<int, 8>;
-
-/// The mesh of one elastic body; a rigid body has no nodes.
+/// The mesh of one elastic body; a rigid body has no nodes. A body that is one super-element has one cell, whose own
+/// node numbers are those of the body.
 struct BodyMesh {
   std::vector<Vec2> nodes;
-  std::vector<SuperElement> super_elements;  ///< one, or none in a finite element mesh
-  std::vector<PlaneElement8> elements;       ///< of a finite element mesh
+  std::vector<Cell> cells;
   /// The elements of every edge of the outline, in its order and direction; none for a side face. The two elements at
   /// the mouth of a crack have different nodes there.
   std::vector<std::vector<LineElement>> edges;
-  std::vector<int> corners;    ///< node of every corner of the outline; -1 at the scaling centre
-  std::vector<int> materials;  ///< per boundary element, index into Model::materials; empty: that of the body
+  std::vector<int> corners;           ///< node of every corner of the outline; -1 at the scaling centre
+  std::array<int, 2> mouth{-1, -1};   ///< the nodes of an open super-element at its first and last side face
+
+  int count(CellKind kind) const;
 };
 
 /// Two points that face each other. Sign convention: n points out of A towards B.

@@ -54,7 +54,7 @@ PlaceNodes nodes_of(const model::Place& place, const Mesh& mesh) {
     case model::Place::Kind::face:
       break;  // not divided
     case model::Place::Kind::mouth:
-      found.nodes = {place.index == 0 ? 0 : static_cast<int>(body.nodes.size()) - 1};
+      found.nodes = {body.mouth.at(static_cast<std::size_t>(place.index))};
       break;
     case model::Place::Kind::near:
       found.nodes = {nearest_boundary_node(body, place.near)};

@@ -192,10 +192,45 @@ bool check_side_faces(const BodyCheck& of) {
   return good;
 }
 
+bool is_many(const MeshOptions& mesh) { return mesh.kind == MeshKind::polygons || mesh.kind == MeshKind::quadtree; }
+
+/// What bodies of many cells cannot have, and the sizes of their cells.
+bool check_many_cells(Checking& checking, const std::string& path, const Body& body) {
+  bool good = true;
+  const auto refuse = [&](bool given, const char* key, const char* why) {
+    if (given) checking.error_of_key(path, key, why), good = false;
+  };
+  refuse(body.mesh.tolerance.has_value(), "mesh.tolerance",
+         "is not available for many cells in this version: leave it out, and use 'refine'");
+  refuse(body.outside, "outside", "an unbounded body is one super-element in this version: leave 'kind' out");
+  if (!body.cracks.empty())
+    checking.error(path, "cracks.0", "cracks are available only in a body that is one super-element in this version"),
+        good = false;
+  for (std::size_t i = 0; i < body.mesh.refine.size(); ++i) {
+    const LocalSize& local = body.mesh.refine[i];
+    const std::string at = fmt::format("mesh.refine.{}", i);
+    good = checking.positive(path, at + ".size", local.size) && good;
+    if (local.near) {
+      good = checking.vector(path, at + ".near", *local.near) && good;
+    } else if (local.edge < 0 || static_cast<std::size_t>(local.edge) >= body.outline.edges.size()) {
+      checking.error(path, at + ".on", fmt::format("body '{}' has no edge number {}: it has {}, counted from 0",
+                                                   body.name, local.edge, body.outline.edges.size()));
+      good = false;
+    }
+  }
+  return good;
+}
+
 /// Values of the mesh that do not depend on the shape.
 bool check_mesh_options(Checking& checking, const std::string& path, const Body& body) {
   const MeshOptions& mesh = body.mesh;
   bool good = checking.positive(path, "mesh.size", mesh.size);
+  if (!is_many(mesh) && !mesh.refine.empty())
+    checking.error_of_key(path, "mesh.refine", "is available for kind: polygons and kind: quadtree only"), good = false;
+  if (!is_many(mesh) && (!body.outline.holes.empty() || !body.regions.empty()))
+    checking.error(path, "mesh",
+                   "a body with holes or regions needs many cells: write kind: polygons or kind: quadtree"),
+        good = false;
   good = checking.whole(path, "mesh.order", mesh.order, limits::order) && good;
   if (mesh.kind == MeshKind::fem) {
     if (good && mesh.order != 2)
@@ -208,14 +243,17 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
       checking.error(path, "cracks.0",
                      "only a super-element can have a crack: leave the crack out, or use superelement"),
           good = false;
-    if (!body.sector_materials.empty())
-      checking.error_of_key(path, "sectors", "only a super-element has sectors: leave them out for fem");
     if (body.outside)
       checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
           good = false;
+  } else if (is_many(mesh)) {
+    good = check_many_cells(checking, path, body) && good;
   } else if (mesh.tolerance) {
     good = checking.within(path, "mesh.tolerance", *mesh.tolerance, "1e-5", "0.5") && good;
   }
+  if (mesh.kind != MeshKind::superelement && !body.sector_materials.empty())
+    checking.error_of_key(path, "sectors",
+                          "only a body that is one super-element has sectors: use 'regions' instead");
   return good;
 }
 
@@ -237,7 +275,8 @@ void check_mesh(const BodyCheck& of, bool values_good) {
     of.checking.error(of.path, "mesh.kind", "fem is available only for a shape given as rectangle: use superelement");
     values_good = false;
   }
-  if (!values_good || !check_dofs(of) || mesh.kind == MeshKind::fem) return;
+  if (!values_good || is_many(mesh)) return;  // the mesher counts its nodes
+  if (!check_dofs(of) || mesh.kind == MeshKind::fem) return;
   if (!of.checking.vector(of.path, "mesh.centre", mesh.centre)) return;
   if (!of.body.cracks.empty() && mesh.centre != of.body.cracks.front().tip) {
     of.checking.error(of.path, "mesh.centre",
@@ -249,7 +288,7 @@ void check_mesh(const BodyCheck& of, bool values_good) {
 
 void check_sectors(const BodyCheck& of) {
   const auto& materials = of.body.sector_materials;
-  if (materials.empty() || of.body.mesh.kind == MeshKind::fem) return;
+  if (materials.empty() || of.body.mesh.kind != MeshKind::superelement) return;
   if (materials.size() != of.body.outline.edges.size()) {
     of.checking.error(of.path, "sectors", fmt::format("gives {} materials for {} edges: one for each edge is needed",
                                                       materials.size(), of.body.outline.edges.size()));
@@ -274,6 +313,29 @@ void check_reference(const BodyCheck& of) {
   }
 }
 
+/// Regions lie inside the body, apart from its boundary and from each other.
+void check_regions(const BodyCheck& of) {
+  std::unordered_set<std::string> names;
+  std::vector<const Region*> sound;
+  for (std::size_t i = 0; i < of.body.regions.size(); ++i) {
+    const Region& region = of.body.regions[i];
+    const std::string path = path_of(of.path + ".regions", region.name, i);
+    check_name(of.checking, path, region.name, "region", names);
+    check_material(of.checking, path, "material", region.material);
+    if (!check_outline(of.checking, path + ".shape", region.outline) ||
+        !check_inside(of.checking, path + ".shape", fmt::format("region '{}'", region.name), of.outline,
+                      region.outline))
+      continue;
+    const auto touches = [&](const Region* other) { return crossing_between(other->outline, region.outline); };
+    const auto other = std::find_if(sound.begin(), sound.end(), touches);
+    if (other != sound.end())
+      of.checking.error(path, "shape", fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart",
+                                                   (*other)->name, region.name));
+    else
+      sound.push_back(&region);
+  }
+}
+
 void check_rigid(Checking& checking, const std::string& path, const Body& body) {
   const auto refuse = [&](const char* key, bool given) {
     if (given) checking.error_of_key(path, key, not_for_rigid);
@@ -283,13 +345,14 @@ void check_rigid(Checking& checking, const std::string& path, const Body& body) 
   refuse("sectors", !body.sector_materials.empty());
   refuse("outside", body.outside);
   refuse("reference", body.reference.has_value());
+  refuse("regions", !body.regions.empty());
 }
 
 void check_body(Checking& checking, std::size_t index) {
   const Body& body = checking.model.bodies[index];
   const std::string path = path_of("bodies", body.name, index);
   Outline turned;
-  if (body.outside && body.outline.corners.size() == body.outline.edges.size()) {
+  if (body.outside && body.outline.holes.empty() && body.outline.corners.size() == body.outline.edges.size()) {
     turned = body.outline;
     turn_round(turned);
   }
@@ -305,8 +368,9 @@ void check_body(Checking& checking, std::size_t index) {
   if (!checking.shape[index]) return;
   BodyCheck of{checking, body, path, outline, body.mesh.centre_corner};
   if (!turned.edges.empty() && of.centre_corner > 0) of.centre_corner = of.edges() - of.centre_corner;
-  const bool fem = body.mesh.kind == MeshKind::fem;
-  checking.faces[index] = fem || (check_cracks(of) && check_side_faces(of));
+  check_regions(of);
+  const bool whole = body.mesh.kind != MeshKind::superelement;  // without side faces
+  checking.faces[index] = whole || (check_cracks(of) && check_side_faces(of));
   if (checking.faces[index]) check_mesh(of, good);
   check_sectors(of);
   check_reference(of);
@@ -323,6 +387,7 @@ void check_bodies(Checking& checking) {
   } else if (std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.rigid; })) {
     checking.enter({});
     checking.error("bodies", "", "all bodies are rigid: at least one must be elastic");
+    checking.of_whole();
   }
   std::unordered_set<std::string> names;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -175,8 +175,9 @@ void check_loads(Checking& checking) {
     check_name(checking, path, load.name, "load", names);
     if (supports.contains(load.name))
       checking.error_of_key(path, "", named_like_a_support(load.name));
-    if (!check_on(checking, path, load)) checking.gaps.conditions = true;
-    if (!check_values(checking, path, load)) checking.gaps.conditions = true;
+    const bool on = check_on(checking, path, load);
+    checking.load[i] = check_values(checking, path, load) && on;
+    if (!checking.load[i]) checking.gaps.conditions = true;
   }
   checking.gaps.places = places;
 }

@@ -142,8 +142,9 @@ void check_density(Checking& checking) {
     check_density_of_modal_analysis(checking);
     return;
   }
-  for (const Load& load : model.loads) {
-    if (!std::holds_alternative<Gravity>(load.kind)) continue;
+  for (std::size_t l = 0; l < model.loads.size(); ++l) {
+    const Load& load = model.loads[l];
+    if (!checking.load[l] || !std::holds_alternative<Gravity>(load.kind)) continue;
     std::set<int> told;
     const auto [first, last] = bodies_under(checking, load);
     for (std::size_t i = first; i < last; ++i) {
@@ -163,7 +164,7 @@ void check_expansion(Checking& checking) {
   std::set<int> told;
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     const Load& load = model.loads[l];
-    if (!std::holds_alternative<Temperature>(load.kind)) continue;
+    if (!checking.load[l] || !std::holds_alternative<Temperature>(load.kind)) continue;
     const auto [first, last] = bodies_under(checking, load);
     for (std::size_t i = first; i < last; ++i) {
       const Body& body = model.bodies[i];

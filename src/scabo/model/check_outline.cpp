@@ -6,7 +6,8 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/model/checking.hpp"
 
 namespace scabo::model {
@@ -35,9 +36,15 @@ struct Shape {
   }
 };
 
+/// A full circle may be one edge that ends where it starts.
+bool is_circle(const Outline& chain) {
+  return chain.edges.size() == 1 && chain.edges[0].arc && std::abs(chain.edges[0].arc->sweep) > 6.0 &&
+         chain.edges[0].start == chain.edges[0].end;
+}
+
 bool check_counts(const Shape& shape) {
   const std::size_t edges = shape.outline.edges.size(), corners = shape.outline.corners.size();
-  if (edges < 2) {
+  if (edges < 2 && !is_circle(shape.outline)) {
     shape.error(fmt::format("an outline needs at least two pieces, not {}", edges));
   } else if (edges > static_cast<std::size_t>(limits::edges)) {
     shape.error(fmt::format("{} edges are too many: at most {} are allowed", edges, limits::edges));
@@ -103,7 +110,7 @@ bool check_arc(const Shape& shape, std::size_t i) {
   const double ra = (edge.start - arc.centre).norm();
   const double rb = (edge.end - arc.centre).norm();
   const double larger = std::max(ra, rb);
-  if ((edge.end - edge.start).norm() <= rounding * larger) {
+  if ((edge.end - edge.start).norm() <= rounding * larger && !is_circle(shape.outline)) {
     shape.error_of_edge(i, "",
                         fmt::format("{} is an arc that ends where it starts: write a full circle as two arcs",
                                     edge.names.front()));
@@ -119,7 +126,7 @@ bool check_arc(const Shape& shape, std::size_t i) {
   const auto off = [&](const Vec2& end, double angle) {
     return (arc.centre + arc.radius * Vec2(std::cos(angle), std::sin(angle)) - end).norm();
   };
-  if (!(arc.radius > 0.0) || !(std::abs(arc.sweep) <= 2.0 * std::numbers::pi) ||
+  if (!(arc.radius > 0.0) || !(std::abs(arc.sweep) <= 2.0 * std::numbers::pi * (1.0 + rounding)) ||
       !(std::max(off(edge.start, arc.start_angle), off(edge.end, arc.start_angle + arc.sweep)) <= 1e-5 * larger)) {
     shape.error_of_edge(i, "arc",
                         fmt::format("radius {:.9g}, start angle {:.9g} and sweep {:.9g} do not lead from {} to {}",
@@ -137,7 +144,7 @@ bool check_closed(const Shape& shape) {
     const Vec2& before = shape.outline.edges[(i + count - 1) % count].end;
     if ((edge.start - before).norm() > rounding * shape.size) {
       shape.error_of_edge(i, "",
-                          fmt::format("edge_{} starts at {}, but {} ends at {}{}", i + 1, point_text(edge.start),
+                          fmt::format("{} starts at {}, but {} ends at {}{}", edge.names.front(), point_text(edge.start),
                                       i == 0 ? "the last piece" : "the piece before", point_text(before),
                                       i == 0 ? ": the outline is not closed" : ""));
       return false;
@@ -230,16 +237,100 @@ bool check_rectangle(const Shape& shape) {
   return good;
 }
 
-}  // namespace
+/// The chains of an outline by themselves, all running counter-clockwise: the outer one, then the holes.
+std::vector<Outline> chains_of(const Outline& outline) {
+  std::vector<Outline> chains;
+  for (std::size_t k = 0; k <= outline.holes.size(); ++k) {
+    const int first = k == 0 ? 0 : outline.holes[k - 1];
+    const int end = k < outline.holes.size() ? outline.holes[k] : static_cast<int>(outline.edges.size());
+    Outline chain;
+    chain.edges.assign(outline.edges.begin() + first, outline.edges.begin() + end);
+    chain.corners.assign(outline.corners.begin() + first, outline.corners.begin() + end);
+    if (k > 0) turn_round(chain);
+    chains.push_back(std::move(chain));
+  }
+  return chains;
+}
 
-bool check_outline(Checking& checking, const std::string& path, const Outline& outline) {
-  Shape shape{checking, path, outline};
+/// One closed chain.
+bool check_chain(Checking& checking, const std::string& path, const Outline& chain) {
+  Shape shape{checking, path, chain};
   if (!check_counts(shape) || !check_numbers(shape) || !check_names(shape)) return false;
-  for (std::size_t i = 0; i < outline.edges.size(); ++i)
-    if (outline.edges[i].arc && !check_arc(shape, i)) return false;
-  shape.size = geometry::outline_size(outline);
+  for (std::size_t i = 0; i < chain.edges.size(); ++i)
+    if (chain.edges[i].arc && !check_arc(shape, i)) return false;
+  shape.size = geometry::outline_size(chain);
   return check_extent(shape) && check_closed(shape) && check_lengths(shape) && check_simple(shape) &&
          check_rectangle(shape);
+}
+
+/// Path and name of a hole: those in its file, or its number.
+std::pair<std::string, std::string> hole_of(const std::string& body, const Outline& hole, std::size_t number) {
+  const std::string section = body + ".holes.";
+  std::string path = hole.edges.empty() ? "" : path_of(section, hole.edges.front().source, number);
+  if (!path.starts_with(section) || path.starts_with(section + ".")) path = section + std::to_string(number);
+  path = path.substr(0, path.find('.', section.size()));
+  return {path, path.substr(section.size())};
+}
+
+bool check_holes(Checking& checking, const std::string& path, const Outline& outline) {
+  int before = 0;
+  for (const int hole : outline.holes) {
+    if (hole <= before || static_cast<std::size_t>(hole) >= outline.edges.size()) {
+      checking.error(path, "", "the first edges of its holes are not in ascending order, or do not exist");
+      return false;
+    }
+    before = hole;
+  }
+  const std::vector<Outline> chains = chains_of(outline);
+  if (!check_chain(checking, path, chains.front())) return false;
+  const std::string body = path.substr(0, path.rfind('.'));
+  Outline with = chains.front();
+  for (std::size_t k = 1; k < chains.size(); ++k) {
+    const auto [at, name] = hole_of(body, chains[k], k - 1);
+    if (!check_chain(checking, at, chains[k])) return false;
+    if (!check_inside(checking, at, fmt::format("hole '{}'", name), with, chains[k])) return false;
+    Outline hole = chains[k];
+    turn_round(hole);
+    with.holes.push_back(static_cast<int>(with.edges.size()));
+    with.edges.insert(with.edges.end(), hole.edges.begin(), hole.edges.end());
+    with.corners.insert(with.corners.end(), hole.corners.begin(), hole.corners.end());
+  }
+  return check_names({checking, path, outline});
+}
+
+}  // namespace
+
+std::optional<geometry::Crossing> crossing_between(const Outline& a, const Outline& b) {
+  Outline both = a;
+  both.holes.push_back(static_cast<int>(both.edges.size()));
+  both.edges.insert(both.edges.end(), b.edges.begin(), b.edges.end());
+  return find_crossing(both);
+}
+
+bool check_inside(Checking& checking, const std::string& path, const std::string& what, const Outline& outer,
+                  const Outline& outline) {
+  if (const auto crossing = crossing_between(outer, outline)) {
+    const auto name = [&](int edge) {
+      const auto i = static_cast<std::size_t>(edge), count = outer.edges.size();
+      return shown_name(i < count ? outer.edges[i] : outline.edges[i - count]);
+    };
+    checking.error(path, "", fmt::format("{} and {} meet at {}: {} must lie inside the body, apart from its boundary "
+                                         "and other holes and regions",
+                                         name(crossing->first), name(crossing->second), point_text(crossing->point),
+                                         what));
+    return false;
+  }
+  if (!encloses(outer, outline.edges.front().at(0.5))) {
+    checking.error(path, "", fmt::format("{} lies outside of the body: move it inside", what));
+    return false;
+  }
+  return true;
+}
+
+bool check_outline(Checking& checking, const std::string& path, const Outline& outline) {
+  if (outline.holes.empty()) return check_chain(checking, path, outline);
+  if (!check_counts({checking, path, outline})) return false;
+  return check_holes(checking, path, outline);
 }
 
 }  // namespace scabo::model

@@ -47,14 +47,14 @@ void check_supports(Checking& checking) {
 namespace {
 
 /// Whether a corner belongs to a place of the same body.
-bool includes_corner(const Place& place, int corner, int corners) {
+bool includes_corner(const Place& place, int corner, const Outline& outline) {
   switch (place.kind) {
     case Place::Kind::body:
       return true;
     case Place::Kind::corner:
       return place.index == corner;
     case Place::Kind::edge:
-      return place.index == corner || (place.index + 1) % corners == corner;
+      return place.index == corner || outline.next(place.index) == corner;
     case Place::Kind::face:
     case Place::Kind::mouth:
     case Place::Kind::near:
@@ -65,7 +65,6 @@ bool includes_corner(const Place& place, int corner, int corners) {
 
 /// Whether two places of the same body certainly share a point.
 bool share_a_point(const Place& a, const Place& b, const Body& body) {
-  const int corners = static_cast<int>(body.outline.corners.size());
   const auto is_point = [](const Place& p) { return p.kind == Place::Kind::near || p.kind == Place::Kind::mouth; };
   if (is_point(a) && is_point(b)) return a.kind == b.kind && a.near == b.near && a.index == b.index;
   if (is_point(a) || is_point(b)) {
@@ -79,9 +78,9 @@ bool share_a_point(const Place& a, const Place& b, const Body& body) {
   // At the mouth of a crack on a corner the two edges have different nodes.
   const auto shared = [&](int corner) {
     const bool mouth = !body.cracks.empty() && body.cracks.front().at == 0.0 && body.cracks.front().edge == corner;
-    return !mouth && includes_corner(larger, corner, corners);
+    return !mouth && includes_corner(larger, corner, body.outline);
   };
-  return shared(smaller.index) || (smaller.kind == Place::Kind::edge && shared((smaller.index + 1) % corners));
+  return shared(smaller.index) || (smaller.kind == Place::Kind::edge && shared(body.outline.next(smaller.index)));
 }
 
 /// Where a support stands: its line in a file, or its path.
@@ -122,12 +121,11 @@ std::vector<const First*> candidates(const Places& places, const Place& place, c
   add(place);
   other.kind = Place::Kind::body;
   if (place.kind != Place::Kind::body) add(other);
-  const int corners = static_cast<int>(body.outline.corners.size());
   if (place.kind == Place::Kind::edge || place.kind == Place::Kind::corner)
-    for (const int step : {-1, 0, 1})
+    for (const int index : {body.outline.previous(place.index), place.index, body.outline.next(place.index)})
       for (const Place::Kind kind : {Place::Kind::edge, Place::Kind::corner}) {
         other.kind = kind;
-        other.index = (place.index + step + corners) % corners;
+        other.index = index;
         if (key_of(other) != key_of(place)) add(other);
       }
   if (place.kind == Place::Kind::body)

@@ -1,11 +1,13 @@
 // State of a validation, and one function for each part of a model (validate.cpp calls them in this order).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
 #include <vector>
 
+#include "scabo/geometry/outline_checks.hpp"
 #include "scabo/model/limits.hpp"
 #include "scabo/model/validate.hpp"
 #include "scabo/model/wording.hpp"
@@ -24,6 +26,7 @@ class Checking {
   std::vector<char> held;      ///< per body: it has a support
   std::vector<char> touched;   ///< per body: it has a contact
   std::vector<char> support;   ///< per support: it is sound
+  std::vector<char> load;      ///< per load: it is sound
   std::vector<Mistake> found;  ///< the mistakes
 
   /// Mistakes that follow lie in a part with this position in a file, if it has one.
@@ -31,6 +34,8 @@ class Checking {
 
   void error(std::string_view path, std::string_view key, std::string message, std::string given = {});
   void error_of_key(std::string_view path, std::string_view key, std::string message);
+  /// The mistake reported last is one of its part as a whole.
+  void of_whole() { found.back().of_whole = true; }
 
   // Each reports a value out of its range, and returns whether it is within.
   bool number(std::string_view path, std::string_view key, double value);  ///< finite, of reasonable magnitude
@@ -75,8 +80,13 @@ void check_something_loads(Checking& checking);
 void check_never_applied(Checking& checking);
 void check_conflicting_supports(Checking& checking);
 
-/// Whether a closed outline that runs counter-clockwise is simple and of reasonable size, named and closed.
+/// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes inside.
 bool check_outline(Checking& checking, const std::string& path, const Outline& outline);
+/// The first point that the edges of two outlines share, if there is one; edges of `b` are numbered after those of `a`.
+std::optional<geometry::Crossing> crossing_between(const Outline& a, const Outline& b);
+/// Whether `outline` lies inside `outer`, apart from its edges; `what`: `region 'core'`.
+bool check_inside(Checking& checking, const std::string& path, const std::string& what, const Outline& outer,
+                  const Outline& outline);
 /// Whether a place exists; reports it if not. A place of a body with a broken shape is passed over: false.
 bool check_place(Checking& checking, const std::string& path, const Place& place);
 /// As given by the user, or made from names.

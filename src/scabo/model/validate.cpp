@@ -29,7 +29,8 @@ Checking::Checking(const Model& checked, const Gaps& reader_gaps)
       faces(checked.bodies.size(), 0),
       held(reader_gaps.held),
       touched(reader_gaps.touched),
-      support(checked.supports.size(), 0) {
+      support(checked.supports.size(), 0),
+      load(checked.loads.size(), 0) {
   held.resize(checked.bodies.size(), 0);
   touched.resize(checked.bodies.size(), 0);
 }
@@ -166,10 +167,12 @@ void check_bodies_held(Checking& checking) {
           path_of("bodies", body.name, i), "",
           fmt::format("rigid body '{}' is in no contact and has no effect: add a contact, or remove the body",
                       body.name));
+      checking.of_whole();
     } else if (!checking.held[i] && !body.outside) {
       checking.error_of_key(
           path_of("bodies", body.name, i), "",
           fmt::format("body '{}' is insufficiently supported: it has no support and no contact", body.name));
+      checking.of_whole();
     }
   }
 }

@@ -17,6 +17,7 @@ struct Mistake {
   std::string message;  ///< what is wrong, and how to correct it
   std::string given;    ///< the wrong number as `message` ends with it (`..., not 0`); a file may spell it differently
   bool of_key = false;  ///< concerns the key (it must not be here, or the whole part is meant) rather than its value
+  bool of_whole = false;  ///< is true whatever else is wrong within the part
 };
 
 /// What the reader of a text could not read and has reported: checks that need it are left out.

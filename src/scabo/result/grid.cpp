@@ -22,11 +22,15 @@ Fields::Fields(std::size_t points)
       principal_angle(points),
       von_mises(points) {}
 
+void Fields::set_displacement(std::size_t point, const Vec2& u) {
+  displacement[3 * point] = u.x();
+  displacement[3 * point + 1] = u.y();
+}
+
 void Fields::set(std::size_t point, const Vec2& u, const element::Vec3& in_plane, double zz) {
   const auto single = [](double value) { return static_cast<float>(value); };
   const StressMeasures measures = stress_measures(in_plane, zz);
-  displacement[3 * point] = u.x();
-  displacement[3 * point + 1] = u.y();
+  set_displacement(point, u);
   stress_xx[point] = stress[6 * point] = single(in_plane[0]);
   stress_yy[point] = stress[6 * point + 1] = single(in_plane[1]);
   stress_zz[point] = stress[6 * point + 2] = single(zz);

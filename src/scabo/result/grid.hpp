@@ -46,6 +46,7 @@ struct Fields {
   std::vector<float> von_mises;
 
   explicit Fields(std::size_t points = 0);
+  void set_displacement(std::size_t point, const Vec2& u);
   void set(std::size_t point, const Vec2& u, const element::Vec3& in_plane, double zz);
 };
 

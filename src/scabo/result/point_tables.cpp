@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 
 #include "scabo/element/point_operator.hpp"
+#include "scabo/result/cell_locator.hpp"
 #include "scabo/result/probe.hpp"
 #include "scabo/result/stress.hpp"
 
@@ -28,18 +30,6 @@ bool worth_condensing(std::size_t points, int increments) {
   return 5 * points <= static_cast<std::size_t>(increments) * std::min(points, of_table);
 }
 
-bool loaded_inside(const analysis::IncrementResult& increment, std::size_t body) {
-  return !increment.interior[body].loads.empty();
-}
-
-/// Position of the point in the mesh: arcs are divided into polynomials, which may pass slightly inside of it.
-std::optional<element::ScaledPoint> located(const element::Ring& ring, const Vec2& x, bool unbounded) {
-  if (const auto point = element::locate(ring, x, unbounded)) return point;
-  auto point = element::locate(ring, unbounded ? 2.0 * x : 0.5 * x, unbounded);
-  if (point) point->xi = 1.0;
-  return point;
-}
-
 bool singular_at_centre(const element::ModalSolution& modes) {
   return std::any_of(modes.exponents.begin(), modes.exponents.end(),
                      [](const auto& exponent) { return exponent.real() > 1e-9 && exponent.real() < 1.0 - 1e-6; });
@@ -49,12 +39,15 @@ void append(fmt::memory_buffer& to, double value) { fmt::format_to(std::back_ins
 
 }  // namespace
 
-struct PointEvaluation::Body {
+/// The points in one cell, in the finite elements of one body, or in a rigid body.
+struct PointEvaluation::Group {
   int body = -1;
+  std::size_t cell = 0;                           // where there is a super-element
   std::vector<std::size_t> rows;                  // in the list of all points
-  std::vector<element::ScaledPoint> places;       // of a super-element
-  std::vector<bool> infinite;                     // stress at the scaling centre
+  std::vector<CellPlace> places;                  // of an elastic body
+  std::vector<bool> infinite;                     // stress at the scaling centre of a super-element
   std::vector<element::PointOperator> operators;  // empty: not condensed
+  std::vector<int> dofs;                          // of the cell, if condensed
 };
 
 PointEvaluation::~PointEvaluation() = default;
@@ -64,71 +57,96 @@ PointEvaluation::PointEvaluation(const analysis::StaticSolution& solution, std::
                                  int increments)
     : points_(std::move(points)) {
   for (int b = 0; b < static_cast<int>(solution.model.bodies.size()); ++b) {
-    Body body;
-    body.body = b;
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      if (points_[i].body == b) body.rows.push_back(i);
-    if (body.rows.empty()) continue;
+    std::map<std::size_t, Group> groups;  // by cell; all finite elements of a body are one group
     const auto index = static_cast<std::size_t>(b);
-    if (const auto& super_element = solution.super_elements[index]) {
-      const Vec2& centre = solution.mesh.bodies[index].super_elements.front().centre;
-      double size = 0.0;
-      for (const Vec2& x : super_element->ring.nodes) size = std::max(size, x.norm());
-      for (const std::size_t row : body.rows) {
-        const Vec2 x = points_[row].at - centre;
-        const auto place = located(super_element->ring, x, super_element->domain.unbounded);
-        ensure(place.has_value(), "a point of a body has no place in its super-element");
-        body.places.push_back(*place);
-        const bool infinite = x.norm() <= on_centre * size && singular_at_centre(super_element->modes());
-        body.infinite.push_back(infinite);
-        if (infinite)
-          warnings_.push_back(fmt::format(
-              "stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
-              solution.model.bodies[index].name, points_[row].at.x(), points_[row].at.y(), points_[row].name));
+    const element::SolvedCells& cells = solution.cells[index];
+    std::optional<CellLocator> locator;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (points_[i].body != b) continue;
+      CellPlace place;
+      if (!solution.model.bodies[index].rigid) {
+        if (!locator) locator.emplace(solution.mesh.bodies[index], cells);
+        place = locator->nearest(points_[i].at);
       }
-      const double bytes =
-          40.0 * static_cast<double>(super_element->solution.K.rows()) * static_cast<double>(body.rows.size());
-      if (!super_element->domain.unbounded && worth_condensing(body.rows.size(), increments) &&
-          bytes <= most_condensed_bytes)
-        body.operators = element::PointCondensation(super_element->ring, super_element->solution)
-                             .at(body.places, super_element->threads);
+      const bool super_element = !cells.empty() && cells[place.cell];
+      Group& group = groups[super_element ? place.cell : cells.size()];
+      group.body = b;
+      group.cell = place.cell;
+      group.rows.push_back(i);
+      group.places.push_back(place);
     }
-    bodies_.push_back(std::move(body));
+    for (auto& [cell, group] : groups) {
+      if (cell < cells.size()) prepare(solution, group, increments);
+      groups_.push_back(std::move(group));
+    }
   }
+}
+
+void PointEvaluation::prepare(const analysis::StaticSolution& solution, Group& group, int increments) {
+  const auto b = static_cast<std::size_t>(group.body);
+  const mesh::Cell& cell = solution.mesh.bodies[b].cells[group.cell];
+  const element::SolvedSuperElement& super_element = *solution.cells[b][group.cell];
+  double size = 0.0;
+  for (const Vec2& x : super_element.ring.nodes) size = std::max(size, x.norm());
+  for (const std::size_t row : group.rows) {
+    const mesh::OutputPoint& point = points_[row];
+    const bool infinite = (point.at - cell.centre).norm() <= on_centre * size && singular_at_centre(super_element.modes());
+    group.infinite.push_back(infinite);
+    if (infinite)
+      warnings_.push_back(
+          fmt::format("stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
+                      solution.model.bodies[b].name, point.at.x(), point.at.y(), point.name));
+  }
+  const double bytes =
+      40.0 * static_cast<double>(super_element.solution.K.rows()) * static_cast<double>(group.rows.size());
+  if (super_element.domain.unbounded || !worth_condensing(group.rows.size(), increments) || bytes > most_condensed_bytes)
+    return;
+  std::vector<element::ScaledPoint> places;
+  for (const CellPlace& place : group.places) places.push_back(place.scaled);
+  group.operators =
+      element::PointCondensation(super_element.ring, super_element.solution).at(places, super_element.threads);
+  group.dofs = element::dofs_of(cell);
 }
 
 std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& solution,
                                              const analysis::IncrementResult& increment) const {
   std::vector<PointResult> results(points_.size());
-  for (const Body& body : bodies_) {
-    const auto b = static_cast<std::size_t>(body.body);
+  for (const Group& group : groups_) {
+    const auto b = static_cast<std::size_t>(group.body);
     const model::Body& named = solution.model.bodies[b];
-    const auto& super_element = solution.super_elements[b];
-    const bool condensed = !body.operators.empty() && !loaded_inside(increment, b);
+    const element::SolvedSuperElement* super_element =
+        group.infinite.empty() ? nullptr : solution.cells[b][group.cell].get();
+    const element::InteriorLoads& interior = element::loads_in(increment.interior[b], group.cell);
+    const bool condensed = !group.operators.empty() && interior.loads.empty();
     std::optional<Probe> probe;
-    if (!condensed) probe.emplace(solution, increment, body.body);
-    if (probe && body.rows.size() > many) probe->expect_many();
-    for (std::size_t i = 0; i < body.rows.size(); ++i) {
-      const Vec2& x = points_[body.rows[i]].at;
-      PointResult& result = results[body.rows[i]];
+    Vector u;
+    if (condensed)
+      u = increment.displacements[b](group.dofs);
+    else
+      probe.emplace(solution, increment, group.body);
+    if (probe && super_element && group.rows.size() > many) probe->expect_many();
+    for (std::size_t i = 0; i < group.rows.size(); ++i) {
+      const Vec2& x = points_[group.rows[i]].at;
+      const CellPlace& place = group.places[i];
+      PointResult& result = results[group.rows[i]];
       if (condensed) {
-        const element::PointOperator& rows = body.operators[i];
-        result.values.displacement = rows.N * increment.displacements[b] - increment.reference_displacement;
-        result.values.strain = rows.B * increment.displacements[b];
+        const element::PointOperator& rows = group.operators[i];
+        result.values.displacement = rows.N * u - increment.reference_displacement;
+        result.values.strain = rows.B * u;
         result.values.stress =
-            super_element->sectors.D.of(static_cast<std::size_t>(body.places[i].element)) * result.values.strain;
+            super_element->sectors.D.of(static_cast<std::size_t>(place.scaled.element)) * result.values.strain;
       } else {
-        const auto values = super_element ? std::optional(probe->at(x, body.places[i])) : probe->at(x);
+        const auto values = named.rigid ? probe->at(x) : std::optional(probe->at(x, place));
         ensure(values.has_value(), "a point of a body has no value");
         result.values = *values;
       }
-      result.has_stress = !named.rigid && !(super_element && body.infinite[i]);
+      result.has_stress = !named.rigid && !(super_element && group.infinite[i]);
       if (!result.has_stress) continue;
-      const double temperature = increment.interior[b].temperature.at(x);
-      int material = named.material;
+      const double temperature = interior.temperature.at(x);
+      int material = solution.mesh.bodies[b].cells[place.cell].materials.front();
       element::Vec3 elastic = result.values.strain;
       if (super_element) {
-        const auto element = static_cast<std::size_t>(body.places[i].element);
+        const auto element = static_cast<std::size_t>(place.scaled.element);
         material = super_element->sectors.material_of(element);
         elastic -= super_element->sectors.unit_strain_of(element) * temperature;
       }

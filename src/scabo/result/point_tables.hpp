@@ -45,9 +45,10 @@ class PointEvaluation {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  struct Body;  // a body with its points
+  struct Group;  // the points in one cell
+  void prepare(const analysis::StaticSolution& solution, Group& group, int increments);
   std::vector<mesh::OutputPoint> points_;
-  std::vector<Body> bodies_;
+  std::vector<Group> groups_;
   std::vector<std::string> warnings_;
 };
 

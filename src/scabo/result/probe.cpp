@@ -1,6 +1,5 @@
 #include "scabo/result/probe.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -22,62 +21,52 @@ Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
   return {motion[0] - motion[2] * arm.y(), motion[1] + motion[2] * arm.x()};
 }
 
-FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element,
-                                        const Vector& u) {
+FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::Cell& cell, const Vector& u) {
   FiniteElementState state;
-  for (std::size_t i = 0; i < element.size(); ++i) {
-    state.x[i] = mesh.nodes[static_cast<std::size_t>(element[i])];
-    state.u.segment<2>(static_cast<Eigen::Index>(2 * i)) = u.segment<2>(2 * element[i]);
-  }
+  state.x = element::corners8_of(cell, mesh.nodes);
+  const std::array<int, 8> nodes = element::plane_element8_nodes_of(cell);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    state.u.segment<2>(static_cast<Eigen::Index>(2 * i)) = u.segment<2>(2 * nodes[i]);
   return state;
 }
 
-std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x) {
-  constexpr double slack = 1e-9;  // points between two elements belong to one of them
-  Vec2 low = corners[0], high = corners[0];
-  for (const Vec2& corner : corners) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
-  const Vec2 size = high - low;
-  // Curved sides may extend beyond the bounding box of their nodes by less than a quarter of its size.
-  if (((x - low).array() < -0.25 * size.array()).any() || ((x - high).array() > 0.25 * size.array()).any())
-    return std::nullopt;
-  // Position and its gradient are computed like a displacement field whose nodal values are the coordinates.
-  element::Vector16 nodal;
-  for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(static_cast<Eigen::Index>(2 * i)) = corners[i];
-  const auto position = [&](const Vec2& at) {
-    return element::plane_element8_values(element::plane_element8_nodes, nodal, element::Mat3::Zero(), at.x(), at.y())
-        .displacement;
-  };
-  Vec2 natural = Vec2::Zero();
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    const Vec2 miss = x - position(natural);
-    if (miss.norm() <= 1e-14 * size.norm()) break;
-    constexpr double h = 1e-3;  // position is quadratic along r and along s: central differences are exact
-    Mat2 J;
-    J.col(0) = (position(natural + Vec2(h, 0.0)) - position(natural - Vec2(h, 0.0))) / (2.0 * h);
-    J.col(1) = (position(natural + Vec2(0.0, h)) - position(natural - Vec2(0.0, h))) / (2.0 * h);
-    natural += J.inverse() * miss;
-    if (!(natural.lpNorm<Eigen::Infinity>() < 3.0)) return std::nullopt;
-  }
-  if (natural.lpNorm<Eigen::Infinity>() > 1.0 + slack) return std::nullopt;
-  return natural;
-}
+struct Probe::CellField {
+  CellField(const element::SolvedSuperElement& cell, Vector displacement, const std::vector<element::RadialLoad>& loads)
+      : u(std::move(displacement)), radial(cell.solution, cell.modes(), u, loads) {}
+  Vector u;
+  element::RadialField radial;
+  std::optional<element::RadialTable> table;
+};
 
 Probe::Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body)
     : solution_(solution),
       body_(static_cast<std::size_t>(body)),
       u_(increment.displacements[body_]),
       reference_displacement_(increment.reference_displacement),
-      interior_(increment.interior[body_]) {
-  const auto& super_element = solution.super_elements[body_];
-  if (!super_element) return;
-  field_.emplace(super_element->solution, super_element->modes(), u_, interior_.loads);
+      interior_(increment.interior[body_]),
+      fields_(solution.cells[body_].size()) {}
+
+Probe::~Probe() = default;
+
+const CellLocator& Probe::locator() const {
+  if (!locator_) locator_.emplace(solution_.mesh.bodies[body_], solution_.cells[body_]);
+  return *locator_;
+}
+
+Probe::CellField& Probe::field_of(std::size_t cell) const {
+  if (!fields_[cell]) {
+    const element::SolvedSuperElement& super_element = *solution_.cells[body_][cell];
+    const std::vector<int> dofs = element::dofs_of(solution_.mesh.bodies[body_].cells[cell]);
+    fields_[cell] = std::make_unique<CellField>(super_element, u_(dofs), element::loads_in(interior_, cell).loads);
+    if (many_) fields_[cell]->table.emplace(fields_[cell]->radial, element::fastest_of(super_element.modes()));
+  }
+  return *fields_[cell];
 }
 
 void Probe::expect_many() {
-  if (field_ && !table_) table_.emplace(*field_, element::fastest_of(solution_.super_elements[body_]->modes()));
+  many_ = true;
+  fields_.clear();
+  fields_.resize(solution_.cells[body_].size());
 }
 
 std::optional<element::PointValues> Probe::at(const Vec2& x) const {
@@ -88,41 +77,31 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
     values.displacement = rigid_displacement(u_, x - body.outline.centroid()) - reference_displacement_;
     return values;
   }
-  if (!field_) return in_finite_elements(x);
-  const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
-  const Vec2& centre = solution_.mesh.bodies[body_].super_elements.front().centre;
-  const auto place = element::locate(super_element.ring, x - centre, super_element.domain.unbounded);
+  const auto place = locator().find(x);
   if (!place) return std::nullopt;
   return at(x, *place);
 }
 
-element::PointValues Probe::at(const Vec2& x, const element::ScaledPoint& place) const {
-  ensure(field_.has_value(), "only super-elements have scaled boundary coordinates");
-  const analysis::SolvedSuperElement& super_element = *solution_.super_elements[body_];
-  const element::Vec3 free =
-      super_element.sectors.unit_strain_of(static_cast<std::size_t>(place.element)) * interior_.temperature.at(x);
-  element::PointValues values =
-      element::point_values(super_element.ring, table_ ? table_->at(place.xi) : field_->at(place.xi),
-                            super_element.sectors.D, place.element, place.eta, free);
+element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
+  const mesh::BodyMesh& mesh = solution_.mesh.bodies[body_];
+  element::PointValues values;
+  if (const auto& super_element = solution_.cells[body_][place.cell]) {
+    CellField& field = field_of(place.cell);
+    const element::ScaledPoint& at = place.scaled;
+    const element::Vec3 free = super_element->sectors.unit_strain_of(static_cast<std::size_t>(at.element)) *
+                               element::loads_in(interior_, place.cell).temperature.at(x);
+    values = element::point_values(super_element->ring, field.table ? field.table->at(at.xi) : field.radial.at(at.xi),
+                                   super_element->sectors.D, at.element, at.eta, free);
+  } else {
+    const mesh::Cell& cell = mesh.cells[place.cell];
+    const FiniteElementState state = finite_element_state(mesh, cell, u_);
+    const model::Material& material = solution_.model.materials[static_cast<std::size_t>(cell.materials.front())];
+    values = element::plane_element8_values(state.x, state.u,
+                                            element::elasticity_matrix(material, solution_.model.analysis.plane),
+                                            place.natural.x(), place.natural.y());
+  }
   values.displacement -= reference_displacement_;
   return values;
-}
-
-std::optional<element::PointValues> Probe::in_finite_elements(const Vec2& x) const {
-  const mesh::BodyMesh& mesh = solution_.mesh.bodies[body_];
-  const auto material = static_cast<std::size_t>(solution_.model.bodies[body_].material);
-  for (const mesh::PlaneElement8& element : mesh.elements) {
-    const FiniteElementState state = finite_element_state(mesh, element, u_);
-    if (const auto natural = natural_coordinates(state.x, x)) {
-      element::PointValues values = element::plane_element8_values(
-          state.x, state.u,
-          element::elasticity_matrix(solution_.model.materials[material], solution_.model.analysis.plane), natural->x(),
-          natural->y());
-      values.displacement -= reference_displacement_;
-      return values;
-    }
-  }
-  return std::nullopt;
 }
 
 std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,

@@ -1,13 +1,15 @@
 // Displacement, strain and stress at single points, without an output mesh.
 #pragma once
 
-#include <array>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/plane_element8.hpp"
 #include "scabo/element/radial_table.hpp"
+#include "scabo/result/cell_locator.hpp"
 
 namespace scabo::result {
 
@@ -20,25 +22,30 @@ class Probe {
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
 
-  /// Prepares for many points: fields of super-elements are then interpolated along xi, to rounding accuracy.
+  ~Probe();
+
+  /// Prepares for many points in few super-elements: their fields are then interpolated along xi, to rounding accuracy.
   void expect_many();
 
-  /// Nothing if the point lies outside the body. Between finite elements (in super-elements: boundary elements) the
-  /// value of one of them is returned. A rigid body has only a displacement.
+  /// Nothing if the point lies outside the body. Between cells and between boundary elements the value of one of them is
+  /// returned. A rigid body has only a displacement.
   std::optional<element::PointValues> at(const Vec2& x) const;
-  /// The same for known scaled boundary coordinates.
-  element::PointValues at(const Vec2& x, const element::ScaledPoint& place) const;
+  /// The same for a known place of an elastic body.
+  element::PointValues at(const Vec2& x, const CellPlace& place) const;
 
  private:
-  std::optional<element::PointValues> in_finite_elements(const Vec2& x) const;
+  struct CellField;
+  const CellLocator& locator() const;
+  CellField& field_of(std::size_t cell) const;
 
   const analysis::StaticSolution& solution_;
   std::size_t body_;
   const Vector& u_;
   Vec2 reference_displacement_;
-  const element::InteriorLoads& interior_;
-  std::optional<element::RadialField> field_;  // of a super-element
-  std::optional<element::RadialTable> table_;  // of field_
+  const element::CellLoads& interior_;
+  bool many_ = false;
+  mutable std::optional<CellLocator> locator_;              // made when it is first needed
+  mutable std::vector<std::unique_ptr<CellField>> fields_;  // of super-elements, likewise
 };
 
 /// The same for a single point.
@@ -50,11 +57,7 @@ struct FiniteElementState {
   element::Corners8 x;
   element::Vector16 u;
 };
-FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element,
-                                        const Vector& u);
-
-/// Natural coordinates of `x` in an element; nothing if it lies outside.
-std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x);
+FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::Cell& cell, const Vector& u);
 
 /// Displacement of a point of a rigid body at `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.
 Vec2 rigid_displacement(const Vector& motion, const Vec2& arm);

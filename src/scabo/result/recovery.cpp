@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/line_basis.hpp"
@@ -23,21 +24,22 @@ double zz_of(const analysis::StaticSolution& solution, int material, const eleme
 // Points and cells
 
 /// Position of a point of a ring.
-Vec2 on_ring(const mesh::BodyMesh& body, int node, double xi) {
-  const Vec2 &centre = body.super_elements.front().centre, &x = body.nodes[static_cast<std::size_t>(node)];
-  return xi == 1.0 ? x : Vec2(centre + xi * (x - centre));
+Vec2 on_ring(const mesh::BodyMesh& body, const mesh::Cell& cell, int node, double xi) {
+  const Vec2& x = body.nodes[static_cast<std::size_t>(node)];
+  return xi == 1.0 ? x : Vec2(cell.centre + xi * (x - cell.centre));
 }
 
 /// Rings from the boundary inwards, then the centre: quadrilaterals between the rings, triangles at the centre. For an
 /// unbounded domain, rings from the boundary outwards.
 void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSampling& sampling, std::int32_t number) {
+  const mesh::Cell& whole = body.cells.front();
   const auto first = static_cast<std::int32_t>(grid.point_count());
   const auto n = static_cast<std::int32_t>(sampling.nodes.size());
   for (const double xi : sampling.levels)
-    for (const int node : sampling.nodes) grid.add_point(on_ring(body, node, xi), number);
+    for (const int node : sampling.nodes) grid.add_point(on_ring(body, whole, node, xi), number);
   const bool unbounded = sampling.levels.back() > 1.0;
   if (!unbounded)
-    for (int c = 0; c <= sampling.centre.back(); ++c) grid.add_point(body.super_elements.front().centre, number);
+    for (int c = 0; c <= sampling.centre.back(); ++c) grid.add_point(whole.centre, number);
   const auto rings = static_cast<std::int32_t>(sampling.levels.size());
   for (std::int32_t ring = 0; ring < rings; ++ring) {
     const std::int32_t outer = first + ring * n, inner = outer + n;
@@ -54,13 +56,83 @@ void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSamplin
   }
 }
 
-void add_finite_elements(Grid& grid, const mesh::BodyMesh& body, std::int32_t number) {
+/// Every cell: the sides at the points that cells of one material share, and what is inside of them. Rings as above.
+CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::SolvedCells& cells, SamplingLibrary& library,
+                    std::int32_t number) {
   const auto first = static_cast<std::int32_t>(grid.point_count());
-  for (const Vec2& node : body.nodes) grid.add_point(node, number);
-  for (mesh::PlaneElement8 element : body.elements) {
-    for (int& node : element) node += first;
-    grid.add_cell(CellType::quadratic_quad, element, number);
+  CellsBody made;
+  made.cells.resize(cells.size());
+  // The first points are the nodes; where materials meet, there is one more for each further material.
+  for (std::size_t node = 0; node < body.nodes.size(); ++node) {
+    made.nodes.push_back(static_cast<int>(node));
+    made.materials.push_back(-1);
+    grid.add_point(body.nodes[node], number);
   }
+  std::map<std::pair<int, int>, std::int32_t> further;  // node and material
+  const auto shared_point = [&](int node, int material) {
+    int& of_node = made.materials[static_cast<std::size_t>(node)];
+    if (of_node < 0) of_node = material;
+    if (of_node == material) return static_cast<std::int32_t>(node);
+    const auto key = std::pair(node, material);
+    if (const auto found = further.find(key); found != further.end()) return found->second;
+    const auto point = static_cast<std::int32_t>(made.nodes.size());
+    further.emplace(key, point);
+    made.nodes.push_back(node);
+    made.materials.push_back(material);
+    grid.add_point(body.nodes[static_cast<std::size_t>(node)], number);
+    return point;
+  };
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const mesh::Cell& cell = body.cells[c];
+    if (!cells[c]) {
+      for (const int node : element::plane_element8_nodes_of(cell))
+        made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
+      continue;
+    }
+    made.cells[c].sampling = library.of_cell(*cells[c]);
+    const RingSampling& sampling = *made.cells[c].sampling;
+    const std::vector<int> nodes = cell.nodes();
+    for (std::size_t k = 0; k < sampling.nodes.size(); ++k)
+      made.cells[c].outer.push_back(shared_point(nodes[static_cast<std::size_t>(sampling.nodes[k])],
+                                                 cells[c]->sectors.material_of(sampling.sectors[k])));
+  }
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    CellsBody::OfCell& of_cell = made.cells[c];
+    if (!cells[c]) {
+      std::array<std::int32_t, 8> points{};
+      for (std::size_t i = 0; i < 8; ++i) points[i] = first + of_cell.outer[i];
+      grid.add_cell(CellType::quadratic_quad, points, number);
+      continue;
+    }
+    const RingSampling& sampling = *of_cell.sampling;
+    const mesh::Cell& cell = body.cells[c];
+    const std::vector<int> nodes = cell.nodes();
+    of_cell.inner = static_cast<std::int32_t>(grid.point_count()) - first;
+    const auto n = static_cast<std::int32_t>(sampling.nodes.size());
+    const auto rings = static_cast<std::int32_t>(sampling.levels.size());
+    for (std::int32_t ring = 1; ring < rings; ++ring)
+      for (const int node : sampling.nodes)
+        grid.add_point(on_ring(body, cell, nodes[static_cast<std::size_t>(node)],
+                               sampling.levels[static_cast<std::size_t>(ring)]),
+                       number);
+    const std::int32_t centre = first + of_cell.inner + (rings - 1) * n;
+    for (int k = 0; k <= sampling.centre.back(); ++k) grid.add_point(cell.centre, number);
+    const auto point = [&](std::int32_t ring, std::int32_t k) {
+      return first + (ring == 0 ? of_cell.outer[static_cast<std::size_t>(k)] : of_cell.inner + (ring - 1) * n + k);
+    };
+    for (std::int32_t ring = 0; ring < rings; ++ring)
+      for (std::size_t e = 0; e < sampling.points.size(); ++e)
+        for (std::size_t i = 0; i + 1 < sampling.points[e].size(); ++i) {
+          const std::int32_t a = sampling.points[e][i], b = sampling.points[e][i + 1];
+          if (ring + 1 < rings)
+            grid.add_cell(CellType::quad,
+                          std::array{point(ring + 1, a), point(ring, a), point(ring, b), point(ring + 1, b)}, number);
+          else
+            grid.add_cell(CellType::triangle, std::array{centre + sampling.centre[e], point(ring, a), point(ring, b)},
+                          number);
+        }
+  }
+  return made;
 }
 
 /// The outline as a polygon, arcs in pieces of at most 3 degrees.
@@ -91,15 +163,15 @@ RigidBody add_rigid(Grid& grid, const model::Outline& outline, std::int32_t numb
 // Values
 
 /// Stresses of every point of the ring at xi: the mean of the boundary elements that meet at it.
-Eigen::Matrix3Xd ring_stresses(const analysis::SolvedSuperElement& super_element, const RingSampling& sampling,
-                               const element::RadialField::Values& values, const mesh::BodyMesh& mesh, double xi,
+Eigen::Matrix3Xd ring_stresses(const element::SolvedSuperElement& super_element, const RingSampling& sampling,
+                               const element::RadialField::Values& values, const Vec2& centre, double xi,
                                const element::LinearField& temperature) {
   Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(sampling.nodes.size()));
   for (const RingSampling::Sample& sample : sampling.samples) {
     const auto point = static_cast<std::size_t>(sample.point);
     const std::vector<int>& nodes = super_element.ring.elements[sample.element].nodes;
     element::Vec3 strain = -super_element.sectors.unit_strain_of(sample.element) *
-                           temperature.at(on_ring(mesh, sampling.nodes[point], xi));
+                           temperature.at(centre + xi * super_element.ring.node(sampling.nodes[point]));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto local = static_cast<Eigen::Index>(2 * i), global = static_cast<Eigen::Index>(2 * nodes[i]);
       strain.noalias() += sample.B1.middleCols<2>(local) * values.u_xi.segment<2>(global);
@@ -110,30 +182,25 @@ Eigen::Matrix3Xd ring_stresses(const analysis::SolvedSuperElement& super_element
   return stresses;
 }
 
-void recover_super_element(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
-                           const analysis::IncrementResult& increment, std::size_t body, const RingSampling& sampling) {
-  const analysis::SolvedSuperElement& super_element = *solution.super_elements[body];
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
-  const Vector& boundary = increment.displacements[body];
-  const element::InteriorLoads& interior = increment.interior[body];
-  const element::RadialField field(super_element.solution, super_element.modes(), boundary, interior.loads);
-  const auto stresses_at = [&](double xi, const element::RadialField::Values& values) {
-    return ring_stresses(super_element, sampling, values, mesh, xi, interior.temperature);
-  };
-  for (const double xi : sampling.levels) {
+/// Values inside a super-element: at the rings from `first_level` on, then at the centre.
+void recover_inside(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
+                    const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
+                    const element::RadialField& field, const element::LinearField& temperature,
+                    std::size_t first_level) {
+  for (std::size_t level = first_level; level < sampling.levels.size(); ++level) {
+    const double xi = sampling.levels[level];
     const element::RadialField::Values values = field.at(xi);
-    const Vector& u = xi == 1.0 ? boundary : values.u;
-    const Eigen::Matrix3Xd stresses = stresses_at(xi, values);
+    const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, xi, temperature);
     for (std::size_t i = 0; i < sampling.nodes.size(); ++i) {
       const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(i));
-      fields.set(point++, u.segment<2>(2 * sampling.nodes[i]), stress,
+      fields.set(point++, values.u.segment<2>(2 * sampling.nodes[i]), stress,
                  zz_of(solution, super_element.sectors.material_of(sampling.sectors[i]), stress,
-                       interior.temperature.at(on_ring(mesh, sampling.nodes[i], xi))));
+                       temperature.at(centre + xi * super_element.ring.node(sampling.nodes[i]))));
     }
   }
   if (super_element.domain.unbounded) return;
   const element::RadialField::Values values = field.at(0.0);
-  const Eigen::Matrix3Xd stresses = stresses_at(0.0, values);
+  const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, 0.0, temperature);
   for (int c = 0; c <= sampling.centre.back(); ++c) {  // the mean of the sectors of one material
     element::Vec3 stress = element::Vec3::Zero();
     int count = 0, material = 0;
@@ -143,33 +210,66 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
       for (const int i : sampling.points[e]) stress += stresses.col(i), ++count;
     }
     stress /= count;
-    fields.set(point++, values.u.head<2>(), stress,
-               zz_of(solution, material, stress, interior.temperature.at(mesh.super_elements.front().centre)));
+    fields.set(point++, values.u.head<2>(), stress, zz_of(solution, material, stress, temperature.at(centre)));
   }
 }
 
-void recover_finite_elements(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
-                             const analysis::IncrementResult& increment, std::size_t body) {
+void recover_super_element(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
+                           const analysis::IncrementResult& increment, std::size_t body, const RingSampling& sampling) {
+  const element::SolvedSuperElement& super_element = *solution.cells[body].front();
+  const Vec2& centre = solution.mesh.bodies[body].cells.front().centre;
+  const Vector& boundary = increment.displacements[body];
+  const element::InteriorLoads& interior = element::loads_in(increment.interior[body], 0);
+  const element::RadialField field(super_element.solution, super_element.modes(), boundary, interior.loads);
+  const std::size_t first = point;
+  recover_inside(fields, first, solution, super_element, centre, sampling, field, interior.temperature, 0);
+  for (std::size_t i = 0; i < sampling.nodes.size(); ++i)  // exactly, without the field
+    fields.set_displacement(first + i, boundary.segment<2>(2 * sampling.nodes[i]));
+}
+
+/// Stress on the sides of cells is the mean of the cells that share the point.
+void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
+                   const analysis::IncrementResult& increment, std::size_t body, const CellsBody& made) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   const Vector& u = increment.displacements[body];
-  const element::Mat3 D = element::elasticity_matrix(
-      solution.model.materials[static_cast<std::size_t>(solution.model.bodies[body].material)],
-      solution.model.analysis.plane);
-  Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  std::vector<int> elements_at(mesh.nodes.size(), 0);
-  for (const mesh::PlaneElement8& element : mesh.elements) {
-    const FiniteElementState state = finite_element_state(mesh, element, u);
-    for (std::size_t i = 0; i < element.size(); ++i) {
-      const Vec2& natural = element::plane_element8_nodes[i];
-      stresses.col(element[i]) += element::plane_element8_values(state.x, state.u, D, natural.x(), natural.y()).stress;
-      ++elements_at[static_cast<std::size_t>(element[i])];
+  Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(made.nodes.size()));
+  std::vector<int> cells_at(made.nodes.size(), 0);
+  const auto add = [&](std::int32_t point, const element::Vec3& stress) {
+    stresses.col(point) += stress;
+    ++cells_at[static_cast<std::size_t>(point)];
+  };
+  element::LinearField temperature;  // the same in all cells of a body
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const mesh::Cell& cell = mesh.cells[c];
+    const CellsBody::OfCell& of_cell = made.cells[c];
+    const auto& super_element = solution.cells[body][c];
+    if (!super_element) {
+      const element::Mat3 D = element::elasticity_matrix(
+          solution.model.materials[static_cast<std::size_t>(cell.materials.front())], solution.model.analysis.plane);
+      const FiniteElementState state = finite_element_state(mesh, cell, u);
+      for (std::size_t i = 0; i < of_cell.outer.size(); ++i) {
+        const Vec2& natural = element::plane_element8_nodes[i];
+        add(of_cell.outer[i],
+            element::plane_element8_values(state.x, state.u, D, natural.x(), natural.y()).stress);
+      }
+      continue;
     }
+    const element::InteriorLoads& interior = element::loads_in(increment.interior[body], c);
+    temperature = interior.temperature;
+    const Vector own = u(element::dofs_of(cell));
+    const element::RadialField field(super_element->solution, super_element->modes(), own, interior.loads);
+    const Eigen::Matrix3Xd at_sides =
+        ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, temperature);
+    for (std::size_t k = 0; k < of_cell.outer.size(); ++k)
+      add(of_cell.outer[k], at_sides.col(static_cast<Eigen::Index>(k)));
+    recover_inside(fields, first + static_cast<std::size_t>(of_cell.inner), solution, *super_element, cell.centre,
+                   *of_cell.sampling, field, temperature, 1);
   }
-  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
-    const auto i = static_cast<Eigen::Index>(node);
-    const element::Vec3 stress = stresses.col(i) / elements_at[node];
-    fields.set(point++, u.segment<2>(2 * i), stress,
-               zz_of(solution, solution.model.bodies[body].material, stress, 0.0));
+  for (std::size_t point = 0; point < made.nodes.size(); ++point) {
+    const int node = made.nodes[point];
+    const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(point)) / cells_at[point];
+    fields.set(first + point, u.segment<2>(2 * node), stress,
+               zz_of(solution, made.materials[point], stress, temperature.at(mesh.nodes[static_cast<std::size_t>(node)])));
   }
 }
 
@@ -262,29 +362,38 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
   return sampling;
 }
 
+std::shared_ptr<const RingSampling> SamplingLibrary::of_body(const element::SolvedSuperElement& super_element) {
+  std::shared_ptr<const RingSampling>& sampling = known_[&super_element];
+  if (!sampling)
+    sampling = std::make_shared<const RingSampling>(
+        ring_sampling(super_element.ring, super_element.sectors, super_element.domain.unbounded));
+  return sampling;
+}
+
+std::shared_ptr<const RingSampling> SamplingLibrary::of_cell(const element::SolvedSuperElement& super_element) {
+  std::shared_ptr<const RingSampling>& sampling = known_cells_[&super_element];
+  if (sampling) return sampling;
+  RingSampling made = ring_sampling(super_element.ring, super_element.sectors, false);
+  if (!super_element.ring.is_open()) made.levels = {1.0, 0.5};  // small: a ring between sides and centre
+  sampling = std::make_shared<const RingSampling>(std::move(made));
+  return sampling;
+}
+
 Recovery::Recovery(const analysis::StaticSolution& solution) {
-  const std::size_t count = solution.model.bodies.size();
-  for (std::size_t b = 0; b < count; ++b) {
+  SamplingLibrary library;
+  for (std::size_t b = 0; b < solution.model.bodies.size(); ++b) {
     const mesh::BodyMesh& body = solution.mesh.bodies[b];
+    const element::SolvedCells& cells = solution.cells[b];
     const auto number = static_cast<std::int32_t>(b + 1);
     grid_.first_point.push_back(grid_.point_count());
     if (solution.model.bodies[b].rigid) {
       bodies_.push_back(add_rigid(grid_, solution.model.bodies[b].outline, number));
-    } else if (body.super_elements.empty()) {
-      add_finite_elements(grid_, body, number);
-      bodies_.push_back(FiniteElementBody{});
-    } else {
-      ensure(body.super_elements.size() == 1, "results of bodies of many super-elements are not written yet");
-      SuperElementBody made;
-      for (std::size_t other = 0; other < b && !made.sampling; ++other)
-        if (solution.super_elements[other] == solution.super_elements[b])
-          made = std::get<SuperElementBody>(bodies_[other]);
-      if (!made.sampling)
-        made.sampling = std::make_shared<const RingSampling>(
-            ring_sampling(solution.super_elements[b]->ring, solution.super_elements[b]->sectors,
-                          solution.super_elements[b]->domain.unbounded));
+    } else if (cells.size() == 1 && cells.front()) {
+      SuperElementBody made{library.of_body(*cells.front())};
       add_super_element(grid_, body, *made.sampling, number);
       bodies_.push_back(std::move(made));
+    } else {
+      bodies_.push_back(add_cells(grid_, body, cells, library, number));
     }
   }
   grid_.first_point.push_back(grid_.point_count());
@@ -304,7 +413,7 @@ Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis
         fields.set(point + i, rigid_displacement(increment.displacements[b], rigid->arms[i]), element::Vec3::Zero(),
                    0.0);
     } else {
-      recover_finite_elements(fields, point, solution, increment, b);
+      recover_cells(fields, point, solution, increment, b, std::get<CellsBody>(bodies_[b]));
     }
   }
   for (std::size_t point = 0; point < grid_.point_count(); ++point)

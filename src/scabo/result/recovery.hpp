@@ -4,10 +4,13 @@
 // Displacement and stress follow from its semi-analytical solution u(xi) = xi^S u(1), strain = B1 u,xi + 1/xi B2 u.
 // Where two boundary elements meet, the mean of both is given, or two points if their materials differ. At a scaling
 // centre where strains are infinite (the tip of a crack), stress is not a number. An unbounded body is shown up to
-// `farthest` radii. A finite element body is given at its nodes, with the mean stress of the elements of each node. A
+// `farthest` radii. A body of many cells is given at its nodes, with the mean stress of the cells of one material that
+// meet there, on one ring inside every super-element and at its centre. A
 // rigid body is its displaced outline, without stress.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -38,9 +41,28 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
 struct SuperElementBody {
   std::shared_ptr<const RingSampling> sampling;
 };
-struct FiniteElementBody {};
+/// A body of many cells. Points are numbered within the body: first those on the sides, which cells of one material share.
+struct CellsBody {
+  struct OfCell {
+    std::shared_ptr<const RingSampling> sampling;  // null: a finite element
+    std::vector<std::int32_t> outer;               // shared point of every point of the ring, or of every node
+    std::int32_t inner = 0;                        // first point inside
+  };
+  std::vector<OfCell> cells;
+  std::vector<int> nodes, materials;  // of every shared point
+};
 struct RigidBody {
   std::vector<Vec2> arms;  // outline relative to its centroid
+};
+
+/// Samplings, each distinct one computed once: of a super-element that is a body, on many rings, and of a small one.
+class SamplingLibrary {
+ public:
+  std::shared_ptr<const RingSampling> of_body(const element::SolvedSuperElement& super_element);
+  std::shared_ptr<const RingSampling> of_cell(const element::SolvedSuperElement& super_element);
+
+ private:
+  std::map<const element::SolvedSuperElement*, std::shared_ptr<const RingSampling>> known_, known_cells_;
 };
 
 /// Created once for a mesh; gives the fields of any increment.
@@ -54,7 +76,7 @@ class Recovery {
 
  private:
   Grid grid_;
-  std::vector<std::variant<SuperElementBody, FiniteElementBody, RigidBody>> bodies_;
+  std::vector<std::variant<SuperElementBody, CellsBody, RigidBody>> bodies_;
 };
 
 /// Rings on which a super-element is sampled: the outermost is about as wide as boundary nodes are apart, and those

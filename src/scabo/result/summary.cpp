@@ -187,8 +187,8 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution) {
   sizes.nodes = solution.mesh.nodes();
   sizes.dofs = 2 * sizes.nodes;
   for (const mesh::BodyMesh& body : solution.mesh.bodies) {
-    sizes.super_elements += static_cast<int>(body.super_elements.size());
-    sizes.finite_elements += static_cast<int>(body.elements.size());
+    sizes.super_elements += body.count(mesh::CellKind::superelement);
+    sizes.finite_elements += body.count(mesh::CellKind::finite_element);
   }
   // Only an increment shows which pairs can move.
   if (!solution.increments.empty() && solution.increments.front().converged) {

@@ -6,7 +6,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "scabo/element/plane_element8.hpp"
 #include "scabo/linalg/symmetric_eigen.hpp"
 
 namespace scabo::system {
@@ -151,25 +150,6 @@ NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::ve
   linalg::EigenPairs pairs{Vector(0), Matrix(static_cast<Eigen::Index>(dofs.size()), 0)};
   if (wanted > 0) pairs = elastic_modes(K_free, M_free, rigid, wanted, *elastic_body(K, nodes, constraints), dofs);
   return finish(K_free, M_free, rigid, pairs, count, dofs, K.size());
-}
-
-linalg::SparseMatrix fem_mass(const mesh::BodyMesh& mesh, double density, double thickness) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(mesh.elements.size() * 128);
-  for (const mesh::PlaneElement8& element : mesh.elements) {
-    element::Corners8 x;
-    for (std::size_t i = 0; i < 8; ++i) x[i] = mesh.nodes[static_cast<std::size_t>(element[i])];
-    const element::Matrix8 m = element::plane_element8_mass(x, density, thickness);
-    for (int i = 0; i < 8; ++i)
-      for (int j = 0; j < 8; ++j)
-        for (int component = 0; component < 2; ++component)
-          entries.emplace_back(2 * element[static_cast<std::size_t>(i)] + component,
-                               2 * element[static_cast<std::size_t>(j)] + component, m(i, j));
-  }
-  const auto n = static_cast<Eigen::Index>(2 * mesh.nodes.size());
-  Sparse M(n, n);
-  M.setFromTriplets(entries.begin(), entries.end());
-  return M;
 }
 
 }  // namespace scabo::system

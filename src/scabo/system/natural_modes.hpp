@@ -32,7 +32,4 @@ struct NaturalModes {
 NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::vector<Vec2>& nodes,
                            const std::vector<Constraint>& constraints, int count);
 
-/// Mass of a body divided into 8-node elements.
-linalg::SparseMatrix fem_mass(const mesh::BodyMesh& mesh, double density, double thickness);
-
 }  // namespace scabo::system

@@ -4,9 +4,8 @@
 
 #include <map>
 
-#include "scabo/element/modal_solution.hpp"
-#include "scabo/element/plane_element8.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
+#include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::system {
@@ -28,12 +27,6 @@ double half_size(const model::Outline& outline) {
   for (const model::Edge& edge : outline.edges)
     for (double t : {0.0, 0.5}) low = low.cwiseMin(edge.at(t)), high = high.cwiseMax(edge.at(t));
   return 0.5 * (high - low).norm();
-}
-
-element::Corners8 corners_of(const mesh::BodyMesh& mesh, const mesh::PlaneElement8& element) {
-  element::Corners8 x;
-  for (std::size_t i = 0; i < 8; ++i) x[i] = mesh.nodes[static_cast<std::size_t>(element[i])];
-  return x;
 }
 
 class ConstraintCollector {
@@ -175,24 +168,8 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
   if (!diagnostics.empty()) throw InputError(model.file, std::move(diagnostics));
 }
 
-linalg::SparseMatrix fem_stiffness(const mesh::BodyMesh& mesh, const element::Mat3& D, double thickness) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(mesh.elements.size() * 256);
-  for (const mesh::PlaneElement8& element : mesh.elements) {
-    const element::Matrix16 K = element::plane_element8_stiffness(corners_of(mesh, element), D, thickness);
-    for (int i = 0; i < 16; ++i)
-      for (int j = 0; j < 16; ++j)
-        entries.emplace_back(2 * element[static_cast<std::size_t>(i / 2)] + i % 2,
-                             2 * element[static_cast<std::size_t>(j / 2)] + j % 2, K(i, j));
-  }
-  const auto n = static_cast<Eigen::Index>(2 * mesh.nodes.size());
-  linalg::SparseMatrix K(n, n);
-  K.setFromTriplets(entries.begin(), entries.end());
-  return K;
-}
-
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<const element::SuperElementSolution*>& super_elements) {
+                         const std::vector<element::SolvedCells>& cells) {
   auto constraints = constraints_of(model, mesh);
   Structure structure;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -201,17 +178,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       structure.bodies.push_back(make_rigid_body(model, body, std::move(constraints[b])));
       continue;
     }
-    Stiffness stiffness;
-    stiffness.unbounded = body.outside;
-    if (super_elements[b]) {
-      stiffness.dense =
-          std::shared_ptr<const Matrix>(&super_elements[b]->K, [](const Matrix*) {});  // kept by the caller
-      stiffness.rounding = super_elements[b]->rounding;
-    } else {
-      const auto D =
-          element::elasticity_matrix(model.materials[static_cast<std::size_t>(body.material)], model.analysis.plane);
-      stiffness.sparse = fem_stiffness(mesh.bodies[b], D, model.analysis.thickness);
-    }
+    Stiffness stiffness = body_stiffness(model, mesh.bodies[b], cells[b], body.outside);
     try {
       structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
     } catch (const linalg::NotPositiveDefinite&) {

@@ -1,0 +1,145 @@
+#include "scabo/element/cell_library.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "scabo/element/ill_posed.hpp"
+#include "scabo/linalg/parallel.hpp"
+
+namespace scabo::element {
+
+namespace {
+
+bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
+  if (a.thickness != b.thickness || a.domain != b.domain || a.sectors.materials != b.sectors.materials ||
+      a.sectors.D != b.sectors.D || a.ring.nodes.size() != b.ring.nodes.size() ||
+      a.ring.elements.size() != b.ring.elements.size())
+    return false;
+  for (std::size_t e = 0; e < a.ring.elements.size(); ++e)
+    if (a.ring.elements[e].nodes != b.ring.elements[e].nodes) return false;
+  double size = 0.0;
+  for (const Vec2& x : a.ring.nodes) size = std::max(size, x.squaredNorm());
+  // Coordinates relative to their centres differ only by rounding.
+  for (std::size_t i = 0; i < a.ring.nodes.size(); ++i)
+    if ((a.ring.nodes[i] - b.ring.nodes[i]).squaredNorm() > 1e-26 * size) return false;
+  return true;
+}
+
+/// The error of a super-element in the terms of the model file.
+Diagnostic ill_posed(const model::Body& body, const IllPosed& error) {
+  return {body.source,
+          fmt::format(
+              "{}; its material constants differ too much for double precision (Poisson's ratio too close to 1/2, or "
+              "moduli that differ by a factor of 1e12 or more), the body is too slender (3000:1 or more), or the scaling "
+              "centre is too close to the boundary",
+              error.what())};
+}
+
+/// Many super-elements are distributed over the threads; of a few, the symmetry blocks of each. `bodies`: the first
+/// body of each.
+void solve_all(const model::Model& model, const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
+               const std::vector<std::size_t>& bodies, int threads) {
+  const auto count = static_cast<int>(distinct.size());
+  const bool many = count >= threads && threads > 1;
+  const auto solve = [&](int i) {
+    SolvedSuperElement& super_element = *distinct[static_cast<std::size_t>(i)];
+    super_element.threads = threads;
+    try {
+      super_element.solution = solve_super_element(super_element.ring, super_element.sectors.D, super_element.thickness,
+                                                   many ? 1 : threads, super_element.domain);
+    } catch (const IllPosed& error) {
+      throw InputError(model.file, {ill_posed(model.bodies[bodies[static_cast<std::size_t>(i)]], error)});
+    }
+  };
+  linalg::parallel_for(count, many ? threads : 1, solve);
+}
+
+/// The mean displacement of an unbounded body vanishes at the distance of its reference point, or at a thousand radii
+/// if there is none.
+Domain domain_of(const model::Body& body, const Ring& ring) {
+  Domain domain;
+  domain.unbounded = body.outside;
+  if (!body.outside || !body.reference) return domain;
+  double radius = 0.0;
+  for (const Vec2& x : ring.nodes) radius = std::max(radius, x.norm());
+  domain.far = std::max(10.0, (*body.reference - body.mesh.centre).norm() / radius);
+  return domain;
+}
+
+
+/// Equal for super-elements that are alike (but for coordinates whose rounding falls on two sides of a step, which only
+/// costs a second solution).
+std::size_t hash_of(const SolvedSuperElement& super_element) {
+  std::size_t hash = super_element.ring.elements.size();
+  const auto add = [&](std::int64_t value) {
+    hash ^= static_cast<std::size_t>(value) + 0x9e3779b97f4a7c15ULL + (hash << 6) + (hash >> 2);
+  };
+  for (const int material : super_element.sectors.materials) add(material);
+  double size = 0.0;
+  for (const Vec2& x : super_element.ring.nodes) size = std::max(size, x.lpNorm<Eigen::Infinity>());
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  for (const Vec2& x : super_element.ring.nodes)
+    for (const double coordinate : x) add(std::llround(std::ldexp(coordinate, 30 - exponent)));
+  return hash;
+}
+
+}  // namespace
+
+std::vector<int> dofs_of(const mesh::Cell& cell) {
+  std::vector<int> dofs;
+  for (const int node : cell.nodes()) {
+    dofs.push_back(2 * node);
+    dofs.push_back(2 * node + 1);
+  }
+  return dofs;
+}
+
+const ModalSolution& SolvedSuperElement::modes() const {
+  std::call_once(modes_flag_, [&] { modes_ = std::make_unique<ModalSolution>(modal_solution(solution, threads)); });
+  return *modes_;
+}
+
+const CornerAnalysis& SolvedSuperElement::corner() const {
+  std::call_once(corner_flag_, [&] { corner_ = std::make_unique<CornerAnalysis>(ring, sectors.D, solution); });
+  return *corner_;
+}
+
+std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads) {
+  std::vector<std::shared_ptr<SolvedSuperElement>> distinct;
+  std::unordered_multimap<std::size_t, std::size_t> known;  // hash to index in `distinct`
+  std::vector<std::size_t> bodies;
+  std::vector<SolvedCells> solved(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    for (const mesh::Cell& cell : mesh.bodies[b].cells) {
+      if (cell.kind != mesh::CellKind::superelement) {
+        solved[b].emplace_back();
+        continue;
+      }
+      auto wanted = std::make_shared<SolvedSuperElement>();
+      wanted->ring = ring_of(cell, mesh.bodies[b].nodes);
+      wanted->sectors = sectors_of(model, cell);
+      wanted->domain = domain_of(model.bodies[b], wanted->ring);
+      wanted->thickness = model.analysis.thickness;
+      const std::size_t hash = hash_of(*wanted);
+      const auto [first, last] = known.equal_range(hash);
+      const auto same =
+          std::find_if(first, last, [&](const auto& entry) { return are_alike(*wanted, *distinct[entry.second]); });
+      if (same != last) {
+        solved[b].push_back(distinct[same->second]);
+        continue;
+      }
+      known.emplace(hash, distinct.size());
+      distinct.push_back(wanted);
+      bodies.push_back(b);
+      solved[b].push_back(std::move(wanted));
+    }
+  solve_all(model, distinct, bodies, threads);
+  return solved;
+}
+
+}  // namespace scabo::element

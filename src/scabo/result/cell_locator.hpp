@@ -1,0 +1,45 @@
+// Which cell of a body holds a point, and where in it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane_element8.hpp"
+
+namespace scabo::result {
+
+/// A point of a body: its cell, and scaled boundary coordinates or, in a finite element, natural coordinates.
+struct CellPlace {
+  std::size_t cell = 0;
+  element::ScaledPoint scaled;
+  Vec2 natural = Vec2::Zero();
+};
+
+/// Cells are found by the boxes that enclose them. Keeps references to the mesh and the cells.
+class CellLocator {
+ public:
+  CellLocator(const mesh::BodyMesh& mesh, const element::SolvedCells& cells);
+
+  /// Nothing if no cell holds the point. Between two cells, the first.
+  std::optional<CellPlace> find(const Vec2& x) const;
+  /// The same; a point slightly outside of the mesh (an arc is divided into polynomials, which may pass inside of it) is
+  /// placed on the boundary of the nearest cell.
+  CellPlace nearest(const Vec2& x) const;
+
+ private:
+  std::optional<CellPlace> in_cell(std::size_t cell, const Vec2& x) const;
+  std::size_t bucket_of(const Vec2& x) const;
+
+  const mesh::BodyMesh& mesh_;
+  const element::SolvedCells& cells_;
+  Vec2 low_ = Vec2::Zero(), step_ = Vec2::Ones();
+  Eigen::Vector2i counts_ = Eigen::Vector2i::Ones();
+  std::vector<std::vector<std::size_t>> buckets_;  // cells whose boxes overlap each; one bucket for a single cell
+};
+
+/// Natural coordinates of `x` in an element; nothing if it lies outside.
+std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x);
+
+}  // namespace scabo::result

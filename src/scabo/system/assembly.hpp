@@ -1,0 +1,33 @@
+// Stiffness and mass of a body from those of its cells, super-elements and finite elements alike.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "scabo/element/cell_library.hpp"
+#include "scabo/system/body_system.hpp"
+
+namespace scabo::system {
+
+/// Stiffness of a body: that of its super-element, shared with it, if it is one; otherwise sparse.
+Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
+                         bool unbounded = false);
+
+/// Masses of super-elements, each distinct one computed once.
+class MassLibrary {
+ public:
+  using MassOf = std::function<Matrix(const element::SolvedSuperElement&)>;
+  explicit MassLibrary(MassOf compute) : compute_(std::move(compute)) {}
+  std::shared_ptr<const Matrix> of(const element::SolvedSuperElement& super_element);
+
+ private:
+  MassOf compute_;
+  std::map<const element::SolvedSuperElement*, std::shared_ptr<const Matrix>> known_;
+};
+
+/// Mass, stored like the stiffness. Every material needs a density.
+Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
+                    MassLibrary& masses);
+
+}  // namespace scabo::system
