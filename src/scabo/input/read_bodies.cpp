@@ -26,6 +26,7 @@ double estimated_dofs(const Outline& outline, MeshKind kind, double size, int or
   if (kind == MeshKind::fem) {
     const double nx = pieces(outline.edges[0].length(), size);
     const double ny = pieces(outline.edges[1].length(), size);
+    if (order == 1) return 2.0 * (nx + 1.0) * (ny + 1.0);
     return 2.0 * ((nx + 1.0) * (ny + 1.0) + nx * (ny + 1.0) + ny * (nx + 1.0));
   }
   double elements = 0.0;
@@ -120,8 +121,8 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   }
   if (const auto order = map.get("order")) {
     mesh.order = static_cast<int>(read_integer(report, *order, 1, 16).value_or(2));
-    if (fem && mesh.order != 2) {
-      report.error(*order, "fem uses 8-node elements of order 2: leave 'order' out");
+    if (fem && mesh.order > 2) {
+      report.error(*order, fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", mesh.order));
     }
   }
   if (fem) map.refuse("centre", "only a super-element has a scaling centre: leave 'centre' out for fem");

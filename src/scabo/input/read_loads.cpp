@@ -44,8 +44,6 @@ bool check_place(Reading& reading, const Value& on, const Place& place, const st
           kind == "temperature" ? "temperature has no effect on it" : "it has no weight; apply a force to it instead");
     } else if (outside) {
       why = fmt::format("'{}' is unbounded: loads can act only on its boundary", body);
-    } else if (kind != "gravity" && reading.body(place.body).mesh.kind == MeshKind::fem) {
-      why = fmt::format("{} is not available for finite elements: use kind superelement", kind);
     }
   } else if (place.kind == Place::Kind::face && outside) {
     why = fmt::format("'{}' is unbounded: loads can act only on its inner boundary, not on its side faces", body);
@@ -184,10 +182,6 @@ void check_expansion(Reading& reading) {
     for (std::size_t i = first; i < last; ++i) {
       const Body& body = reading.model.bodies[i];
       if (body.material < 0 || body.outside) continue;
-      if (!load.on && body.mesh.kind == MeshKind::fem)
-        reading.report.error(load.source, fmt::format("temperature is not available for finite elements, of which body "
-                                                      "'{}' consists: name another body with 'on'",
-                                                      body.name));
       for (const int index : materials_of(body)) {
         const Material& material = reading.model.materials[static_cast<std::size_t>(index)];
         if (material.expansion || !told.insert(index).second) continue;

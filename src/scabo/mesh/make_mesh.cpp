@@ -22,9 +22,9 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
     return {{body.mesh.source,
              "'kind: fem' is available only for rectangles: give the body a 'rectangle' shape, or leave out 'kind'"}};
   }
-  if (fem && body.mesh.order != 2) {
-    return {{body.mesh.source,
-             fmt::format("'kind: fem' uses elements of order 2, not {}: leave out 'order'", body.mesh.order)}};
+  if (fem && body.mesh.order > 2) {
+    return {{body.mesh.source, fmt::format("'kind: fem' uses elements of order 1 or 2, not {}: use one of these",
+                                           body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
   if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {
