@@ -119,7 +119,7 @@ TEST_P(EveryKind, IsExactForLinearFields) {
 
   const ElementMatrix K = finite_element_stiffness(element, D, thickness);
   EXPECT_EQ(K, K.transpose());
-  // Nodal forces of the traction on a side: [1, 1] / 2, or Simpson's rule 1/6, 4/6, 1/6 with the tangents there.
+  // Nodal forces of the traction on a side: halves, or int N_i dx/deta deta of a quadratic side.
   ElementVector f = ElementVector::Zero(2 * element.size());
   const int corners = element.corners();
   for (int side = 0; side < corners; ++side) {
@@ -133,7 +133,7 @@ TEST_P(EveryKind, IsExactForLinearFields) {
       f.segment<2>(2 * to) += 0.5 * force(x(to) - x(from));
       continue;
     }
-    // Twice the tangent dx/deta at both ends and in the middle, times 1/6, 4/6, 1/6: exact, int N (cubic) deta.
+    // int N_i dx/deta deta, by hand.
     f.segment<2>(2 * from) += force(4 * x(middle) - 3 * x(from) - x(to)) / 6;
     f.segment<2>(2 * to) += force(3 * x(to) - 4 * x(middle) + x(from)) / 6;
     f.segment<2>(2 * middle) += 4 * force(x(to) - x(from)) / 6;
