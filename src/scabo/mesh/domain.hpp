@@ -35,8 +35,8 @@ struct PolygonCell {
   std::vector<int> nodes;      ///< counter-clockwise; three or more, or two or more if it is open
   Vec2 centre = Vec2::Zero();  ///< strictly inside; of an open cell it is the point where its two side faces meet
   int region = 0;              ///< of its first side, if its sides are of several regions
-  std::vector<int> side_regions;  ///< empty: all of `region`. Otherwise the region of each side (node i to node i + 1)
   bool open = false;           ///< no side leads from the last node back to the first: between them are two side faces
+  std::vector<int> side_regions = {};  ///< empty: all of `region`. Otherwise the region of each side (node i to i + 1)
 };
 
 struct PolygonMesh {
