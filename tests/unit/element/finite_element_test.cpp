@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "scabo/element/line_basis.hpp"
 #include "support/decompositions.hpp"
 #include "theory/rings.hpp"
 #include "unit/mesh/cell_meshes.hpp"

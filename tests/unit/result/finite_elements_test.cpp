@@ -7,6 +7,7 @@
 #include "scabo/analysis/modal_analysis.hpp"
 #include "scabo/input/read_model.hpp"
 #include "scabo/result/point_tables.hpp"
+#include "scabo/result/probe.hpp"
 #include "scabo/result/recovery.hpp"
 #include "unit/mesh/cell_meshes.hpp"
 #include "unit/result/solutions.hpp"
