@@ -234,7 +234,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
 }
 
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, double most_nodes) {
-  const double nodes = approximate_nodes(body);
+  const double nodes = body.mesh.kind == model::MeshKind::parts ? 0.0 : approximate_nodes(body);
   if (!(nodes <= most_nodes))
     return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
                                                     "allowed: use a larger 'size'",

@@ -119,6 +119,13 @@ struct Body {
   bool open() const { return !cracks.empty() || mesh.centre_corner >= 0; }
 };
 
+/// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
+/// of finite elements in a rectangle.
+inline bool is_divided_inside(const Body& body) {
+  return body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
+                                                       body.regions.empty() && body.mesh.refine.empty());
+}
+
 /// Where a support, load or contact acts.
 struct Place {
   /// `face`: a side face; `mouth`: the node of a side face at the boundary.
