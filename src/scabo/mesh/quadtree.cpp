@@ -187,6 +187,12 @@ class Grower {
       }
     }
     if (largest > wanted) return true;
+    for (int line : lists_[cell.lines]) {
+      // Half circles and more would be lost in larger cells, which is noticed only after cutting.
+      const Curve& curve = curves_.curves[line];
+      if (curve.arc && std::abs(curve.arc->sweep) > 1.6 && largest > 1.5 * curve.arc->radius && curve.meets(inner))
+        return true;
+    }
     const double least = options_.min_size > 0.0 ? options_.min_size : wanted / 32.0;
     if (0.5 * size.maxCoeff() < least * (1.0 - 1e-9)) return false;
     for (int line : lists_[cell.lines]) {

@@ -12,7 +12,7 @@ namespace scabo::mesh {
 
 struct QuadtreeOptions {
   /// Length, >= 0: cells are not halved below it on account of lines, except where lines could not be told apart
-  /// otherwise. 0: 1/32 of the wanted size at the cell.
+  /// otherwise, and on circles of less than its 2/3 in radius. 0: 1/32 of the wanted size at the cell.
   double min_size = 0.0;
   /// Radians, > 0: a cell on an arc is not larger than this times the radius, unless min_size forbids it.
   double turn = 0.5;

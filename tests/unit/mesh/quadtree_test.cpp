@@ -335,6 +335,13 @@ TEST(QuadtreeMesh, SizesGradedByAThousand) {
   EXPECT_GE(most / least, 1000.0 * (1.0 - 1e-9));
 }
 
+TEST(QuadtreeMesh, AbruptSizesAreBalanced) {
+  Domain domain = polygon_domain(rectangle(0, 0, 1, 1), 1.0);
+  domain.size = [](const Vec2& p) { return (p - Vec2(0.3, 0.4)).norm() < 0.2 ? 1.0 / 256.0 : 0.25; };
+  const MeshSummary summary = valid(domain, quadtree_mesh(domain));
+  EXPECT_EQ(summary.worst_ratio, 2.0);
+}
+
 TEST(QuadtreeMesh, EqualCellsHaveEqualRelativeCoordinates) {
   Domain domain = polygon_domain(rectangle(0.1, 0.3, 3.1, 2.3), 1.0);
   domain.size = [](const Vec2& p) { return 0.02 + 0.1 * std::abs(p.x() - 1.0); };
