@@ -60,6 +60,14 @@ CellKind kind_of_cell(int nodes) {
   }
 }
 
+/// Springs, dashpots, gaps, masses: they join nodes or load them.
+bool is_discrete(const std::string& type) {
+  for (const char* start : {"SPRING", "DASHPOT", "GAP", "MASS", "DCOUP"}) {
+    if (type.rfind(start, 0) == 0) return true;
+  }
+  return false;
+}
+
 /// Why a type is not read.
 std::string abaqus_refusal(const std::string& type) {
   const auto starts = [&type](std::string_view with) { return type.rfind(with, 0) == 0; };
@@ -144,6 +152,7 @@ class AbaqusReader {
   std::vector<std::int64_t> cell_numbers_;
   std::vector<bool> shell_;  // per cell
   std::vector<LineElement> line_elements_;
+  std::vector<std::int64_t> discrete_;
   NumberSets node_sets_, element_sets_;
   std::vector<Listed> listed_;
   std::vector<Surface> surfaces_;
@@ -210,10 +219,7 @@ void AbaqusReader::nodes(const AbaqusKeyword& key) {
   while (lines_.next_data(fields)) {
     if (fields.empty()) continue;
     const std::int64_t number = integer(fields[0], "the number of a node");
-    if (fields.size() < 2) {
-      builder_.fail(lines_.at(), fmt::format("node {} has no coordinates; write number, x, y, z", number));
-    }
-    std::array<double, 3> x{};
+    std::array<double, 3> x{};  // what is not given is zero
     for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i) x[i] = real(fields[i + 1], "a coordinate");
     builder_.add_node(number, x[0] + shift_.x(), x[1] + shift_.y(), x[2], lines_.at());
     if (key.has("NSET")) numbers.push_back(number);
@@ -234,6 +240,14 @@ void AbaqusReader::elements(const AbaqusKeyword& key) {
     if (fields.empty()) continue;
     const FilePlace at = lines_.at();
     const std::int64_t number = integer(fields[0], "the number of an element");
+    if (!element && is_discrete(type)) {
+      if (numbers.empty()) {
+        builder_.remark(at, fmt::format("elements of type {} have no area and are left out", printable(type)));
+      }
+      numbers.push_back(number);
+      discrete_.push_back(number);
+      continue;
+    }
     if (!element) {
       builder_.fail(at, fmt::format("cell {}: type {} {}", number, printable(type), abaqus_refusal(type)));
     }
@@ -395,14 +409,14 @@ void AbaqusReader::keyword(const AbaqusKeyword& key) {
   if (key.name == "SURFACE") return surface(key);
   if (key.name == "INCLUDE") return lines_.insert(key);
   if (key.name == "INSTANCE") return instance(key);
-  for (const char* section_name : {"SOLID SECTION", "SHELL SECTION", "MEMBRANE SECTION", "SHELL GENERAL SECTION",
-                                   "BEAM SECTION", "BEAM GENERAL SECTION", "TRUSS SECTION"}) {
+  for (const char* section_name : {"SOLIDSECTION", "SHELLSECTION", "MEMBRANESECTION", "SHELLGENERALSECTION",
+                                   "BEAMSECTION", "BEAMGENERALSECTION", "TRUSSSECTION"}) {
     if (key.name == section_name) return section(key);
   }
   if (key.name == "PART" && ++parts_ > 1) {
     builder_.fail(key.at, "several parts are not read; write the input file without parts and assemblies");
   }
-  for (const char* maker : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "TRANSFORM NODES", "SYSTEM"}) {
+  for (const char* maker : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"}) {
     if (key.name == maker) {
       builder_.fail(key.at, fmt::format("*{} makes nodes or elements and is not read; write them out", key.name));
     }
@@ -434,7 +448,7 @@ void AbaqusReader::resolve_regions(const NumberIndex& elements) {
                                             printable(section.set)));
     }
     for (const std::int64_t number : set->numbers) {
-      if (elements.find(number) < cells) continue;
+      if (elements.find(number) < cells) continue;  // a cell, or none
       builder_.fail(section.at, fmt::format("*{} makes element {} a truss or beam, which is not read; take it out of "
                                             "the file",
                                             section.keyword, number));
@@ -534,11 +548,13 @@ ImportedMesh AbaqusReader::read() {
                               numbers[static_cast<std::size_t>(repeated->second)]));
   }
   const NumberIndex nodes(builder_.node_numbers());
+  const NumberIndex discrete(discrete_);
   for (const Listed& listed : listed_) {
-    const bool known = listed.node ? nodes.find(listed.number) >= 0 : elements.find(listed.number) >= 0;
+    const bool known = listed.node ? nodes.find(listed.number) >= 0
+                                   : elements.find(listed.number) >= 0 || discrete.find(listed.number) >= 0;
     if (known) continue;
-    builder_.fail(listed.at, fmt::format("a set names {} {}, which is not in the file; correct the number",
-                                         listed.node ? "node" : "element", listed.number));
+    builder_.remark(listed.at, fmt::format("a set names {} {}, which is not in the file", listed.node ? "node" : "element",
+                                           listed.number));
   }
   resolve_regions(elements);
   resolve_sets(elements);

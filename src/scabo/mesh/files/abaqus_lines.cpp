@@ -92,8 +92,7 @@ bool AbaqusLines::next_keyword(AbaqusKeyword& keyword) {
   const std::vector<std::string_view> fields = split_fields(joined);
   if (fields.empty()) return true;
   for (const char c : upper(fields.front())) {
-    const bool white = static_cast<unsigned char>(c) <= ' ';
-    if (!white || keyword.name.back() != ' ') keyword.name += white ? ' ' : c;
+    if (static_cast<unsigned char>(c) > ' ') keyword.name += c;
   }
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const auto equals = fields[i].find('=');

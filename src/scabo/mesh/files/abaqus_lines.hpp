@@ -18,7 +18,7 @@ std::string upper(std::string_view text);
 
 /// `*NSET, NSET=Right, GENERATE`: name `NSET`, parameters NSET -> Right, GENERATE -> "".
 struct AbaqusKeyword {
-  std::string name;                               ///< upper case, single spaces
+  std::string name;                               ///< upper case, without spaces, as CalculiX reads it
   std::map<std::string, std::string> parameters;  ///< names in upper case, values as written
   FilePlace at;
 

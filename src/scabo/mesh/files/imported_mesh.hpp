@@ -68,6 +68,7 @@ struct ImportedMesh {
   std::vector<FacetSet> facet_sets;    ///< none is empty
   std::vector<NodeSet> node_sets;      ///< none is empty
   std::vector<CellSet> cell_sets;      ///< none is empty
+  std::vector<std::string> remarks;    ///< what of the file was left out though it may matter, for the user to read
 };
 
 /// Side `i` of a cell, from corner i to corner i + 1: counter-clockwise around it.

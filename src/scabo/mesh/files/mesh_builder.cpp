@@ -81,6 +81,11 @@ void MeshBuilder::fail(const RawCell& cell, const std::string& message) const {
   fail(FilePlace{cell.file, cell.line}, label(cell) + " " + message);
 }
 
+void MeshBuilder::remark(const FilePlace& at, const std::string& message) {
+  constexpr std::size_t most = 20;
+  if (remarks_.size() < most) remarks_.push_back(fmt::format("{}:{}: {}", files_[index(at.file)], at.line, message));
+}
+
 void MeshBuilder::reserve(std::size_t nodes, std::size_t cells) {
   numbers_.reserve(numbers_.size() + nodes);
   coordinates_.reserve(coordinates_.size() + 3 * nodes);
@@ -378,6 +383,7 @@ ImportedMesh MeshBuilder::finish() {
   check_shapes(mesh, original);
   make_sets(mesh, original, joined);
 
+  mesh.remarks = remarks_;
   std::vector<int> position(regions_.size(), -1);
   for (ImportedCell& cell : mesh.cells) {
     int& region = position[index(cell.region)];

@@ -62,6 +62,8 @@ class MeshBuilder {
   void add_node_to_set(int set, std::int64_t node) { node_sets_[static_cast<std::size_t>(set)].nodes.push_back(node); }
   void add_cell_to_set(int set, int cell) { cell_sets_[static_cast<std::size_t>(set)].cells.push_back(cell); }
 
+  void remark(const FilePlace& at, const std::string& message);
+
   std::size_t nodes() const { return numbers_.size(); }
   const std::vector<std::int64_t>& node_numbers() const { return numbers_; }
   std::size_t cells() const { return cells_.size(); }
@@ -129,6 +131,7 @@ class MeshBuilder {
   std::vector<RawFacets> facet_sets_;
   std::vector<RawNodes> node_sets_;
   std::vector<CellSet> cell_sets_;
+  std::vector<std::string> remarks_;
   Names region_names_, facet_set_names_, node_set_names_, cell_set_names_;
 };
 
