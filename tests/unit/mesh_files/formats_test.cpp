@@ -123,7 +123,7 @@ TEST(MeshFiles, CellsKnowTheirNumberAndLine) {
   EXPECT_EQ(abaqus.cells[2].line, 17);
   const ImportedMesh vtu = parse_mesh(sample::vtu_by_hand, "a.vtu");
   EXPECT_EQ(vtu.cells[1].number, 4);
-  EXPECT_EQ(vtu.cells[1].line, 16);
+  EXPECT_EQ(vtu.cells[1].line, 17);
 }
 
 TEST(MeshFiles, ClockwiseCellsAreTurnedRound) {

@@ -31,11 +31,7 @@ void open_collapsed(ImportedCell& cell) {
       if (nodes[index(4 + i)] != nodes[index(i)]) return;
       nodes.erase(nodes.begin() + 4 + i);
     }
-    nodes.erase(nodes.begin() + next);
-    if (next == 0 && cell.kind == CellKind::quad8) {
-      // Corners 2 3 4 remain, so sides 23 34 (41 was removed) and 12, which is now the last.
-      std::rotate(nodes.begin() + 3, nodes.begin() + 4, nodes.end());
-    }
+    nodes.erase(nodes.begin() + std::max(i, next));  // either of the two; corner 1 stays the first
     cell.kind = cell.kind == CellKind::quad4 ? CellKind::triangle3 : CellKind::triangle6;
     return;
   }
