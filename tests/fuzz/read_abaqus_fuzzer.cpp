@@ -1,5 +1,4 @@
 #include "read_mesh_fuzzer.hpp"
-
 #include "scabo/mesh/files/abaqus.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -139,7 +139,8 @@ TEST(MeshFiles, CentreNodesAndUnusedNodesAreDropped) {
   mesh.nodes.push_back({0.5, 0.5, 0});
   mesh.nodes.push_back({7, 7, 7});  // in no cell: may be anywhere
   mesh.cells[3] = {10, 28, 1, {1, 2, 5, 4, 7, 8, 9, 10, 15}};
-  for (const std::string& bytes : {sample::msh22(mesh, true), sample::vtu(mesh, sample::Vtu::raw), sample::msh41(mesh, false)}) {
+  for (const std::string& bytes :
+       {sample::msh22(mesh, true), sample::vtu(mesh, sample::Vtu::raw), sample::msh41(mesh, false)}) {
     EXPECT_EQ(text_of(parse_mesh(bytes, "a")), text_of(parse_mesh(sample::msh22(sample::quadratic(), false), "a.msh")));
   }
 }
@@ -154,7 +155,8 @@ TEST(MeshFiles, NumbersMayBeLargeAndHaveGaps) {
 }
 
 TEST(MeshFiles, WindowsLineEndsAndByteOrderMark) {
-  for (const char* sample_file : {sample::msh22_by_hand, sample::msh41_by_hand, sample::inp_by_hand, sample::vtu_by_hand}) {
+  for (const char* sample_file :
+       {sample::msh22_by_hand, sample::msh41_by_hand, sample::inp_by_hand, sample::vtu_by_hand}) {
     std::string windows = "\xEF\xBB\xBF";
     for (const char* c = sample_file; *c != '\0'; ++c) windows += *c == '\n' ? std::string("\r\n") : std::string(1, *c);
     EXPECT_EQ(text_of(parse_mesh(windows, "a.inp")), text_of(parse_mesh(sample_file, "a.inp")));
@@ -162,7 +164,8 @@ TEST(MeshFiles, WindowsLineEndsAndByteOrderMark) {
 }
 
 TEST(Gmsh, NamesOfPhysicalGroupsAndEntities) {
-  const std::string names = "$PhysicalNames\n3\n1 3 \"the bottom\"\n2 1 \"stone\"\n2 2 \"mortar\"\n$EndPhysicalNames\n$Nodes";
+  const std::string names =
+      "$PhysicalNames\n3\n1 3 \"the bottom\"\n2 1 \"stone\"\n2 2 \"mortar\"\n$EndPhysicalNames\n$Nodes";
   for (const char* file : {sample::msh22_by_hand, sample::msh41_by_hand}) {
     const ImportedMesh mesh = parse_mesh(sample::replaced(file, "$Nodes", names), "a.msh");
     EXPECT_THAT(mesh.regions, ElementsAre("stone", "mortar"));
@@ -271,10 +274,11 @@ TEST(Vtu, PolygonsPixelsAndPieces) {
 <DataArray type="Float32" NumberOfComponents="3">0 0 5 1 0 5 0 1 5 1 1 5 2 0 5 1.5 0.5 5 2 1 5</DataArray></Points><Cells>
 <DataArray type="Int32" Name="connectivity">0 1 2 3 1 4 5 6 3</DataArray>
 <DataArray type="Int32" Name="offsets">4 9</DataArray><DataArray type="Int32" Name="types">8 7</DataArray></Cells></Piece>)";
-  const std::string text = "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>" +
-                           piece + sample::replaced(piece, "0 0 5 1 0 5 0 1 5 1 1 5 2 0 5 1.5 0.5 5 2 1 5",
-                                                    "0 3 5 1 3 5 0 4 5 1 4 5 2 3 5 1.5 3.5 5 2 4 5") +
-                           "</UnstructuredGrid></VTKFile>";
+  const std::string text =
+      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>" + piece +
+      sample::replaced(piece, "0 0 5 1 0 5 0 1 5 1 1 5 2 0 5 1.5 0.5 5 2 1 5",
+                       "0 3 5 1 3 5 0 4 5 1 4 5 2 3 5 1.5 3.5 5 2 4 5") +
+      "</UnstructuredGrid></VTKFile>";
   const ImportedMesh mesh = parse_mesh(text, "a.vtu");
   ASSERT_EQ(mesh.cells.size(), 4u);
   EXPECT_EQ(mesh.cells[3].kind, CellKind::polygon);

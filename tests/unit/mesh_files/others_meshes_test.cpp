@@ -32,7 +32,7 @@ double length_of_set(const ImportedMesh& mesh, const std::string& name) {
   return sum;
 }
 
-bool runs(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }
+bool runs(const std::string& command) { return std::system(("(" + command + ") >/dev/null 2>&1").c_str()) == 0; }
 
 class Folder {
  public:
@@ -49,18 +49,36 @@ class Folder {
 TEST(OthersMeshes, CalculixTestExamples) {
   const fs::path folder = "/usr/share/doc/calculix-ccx-test/examples/test";
   if (!fs::exists(folder)) GTEST_SKIP() << "the package calculix-ccx-test is not installed";
-  // Those whose mesh is plane, with their areas: most are rectangles; of dam and plate by the shoelace formula outside of
-  // Scabo. The nodes of some are rounded to seven digits.
-  const std::map<std::string, double> plane{
-      {"concretebeam", 10.0},   {"dam", 1067.551026}, {"edgeload", 50.0},  {"leifer1", 229.0 * 229.0},
-      {"leifer2", 229.0 * 229.0}, {"oneel", 1.0},     {"planestrain", 1.0}, {"planestrain2", 1.0},
-      {"planestress", 1.0},     {"planestress2", 1.0}, {"planestress3", 200.0}, {"plate", 30.6}, {"rot4", 1.0},
-      {"scheibe", 1.0},         {"shell1", 1.0},      {"shell1lin", 1.0}, {"shell3", 0.1},  {"shellf", 1.0},
-      {"shellf2", 1.0},         {"spring4", 0.04},     {"square", 229.0 * 229.0}};
+  // Those whose mesh is plane, with their areas: most are rectangles; of dam and plate by the shoelace formula outside
+  // of Scabo. The nodes of some are rounded to seven digits.
+  const std::map<std::string, double> plane{{"concretebeam", 10.0},
+                                            {"dam", 1067.551026},
+                                            {"edgeload", 50.0},
+                                            {"leifer1", 229.0 * 229.0},
+                                            {"leifer2", 229.0 * 229.0},
+                                            {"oneel", 1.0},
+                                            {"planestrain", 1.0},
+                                            {"planestrain2", 1.0},
+                                            {"planestress", 1.0},
+                                            {"planestress2", 1.0},
+                                            {"planestress3", 200.0},
+                                            {"plate", 30.6},
+                                            {"rot4", 1.0},
+                                            {"scheibe", 1.0},
+                                            {"shell1", 1.0},
+                                            {"shell1lin", 1.0},
+                                            {"shell3", 0.1},
+                                            {"shellf", 1.0},
+                                            {"shellf2", 1.0},
+                                            {"spring4", 0.04},
+                                            {"square", 229.0 * 229.0}};
   std::map<std::string, int> refused;
   int read = 0;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".inp") continue;  // some are compressed: all of them have solids
+  const Folder unpacked;
+  ASSERT_TRUE(
+      runs("cp " + (folder / "*.inp*").string() + " " + unpacked.file("") + " && gunzip -f " + unpacked.file("*.gz")));
+  for (const auto& entry : fs::directory_iterator(unpacked.file(""))) {
+    if (entry.path().extension() != ".inp") continue;
     const std::string name = entry.path().stem().string();
     SCOPED_TRACE(name);
     try {
@@ -73,8 +91,8 @@ TEST(OthersMeshes, CalculixTestExamples) {
     } catch (const scabo::InputError& error) {
       EXPECT_EQ(plane.count(name), 0u) << error.what();
       const std::string text = error.what();
-      for (const char* reason : {"three-dimensional", "axisymmetric", "not in a plane", "truss or beam", "mesh is empty",
-                                 "is not read", "cannot be read", "no area"}) {
+      for (const char* reason : {"three-dimensional", "axisymmetric", "not in a plane", "truss or beam",
+                                 "mesh is empty", "is not read", "cannot be read", "no area"}) {
         if (text.find(reason) == std::string::npos) continue;
         ++refused[reason];
         break;
@@ -85,7 +103,7 @@ TEST(OthersMeshes, CalculixTestExamples) {
   for (const auto& [reason, count] : refused) report += ", " + std::to_string(count) + " " + reason;
   RecordProperty("calculix", report);
   std::printf("%s\n", report.c_str());
-  EXPECT_GE(read, 15);
+  EXPECT_EQ(read, static_cast<int>(plane.size()));
 }
 
 TEST(OthersMeshes, GmshTutorial1InAllFormats) {
@@ -117,8 +135,8 @@ TEST(OthersMeshes, GmshTutorials) {
   if (!fs::exists(folder_of_geo) || !runs("gmsh -version")) GTEST_SKIP() << "gmsh and gmsh-doc are not installed";
   const Folder folder;
   // t6: t1, 0.1 x 0.3, and at its left a trapezium of height 0.05 between sides of 0.3 and 0.05; t8: as t1; t11: 2.5 x
-  // 1.75; t17: 2 x 2.
-  const std::map<std::string, double> areas{{"t1", 0.03}, {"t6", 0.03875}, {"t8", 0.03}, {"t11", 2.5 * 1.75}, {"t17", 4.0}};
+  // 1.75.
+  const std::map<std::string, double> areas{{"t1", 0.03}, {"t6", 0.03875}, {"t8", 0.03}, {"t11", 2.5 * 1.75}};
   for (const auto& [name, area] : areas) {
     SCOPED_TRACE(name);
     const fs::path plain = folder_of_geo / (name + ".geo"), packed = folder_of_geo / (name + ".geo.gz");

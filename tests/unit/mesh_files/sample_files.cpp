@@ -263,8 +263,9 @@ std::string inp(const Mesh& mesh) {
     if (dimension_of(cell) == 0) continue;
     std::vector<int> nodes = cell.nodes;
     if (cell.gmsh == 8) std::swap(nodes[1], nodes[2]);
-    out += fmt::format("*ELEMENT, TYPE={}{}, ELSET={}_{}\n{}, {}\n", dimension_of(cell) == 1 ? "T3D" : "CPE", nodes.size(),
-                       dimension_of(cell) == 1 ? "boundary" : "region", cell.tag, number, fmt::join(nodes, ", "));
+    out +=
+        fmt::format("*ELEMENT, TYPE={}{}, ELSET={}_{}\n{}, {}\n", dimension_of(cell) == 1 ? "T3D" : "CPE", nodes.size(),
+                    dimension_of(cell) == 1 ? "boundary" : "region", cell.tag, number, fmt::join(nodes, ", "));
   }
   return out + "*NSET, NSET=points_4\n6\n";
 }
@@ -321,7 +322,8 @@ std::string vtu(const Mesh& mesh, Vtu form, bool wide_header) {
     appended_data += data;
     return element;
   };
-  std::string points, point_text, connectivity, connectivity_text, offsets, offset_text, types, type_text, tags, tag_text;
+  std::string points, point_text, connectivity, connectivity_text, offsets, offset_text, types, type_text, tags,
+      tag_text;
   for (const std::vector<double>& node : mesh.nodes) {
     for (const double x : node) put(points, x);
     point_text += fmt::format("{} {} {}\n", node[0], node[1], node[2]);
@@ -340,11 +342,12 @@ std::string vtu(const Mesh& mesh, Vtu form, bool wide_header) {
     put(tags, static_cast<std::int32_t>(cell.tag));
     tag_text += fmt::format("{} ", cell.tag);
   }
-  std::string out = fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-                                "byte_order=\"LittleEndian\" header_type=\"{}\"{}>\n<UnstructuredGrid>\n"
-                                "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<CellData>\n",
-                                wide_header ? "UInt64" : "UInt32",
-                                zlib ? " compressor=\"vtkZLibDataCompressor\"" : "", mesh.nodes.size(), mesh.cells.size());
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"{}\"{}>\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<CellData>\n",
+      wide_header ? "UInt64" : "UInt32", zlib ? " compressor=\"vtkZLibDataCompressor\"" : "", mesh.nodes.size(),
+      mesh.cells.size());
   out += array("type=\"Int32\" Name=\"region\"", tags, tag_text);
   out += "</CellData>\n<Points>\n" + array("type=\"Float64\" NumberOfComponents=\"3\"", points, point_text);
   out += "</Points>\n<Cells>\n" + array("type=\"Int64\" Name=\"connectivity\"", connectivity, connectivity_text);

@@ -1,4 +1,5 @@
-// One small mesh in every format. Linear: a square [0, 1] x [0, 1] (region_1), two triangles on [1, 2] x [0, 1] (region_2).
+// One small mesh in every format. Linear: a square [0, 1] x [0, 1] (region_1), two triangles on [1, 2] x [0, 1]
+// (region_2).
 //
 //   4 ---- 5 ---- 6      boundary_3: the sides 1 2 and 2 3; points_4: node 6
 //   |      |  / |

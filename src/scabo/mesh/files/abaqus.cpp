@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <unordered_map>
 
 #include "scabo/mesh/files/abaqus_lines.hpp"
@@ -53,10 +54,14 @@ std::optional<AbaqusElement> abaqus_element(const std::string& type) {
 
 CellKind kind_of_cell(int nodes) {
   switch (nodes) {
-    case 3: return CellKind::triangle3;
-    case 4: return CellKind::quad4;
-    case 6: return CellKind::triangle6;
-    default: return CellKind::quad8;  // 9: without its centre node
+    case 3:
+      return CellKind::triangle3;
+    case 4:
+      return CellKind::quad4;
+    case 6:
+      return CellKind::triangle6;
+    default:
+      return CellKind::quad8;  // 9: without its centre node
   }
 }
 
@@ -83,7 +88,8 @@ std::string abaqus_refusal(const std::string& type) {
 class AbaqusReader {
  public:
   AbaqusReader(std::string_view text, const std::string& file, const ReadInclude& read_include)
-      : builder_(file), lines_(text, file, read_include, builder_),
+      : builder_(file),
+        lines_(text, file, read_include, builder_),
         most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())) {}
 
   ImportedMesh read();
@@ -290,8 +296,9 @@ void AbaqusReader::generate(NumberSet& target) {
     const std::int64_t last = fields.size() > 1 ? integer(fields[1], "the last number of GENERATE") : first;
     const std::int64_t step = fields.size() > 2 ? integer(fields[2], "the increment of GENERATE") : 1;
     if (first < 0 || last < first || step < 1) {
-      builder_.fail(lines_.at(), "GENERATE needs a first number, a last one that is not smaller, and a positive "
-                                 "increment");
+      builder_.fail(lines_.at(),
+                    "GENERATE needs a first number, a last one that is not smaller, and a positive "
+                    "increment");
     }
     count_entries((last - first) / step + 1);
     for (std::int64_t number = first; number <= last; number += step) {
@@ -303,7 +310,8 @@ void AbaqusReader::generate(NumberSet& target) {
 
 void AbaqusReader::set(const AbaqusKeyword& key, NumberSets& sets, const char* parameter) {
   const std::string name = key.value(parameter);
-  if (name.empty()) builder_.fail(key.at, fmt::format("*{} has no name; write *{}, {}=name", parameter, parameter, parameter));
+  if (name.empty())
+    builder_.fail(key.at, fmt::format("*{} has no name; write *{}, {}=name", parameter, parameter, parameter));
   if (key.has("INPUT")) lines_.insert(key);
   set_named(sets, name);
   if (key.has("GENERATE")) {
@@ -313,7 +321,8 @@ void AbaqusReader::set(const AbaqusKeyword& key, NumberSets& sets, const char* p
   if (key.has("ELSET") && parameter == std::string("NSET")) {
     const NumberSet* of = find_set(element_sets_, key.value("ELSET"));
     if (of == nullptr) {
-      builder_.fail(key.at, fmt::format("there is no element set '{}' before this line", printable(key.value("ELSET"))));
+      builder_.fail(key.at,
+                    fmt::format("there is no element set '{}' before this line", printable(key.value("ELSET"))));
     }
     const NumberIndex cells(cell_numbers_);
     std::vector<std::int64_t> numbers;
@@ -337,8 +346,8 @@ void AbaqusReader::set(const AbaqusKeyword& key, NumberSets& sets, const char* p
       } else if (const NumberSet* other = find_set(sets, std::string(field))) {
         add_numbers(target, other->numbers);
       } else {
-        builder_.fail(lines_.at(), fmt::format("'{}' is neither a number nor the name of a set before this line",
-                                               printable(field)));
+        builder_.fail(lines_.at(),
+                      fmt::format("'{}' is neither a number nor the name of a set before this line", printable(field)));
       }
     }
   }
@@ -492,7 +501,8 @@ void AbaqusReader::resolve_surfaces(const NumberIndex& elements) {
     for (const SurfaceEntry& entry : surface.entries) {
       // Solids: S1 is side 12. Shells: S1 and S2 are their faces, S3 (CalculiX) or E1 (Abaqus) is side 12.
       const std::string& side = entry.side;
-      const bool face = side == "SPOS" || side == "SNEG" || side == "SP" || side == "SN" || side == "NEG" || side == "POS";
+      const bool face =
+          side == "SPOS" || side == "SNEG" || side == "SP" || side == "SN" || side == "NEG" || side == "POS";
       const bool numbered = side.size() == 2 && (side[0] == 'S' || side[0] == 'E') && side[1] >= '1' && side[1] <= '6';
       if (!side.empty() && !face && !numbered) {
         builder_.fail(entry.at, fmt::format("surface '{}': '{}' is no side of a plane element; sides are S1 to S4",
@@ -513,8 +523,8 @@ void AbaqusReader::resolve_surfaces(const NumberIndex& elements) {
       for (const std::int64_t element : *numbers) {
         const int at = elements.find(element);
         if (at < 0) {
-          builder_.fail(entry.at, fmt::format("surface '{}': element {} is not in the file", printable(surface.name),
-                                              element));
+          builder_.fail(entry.at,
+                        fmt::format("surface '{}': element {} is not in the file", printable(surface.name), element));
         }
         if (at >= cells || face) continue;
         if (side.empty()) {
@@ -525,8 +535,8 @@ void AbaqusReader::resolve_surfaces(const NumberIndex& elements) {
         const int position = side[1] - '1' - (shell ? 2 : 0);
         if (position < 0) continue;
         if (!builder_.add_side(set, at, position)) {
-          builder_.fail(entry.at, fmt::format("surface '{}': element {} has no side {}", printable(surface.name), element,
-                                              side));
+          builder_.fail(entry.at,
+                        fmt::format("surface '{}': element {} has no side {}", printable(surface.name), element, side));
         }
       }
     }
@@ -553,8 +563,8 @@ ImportedMesh AbaqusReader::read() {
     const bool known = listed.node ? nodes.find(listed.number) >= 0
                                    : elements.find(listed.number) >= 0 || discrete.find(listed.number) >= 0;
     if (known) continue;
-    builder_.remark(listed.at, fmt::format("a set names {} {}, which is not in the file", listed.node ? "node" : "element",
-                                           listed.number));
+    builder_.remark(listed.at, fmt::format("a set names {} {}, which is not in the file",
+                                           listed.node ? "node" : "element", listed.number));
   }
   resolve_regions(elements);
   resolve_sets(elements);

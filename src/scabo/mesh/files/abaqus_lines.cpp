@@ -117,7 +117,8 @@ void AbaqusLines::insert(const AbaqusKeyword& keyword) {
   if (name.empty()) builder_.fail(keyword.at, "*INCLUDE names no file; write *INCLUDE, INPUT=file");
   const std::size_t from = static_cast<std::size_t>(keyword.at.file);
   if (open_.size() > most_nested_includes || names_.size() > most_includes) {
-    builder_.fail(keyword.at, fmt::format("'{}' is included too deeply: files that include one another?", printable(name)));
+    builder_.fail(keyword.at,
+                  fmt::format("'{}' is included too deeply: files that include one another?", printable(name)));
   }
   std::optional<IncludedFile> file;
   if (read_include_) file = read_include_(name, names_[from]);

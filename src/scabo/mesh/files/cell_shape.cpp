@@ -36,7 +36,8 @@ ShapeGradients<8> gradients_of_quad8() {
     for (std::size_t i = 0; i < 8; ++i) {
       const auto [a, b] = square[i];
       if (i < 4) {
-        all[node][i] = {0.25 * a * (1.0 + b * y) * (2.0 * a * x + b * y), 0.25 * b * (1.0 + a * x) * (a * x + 2.0 * b * y)};
+        all[node][i] = {0.25 * a * (1.0 + b * y) * (2.0 * a * x + b * y),
+                        0.25 * b * (1.0 + a * x) * (a * x + 2.0 * b * y)};
       } else if (a == 0.0) {
         all[node][i] = {-x * (1.0 + b * y), 0.5 * b * (1.0 - x * x)};
       } else {
@@ -137,11 +138,15 @@ std::optional<int> folded_at(CellKind kind, std::span<const Vec2> points) {
     case CellKind::triangle3:
       if (cross(points[1] - points[0], points[2] - points[0]) > zero) return std::nullopt;
       return 0;
-    case CellKind::quad4: return folded_node(quad4, points, zero);
-    case CellKind::triangle6: return folded_node(triangle6, points, zero);
-    case CellKind::quad8: return folded_node(quad8, points, zero);
+    case CellKind::quad4:
+      return folded_node(quad4, points, zero);
+    case CellKind::triangle6:
+      return folded_node(triangle6, points, zero);
+    case CellKind::quad8:
+      return folded_node(quad8, points, zero);
     case CellKind::polygon:
-    case CellKind::quadratic_polygon: break;
+    case CellKind::quadratic_polygon:
+      break;
   }
   const bool quadratic = is_quadratic(kind);
   const std::size_t corners = points.size() / (quadratic ? 2 : 1);

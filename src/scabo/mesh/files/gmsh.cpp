@@ -35,13 +35,15 @@ constexpr std::array<GmshElement, 9> gmsh_elements{{{1, 1, 2, {}},
                                                     {34, 2, 0, CellKind::polygon}}};
 
 bool is_gmsh_solid(std::int64_t type) {
-  constexpr std::array<int, 36> solids{4,  5,  6,  7,  11, 12, 13, 14, 17, 18, 19, 29, 30, 31, 32,  33,  71, 72,
+  constexpr std::array<int, 36> solids{4,  5,  6,  7,  11, 12, 13, 14, 17, 18, 19, 29, 30, 31, 32,  33,  71,  72,
                                        73, 74, 75, 79, 80, 81, 82, 83, 90, 91, 92, 93, 94, 95, 118, 119, 120, 35};
   return std::find(solids.begin(), solids.end(), type) != solids.end();
 }
 
 /// Gmsh writes the tag of a group with a minus sign where an entity has the other orientation.
-std::int64_t magnitude(std::int64_t tag) { return tag < 0 ? -std::max(tag, -std::numeric_limits<std::int64_t>::max()) : tag; }
+std::int64_t magnitude(std::int64_t tag) {
+  return tag < 0 ? -std::max(tag, -std::numeric_limits<std::int64_t>::max()) : tag;
+}
 
 constexpr std::int64_t most_groups = 100;  // of one entity: each takes memory for every cell of it
 
@@ -90,7 +92,7 @@ class GmshReader {
   TextCursor in_;
   MeshBuilder builder_;
   bool binary_ = false;
-  int version_ = 0;  // 2 or 4
+  int version_ = 0;                                            // 2 or 4
   std::map<std::pair<int, std::int64_t>, std::string> names_;  // by dimension and tag
   std::map<std::pair<int, std::int64_t>, Tags> groups_of_;     // version 4: by dimension and entity
   bool has_nodes_ = false, has_elements_ = false;
@@ -137,7 +139,8 @@ void GmshReader::start_binary_data() {
 void GmshReader::read_format() {
   const std::string_view version = in_.word();
   double value = 0.0;
-  if (!parse_number(version, value)) in_.fail("$MeshFormat must be followed by a version such as 4.1; write the file again");
+  if (!parse_number(version, value))
+    in_.fail("$MeshFormat must be followed by a version such as 4.1; write the file again");
   const bool is_2 = value >= 2.0 && value <= 2.2;
   if (!is_2 && value != 4.1) {
     in_.fail(fmt::format("version {} of the format is not read; save as 4.1 or 2.2 (in Gmsh: -format msh41)", value));
@@ -147,7 +150,8 @@ void GmshReader::read_format() {
   const std::int64_t data_size = in_.integer("the size of numbers");
   if (type != 0 && type != 1) in_.fail(fmt::format("the type of the file is {}; it is 0 (text) or 1 (binary)", type));
   if (data_size != 8) {
-    in_.fail(fmt::format("numbers have {} bytes; only 8 are read: save the mesh again with a usual build of Gmsh", data_size));
+    in_.fail(fmt::format("numbers have {} bytes; only 8 are read: save the mesh again with a usual build of Gmsh",
+                         data_size));
   }
   if (type == 1) {
     in_.rest_of_line();
@@ -198,7 +202,8 @@ void GmshReader::read_names() {
     const std::string_view rest = in_.rest_of_line();
     const auto first = rest.find('"'), last = rest.rfind('"');
     if (first == std::string_view::npos || last == first || dimension < 0 || dimension > 3) {
-      fail(fmt::format("a physical name of line {} must read: dimension (0 to 3), tag, name in quotes", in_.line() - 1));
+      fail(
+          fmt::format("a physical name of line {} must read: dimension (0 to 3), tag, name in quotes", in_.line() - 1));
     }
     names_[{static_cast<int>(dimension), tag}] = rest.substr(first + 1, last - first - 1);
   }
@@ -261,9 +266,10 @@ void GmshReader::read_nodes_4() {
     const std::int64_t parametric = integer("0 or 1 (parametric coordinates)");
     const std::int64_t n = count(size("the count of nodes of a block"), "the count of nodes of a block");
     if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1) {
-      fail(fmt::format("a block of nodes begins with dimension {} and parametric {}, which are 0 to 3 and 0 or 1; write "
-                       "the file again",
-                       dimension, parametric));
+      fail(
+          fmt::format("a block of nodes begins with dimension {} and parametric {}, which are 0 to 3 and 0 or 1; write "
+                      "the file again",
+                      dimension, parametric));
     }
     tags.clear();
     for (std::int64_t i = 0; i < n; ++i) tags.push_back(size("the number of a node"));
@@ -287,13 +293,15 @@ const GmshElement& GmshReader::element(std::int64_t type, std::int64_t number) {
     if (known.type == type && (type != 34 || (version_ == 2 && !binary_))) return known;
   }
   if (is_gmsh_solid(type)) {
-    fail(fmt::format("cell {} has Gmsh's type {}, a three-dimensional cell; Scabo's bodies are plane: save the mesh of "
-                     "a plane surface only (in Gmsh: -2)",
-                     number, type));
+    fail(
+        fmt::format("cell {} has Gmsh's type {}, a three-dimensional cell; Scabo's bodies are plane: save the mesh of "
+                    "a plane surface only (in Gmsh: -2)",
+                    number, type));
   }
-  fail(fmt::format("cell {} has Gmsh's type {}, which is not read; use triangles and quadrilaterals of order 1 or 2 (in "
-                   "Gmsh: -order 2)",
-                   number, type));
+  fail(
+      fmt::format("cell {} has Gmsh's type {}, which is not read; use triangles and quadrilaterals of order 1 or 2 (in "
+                  "Gmsh: -order 2)",
+                  number, type));
 }
 
 std::string GmshReader::group_name(int dimension, std::int64_t tag) const {

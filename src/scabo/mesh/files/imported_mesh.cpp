@@ -29,12 +29,18 @@ bool is_quadratic(CellKind kind) {
 
 std::string_view name_of(CellKind kind) {
   switch (kind) {
-    case CellKind::triangle3: return "triangle with 3 nodes";
-    case CellKind::quad4: return "quadrilateral with 4 nodes";
-    case CellKind::triangle6: return "triangle with 6 nodes";
-    case CellKind::quad8: return "quadrilateral with 8 nodes";
-    case CellKind::polygon: return "polygon";
-    case CellKind::quadratic_polygon: return "quadratic polygon";
+    case CellKind::triangle3:
+      return "triangle with 3 nodes";
+    case CellKind::quad4:
+      return "quadrilateral with 4 nodes";
+    case CellKind::triangle6:
+      return "triangle with 6 nodes";
+    case CellKind::quad8:
+      return "quadrilateral with 8 nodes";
+    case CellKind::polygon:
+      return "polygon";
+    case CellKind::quadratic_polygon:
+      return "quadratic polygon";
   }
   return "cell";
 }

@@ -2,8 +2,8 @@
 //
 // Lengths are in the unit of the file. The readers guarantee: every node belongs to a cell; all coordinates are finite;
 // the corners of a cell are counter-clockwise and its Jacobian is positive at its nodes (a polygon is simple and has a
-// positive area); two cells that share a side lie on different sides of it. Nodes with equal coordinates stay apart: they
-// may separate two bodies.
+// positive area); two cells that share a side lie on different sides of it. Nodes with equal coordinates stay apart:
+// they may separate two bodies.
 #pragma once
 
 #include <string>

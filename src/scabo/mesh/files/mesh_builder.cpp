@@ -93,8 +93,8 @@ void MeshBuilder::reserve(std::size_t nodes, std::size_t cells) {
 void MeshBuilder::add_node(std::int64_t number, double x, double y, double z, const FilePlace& at) {
   if (number < 0) fail(at, fmt::format("node {} has a negative number; number the nodes from 1", number));
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-    fail(at, fmt::format("node {} has a coordinate that is not finite ({}, {}, {}); correct it or mesh again", number, x,
-                         y, z));
+    fail(at, fmt::format("node {} has a coordinate that is not finite ({}, {}, {}); correct it or mesh again", number,
+                         x, y, z));
   }
   if (numbers_.size() >= most_entries) fail(at, "the mesh has more than 1e9 nodes: divide it into several files");
   numbers_.push_back(number);
@@ -105,7 +105,8 @@ void MeshBuilder::add_node(std::int64_t number, double x, double y, double z, co
 int MeshBuilder::add_cell(CellKind kind, std::int64_t number, std::span<const std::int64_t> nodes, int region,
                           const FilePlace& at, std::int64_t entity) {
   if (cells_.size() >= most_entries) fail(at, "the mesh has more than 1e9 cells: divide it into several files");
-  cells_.push_back({number, entity, cell_nodes_.size(), static_cast<int>(nodes.size()), region, at.line, at.file, kind});
+  cells_.push_back(
+      {number, entity, cell_nodes_.size(), static_cast<int>(nodes.size()), region, at.line, at.file, kind});
   cell_nodes_.insert(cell_nodes_.end(), nodes.begin(), nodes.end());
   return static_cast<int>(cells_.size()) - 1;
 }
@@ -287,11 +288,12 @@ void MeshBuilder::check_shapes(ImportedMesh& mesh, const std::vector<int>& origi
       numbers += fmt::format(" {}", numbers_[index(original[index(node)])]);
     }
     const std::int64_t node = numbers_[index(original[index(cell.nodes[index(*folded)])])];
-    fail(cells_[c], fmt::format("({}, nodes{}) is folded: {} at {}node {}; {}", name_of(cell.kind), numbers,
-                                polygon ? "its boundary meets itself or has no area" : "its Jacobian is not positive",
-                                middle ? "middle " : "", node,
-                                is_quadratic(cell.kind) ? "move its nodes: a middle node belongs between the quarters of its side"
-                                                        : "put its nodes in order around it, or mesh again"));
+    fail(cells_[c],
+         fmt::format("({}, nodes{}) is folded: {} at {}node {}; {}", name_of(cell.kind), numbers,
+                     polygon ? "its boundary meets itself or has no area" : "its Jacobian is not positive",
+                     middle ? "middle " : "", node,
+                     is_quadratic(cell.kind) ? "move its nodes: a middle node belongs between the quarters of its side"
+                                             : "put its nodes in order around it, or mesh again"));
   }
 }
 
@@ -302,8 +304,8 @@ void MeshBuilder::make_sets(ImportedMesh& mesh, const std::vector<int>& original
     const RawCell& first = cells_[index(conflict->first.cell)];
     const Facet side = side_of(mesh.cells[index(conflict->first.cell)], conflict->first.side);
     const auto number = [&](int node) { return numbers_[index(original[index(node)])]; };
-    const std::string where =
-        fmt::format("and {} share the side from node {} to node {}", label(first), number(side.start), number(side.end));
+    const std::string where = fmt::format("and {} share the side from node {} to node {}", label(first),
+                                          number(side.start), number(side.end));
     const RawCell& second = cells_[index(conflict->second.cell)];
     if (conflict->kind == SideTable::Conflict::Kind::overlap) {
       fail(second, where + " and lie on the same side of it: cells overlap; remove one");
@@ -325,8 +327,8 @@ void MeshBuilder::make_sets(ImportedMesh& mesh, const std::vector<int>& original
       if (sides.empty()) return;
       const Facet as_in_cell = side_of(mesh.cells[index(sides.front().cell)], sides.front().side);
       const bool free = !table.neighbour(sides.front());
-      const std::uint64_t key =
-          static_cast<std::uint64_t>(sides.front().cell) * most_corners + static_cast<std::uint64_t>(sides.front().side);
+      const std::uint64_t key = static_cast<std::uint64_t>(sides.front().cell) * most_corners +
+                                static_cast<std::uint64_t>(sides.front().side);
       if (!taken.insert(key).second) return;
       if (free || facet.start == as_in_cell.start) {
         set.facets.push_back(as_in_cell);
@@ -368,8 +370,9 @@ void MeshBuilder::make_sets(ImportedMesh& mesh, const std::vector<int>& original
 
 ImportedMesh MeshBuilder::finish() {
   if (cells_.empty()) {
-    fail(FilePlace{}, "the mesh is empty: the file has no plane cells (triangles, quadrilaterals, polygons); save the mesh of a "
-             "surface");
+    fail(FilePlace{},
+         "the mesh is empty: the file has no plane cells (triangles, quadrilaterals, polygons); save the mesh of a "
+         "surface");
   }
   ImportedMesh mesh;
   const std::vector<int> joined = join_repeated_cells();

@@ -41,7 +41,7 @@ class NumberIndex {
   int find(std::int64_t number) const {
     if (!table_.empty()) {
       return number >= 0 && number < static_cast<std::int64_t>(table_.size()) ? table_[static_cast<std::size_t>(number)]
-                                                                               : -1;
+                                                                              : -1;
     }
     const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<std::int64_t, int>(number, -1));
     return found != sorted_.end() && found->first == number ? found->second : -1;

@@ -66,10 +66,11 @@ ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
   if (extension == ".MSH" && start.front() == '$') return parse_gmsh(text, path);
   if (extension == ".INP") return parse_abaqus(text, path, read_beside);
   if (extension == ".VTU" && start.front() == '<') return parse_vtu(text, path);
-  fail_in_file(path, 0, 0,
-               fmt::format("the file is {}; Scabo reads meshes of Gmsh (.msh 2.2 and 4.1), Abaqus and CalculiX (.inp) and "
-                           "VTK (.vtu)",
-                           other_format(start)));
+  fail_in_file(
+      path, 0, 0,
+      fmt::format("the file is {}; Scabo reads meshes of Gmsh (.msh 2.2 and 4.1), Abaqus and CalculiX (.inp) and "
+                  "VTK (.vtu)",
+                  other_format(start)));
 }
 
 ImportedMesh read_mesh_file(const std::string& path) {

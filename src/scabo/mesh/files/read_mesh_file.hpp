@@ -8,8 +8,8 @@
 
 namespace scabo::mesh {
 
-/// Reads a .msh, .inp or .vtu file. The content decides where it shows its format, else the extension. Throws InputError
-/// with the file, the line (text) or the byte or cell (binary), what is wrong and how to correct it.
+/// Reads a .msh, .inp or .vtu file. The content decides where it shows its format, else the extension. Throws
+/// InputError with the file, the line (text) or the byte or cell (binary), what is wrong and how to correct it.
 ImportedMesh read_mesh_file(const std::string& path);
 
 /// The same for the bytes of a file of that name; *INCLUDE is read beside it.

@@ -20,8 +20,8 @@ SideTable::SideTable(const std::vector<ImportedCell>& cells, int nodes) : cells_
     for (int i = 0; i < cells[c].corners(); ++i) {
       const Facet side = side_of(cells[c], i);
       const auto low = static_cast<std::size_t>(std::min(side.start, side.end));
-      entries_[next[low]++] = {std::max(side.start, side.end), side.middle, {static_cast<int>(c), i},
-                               side.start < side.end};
+      entries_[next[low]++] = {
+          std::max(side.start, side.end), side.middle, {static_cast<int>(c), i}, side.start < side.end};
     }
   }
   for (std::size_t n = 0; n + 1 < start_.size(); ++n) {

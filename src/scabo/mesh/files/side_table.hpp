@@ -30,7 +30,10 @@ class SideTable {
   struct Conflict {
     CellSide first;
     CellSide second;
-    enum class Kind { overlap, order } kind;  ///< on the same side of it; or one side straight, the other with a middle node
+    enum class Kind {
+      overlap,
+      order
+    } kind;  ///< on the same side of it; or one side straight, the other with a middle node
   };
   std::optional<Conflict> conflict() const;
 

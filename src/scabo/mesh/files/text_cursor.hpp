@@ -7,8 +7,8 @@
 
 namespace scabo::mesh {
 
-/// A number of a text; empty text and trailing characters are none. Accepts a leading `+` and Fortran's exponent `D`. An
-/// overflow gives an infinite value.
+/// A number of a text; empty text and trailing characters are none. Accepts a leading `+` and Fortran's exponent `D`.
+/// An overflow gives an infinite value.
 bool parse_number(std::string_view text, double& value);
 bool parse_number(std::string_view text, std::int64_t& value);
 
@@ -18,7 +18,11 @@ std::string printable(std::string_view text);
 class TextCursor {
  public:
   TextCursor(std::string_view text, std::string file, int first_line = 1)
-      : begin_(text.data()), at_(begin_), end_(begin_ + text.size()), line_begin_(begin_), line_(first_line),
+      : begin_(text.data()),
+        at_(begin_),
+        end_(begin_ + text.size()),
+        line_begin_(begin_),
+        line_(first_line),
         file_(std::move(file)) {}
 
   const std::string& file() const { return file_; }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <pugixml.hpp>
 #include <set>
 
@@ -34,20 +35,33 @@ std::optional<VtuShape> vtu_shape(std::int64_t type, std::size_t nodes) {
   using Use = VtuShape::Use;
   const int n = static_cast<int>(std::min<std::size_t>(nodes, 1'000'000'000));
   switch (type) {
-    case 0: return VtuShape{Use::unused, {}, 0, 0};
-    case 1: return VtuShape{Use::node, {}, 1, 1};
-    case 2: return VtuShape{Use::node, {}, 0, n};
-    case 3: return VtuShape{Use::facet, {}, 2, 2};
-    case 5: return VtuShape{Use::cell, CellKind::triangle3, 3, 3};
-    case 7: return VtuShape{Use::cell, CellKind::polygon, 0, n};
+    case 0:
+      return VtuShape{Use::unused, {}, 0, 0};
+    case 1:
+      return VtuShape{Use::node, {}, 1, 1};
+    case 2:
+      return VtuShape{Use::node, {}, 0, n};
+    case 3:
+      return VtuShape{Use::facet, {}, 2, 2};
+    case 5:
+      return VtuShape{Use::cell, CellKind::triangle3, 3, 3};
+    case 7:
+      return VtuShape{Use::cell, CellKind::polygon, 0, n};
     case 8:
-    case 9: return VtuShape{Use::cell, CellKind::quad4, 4, 4};
-    case 21: return VtuShape{Use::facet, {}, 3, 3};
-    case 22: return VtuShape{Use::cell, CellKind::triangle6, 6, 6};
-    case 23: return VtuShape{Use::cell, CellKind::quad8, 8, 8};
-    case 28: return VtuShape{Use::cell, CellKind::quad8, 9, 8};
-    case 34: return VtuShape{Use::cell, CellKind::triangle6, 7, 6};
-    case 36: return VtuShape{Use::cell, CellKind::quadratic_polygon, 0, n};
+    case 9:
+      return VtuShape{Use::cell, CellKind::quad4, 4, 4};
+    case 21:
+      return VtuShape{Use::facet, {}, 3, 3};
+    case 22:
+      return VtuShape{Use::cell, CellKind::triangle6, 6, 6};
+    case 23:
+      return VtuShape{Use::cell, CellKind::quad8, 8, 8};
+    case 28:
+      return VtuShape{Use::cell, CellKind::quad8, 9, 8};
+    case 34:
+      return VtuShape{Use::cell, CellKind::triangle6, 7, 6};
+    case 36:
+      return VtuShape{Use::cell, CellKind::quadratic_polygon, 0, n};
     case 68:  // Lagrange's cells of order 1 and 2 have the same nodes in the same order
       if (nodes == 2 || nodes == 3) return VtuShape{Use::facet, {}, n, n};
       return std::nullopt;
@@ -59,7 +73,8 @@ std::optional<VtuShape> vtu_shape(std::int64_t type, std::size_t nodes) {
       if (nodes == 4) return VtuShape{Use::cell, CellKind::quad4, 4, 4};
       if (nodes == 9) return VtuShape{Use::cell, CellKind::quad8, 9, 8};
       return std::nullopt;
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -130,7 +145,8 @@ void VtuReader::cut_appended() {
   const auto tag_end = bytes_.find('>', start);
   const auto mark = tag_end == std::string_view::npos ? tag_end : bytes_.find('_', tag_end);
   if (mark == std::string_view::npos) {
-    fail_in_file(file_, line_at(start), 1, "AppendedData has no `_` that marks its start: the file is truncated; write it again");
+    fail_in_file(file_, line_at(start), 1,
+                 "AppendedData has no `_` that marks its start: the file is truncated; write it again");
   }
   const std::string_view tag = bytes_.substr(start, tag_end - start);
   appended_base64_ = tag.find("base64") != std::string_view::npos;
@@ -176,8 +192,8 @@ void VtuReader::open() {
   encoding_.wide_header = header == "UInt64";
   const std::string compressor = root.attribute("compressor").value();
   if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
-    fail(root, fmt::format("the compressor '{}' is not read; save with zlib or without compression",
-                           printable(compressor)));
+    fail(root,
+         fmt::format("the compressor '{}' is not read; save with zlib or without compression", printable(compressor)));
   }
   encoding_.zlib = !compressor.empty();
 }
@@ -210,9 +226,10 @@ VtuValues VtuReader::values(const pugi::xml_node& array, std::size_t most) const
     if (!has_appended_) fail(array, source.what + " is in AppendedData, but the file has none; write it again");
     if (!parse_number(array.attribute("offset").value(), start) || start < 0 ||
         static_cast<std::size_t>(start) > appended_.size()) {
-      fail(array, fmt::format("{} has the offset '{}', which is outside the appended data: the file is truncated; write "
-                              "it again",
-                              source.what, printable(array.attribute("offset").value())));
+      fail(array,
+           fmt::format("{} has the offset '{}', which is outside the appended data: the file is truncated; write "
+                       "it again",
+                       source.what, printable(array.attribute("offset").value())));
     }
     source.form = appended_base64_ ? VtuSource::Form::base64 : VtuSource::Form::raw;
     source.data = appended_.substr(static_cast<std::size_t>(start));
@@ -245,9 +262,10 @@ void VtuReader::add_cells(const pugi::xml_node& cells, const VtuValues& connecti
     const std::int64_t end = offsets.whole[i];
     const int offset_line = offsets.lines.empty() ? 0 : offsets.lines[i];
     if (end < static_cast<std::int64_t>(begin) || end > static_cast<std::int64_t>(connectivity.size())) {
-      fail_at(offset_line, fmt::format("ends at position {} of the array 'connectivity', which is not between {} and {}; "
-                                       "write the file again",
-                                       end, begin, connectivity.size()));
+      fail_at(offset_line,
+              fmt::format("ends at position {} of the array 'connectivity', which is not between {} and {}; "
+                          "write the file again",
+                          end, begin, connectivity.size()));
     }
     const std::size_t n = static_cast<std::size_t>(end) - begin;
     const std::optional<VtuShape> shape = vtu_shape(types.whole[i], n);
@@ -323,8 +341,9 @@ void VtuReader::read_piece(const pugi::xml_node& piece) {
   }
   const VtuValues coordinates = values(point_array, 3 * points);
   if (coordinates.size() != 3 * points) {
-    fail(point_array, fmt::format("NumberOfPoints is {}, but there are {} coordinates instead of {}; write the file again",
-                                  points, coordinates.size(), 3 * points));
+    fail(point_array,
+         fmt::format("NumberOfPoints is {}, but there are {} coordinates instead of {}; write the file again", points,
+                     coordinates.size(), 3 * points));
   }
   for (std::size_t i = 0; i < points; ++i) {
     const int line = coordinates.lines.empty() ? 0 : coordinates.lines[3 * i];
@@ -375,7 +394,8 @@ void VtuReader::name_regions() {
     for (std::size_t c = 0; c < cell_position_.size(); ++c) {
       const std::int64_t value = array.values[cell_position_[c]];
       auto set = sets.find(value);
-      if (set == sets.end()) set = sets.emplace(value, builder_.cell_set(fmt::format("{}_{}", array.name, value))).first;
+      if (set == sets.end())
+        set = sets.emplace(value, builder_.cell_set(fmt::format("{}_{}", array.name, value))).first;
       builder_.add_cell_to_set(set->second, static_cast<int>(c));
     }
   }

@@ -9,9 +9,10 @@
 namespace scabo::mesh {
 
 /// The mesh in the bytes of a file of that name. An array of integers with one value per cell tells the regions apart:
-/// the first that is called `region`, `material`, `gmsh:physical`, `MaterialIds`, `CellEntityIds` or `gmsh:geometrical`, else the first one.
-/// Regions are `region_3` by its values; lines and vertices become facet sets `boundary_3` and node sets `points_3`.
-/// Every such array with at most 1000 values gives cell sets as well, `NAME_3`. Throws InputError.
+/// the first that is called `region`, `material`, `gmsh:physical`, `MaterialIds`, `CellEntityIds` or
+/// `gmsh:geometrical`, else the first one. Regions are `region_3` by its values; lines and vertices become facet sets
+/// `boundary_3` and node sets `points_3`. Every such array with at most 1000 values gives cell sets as well, `NAME_3`.
+/// Throws InputError.
 ImportedMesh parse_vtu(std::string_view bytes, const std::string& file);
 
 }  // namespace scabo::mesh

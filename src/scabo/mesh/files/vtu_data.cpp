@@ -50,7 +50,8 @@ class VtuDecoder {
   }
 
  private:
-  static constexpr const char* truncated = "ends too early: the file is truncated, or its sizes are wrong; write it again";
+  static constexpr const char* truncated =
+      "ends too early: the file is truncated, or its sizes are wrong; write it again";
   static constexpr const char* too_many =
       "has more values than NumberOfPoints and NumberOfCells allow; write the file again";
 
@@ -215,8 +216,8 @@ VtuValues read_vtu_values(const VtuSource& source, const std::string& type, cons
   const auto known = std::find_if(vtu_types.begin(), vtu_types.end(), [&](const VtuType& t) { return type == t.name; });
   const VtuDecoder name_only(source, encoding, file);
   if (known == vtu_types.end()) {
-    name_only.fail(fmt::format("has the type '{}'; it is Int8 to Int64, UInt8 to UInt64, Float32 or Float64",
-                               printable(type)));
+    name_only.fail(
+        fmt::format("has the type '{}'; it is Int8 to Int64, UInt8 to UInt64, Float32 or Float64", printable(type)));
   }
   VtuValues values;
   values.integers = known->integer;
