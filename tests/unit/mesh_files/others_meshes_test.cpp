@@ -134,9 +134,9 @@ TEST(OthersMeshes, GmshTutorials) {
   const fs::path folder_of_geo = "/usr/share/doc/gmsh-doc/doc/gmsh/tutorial";
   if (!fs::exists(folder_of_geo) || !runs("gmsh -version")) GTEST_SKIP() << "gmsh and gmsh-doc are not installed";
   const Folder folder;
-  // t6: t1, 0.1 x 0.3, and at its left a trapezium of height 0.05 between sides of 0.3 and 0.05; t8: as t1; t11: 2.5 x
+  // t6: t1, 0.1 x 0.3, and at its left a trapezium of height 0.05 between sides of 0.3 and 0.05; t2: as t1; t11: 2.5 x
   // 1.75.
-  const std::map<std::string, double> areas{{"t1", 0.03}, {"t6", 0.03875}, {"t8", 0.03}, {"t11", 2.5 * 1.75}};
+  const std::map<std::string, double> areas{{"t1", 0.03}, {"t6", 0.03875}, {"t2", 0.03}, {"t11", 2.5 * 1.75}};
   for (const auto& [name, area] : areas) {
     SCOPED_TRACE(name);
     const fs::path plain = folder_of_geo / (name + ".geo"), packed = folder_of_geo / (name + ".geo.gz");
