@@ -1,6 +1,6 @@
 # Everything Scabo is built on, all from Debian packages (cmake/packages.txt). Reports all that is missing at once.
 set(missing "")
-foreach(package "Eigen3 3.4" fmt yaml-cpp nlohmann_json CLI11)
+foreach(package "Eigen3 3.4" fmt yaml-cpp nlohmann_json CLI11 pugixml)
   separate_arguments(package)
   list(GET package 0 name)
   find_package(${package} QUIET CONFIG)
@@ -8,6 +8,11 @@ foreach(package "Eigen3 3.4" fmt yaml-cpp nlohmann_json CLI11)
     list(APPEND missing ${name})
   endif()
 endforeach()
+
+find_package(ZLIB QUIET)
+if(NOT ZLIB_FOUND)
+  list(APPEND missing zlib)
+endif()
 
 include(${CMAKE_CURRENT_LIST_DIR}/NumericalLibraries.cmake)
 list(APPEND missing ${SCABO_NUMERICAL_LIBRARIES_MISSING})

@@ -25,6 +25,7 @@ struct Edge {
   Vec2 start = Vec2::Zero();
   Vec2 end = Vec2::Zero();
   std::optional<Arc> arc;  ///< empty for a straight line
+  std::vector<Vec2> points;  ///< between start and end, of a chain of straight lines; empty otherwise
   Source source;
 
   Vec2 at(double t) const;  ///< point at 0 <= t <= 1 of the edge's length

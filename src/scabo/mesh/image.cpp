@@ -15,7 +15,7 @@ using quadtree::TreeCell;
 /// Regions of blocks of 2^k by 2^k pixels: `cut` where they are not uniform, `outside` beyond the image and where void.
 class Blocks {
  public:
-  Blocks(const Image& image, const ImageOptions& options, int levels) {
+  Blocks(const files::Image& image, const ImageOptions& options, int levels) {
     Level pixels{image.width, image.height, {}};
     pixels.regions.resize(std::size_t(image.width) * image.height);
     int last = 0, last_region = TreeCell::outside;
@@ -71,7 +71,7 @@ class Blocks {
 
 }  // namespace
 
-PolygonMesh image_mesh(const Image& image, const ImageOptions& options) {
+PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options) {
   ensure(image.width > 0 && image.height > 0 && image.labels.size() == std::size_t(image.width) * image.height,
          "an image without pixels, or with a wrong number of labels");
   const double largest = options.size > 0.0 ? options.size / options.pixel * (1.0 + 1e-9) : 1e9;

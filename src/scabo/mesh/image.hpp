@@ -4,15 +4,10 @@
 #include <map>
 #include <vector>
 
+#include "scabo/files/image.hpp"
 #include "scabo/mesh/domain.hpp"
 
 namespace scabo::mesh {
-
-/// A label for each pixel, row by row from the top, each row from the left, as in image files.
-struct Image {
-  int width = 0, height = 0;
-  std::vector<int> labels;  // width * height
-};
 
 struct ImageOptions {
   double pixel = 1.0;          ///< length of the side of a pixel, > 0
@@ -31,6 +26,6 @@ struct ImageOptions {
 /// regions and around voids inside are no lines.
 ///
 /// Throws InputError if no pixel belongs to a region.
-PolygonMesh image_mesh(const Image& image, const ImageOptions& options);
+PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options);
 
 }  // namespace scabo::mesh

@@ -127,12 +127,12 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
   return points;
 }
 
-PolygonMesh polygons_of(const Domain& domain, model::MeshKind kind) {
-  switch (kind) {
+PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
+  switch (mesh.kind) {
     case model::MeshKind::polygons:
       return polygon_mesh(domain);
     case model::MeshKind::quadtree:
-      return quadtree_mesh(domain);
+      return quadtree_mesh(domain, {.min_size = mesh.min_size});
     case model::MeshKind::parts:
       return star_cells(domain);
     case model::MeshKind::fem:
@@ -241,7 +241,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, do
                                                     body.mesh.size, nodes, most_nodes)};
   const Domain domain = domain_of(body);
   try {
-    return body_mesh_of(polygons_of(domain, body.mesh.kind), domain, body);
+    return body_mesh_of(polygons_of(domain, body.mesh), domain, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
                       fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};

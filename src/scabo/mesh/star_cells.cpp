@@ -69,7 +69,8 @@ class Division {
     return points;
   }
 
-  /// The same with all points of the lines: sides on arcs are then nearly tangents.
+  /// The same, and along arcs that are hollow as seen from inside the points where tangents at the points of the line
+  /// meet: who sees these tangents sees the arc.
   std::vector<Vec2> fine_points_of(const std::vector<int>& corners) const {
     std::vector<Vec2> points;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -79,11 +80,15 @@ class Division {
       if (found == coarse_.segments.end()) continue;
       const LinePoints::Segment& segment = found->second;
       const auto& line = domain_.lines[static_cast<std::size_t>(segment.line)];
-      if (!line.arc) continue;
-      if (segment.from == a)
-        for (int k = segment.first + 1; k < segment.last; ++k) points.push_back(line.points[static_cast<std::size_t>(k)]);
-      else
-        for (int k = segment.last - 1; k > segment.first; --k) points.push_back(line.points[static_cast<std::size_t>(k)]);
+      const bool forwards = segment.from == a;
+      if (!line.arc || (line.arc->sweep > 0.0) == forwards) continue;
+      const int step = forwards ? 1 : -1, first = forwards ? segment.first : segment.last;
+      const int last = forwards ? segment.last : segment.first;
+      for (int k = first; k != last; k += step) {
+        const Vec2 from = line.points[static_cast<std::size_t>(k)] - line.arc->centre,
+                   to = line.points[static_cast<std::size_t>(k + step)] - line.arc->centre, middle = 0.5 * (from + to);
+        points.push_back(line.arc->centre + from.squaredNorm() / middle.squaredNorm() * middle);
+      }
     }
     return points;
   }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "scabo/base/error.hpp"
-#include "scabo/mesh/files/png.hpp"
+#include "scabo/files/png.hpp"
 #include "support/random.hpp"
 
 namespace scabo::mesh {
@@ -55,7 +55,7 @@ void check_sides(const PolygonMesh& mesh, const Vec2& size) {
 TEST(ImageMesh, FourByFourPixelsByHand) {
   // The upper right quarter has one pixel of label 7 at its lower left: it is divided, the other three quarters are
   // not.
-  const Image image{4,
+  const files::Image image{4,
                     4,
                     {3, 3, 3, 3,  //
                      3, 3, 7, 3,  //
@@ -90,7 +90,7 @@ TEST(ImageMesh, FourByFourPixelsByHand) {
 }
 
 TEST(ImageMesh, VoidPixelsHaveNoCells) {
-  const Image image{3,
+  const files::Image image{3,
                     2,
                     {0, 5, 0,  //
                      0, 0, -1}};
@@ -103,7 +103,7 @@ TEST(ImageMesh, VoidPixelsHaveNoCells) {
 }
 
 TEST(ImageMesh, LargestSize) {
-  const Image image{64, 32, std::vector<int>(64 * 32, 0)};
+  const files::Image image{64, 32, std::vector<int>(64 * 32, 0)};
   EXPECT_EQ(image_mesh(image, {0.1, 0.0, {}}).cells.size(), 2u);
   EXPECT_EQ(image_mesh(image, {0.1, 0.8, {}}).cells.size(), 32u);
   EXPECT_EQ(image_mesh(image, {0.1, 0.01, {}}).cells.size(), 64u * 32u);
@@ -112,7 +112,7 @@ TEST(ImageMesh, LargestSize) {
 TEST(ImageMesh, RandomDiscs) {
   std::mt19937 random(8);
   const int n = 512;
-  Image image{n, n, std::vector<int>(n * n, 0)};
+  files::Image image{n, n, std::vector<int>(n * n, 0)};
   for (int k = 0; k < 80; ++k) {
     const double x = test::uniform(random, 0, n), y = test::uniform(random, 0, n), r = test::uniform(random, 3, 40);
     for (int j = 0; j < n; ++j) {
@@ -209,7 +209,7 @@ class PngFile {
   }
 };
 
-Image read_bytes(const std::vector<std::uint8_t>& bytes) {
+files::Image read_bytes(const std::vector<std::uint8_t>& bytes) {
   const auto file = std::filesystem::path(testing::TempDir()) / ("image_test_" + std::to_string(::getpid()) + ".png");
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
@@ -217,11 +217,11 @@ Image read_bytes(const std::vector<std::uint8_t>& bytes) {
     std::filesystem::path file;
     ~Remove() { std::filesystem::remove(file); }
   } remove{file};
-  return read_png(file.string());
+  return files::read_png(file.string());
 }
 
 TEST(PngImage, GreyOfAllDepths) {
-  const Image eight = read_bytes(PngFile(3, 2, 8, 0).finish({{0, 100, 255}, {1, 2, 3}}));
+  const files::Image eight = read_bytes(PngFile(3, 2, 8, 0).finish({{0, 100, 255}, {1, 2, 3}}));
   EXPECT_EQ(eight.width, 3);
   EXPECT_EQ(eight.height, 2);
   EXPECT_THAT(eight.labels, testing::ElementsAre(0, 100, 255, 1, 2, 3));
@@ -251,7 +251,7 @@ TEST(PngImage, BrokenFilesAreRefusedWithTheirName) {
     }
     return "no error";
   };
-  EXPECT_THROW(read_png("/nowhere/at/all.png"), InputError);
+  EXPECT_THROW(files::read_png("/nowhere/at/all.png"), InputError);
   EXPECT_EQ(message_of({}), "the image cannot be read: it is not a PNG file");
   EXPECT_EQ(message_of({'B', 'M', 1, 2, 3, 4, 5, 6, 7, 8, 9}), "the image cannot be read: it is not a PNG file");
   EXPECT_THAT(message_of(PngFile(1 << 19, 1 << 19, 8, 0).finish({{1}})), testing::HasSubstr("more than 2^28 pixels"));

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "scabo/mesh/image.hpp"
+#include "scabo/files/image.hpp"
 
-namespace scabo::mesh {
+namespace scabo::files {
 
 /// Reads an image. Labels are levels of grey as stored: 0 to 255, or 0 to 65535 if the file has 16 bits per sample.
 /// Images of 1, 2 or 4 bits are spread to 0 to 255. Colours, also those of a palette, become their grey,
@@ -15,4 +15,4 @@ namespace scabo::mesh {
 /// has more than 2^28 pixels.
 Image read_png(const std::string& file);
 
-}  // namespace scabo::mesh
+}  // namespace scabo::files

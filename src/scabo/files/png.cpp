@@ -1,4 +1,4 @@
-#include "scabo/mesh/files/png.hpp"
+#include "scabo/files/png.hpp"
 
 #include <png.h>
 
@@ -11,7 +11,7 @@
 
 #include "scabo/base/error.hpp"
 
-namespace scabo::mesh {
+namespace scabo::files {
 
 namespace {
 
@@ -121,4 +121,4 @@ Image read_png(const std::string& file) {
   return image;
 }
 
-}  // namespace scabo::mesh
+}  // namespace scabo::files
