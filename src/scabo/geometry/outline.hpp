@@ -45,10 +45,14 @@ struct Outline {
   std::vector<int> holes;  ///< index of the first edge of every hole, ascending
   bool rectangle = false;  ///< given as `rectangle`, which `fem` meshes require
 
-  int next(int edge) const;  ///< the edge that starts where `edge` ends
+  int next(int edge) const;      ///< the edge that starts where `edge` ends
+  int previous(int edge) const;  ///< the edge that ends where `edge` starts
 
   double area() const;    ///< arcs included exactly
   Vec2 centroid() const;  ///< arcs included exactly
 };
+
+/// Reverses the direction of an outline without holes; every edge and corner keeps its names.
+void turn_round(Outline& outline);
 
 }  // namespace scabo::geometry

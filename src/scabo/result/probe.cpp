@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
+
 namespace scabo::result {
 
 namespace {
 
+/// Points on the boundary belong to the body.
 bool inside(const model::Outline& outline, const Vec2& x) {
-  // Winding of the boundary around x, in pieces that are short enough for arcs.
-  double turn = 0.0;
-  for (const model::Edge& edge : outline.edges) {
-    const int pieces = edge.arc ? 64 : 1;
-    Vec2 from = edge.start - x;
-    for (int i = 1; i <= pieces; ++i) {
-      const Vec2 to = edge.at(static_cast<double>(i) / pieces) - x;
-      if (from.dot(to) <= 0.0 && std::abs(cross(from, to)) <= 1e-12 * (to - from).squaredNorm()) return true;  // on it
-      turn += std::atan2(cross(from, to), from.dot(to));
-      from = to;
-    }
-  }
-  return turn > 3.0;  // 2 pi inside, 0 outside
+  return geometry::encloses(outline, x) || geometry::distance_to(outline, x) <= 1e-12 * geometry::outline_size(outline);
 }
 
 }  // namespace
