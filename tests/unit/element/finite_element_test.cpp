@@ -147,9 +147,9 @@ TEST_P(EveryKind, IsExactForLinearFields) {
 TEST_P(EveryKind, HasThreeRigidMotionsAndNoOtherZeroMode) {
   const FiniteElement element = this->element();
   const ElementMatrix K = finite_element_stiffness(element, elasticity(1.0, 0.3), thickness);
-  for (const ElementVector& motion :
-       {values_of(element, [](const Vec2&) { return Vec2(1, 0); }), values_of(element, [](const Vec2&) { return Vec2(0, 1); }),
-        values_of(element, [](const Vec2& x) { return Vec2(-x.y(), x.x()); })})
+  for (const ElementVector& motion : {values_of(element, [](const Vec2&) { return Vec2(1, 0); }),
+                                      values_of(element, [](const Vec2&) { return Vec2(0, 1); }),
+                                      values_of(element, [](const Vec2& x) { return Vec2(-x.y(), x.x()); })})
     EXPECT_LT(largest(K * motion), 1e-15 * K.cwiseAbs().rowwise().sum().maxCoeff() * largest(motion) * 4);
   const Vector values = symmetric_eigenvalues(K);
   EXPECT_LT(values.head(3).cwiseAbs().maxCoeff(), 1e-14 * values.maxCoeff());
@@ -230,8 +230,7 @@ TEST(FiniteElement, FreeExpansionByALinearTemperatureHasNoStressInQuadraticEleme
   const Mat3 D = elasticity(210e9, 0.3);
   const double alpha = 1.2e-5;
   const LinearField T{20.0, -7.0, 11.0};
-  for (const FiniteElement& element :
-       {element_of(triangle_corners, 2), element_of(parallelogram_corners, 2)}) {
+  for (const FiniteElement& element : {element_of(triangle_corners, 2), element_of(parallelogram_corners, 2)}) {
     const ElementVector u = values_of(element, [&](const Vec2& x) {
       const double squares = 0.5 * (x.x() * x.x() - x.y() * x.y()), product = x.x() * x.y();
       return Vec2(alpha * Vec2(T.constant * x.x() + T.per_x * squares + T.per_y * product,

@@ -247,11 +247,13 @@ TEST_P(EveryStrip, APointSlightlyOutsideLiesOnTheNearestSide) {
   for (const Vec2& x : {Vec2(0.5, 0.0), Vec2(1.7, 0.0), Vec2(2.6, 0.0)}) {
     const CellPlace place = locator.nearest(x - Vec2(0, 1e-3));
     EXPECT_FALSE(locator.find(x - Vec2(0, 1e-3)));
-    const auto element = element::finite_element_of(solution.mesh.bodies[0].cells[place.cell], solution.mesh.bodies[0].nodes);
+    const auto element =
+        element::finite_element_of(solution.mesh.bodies[0].cells[place.cell], solution.mesh.bodies[0].nodes);
     EXPECT_LT((element::position_in(element, place.natural) - x).norm(), 1e-12);
   }
   const CellPlace far = locator.nearest({9.0, 9.0});  // the corner
-  const auto element = element::finite_element_of(solution.mesh.bodies[0].cells[far.cell], solution.mesh.bodies[0].nodes);
+  const auto element =
+      element::finite_element_of(solution.mesh.bodies[0].cells[far.cell], solution.mesh.bodies[0].nodes);
   EXPECT_LT((element::position_in(element, far.natural) - Vec2(3.6, 2.3)).norm(), 1e-12);
 }
 

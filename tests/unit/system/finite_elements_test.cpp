@@ -143,7 +143,8 @@ mesh::BodyMesh mixed(const Kind& kind) {
   CellMesh made(kind.order);
   constexpr int sides = 7;
   for (int i = 0; i < sides; ++i)
-    made.node(0.8 * Vec2(std::cos(2 * std::numbers::pi * i / sides) + 0.1 * i, std::sin(2 * std::numbers::pi * i / sides)));
+    made.node(0.8 *
+              Vec2(std::cos(2 * std::numbers::pi * i / sides) + 0.1 * i, std::sin(2 * std::numbers::pi * i / sides)));
   for (int i = 0; i < sides; ++i) made.node(Vec2(2.1 * made.mesh.nodes[static_cast<std::size_t>(i)] + Vec2(-0.2, 0.1)));
   std::vector<int> inner;
   for (int i = 0; i < sides; ++i) inner.push_back(i);
@@ -173,7 +174,8 @@ TEST_P(MixedMesh, MassSumsToThatOfTheBody) {
   const mesh::BodyMesh mesh = mixed(GetParam());
   double area = 0.0;
   for (int i = 0; i < 7; ++i)
-    area += 0.5 * cross(mesh.nodes[static_cast<std::size_t>(7 + i)], mesh.nodes[static_cast<std::size_t>(7 + (i + 1) % 7)]);
+    area +=
+        0.5 * cross(mesh.nodes[static_cast<std::size_t>(7 + i)], mesh.nodes[static_cast<std::size_t>(7 + (i + 1) % 7)]);
   const Vector x = at_nodes(mesh.nodes, [](const Vec2&) { return Vec2(1, 0); });
   EXPECT_NEAR(x.dot(assembled(mesh).M * x), density * thickness * area, 1e-12 * density * thickness * area);
 }
@@ -207,7 +209,8 @@ double cantilever_error(const Kind& kind, int refinement) {
   };
   Vector f = Vector::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   for (const auto& edge : mesh.edges)
-    f += traction_forces(edge, mesh.nodes, thickness, [&](const Vec2& x, const Vec2& n) { return traction_of(stress(x), n); });
+    f += traction_forces(edge, mesh.nodes, thickness,
+                         [&](const Vec2& x, const Vec2& n) { return traction_of(stress(x), n); });
   const model::Model model = model_of_one();
   const element::SolvedCells none(mesh.cells.size());
   Matrix K = Matrix(body_stiffness(model, mesh, none).sparse);
@@ -220,8 +223,8 @@ double cantilever_error(const Kind& kind, int refinement) {
   }
   const Vector u = solve_cholesky(K, f);
   const double G = young / (2 * (1 + poisson));
-  const double exact = thickness * (P * P * L * L * L / (6 * young * I) +
-                                    P * P * L * 16 * std::pow(c, 5) / (15 * 8 * G * I * I));
+  const double exact =
+      thickness * (P * P * L * L * L / (6 * young * I) + P * P * L * 16 * std::pow(c, 5) / (15 * 8 * G * I * I));
   return (exact - 0.5 * u.dot(f)) / exact;
 }
 
@@ -229,7 +232,8 @@ double cantilever_error(const Kind& kind, int refinement) {
 TEST_P(EveryMesh, CantileverConvergesAtItsRate) {
   std::vector<double> errors;
   const int finest = GetParam().order == 1 ? 8 : 4;
-  for (const int refinement : {finest / 4, finest / 2, finest}) errors.push_back(cantilever_error(GetParam(), refinement));
+  for (const int refinement : {finest / 4, finest / 2, finest})
+    errors.push_back(cantilever_error(GetParam(), refinement));
   for (const double error : errors) EXPECT_GT(error, 0.0);  // finite elements are too stiff
   const double rate = std::log2(errors[1] / errors[2]);
   EXPECT_GT(rate, 2 * GetParam().order - 0.2) << errors[0] << " " << errors[1] << " " << errors[2];
