@@ -68,8 +68,8 @@ Shape<size_of(kind)> natural_shape(double r, double s) {
   } else if constexpr (kind == FiniteElementKind::triangle6) {
     const double q = 1 - r - s;
     shape.N = {q * (2 * q - 1), r * (2 * r - 1), s * (2 * s - 1), 4 * q * r, 4 * r * s, 4 * s * q};
-    shape.gradient = {Vec2(1 - 4 * q, 1 - 4 * q),     Vec2(4 * r - 1, 0), Vec2(0, 4 * s - 1),
-                      Vec2(4 * (q - r), -4 * r), Vec2(4 * s, 4 * r), Vec2(-4 * s, 4 * (q - s))};
+    shape.gradient = {Vec2(1 - 4 * q, 1 - 4 * q), Vec2(4 * r - 1, 0), Vec2(0, 4 * s - 1),
+                      Vec2(4 * (q - r), -4 * r),  Vec2(4 * s, 4 * r), Vec2(-4 * s, 4 * (q - s))};
   } else if constexpr (kind == FiniteElementKind::quad4) {
     for (std::size_t i = 0; i < 4; ++i) {
       const double ri = quad_nodes[i].x(), si = quad_nodes[i].y();
@@ -355,8 +355,8 @@ ElementVector finite_element_body_force(const FiniteElement& element, const Line
     for (std::size_t i = 0; i < n; ++i) {
       const Vec2 moment = thickness * moments[i];
       f.template segment<2>(static_cast<Eigen::Index>(2 * i)) =
-          areas[i] * thickness * constant + Vec2(b_x.per_x * moment.x() + b_x.per_y * moment.y(),
-                                                 b_y.per_x * moment.x() + b_y.per_y * moment.y());
+          areas[i] * thickness * constant +
+          Vec2(b_x.per_x * moment.x() + b_x.per_y * moment.y(), b_y.per_x * moment.x() + b_y.per_y * moment.y());
     }
     return f;
   });
@@ -403,7 +403,9 @@ std::optional<Vec2> natural_coordinates(const FiniteElement& element, const Vec2
   const Vec2 margin = (element.size() > element.corners() ? 0.25 : 1e-6) * size;
   if (((x - box.low).array() < -margin.array()).any() || ((x - box.high).array() > margin.array()).any())
     return std::nullopt;
-  const auto accept = [&](const std::optional<Vec2>& natural) { return natural && holds(element.kind, *natural, slack); };
+  const auto accept = [&](const std::optional<Vec2>& natural) {
+    return natural && holds(element.kind, *natural, slack);
+  };
   const Vec2 centre = natural_centre(element.kind);
   const auto first = solve_for_natural(element, x, centre, size.norm());
   if (accept(first)) return first;

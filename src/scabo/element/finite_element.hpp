@@ -1,5 +1,6 @@
-// Finite elements of the plane whose nodes all lie on their sides: triangles and quadrilaterals with linear or quadratic
-// sides (CPS3, CPS6, CPS4 and CPS8 in other programs; PLANE82 is the last one). Full integration, isoparametric.
+// Finite elements of the plane whose nodes all lie on their sides: triangles and quadrilaterals with linear or
+// quadratic sides (CPS3, CPS6, CPS4 and CPS8 in other programs; PLANE82 is the last one). Full integration,
+// isoparametric.
 //
 // clang-format off
 //     3            3            4-------3      4---7---3      corners counter-clockwise, then the middles of the
@@ -66,8 +67,8 @@ ElementMatrix finite_element_mass(const FiniteElement& element, double density, 
 ElementVector finite_element_body_force(const FiniteElement& element, const LinearField& b_x, const LinearField& b_y,
                                         double thickness);
 
-/// Nodal forces of a change of temperature as a function of absolute (x, y); `unit_strain`: free strain [xx, yy, xy] per
-/// unit of temperature.
+/// Nodal forces of a change of temperature as a function of absolute (x, y); `unit_strain`: free strain [xx, yy, xy]
+/// per unit of temperature.
 ElementVector finite_element_thermal_force(const FiniteElement& element, const Mat3& D, const Vec3& unit_strain,
                                            const LinearField& temperature, double thickness);
 

@@ -38,8 +38,7 @@ CellLocator::CellLocator(const mesh::BodyMesh& mesh, const element::SolvedCells&
 
 Eigen::Vector2i CellLocator::indices_of(const Vec2& x) const {
   Eigen::Vector2i at;
-  for (int k = 0; k < 2; ++k)
-    at[k] = static_cast<int>(std::clamp((x[k] - low_[k]) / step_[k], 0.0, counts_[k] - 1.0));
+  for (int k = 0; k < 2; ++k) at[k] = static_cast<int>(std::clamp((x[k] - low_[k]) / step_[k], 0.0, counts_[k] - 1.0));
   return at;
 }
 
@@ -57,8 +56,7 @@ std::optional<CellPlace> CellLocator::in_cell(std::size_t cell, const Vec2& x) c
     place.scaled = *scaled;
     return place;
   }
-  const auto natural =
-      element::natural_coordinates(element::finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
+  const auto natural = element::natural_coordinates(element::finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
   if (!natural) return std::nullopt;
   place.natural = *natural;
   return place;

@@ -24,8 +24,8 @@ class CellLocator {
 
   /// Nothing if no cell holds the point. Between two cells, the first.
   std::optional<CellPlace> find(const Vec2& x) const;
-  /// The same; a point slightly outside of the mesh (an arc is divided into polynomials, which may pass inside of it) is
-  /// placed on the boundary of the nearest cell.
+  /// The same; a point slightly outside of the mesh (an arc is divided into polynomials, which may pass inside of it)
+  /// is placed on the boundary of the nearest cell.
   CellPlace nearest(const Vec2& x) const;
 
  private:

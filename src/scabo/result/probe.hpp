@@ -27,8 +27,8 @@ class Probe {
   /// Prepares for many points in few super-elements: their fields are then interpolated along xi, to rounding accuracy.
   void expect_many();
 
-  /// Nothing if the point lies outside the body. Between cells and between boundary elements the value of one of them is
-  /// returned. A rigid body has only a displacement.
+  /// Nothing if the point lies outside the body. Between cells and between boundary elements the value of one of them
+  /// is returned. A rigid body has only a displacement.
   std::optional<element::PointValues> at(const Vec2& x) const;
   /// The same for a known place of an elastic body.
   element::PointValues at(const Vec2& x, const CellPlace& place) const;

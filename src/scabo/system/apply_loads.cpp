@@ -78,8 +78,8 @@ class Applied {
           for (const model::FaceTraction::Term& term : traction.terms) {
             const Vec2 value =
                 traction.pressure ? Vec2(-term.value.x() * element::face_normal(cell.ring, face)) : term.value;
-            element::add_radial_loads(loads.loads, {element::face_load(cell.ring, face, term.power, value, thickness())},
-                                      1.0);
+            element::add_radial_loads(loads.loads,
+                                      {element::face_load(cell.ring, face, term.power, value, thickness())}, 1.0);
           }
         },
         no_force);

@@ -72,8 +72,7 @@ Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, 
     }
     const element::Mat3 D = element::elasticity_matrix(material_of(model, cell), model.analysis.plane);
     const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
-    assembler.add(element::dofs_of(finite),
-                  element::finite_element_stiffness(finite, D, model.analysis.thickness));
+    assembler.add(element::dofs_of(finite), element::finite_element_stiffness(finite, D, model.analysis.thickness));
   }
   stiffness.sparse = assembler.finish();
   return stiffness;
@@ -100,8 +99,8 @@ Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const
       continue;
     }
     const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
-    assembler.add(element::dofs_of(finite), element::finite_element_mass(finite, *material_of(model, cell).density,
-                                                                         model.analysis.thickness));
+    assembler.add(element::dofs_of(finite),
+                  element::finite_element_mass(finite, *material_of(model, cell).density, model.analysis.thickness));
   }
   mass.sparse = assembler.finish();
   return mass;

@@ -67,8 +67,7 @@ inline mesh::BodyMesh mapped_grid(int nx, int ny, int order, bool triangles,
     for (int i = 0; i <= nx; ++i) made.node({i, j});
   const auto at = [nx](int i, int j) { return j * (nx + 1) + i; };
   for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i)
-      made.add_quad({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, triangles);
+    for (int i = 0; i < nx; ++i) made.add_quad({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, triangles);
   made.mesh.edges.resize(4);
   for (int i = 0; i < nx; ++i) {
     made.mesh.edges[0].push_back(made.side(at(i, 0), at(i + 1, 0)));
