@@ -56,7 +56,7 @@ std::vector<fs::path> bad_files() {
 std::vector<std::string> messages_of(const fs::path& file) {
   std::vector<std::string> messages;
   try {
-    read_model(file.string());
+    input::read_model(file.string());
   } catch (const InputError& error) {
     for (const Diagnostic& diagnostic : error.diagnostics()) {
       const std::string text = format_diagnostic("", diagnostic).substr(1);

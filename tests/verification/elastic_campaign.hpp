@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "scabo/analysis/super_elements.hpp"
+#include "scabo/element/cell_library.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/input/read_model.hpp"
@@ -16,10 +16,8 @@ namespace scabo::verification {
 inline Matrix flexibility_of(const std::string& text) {
   const model::Model model = input::parse_model(text, "campaign.yaml", {});
   const mesh::Mesh mesh = mesh::make_mesh(model);
-  const auto solved = analysis::solve_super_elements(model, mesh, 1);
-  std::vector<const element::SuperElementSolution*> solutions;
-  for (const auto& super_element : solved) solutions.push_back(super_element ? &super_element->solution : nullptr);
-  const Matrix W = system::condense(system::make_structure(model, mesh, solutions), model, mesh).W.dense();
+  const auto cells = element::solve_cells(model, mesh, 1);
+  const Matrix W = system::condense(system::make_structure(model, mesh, cells), model, mesh).W.dense();
   return W / W.diagonal().mean();
 }
 

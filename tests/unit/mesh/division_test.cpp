@@ -36,10 +36,10 @@ model::Outline quarter_disc() {
 TEST(BoundaryDivision, GivesThePapersBeam80Nodes) {
   const BodyMesh mesh = mesh_of(elastic("lower", test::rectangle({0, 0}, {6, 1.5}), 0.375));
   EXPECT_EQ(mesh.nodes.size(), 80u);
-  ASSERT_EQ(mesh.super_elements.size(), 1u);
-  EXPECT_EQ(mesh.super_elements[0].boundary.size(), 40u);
+  ASSERT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.cells[0].boundary.size(), 40u);
   EXPECT_EQ(mesh.edges[2].size(), 16u);
-  EXPECT_TRUE(mesh.elements.empty());
+  EXPECT_EQ(mesh.cells[0].kind, CellKind::superelement);
   EXPECT_THAT(mesh.corners, ElementsAre(0, 32, 40, 72));
   EXPECT_EQ(mesh.nodes[40], Vec2(6.0, 1.5));
 }
@@ -48,7 +48,7 @@ TEST(BoundaryDivision, RunsCounterClockwiseAndCloses) {
   for (const int order : {1, 2, 3, 8}) {
     const BodyMesh mesh = mesh_of(elastic("disc", quarter_disc(), 0.4, order));
     int next = 0;
-    for (const LineElement& element : mesh.super_elements[0].boundary) {
+    for (const LineElement& element : mesh.cells[0].boundary) {
       ASSERT_EQ(element.nodes.size(), order + 1u);
       for (int i = 0; i <= order; ++i) {
         EXPECT_EQ(element.nodes[i], (next + i) % static_cast<int>(mesh.nodes.size()));
@@ -155,10 +155,10 @@ TEST(BoundaryDivision, ReportsEveryBodysMistakesAtOnce) {
 TEST(Grid, NumbersNodesRowByRow) {
   const BodyMesh mesh = mesh_of(fem(elastic("plate", test::rectangle({1, 2}, {2, 1}), 1.0)));
   ASSERT_EQ(mesh.nodes.size(), 13u);
-  ASSERT_EQ(mesh.elements.size(), 2u);
-  EXPECT_TRUE(mesh.super_elements.empty());
-  EXPECT_THAT(mesh.elements[0], ElementsAre(0, 2, 10, 8, 1, 6, 9, 5));
-  EXPECT_THAT(mesh.elements[1], ElementsAre(2, 4, 12, 10, 3, 7, 11, 6));
+  ASSERT_EQ(mesh.cells.size(), 2u);
+  EXPECT_EQ(mesh.count(CellKind::finite_element), 2);
+  EXPECT_THAT(mesh.cells[0].nodes(), ElementsAre(0, 1, 2, 6, 10, 9, 8, 5));
+  EXPECT_THAT(mesh.cells[1].nodes(), ElementsAre(2, 3, 4, 7, 12, 11, 10, 6));
   EXPECT_THAT(mesh.corners, ElementsAre(0, 4, 12, 8));
   EXPECT_THAT(mesh.edges[0][0].nodes, ElementsAre(0, 1, 2));
   EXPECT_THAT(mesh.edges[0][1].nodes, ElementsAre(2, 3, 4));
@@ -174,14 +174,14 @@ TEST(Grid, PutsMidsideNodesInTheMiddleAlsoWhenTurned) {
   const test::Similarity turn{37 * pi / 180, 1.0, {3, -2}};
   const model::Model model = turn(with({fem(elastic("plate", test::rectangle({0, 0}, {6, 1.5}), 0.4))}));
   const BodyMesh mesh = make_mesh(model).bodies[0];
-  EXPECT_EQ(mesh.elements.size(), 15u * 4u);
+  EXPECT_EQ(mesh.cells.size(), 15u * 4u);
   EXPECT_EQ(mesh.nodes.size(), 31u * 5u + 16u * 4u);
   double area = 0.0;
-  for (const PlaneElement8& e : mesh.elements) {
-    for (int k = 0; k < 4; ++k) {
-      const Vec2 a = mesh.nodes[e[k]];
-      const Vec2 b = mesh.nodes[e[(k + 1) % 4]];
-      EXPECT_LT((mesh.nodes[e[4 + k]] - 0.5 * (a + b)).norm(), 1e-14);
+  for (const Cell& cell : mesh.cells) {
+    for (const LineElement& side : cell.boundary) {
+      const Vec2 a = mesh.nodes[side.nodes[0]];
+      const Vec2 b = mesh.nodes[side.nodes[2]];
+      EXPECT_LT((mesh.nodes[side.nodes[1]] - 0.5 * (a + b)).norm(), 1e-14);
       area += 0.5 * cross(a, b);
     }
   }

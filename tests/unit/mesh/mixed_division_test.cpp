@@ -29,7 +29,7 @@ TEST(MixedDivision, GivesEveryElementItsLengthAndOrder) {
   ASSERT_EQ(body.edges[0].size(), 2u);
   EXPECT_EQ(body.edges[0][0].nodes, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(body.edges[0][1].nodes, (std::vector<int>{3, 4}));
-  EXPECT_EQ(body.super_elements[0].boundary.back().nodes, (std::vector<int>{8, 9, 0}));
+  EXPECT_EQ(body.cells[0].boundary.back().nodes, (std::vector<int>{8, 9, 0}));
   EXPECT_NEAR(body.nodes[3].x(), 0.1, 1e-16);
   EXPECT_NEAR(body.nodes[1].x(), 0.05 * (1 - std::sqrt(0.2)), 1e-16);
   EXPECT_EQ(body.corners, (std::vector<int>{0, 4, 6, 8}));
@@ -46,11 +46,11 @@ TEST(Enriched, HoldsEveryFieldOfTheOldElementsOnTheSameCurve) {
   const model::Model model =
       one(elastic("disc", outline({arc("a", {0, 0}, 1, 0, pi), arc("b", {0, 0}, 1, pi, pi)}), 0.9, 2));
   const Mesh mesh = make_mesh(model);
-  std::vector<std::vector<bool>> frozen(1, std::vector<bool>(mesh.bodies[0].super_elements[0].boundary.size(), false));
+  std::vector<std::vector<bool>> frozen(1, std::vector<bool>(mesh.bodies[0].cells[0].boundary.size(), false));
   frozen[0][1] = true;
   const BodyMesh fine = enriched(model, mesh, frozen).bodies[0];
-  const auto& old_elements = mesh.bodies[0].super_elements[0].boundary;
-  const auto& new_elements = fine.super_elements[0].boundary;
+  const auto& old_elements = mesh.bodies[0].cells[0].boundary;
+  const auto& new_elements = fine.cells[0].boundary;
   ASSERT_EQ(old_elements.size(), new_elements.size());
   for (std::size_t e = 0; e < old_elements.size(); ++e) {
     EXPECT_EQ(new_elements[e].nodes.size(), e == 1 ? 3u : 4u);

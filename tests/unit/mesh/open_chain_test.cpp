@@ -25,7 +25,7 @@ struct Chain {
   double angle = 0.0;  // turned through about the centre
 };
 Chain chain_of(const Mesh& mesh, std::size_t b = 0) {
-  const SuperElement& super_element = mesh.bodies[b].super_elements.front();
+  const Cell& super_element = mesh.bodies[b].cells.front();
   Chain chain{super_element.centre, {}, {}, 0.0};
   for (const LineElement& element : super_element.boundary)
     for (std::size_t k = chain.numbers.empty() ? 0 : 1; k < element.nodes.size(); ++k) {

@@ -23,16 +23,20 @@ analysis::StaticSolution solution_of(const element::Ring& ring, const std::vecto
   model::Body body;
   body.name = "plate";
   solution.model.bodies.push_back(body);
-  auto made = std::make_shared<analysis::SolvedSuperElement>();
+  auto made = std::make_shared<element::SolvedSuperElement>();
   made->ring = ring;
   made->sectors.D = element::Elasticity(laws);
   made->solution = element::solve_super_element(ring, made->sectors.D, 1.0);
-  solution.super_elements.push_back(made);
+  solution.cells.push_back({made});
+  mesh::BodyMesh& mesh = solution.mesh.bodies.emplace_back();
+  mesh.nodes = ring.nodes;
+  mesh.cells.emplace_back();
+  mesh.cells[0].boundary = ring.elements;
   analysis::IncrementResult increment;
   increment.step = increment.increment = 1;
   increment.converged = true;
   increment.displacements = {u};
-  increment.interior.resize(1);
+  increment.interior.assign(1, element::CellLoads(1));
   solution.increments.push_back(increment);
   return solution;
 }
@@ -61,7 +65,7 @@ TEST(CrackResults, OfACrackByItsName) {
   EXPECT_NE(log.find("K_II"), std::string::npos);
 
   // A face pressed as far as the tip: J and T are not known, and say so.
-  element::add_radial_loads(solution.increments[0].interior[0].loads,
+  element::add_radial_loads(solution.increments[0].interior[0][0].loads,
                             {element::face_load(ring, element::Face::first, 0.0, {0, -1}, 1.0)}, 1.0);
   solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
   const nlohmann::json pressed = cracks_in_summary(solution)["plate.flaw"];
@@ -77,8 +81,8 @@ TEST(CrackResults, HaveNoFactorsWhereALoadIsInResonance) {
   auto solution = solution_of(ring, {elasticity(1.0, 0.3)},
                               around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
   const auto loaded = [&](double power) {
-    solution.increments[0].interior[0].loads.clear();
-    element::add_radial_loads(solution.increments[0].interior[0].loads,
+    solution.increments[0].interior[0][0].loads.clear();
+    element::add_radial_loads(solution.increments[0].interior[0][0].loads,
                               {element::face_load(ring, element::Face::first, power, {0, -1}, 1.0)}, 1.0);
     return solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
   };

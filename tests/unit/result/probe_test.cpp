@@ -26,7 +26,7 @@ TEST(Probe, LinearFieldIsExactInASuperElement) {
     const auto solution = solution_of(model_of({elastic("body", pentagon(), 0.7, 3)}, plane));
     const auto increment = increment_of(solution, linear_field(probe_gradient));
     const Probe probe(solution, increment, 0);
-    const Vec2 centre = solution.mesh.bodies[0].super_elements[0].centre;
+    const Vec2 centre = solution.mesh.bodies[0].cells[0].centre;
     for (const Vec2& x : {Vec2(0.1, 0.0), Vec2(1.0, 1.0), Vec2(2.0, 1.5), Vec2(-0.3, 1.05), Vec2(1.2, 0.2)})
       expect_linear_field(probe, x, plane, 1e-10);
     expect_linear_field(probe, centre, plane, 1e-8);  // digits lost to 1 / xi

@@ -63,7 +63,8 @@ TEST(Recovery, BodyForceIsPartOfTheInterior) {
   auto solution = solution_of(model_of({elastic("a", pentagon(), 0.7, 2)}, model::Plane::stress, 0.0));
   auto increment =
       increment_of(solution, [&](const Vec2& x) { return Vec2(0.0, weight * x.y() * x.y() / (2.0 * young)); });
-  increment.interior[0].loads = element::body_force_loads(solution.super_elements[0]->ring, {0.0}, {-weight}, 0.5);
+  increment.interior[0].resize(1);
+  increment.interior[0][0].loads = element::body_force_loads(solution.cells[0][0]->ring, {0.0}, {-weight}, 0.5);
   const Recovery recovery(solution);
   const Fields fields = recovery.fields(solution, increment);
   for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {
@@ -82,7 +83,7 @@ TEST(Recovery, FirstPointsAreTheNodesAndTheLastIsTheCentre) {
   for (std::size_t b = 0; b < 2; ++b)
     for (std::size_t i = 0; i < solution.mesh.bodies[b].nodes.size(); ++i)
       EXPECT_EQ(point_of(grid, grid.first_point[b] + i), solution.mesh.bodies[b].nodes[i]);
-  EXPECT_EQ(point_of(grid, grid.point_count() - 1), solution.mesh.bodies[1].super_elements[0].centre);
+  EXPECT_EQ(point_of(grid, grid.point_count() - 1), solution.mesh.bodies[1].cells[0].centre);
   EXPECT_EQ(grid.point_body.front(), 1);
   EXPECT_EQ(grid.point_body.back(), 2);
   EXPECT_EQ(grid.first_point.back(), grid.point_count());
@@ -114,7 +115,7 @@ TEST(Recovery, RingsAreNarrowAtTheBoundary) {
   for (const double size : {2.0, 0.3, 0.02}) {
     const mesh::Mesh mesh = mesh::make_mesh(model_of({elastic("body", pentagon(), size, 1)}, model::Plane::stress));
     const std::vector<double> levels =
-        ring_levels(element::ring_of(mesh.bodies[0].super_elements[0], mesh.bodies[0].nodes));
+        ring_levels(element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes));
     EXPECT_EQ(levels.front(), 1.0);
     for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
       EXPECT_GT(levels[i], levels[i + 1]);

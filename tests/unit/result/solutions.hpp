@@ -63,14 +63,16 @@ inline analysis::StaticSolution solution_of(model::Model model) {
   solution.mesh = mesh::make_mesh(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const mesh::BodyMesh& body = solution.mesh.bodies[b];
-    solution.super_elements.push_back(nullptr);
-    if (body.super_elements.empty()) continue;
-    auto made = std::make_shared<analysis::SolvedSuperElement>();
-    made->ring = element::ring_of(body.super_elements.front(), body.nodes);
-    made->sectors = element::sectors_of(model, model.bodies[b], body);
-    made->thickness = model.analysis.thickness;
-    made->solution = element::solve_super_element(made->ring, made->sectors.D, made->thickness);
-    solution.super_elements.back() = std::move(made);
+    solution.cells.emplace_back(body.cells.size());
+    for (std::size_t c = 0; c < body.cells.size(); ++c) {
+      if (body.cells[c].kind != mesh::CellKind::superelement) continue;
+      auto made = std::make_shared<element::SolvedSuperElement>();
+      made->ring = element::ring_of(body.cells[c], body.nodes);
+      made->sectors = element::sectors_of(model, body.cells[c]);
+      made->thickness = model.analysis.thickness;
+      made->solution = element::solve_super_element(made->ring, made->sectors.D, made->thickness);
+      solution.cells.back()[c] = std::move(made);
+    }
   }
   solution.model = std::move(model);
   return solution;

@@ -53,7 +53,7 @@ TEST(TractionForces, OfPressureOnAnArcIsThatOnItsChord) {
     const auto press = [](const Vec2&, const Vec2& n) { return Vec2(-7.0 * n); };
     EXPECT_LT((total(traction_forces(mesh.edges[1], mesh.nodes, 0.5, press)) - Vec2(0.0, -7.0 * 4.0 * 0.5)).norm(),
               1e-13);
-    EXPECT_LT(total(traction_forces(mesh.super_elements[0].boundary, mesh.nodes, 0.5, press)).norm(), 1e-13);
+    EXPECT_LT(total(traction_forces(mesh.cells[0].boundary, mesh.nodes, 0.5, press)).norm(), 1e-13);
   }
 }
 
@@ -75,7 +75,6 @@ TEST(TractionForces, LengthOfAnArcConverges) {
 struct TwoBlocks {
   model::Model model;
   mesh::Mesh mesh;
-  std::vector<element::SuperElementSolution> solutions;
   Structure structure;
 
   TwoBlocks() {
@@ -93,10 +92,7 @@ struct TwoBlocks {
     model.steps.resize(1);
     model.steps[0].support_factors = {1.0};
     mesh = mesh::make_mesh(model);
-    for (const auto& body : mesh.bodies)
-      solutions.push_back(element::solve_super_element(element::ring_of(body.super_elements[0], body.nodes),
-                                                       test::elasticity(100.0, 0.2), 0.5));
-    structure = make_structure(model, mesh, {&solutions[0], &solutions[1]});
+    structure = make_structure(model, mesh, element::solve_cells(model, mesh, 1));
   }
 };
 

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 
 #include "scabo/element/mass.hpp"
 #include "scabo/linalg/symmetric_eigen.hpp"
-#include "scabo/system/structure.hpp"
+#include "scabo/system/assembly.hpp"
 #include "support/decompositions.hpp"
 #include "theory/rings.hpp"
 
@@ -15,6 +16,16 @@ namespace scabo::system {
 namespace {
 
 using namespace test;
+
+/// Four corners counter-clockwise, then the middles of the sides.
+void add_element(mesh::BodyMesh& mesh, const std::array<int, 8>& nodes) {
+  mesh::Cell cell;
+  cell.kind = mesh::CellKind::finite_element;
+  cell.materials = {0};
+  for (std::size_t side = 0; side < 4; ++side)
+    cell.boundary.push_back({{nodes[side], nodes[side + 4], nodes[(side + 1) % 4]}});
+  mesh.cells.push_back(std::move(cell));
+}
 
 /// A grid of nx by ny 8-node elements of side 1.
 mesh::BodyMesh grid(int nx, int ny) {
@@ -27,8 +38,8 @@ mesh::BodyMesh grid(int nx, int ny) {
   };
   for (int j = 0; j < 2 * ny; j += 2)
     for (int i = 0; i < 2 * nx; i += 2)
-      mesh.elements.push_back({node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2), node(i + 1, j),
-                               node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)});
+      add_element(mesh, {node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2), node(i + 1, j),
+                         node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)});
   return mesh;
 }
 
@@ -38,8 +49,15 @@ struct Pair {
 
 Pair sparse(const mesh::BodyMesh& mesh) {
   Pair pair;
-  pair.K.sparse = fem_stiffness(mesh, elasticity(1.0, 0.3), 1.0);
-  pair.M.sparse = fem_mass(mesh, 1.0, 1.0);
+  model::Model model;
+  model.materials.resize(1);
+  model.materials[0].young = 1.0;
+  model.materials[0].poisson = 0.3;
+  model.materials[0].density = 1.0;
+  const element::SolvedCells none(mesh.cells.size());
+  MassLibrary masses([](const element::SolvedSuperElement&) { return Matrix(); });
+  pair.K = body_stiffness(model, mesh, none);
+  pair.M = body_mass(model, mesh, none, masses);
   return pair;
 }
 
