@@ -22,6 +22,9 @@ constexpr double snapping = 0.1;
 constexpr double coincidence = matching_tolerance;
 /// Inner nodes that are nearer than this to their places, relative to the element, stay.
 constexpr double in_place = 1e-7;
+/// Largest cosine of the angle between the normals of points that are made opposite each other. Nodes need a partner up
+/// to `facing_cosine`, and pairs are found up to `pairing_cosine`.
+constexpr double sight_cosine = -0.25;
 /// Contacts that share edges settle after two or three rounds; more than this is a mistake of this file.
 constexpr int most_rounds = 10;
 
@@ -103,6 +106,7 @@ class Union {
     find_opposite();
     join_near();
     add_breaks();
+    add_limits();
     return rebuild(bodies);
   }
 
@@ -122,7 +126,7 @@ class Union {
       for (std::size_t i = 0; i < side.breaks.size(); ++i) {
         const Break& at = side.breaks[i];
         const std::optional<geometry::Foot> foot = geometry::foot_on(*side.edge, at.point);
-        opposite_[s].push_back(foot ? facing_point(*other.edge, rays_.through(at.point), foot->normal,
+        opposite_[s].push_back(foot ? facing_point(*other.edge, rays_.through(at.point), foot->normal, sight_cosine,
                                                    matching_tolerance * other.length_at(0) / other.length)
                                     : std::nullopt);
       }
@@ -204,6 +208,50 @@ class Union {
       breaks.insert(breaks.end(), added[s].begin(), added[s].end());
       std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.t < b.t; });
     }
+  }
+
+  /// Where curved edges turn away from each other between two break points of the first side, a common break point
+  /// ends the part that matches, unless nodes beyond the last one need no partner anyway.
+  void add_limits() {
+    const Side& side = sides_[0];
+    std::vector<std::array<double, 2>> limits;
+    for (std::size_t k = 0; k + 1 < side.breaks.size(); ++k) {
+      const Break &from = side.breaks[k], &to = side.breaks[k + 1];
+      if ((from.event >= 0) == (to.event >= 0)) continue;
+      double seen = from.event >= 0 ? from.t : to.t, unseen = from.event >= 0 ? to.t : from.t;
+      if (!opposite_to(seen, facing_cosine)) continue;
+      for (int halving = 0; halving < 60; ++halving) {
+        const double middle = 0.5 * (seen + unseen);
+        (opposite_to(middle, sight_cosine) ? seen : unseen) = middle;
+      }
+      const double nine_tenths = from.event >= 0 ? std::lerp(from.t, to.t, 0.9) : std::lerp(to.t, from.t, 0.9);
+      seen = from.event >= 0 ? std::min(seen, nine_tenths) : std::max(seen, nine_tenths);
+      const std::optional<double> there = opposite_to(seen, sight_cosine);
+      if (!there || *there < 1e-6 || *there > 1.0 - 1e-6) continue;  // the other edge ends here
+      limits.push_back({seen, *there});
+    }
+    for (const auto& limit : limits) {
+      for (const int s : {0, 1}) {
+        Break at;
+        at.t = limit[static_cast<std::size_t>(s)];
+        at.point = sides_[s].edge->at(at.t);
+        at.event = events_;
+        at.added = true;
+        std::vector<Break>& breaks = sides_[s].breaks;
+        breaks.insert(std::upper_bound(breaks.begin(), breaks.end(), at.t,
+                                       [](double value, const Break& one) { return value < one.t; }),
+                      at);
+      }
+      ++events_;
+    }
+  }
+
+  /// The point of the second side that is opposite a point of the first one.
+  std::optional<double> opposite_to(double t, double cosine) const {
+    const Vec2 point = sides_[0].edge->at(t);
+    const std::optional<geometry::Foot> foot = geometry::foot_on(*sides_[0].edge, point);
+    if (!foot) return std::nullopt;
+    return facing_point(*sides_[1].edge, rays_.through(point), foot->normal, cosine);
   }
 
   /// The element of side s between break points k and k + 1.

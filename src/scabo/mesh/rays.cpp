@@ -9,9 +9,6 @@ namespace scabo::mesh {
 
 namespace {
 
-/// Largest cosine of the angle between normals that face each other; less than the limit for pairs
-/// (node_matching.hpp), because the normals of divided edges differ from those of the exact ones.
-constexpr double sight_cosine = -0.1;
 /// Radii that differ by less, relative to their sum, count as equal.
 constexpr double equal_radii = 1e-9;
 
@@ -105,7 +102,8 @@ std::optional<double> meet(const geometry::Edge& edge, const Ray& ray, double ex
   return nearest;
 }
 
-std::optional<double> facing_point(const geometry::Edge& edge, const Ray& ray, const Vec2& normal, double tolerance) {
+std::optional<double> facing_point(const geometry::Edge& edge, const Ray& ray, const Vec2& normal, double cosine,
+                                   double tolerance) {
   const Meetings found = meetings(edge, ray);
   std::optional<double> nearest;
   double shortest = 0.0;
@@ -113,7 +111,7 @@ std::optional<double> facing_point(const geometry::Edge& edge, const Ray& ray, c
     const Vec2& point = found.points[static_cast<std::size_t>(k)];
     const std::optional<geometry::Foot> foot = geometry::foot_on(edge, point);
     if (!foot || foot->t < -tolerance || foot->t > 1.0 + tolerance) continue;
-    if (foot->normal.dot(normal) > sight_cosine) continue;
+    if (foot->normal.dot(normal) > cosine) continue;
     const double distance = (point - ray.point).norm();
     if (nearest && distance >= shortest) continue;
     nearest = foot->t;

@@ -45,9 +45,10 @@ class Rays {
 /// above 1 for a point just beyond an end. Empty if it passes by.
 std::optional<double> meet(const geometry::Edge& edge, const Ray& ray, double expected);
 
-/// Where the ray through a point with outward normal `normal` meets an edge that faces it (deviation of the normals
-/// from opposite directions up to about 84 degrees), nearest to the point; fractions of its length from -tolerance to
-/// 1 + tolerance. Empty if it does not.
-std::optional<double> facing_point(const geometry::Edge& edge, const Ray& ray, const Vec2& normal, double tolerance);
+/// Where the ray through a point with outward normal `normal` meets an edge that faces it, nearest to the point: the
+/// cosine of the angle between the normals is at most `cosine`. A fraction of the length of the edge, from -tolerance
+/// to 1 + tolerance; empty if there is none.
+std::optional<double> facing_point(const geometry::Edge& edge, const Ray& ray, const Vec2& normal, double cosine,
+                                   double tolerance = 0.0);
 
 }  // namespace scabo::mesh
