@@ -35,6 +35,12 @@ if(NOT SCABO_SPECTRA_INCLUDE)
   list(APPEND missing Spectra)
 endif()
 
+find_path(SCABO_CGAL_INCLUDE CGAL/Constrained_Delaunay_triangulation_2.h)  # headers only, with those of Boost
+mark_as_advanced(SCABO_CGAL_INCLUDE)
+if(NOT SCABO_CGAL_INCLUDE)
+  list(APPEND missing CGAL)
+endif()
+
 if(missing)
   list(JOIN missing ", " missing)
   message(FATAL_ERROR "Scabo needs what was not found: ${missing}.\n"

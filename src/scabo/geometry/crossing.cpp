@@ -119,14 +119,13 @@ bool folds_back(const Edge& edge, const Edge& next) {
 }
 
 std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double size) {
-  const auto n = static_cast<int>(outline.edges.size());
   const Edge& a = outline.edges[static_cast<std::size_t>(i)];
   const Edge& b = outline.edges[static_cast<std::size_t>(j)];
   // Near a shared corner the curves are necessarily close: two tangential curves meet again, within the rounding of
   // their coordinates, at a point that is not a crossing.
   const double near_corner = 1e-3 * std::min(a.length(), b.length());
-  const bool b_follows = j == i + 1;
-  const bool a_follows = i == 0 && j == n - 1;
+  const bool b_follows = outline.next(i) == j;
+  const bool a_follows = outline.next(j) == i;
   if (b_follows && folds_back(a, b)) return Crossing{Crossing::Kind::fold_back, i, j, a.end};
   if (a_follows && folds_back(b, a)) return Crossing{Crossing::Kind::fold_back, i, j, b.end};
   const Candidates candidates = shared_points(a, b);

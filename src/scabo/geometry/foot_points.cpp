@@ -66,4 +66,11 @@ bool encloses(const Outline& outline, const Vec2& point) {
   return inside;
 }
 
+double distance_to(const Edge& edge, const Vec2& point) {
+  const double ends = std::min((point - edge.start).norm(), (point - edge.end).norm());
+  const std::optional<Foot> foot = foot_on(edge, point);
+  if (!foot) return edge.arc->radius;
+  return foot->t >= 0.0 && foot->t <= 1.0 ? std::min(ends, (point - foot->point).norm()) : ends;
+}
+
 }  // namespace scabo::geometry

@@ -19,6 +19,9 @@ struct Foot {
 /// Empty only for the centre of an arc, where the foot is not unique.
 std::optional<Foot> foot_on(const Edge& edge, const Vec2& point);
 
+/// Distance of a point from a line or arc between its ends.
+double distance_to(const Edge& edge, const Vec2& point);
+
 /// Whether the outline encloses the point, with arcs treated exactly.
 bool encloses(const Outline& outline, const Vec2& point);
 

@@ -1,4 +1,5 @@
 // Geometry of outlines: points, lengths, area and centroid, arcs included exactly.
+#include <algorithm>
 #include <cmath>
 
 #include "scabo/geometry/outline.hpp"
@@ -13,6 +14,12 @@ Vec2 Edge::at(double t) const {
   const double radius = (1.0 - t) * (start - arc->centre).norm() + t * (end - arc->centre).norm();
   const double angle = arc->start_angle + t * arc->sweep;
   return arc->centre + radius * Vec2(std::cos(angle), std::sin(angle));
+}
+
+int Outline::next(int edge) const {
+  int first = 0, end = static_cast<int>(edges.size());
+  for (const int hole : holes) (hole <= edge ? first : end) = hole <= edge ? hole : std::min(end, hole);
+  return edge + 1 == end ? first : edge + 1;
 }
 
 double Edge::length() const { return arc ? arc->radius * std::abs(arc->sweep) : (end - start).norm(); }

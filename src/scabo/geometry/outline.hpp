@@ -37,11 +37,15 @@ struct Corner {
   Vec2 position = Vec2::Zero();
 };
 
-/// A simple closed boundary. edges[i] ends where edges[i + 1] starts.
+/// A closed boundary: one outer chain of edges, in which edges[i] ends where edges[i + 1] starts and the last one where the
+/// first one starts, then one such chain for every hole.
 struct Outline {
   std::vector<Edge> edges;
   std::vector<Corner> corners;
+  std::vector<int> holes;  ///< index of the first edge of every hole, ascending
   bool rectangle = false;  ///< given as `rectangle`, which `fem` meshes require
+
+  int next(int edge) const;  ///< the edge that starts where `edge` ends
 
   double area() const;    ///< arcs included exactly
   Vec2 centroid() const;  ///< arcs included exactly

@@ -89,23 +89,73 @@ void check_side_faces(Reading& reading, const Value& at, const Outline& outline,
 
 }  // namespace
 
-std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
+/// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02}]`.
+std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const Outline* outline) {
+  std::vector<LocalSize> sizes;
+  const auto items = read_list(reading.report, value, "[{near: [0, 0], size: 0.01}]");
+  if (!items) return sizes;
+  for (const Value& item : *items) {
+    const MapReader map(reading.report, item, {"near", "on", "size"}, "{near: [0, 0], size: 0.01}");
+    if (!map.is_map()) continue;
+    LocalSize local;
+    local.source = item.source();
+    if (const auto size = map.need("size")) local.size = read_positive(reading.report, *size).value_or(0.0);
+    if (map.has("near") == map.has("on")) {
+      reading.report.error(item, "needs either 'near', a point, or 'on', an edge of the body");
+      continue;
+    }
+    if (const auto near = map.get("near")) local.near = read_vector(reading.report, *near);
+    if (const auto on = map.get("on"); on && outline != nullptr) {
+      const auto name = read_text(reading.report, *on);
+      std::vector<std::string> known;
+      for (std::size_t e = 0; name && e < outline->edges.size(); ++e) {
+        const auto& names = outline->edges[e].names;
+        if (std::find(names.begin(), names.end(), *name) != names.end()) local.edge = static_cast<int>(e);
+        known.insert(known.end(), names.rbegin(), names.rend());
+      }
+      if (name && local.edge < 0)
+        reading.report.error(*on, fmt::format("the body has no edge named {}{}", quoted_name(*name),
+                                              suggestion(*name, known)));
+    }
+    sizes.push_back(std::move(local));
+  }
+  return sizes;
+}
+
+std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack,
+                                     bool many_parts) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance"}, "{size: 0.1, order: 2}");
+  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance", "refine"}, "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
   if (const auto kind = map.get("kind")) {
-    const Later later{{"polygons", "use superelement"}, {"quadtree", "use superelement"}};
-    const auto choice = read_choice(report, *kind, {"superelement", "fem"}, later);
+    const auto choice = read_choice(report, *kind, {"superelement", "polygons", "quadtree", "fem"});
     if (choice && *choice == "fem") mesh.kind = MeshKind::fem;
+    if (choice && *choice == "polygons") mesh.kind = MeshKind::polygons;
+    if (choice && *choice == "quadtree") mesh.kind = MeshKind::quadtree;
     if (mesh.kind == MeshKind::fem && outline != nullptr && !outline->rectangle) {
       report.error(*kind, "fem is available only for a shape given as rectangle: use superelement");
     }
   }
   const bool fem = mesh.kind == MeshKind::fem;
+  const bool many = mesh.kind == MeshKind::polygons || mesh.kind == MeshKind::quadtree;
+  if (many_parts && !many && report.count() == before)
+    report.error(value, "a body with holes or regions needs many cells: write kind: polygons or kind: quadtree");
+  if (const auto refine = map.get("refine")) {
+    if (many)
+      mesh.refine = read_refine(reading, *refine, outline);
+    else
+      map.refuse("refine", "is available for kind: polygons and kind: quadtree only");
+  }
+  if (many) {
+    map.refuse("tolerance", "is not available for many cells in this version: leave it out, and use 'refine'");
+    map.refuse("centre", "every cell has a scaling centre of its own: leave 'centre' out");
+    if (crack != nullptr)
+      report.error(crack->source, "cracks are available only in a body that is one super-element in this version");
+  }
   if (fem) map.refuse("tolerance", "only super-elements are refined: leave 'tolerance' out for fem");
-  if (const auto tolerance = fem ? std::nullopt : map.get("tolerance")) {
+  if (const auto tolerance = fem || many ? std::nullopt : map.get("tolerance")) {
     const auto number = read_number(report, *tolerance);
     if (number && *number >= 1e-5 && *number <= 0.5) mesh.tolerance = *number;
     if (number && !mesh.tolerance) {
@@ -130,12 +180,13 @@ std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const
   if (outline != nullptr) mesh.centre = crack != nullptr ? crack->tip : outline->centroid();
   if (crack != nullptr)
     map.refuse("centre", "the scaling centre of a body with a crack is the tip of the crack: leave 'centre' out");
-  const auto centre = fem ? std::nullopt : map.get("centre");
+  const auto centre = fem || many ? std::nullopt : map.get("centre");
   if (centre) {
     const auto point = read_vector(report, *centre);
     if (point) mesh.centre = *point;
   }
   if (report.count() > before || outline == nullptr) return {};
+  if (many) return mesh;  // the mesher counts its nodes
 
   const double dofs = estimated_dofs(*outline, mesh.kind, mesh.size, mesh.order);
   const double most = fem ? most_fem_dofs : most_superelement_dofs;
@@ -195,6 +246,8 @@ void read_outside(Reading& reading, const MapReader& map, Body& body, bool shape
   }
   if (!body.outside) return;
   map.refuse("cracks", "cracks in a body with outside: true are not available in this version: leave them out");
+  if (body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree)
+    map.refuse("outside", "an unbounded body is one super-element in this version: leave 'kind' out");
   if (body.mesh.kind == MeshKind::fem)
     map.refuse("outside", "finite elements cannot model an unbounded body: use superelement");
 }
@@ -210,8 +263,9 @@ void turn_outside(Body& body) {
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
-      report, entry.value, {"material", "shape", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
-      body_example, {{"file", "describe the body with shape"}, {"holes", "divide the body into bodies without holes"}});
+      report, entry.value,
+      {"material", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
+      body_example, {{"file", "describe the body with shape"}});
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -227,13 +281,15 @@ void read_body(Reading& reading, const Entry& entry) {
       state.shape = true;
     }
   }
+  if (const auto holes = map.get("holes"); holes && state.shape) state.shape = read_holes(reading, *holes, body.outline);
   if (body.rigid) {
-    for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference"}) {
+    for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"}) {
       map.refuse(key, "does not apply to a rigid body: leave it out");
     }
   } else if (rigid) {  // otherwise the required keys are not known
     if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
     state.material = body.material >= 0;
+    if (const auto regions = map.get("regions")) read_regions(reading, *regions, body, state.shape);
     if (const auto cracks = map.get("cracks"); cracks && state.shape) {
       auto read = read_cracks(reading, *cracks, body);
       if (read)
@@ -243,15 +299,16 @@ void read_body(Reading& reading, const Entry& entry) {
     }
     if (const auto mesh = map.need("mesh")) {
       const auto options = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
-                                     body.cracks.empty() ? nullptr : &body.cracks.front());
+                                     body.cracks.empty() ? nullptr : &body.cracks.front(),
+                                     map.has("holes") || map.has("regions"));
       if (options)
         body.mesh = *options;
       else if (mesh->node->kind == Node::Kind::map && mesh->node->find("centre"))
         state.shape = false;  // side faces are not known
     }
     if (const auto sectors = map.get("sectors"); sectors && state.shape) {
-      if (body.mesh.kind == MeshKind::fem)
-        map.refuse("sectors", "only a super-element has sectors: leave them out for fem");
+      if (body.mesh.kind != MeshKind::superelement)
+        map.refuse("sectors", "only a body that is one super-element has sectors: use 'regions' instead");
       else
         body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
     }

@@ -180,6 +180,26 @@ std::optional<Outline> read_rectangle(Reading& reading, const Value& value) {
   return outline;
 }
 
+/// A full circle: one edge that ends where it starts.
+std::optional<Outline> read_circle(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"centre", "radius"}, "{centre: [0, 0], radius: 0.5}");
+  const auto centre_value = map.need("centre");
+  const auto radius_value = map.need("radius");
+  const auto centre = centre_value ? read_vector(reading.report, *centre_value) : std::nullopt;
+  const auto radius = radius_value ? read_positive(reading.report, *radius_value) : std::nullopt;
+  if (!centre || !radius) return {};
+  Edge edge;
+  edge.names = {"rim"};
+  edge.start = edge.end = *centre + Vec2(*radius, 0.0);
+  edge.arc = Arc{*centre, *radius, 0.0, 2.0 * std::numbers::pi};
+  edge.source = value.source();
+  Outline outline;
+  outline.edges = {edge};
+  outline.corners = {{{"rim_start"}, edge.start}};
+  if (!check_extent(reading, value, outline)) return {};
+  return outline;
+}
+
 std::optional<Outline> read_polygon(Reading& reading, const Value& value) {
   const MapReader map(reading.report, value, {"vertices", "names"}, "{vertices: [[0, 0], [4, 0], [0, 3]]}");
   const auto vertices_value = map.need("vertices");
@@ -354,13 +374,14 @@ std::string point_text(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})
 std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
   const MapReader map(
-      reading.report, value, {"rectangle", "polygon", "outline", "names"}, shape_example,
-      {{"holes", "divide the body into bodies without holes"}, {"circle", "write it as an outline of two arcs"}});
+      reading.report, value, {"rectangle", "circle", "polygon", "outline", "names"}, shape_example,
+      {{"holes", "'holes' is a key of the body, beside 'shape'"}});
   if (!map.is_map()) return {};
-  const int kinds = int(map.has("rectangle")) + int(map.has("polygon")) + int(map.has("outline"));
+  const int kinds =
+      int(map.has("rectangle")) + int(map.has("circle")) + int(map.has("polygon")) + int(map.has("outline"));
   if (kinds != 1) {
     if (kinds > 1 || reading.report.count() == before) {
-      reading.report.error(value, fmt::format("needs exactly one of rectangle, polygon and outline, not {}",
+      reading.report.error(value, fmt::format("needs exactly one of rectangle, circle, polygon and outline, not {}",
                                               kinds == 0 ? "none" : std::to_string(kinds)));
     }
     return {};
@@ -368,11 +389,90 @@ std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   if (!map.has("outline")) {
     map.refuse("names", map.has("polygon")
                             ? "belongs inside polygon: {vertices: [...], names: {crest: edge_3}}"
-                            : "the edges of a rectangle have fixed names: use a polygon for other names");
+                            : "the edges of a rectangle or circle have fixed names: use an outline for other names");
   }
   if (const auto rectangle = map.get("rectangle")) return read_rectangle(reading, *rectangle);
+  if (const auto circle = map.get("circle")) return read_circle(reading, *circle);
   if (const auto polygon = map.get("polygon")) return read_polygon(reading, *polygon);
   return read_outline(reading, *map.get("outline"), map.get("names"));
+}
+
+namespace {
+
+/// The name in front of those of the edges and corners; alone for a shape of one edge.
+void prefix_names(Outline& outline, const std::string& name) {
+  const bool alone = outline.edges.size() == 1;
+  for (Edge& edge : outline.edges) edge.names.front() = alone ? name : name + "_" + edge.names.front();
+  for (Corner& corner : outline.corners) corner.names.front() = name + "_" + corner.names.front();
+}
+
+/// Whether the shapes of `inner` and the outline of the body are apart from each other, and `outline` is inside.
+bool check_inside(Reading& reading, const Value& at, const std::string& what, const Outline& outer,
+                  const Outline& outline) {
+  Outline both = outer;
+  both.holes.push_back(static_cast<int>(both.edges.size()));
+  both.edges.insert(both.edges.end(), outline.edges.begin(), outline.edges.end());
+  if (const auto crossing = find_crossing(both)) {
+    reading.report.error(
+        at, fmt::format("{} and {} meet at {}: {} must lie inside the body, apart from its boundary and other holes "
+                        "and regions",
+                        shown_name(both.edges[static_cast<std::size_t>(crossing->first)]),
+                        shown_name(both.edges[static_cast<std::size_t>(crossing->second)]),
+                        point_text(crossing->point), what));
+    return false;
+  }
+  if (!is_inside(outer, outline.edges.front().at(0.5))) {
+    reading.report.error(at, fmt::format("{} lies outside of the body: move it inside", what));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool read_holes(Reading& reading, const Value& value, Outline& outline) {
+  const std::size_t before = reading.report.count();
+  for (const Entry& entry :
+       read_named(reading.report, value, "holes", "{bore: {circle: {centre: [1, 1], radius: 0.2}}}")) {
+    auto hole = read_shape(reading, entry.value);
+    if (!hole) continue;
+    prefix_names(*hole, entry.key);
+    if (!check_inside(reading, entry.value, fmt::format("hole '{}'", entry.key), outline, *hole)) continue;
+    turn_round(*hole);  // its material is on the left
+    outline.holes.push_back(static_cast<int>(outline.edges.size()));
+    outline.edges.insert(outline.edges.end(), hole->edges.begin(), hole->edges.end());
+    outline.corners.insert(outline.corners.end(), hole->corners.begin(), hole->corners.end());
+    outline.rectangle = false;
+  }
+  return reading.report.count() == before && check_piece_names(reading, outline);
+}
+
+void read_regions(Reading& reading, const Value& value, Body& body, bool shape_known) {
+  const char* example = "{inclusion: {material: steel, shape: {circle: {centre: [1, 1], radius: 0.2}}}}";
+  for (const Entry& entry : read_named(reading.report, value, "regions", example)) {
+    const MapReader map(reading.report, entry.value, {"material", "shape"}, example);
+    Region region;
+    region.name = entry.key;
+    region.source = entry.key_source;
+    if (const auto material = map.need("material"))
+      region.material = read_material_name(reading, *material).value_or(-1);
+    const auto shape = map.need("shape");
+    const auto outline = shape ? read_shape(reading, *shape) : std::nullopt;
+    if (!outline || !shape_known) continue;
+    region.outline = *outline;
+    prefix_names(region.outline, entry.key);
+    bool apart = check_inside(reading, *shape, fmt::format("region '{}'", entry.key), body.outline, region.outline);
+    for (const Region& other : body.regions) {
+      Outline both = other.outline;
+      both.holes.push_back(static_cast<int>(both.edges.size()));
+      both.edges.insert(both.edges.end(), region.outline.edges.begin(), region.outline.edges.end());
+      if (!apart || !find_crossing(both)) continue;
+      reading.report.error(*shape, fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart",
+                                               other.name, region.name));
+      apart = false;
+    }
+    if (apart) body.regions.push_back(std::move(region));
+  }
 }
 
 }  // namespace scabo::input

@@ -70,11 +70,16 @@ void read_law(Reading& reading, const MapReader& map, Contact& contact);
 
 /// `shape` of a body; nothing if it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);
-/// Reverses the direction of an outline; every edge and corner keeps its names.
+/// `holes` of a body with a valid outline, appended to it; false if they are broken.
+bool read_holes(Reading& reading, const Value& value, Outline& outline);
+/// `regions`: parts of a body with other materials.
+void read_regions(Reading& reading, const Value& value, Body& body, bool shape_known);
+/// Reverses the direction of an outline without holes; every edge and corner keeps its names.
 void turn_round(Outline& outline);
 /// `mesh` of an elastic body. `outline`: null if it is not known. `crack`: null if there is none; its tip is the
-/// scaling centre.
-std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack);
+/// scaling centre. `many_parts`: the body has holes or regions, so that one super-element cannot be all of it.
+std::optional<MeshOptions> read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack,
+                                     bool many_parts = false);
 /// `cracks` of a body with a valid outline; nothing if they are broken.
 std::optional<std::vector<Crack>> read_cracks(Reading& reading, const Value& value, const Body& body);
 /// `sectors`: the material of each edge; nothing if the section is broken.

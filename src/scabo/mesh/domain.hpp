@@ -34,15 +34,17 @@ struct Domain {
 struct PolygonCell {
   std::vector<int> nodes;      ///< counter-clockwise; three or more, or two or more if it is open
   Vec2 centre = Vec2::Zero();  ///< strictly inside; of an open cell it is the point where its two side faces meet
-  int region = 0;
+  int region = 0;              ///< of its first side, if its sides are of several regions
   bool open = false;           ///< no side leads from the last node back to the first: between them are two side faces
+  std::vector<int> side_regions = {};  ///< empty: all of `region`. Otherwise the region of each side (node i to i + 1)
 };
 
 struct PolygonMesh {
   std::vector<Vec2> nodes;
   std::vector<PolygonCell> cells;
-  /// For each line of the domain the nodes along it from its start to its end, seen from its left; empty where a side is
-  /// not divided because it is a side face. `right` differs from `left` only for cracks.
+  /// For each line of the domain the nodes along it from its start to its end, as its left side has them: one for each of
+  /// its points, except for an end that is a scaling centre. `right` differs from `left` only for cracks, whose sides
+  /// share at most the node of a tip.
   std::vector<std::vector<int>> left, right;
 };
 

@@ -6,6 +6,7 @@
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/grid.hpp"
 #include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/match.hpp"
 #include "scabo/mesh/mesh.hpp"
 
@@ -99,7 +100,18 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
   double nodes = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (body.rigid || add(obstacles(body, nodes))) continue;
+    if (body.rigid) continue;
+    if (body.mesh.kind == model::MeshKind::polygons || body.mesh.kind == model::MeshKind::quadtree) {
+      auto divided = divide_into_cells(body, most_nodes - nodes);
+      if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
+        mistakes.push_back(*wrong);
+        continue;
+      }
+      mesh.bodies[b] = std::get<BodyMesh>(std::move(divided));
+      nodes += static_cast<double>(mesh.bodies[b].nodes.size());
+      continue;
+    }
+    if (add(obstacles(body, nodes))) continue;
     const bool fem = body.mesh.kind == model::MeshKind::fem;
     mesh.bodies[b] = fem                   ? divide_grid(body)
                      : division[b].empty() ? divide_boundary(body)

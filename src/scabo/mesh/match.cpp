@@ -373,6 +373,19 @@ class Union {
   int events_ = 0;
 };
 
+/// Nodes at which materials meet.
+std::set<int> material_nodes(const BodyMesh& mesh) {
+  std::map<int, int> material_at;
+  std::set<int> nodes;
+  for (const Cell& cell : mesh.cells)
+    for (std::size_t k = 0; k < cell.boundary.size(); ++k) {
+      const int material = cell.materials.size() > 1 ? cell.materials[k] : cell.materials.front();
+      for (const int node : {cell.boundary[k].nodes.front(), cell.boundary[k].nodes.back()})
+        if (material_at.emplace(node, material).first->second != material) nodes.insert(node);
+    }
+  return nodes;
+}
+
 /// Nodes that are not to be moved, apart from the ends of edges.
 FixedNodes fixed_nodes(const model::Model& model, const std::vector<BodyMesh>& bodies) {
   FixedNodes fixed(bodies.size());
@@ -386,6 +399,8 @@ FixedNodes fixed_nodes(const model::Model& model, const std::vector<BodyMesh>& b
   for (const model::Support& support : model.supports) hold(support.on);
   for (const model::Load& load : model.loads)
     if (load.on) hold(*load.on);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].cells.size() > 1) fixed[b].merge(material_nodes(bodies[b]));
   return fixed;
 }
 

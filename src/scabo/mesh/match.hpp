@@ -4,8 +4,8 @@
 // Break points (ends of elements) of each side are seen from the other along the rays of rays.hpp. Within the overlap
 // both sides get the union of them:
 //  - A break point that sees one of the other side nearer than 1/10 of the adjacent elements does not make a new one:
-//    the two become opposite each other. Ends of edges, crack mouths, nodes that other contacts already pair and nodes
-//    at which a support or load is placed (`near`) stay, and the other point moves to them; otherwise both move to the
+//    the two become opposite each other. Ends of edges, crack mouths, nodes that other contacts already pair, and nodes
+//    at which materials meet or a support or load is placed (`near`) stay, and the other point moves to them; otherwise both move to the
 //    ray halfway between. Two points that both have to stay are two break points, however near.
 //  - Elsewhere the element is divided. Ends of the shorter edge thereby become break points of the longer one.
 //  - Of two opposite elements the lower order is raised to the higher one.

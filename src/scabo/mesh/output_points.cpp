@@ -17,16 +17,9 @@ namespace {
 constexpr double on_outline = 1e-9;
 constexpr double most_points = 1e6;
 
-double distance_to(const model::Edge& edge, const Vec2& point) {
-  const double ends = std::min((point - edge.start).norm(), (point - edge.end).norm());
-  const std::optional<geometry::Foot> foot = geometry::foot_on(edge, point);
-  if (!foot) return edge.arc->radius;
-  return foot->t >= 0.0 && foot->t <= 1.0 ? std::min(ends, (point - foot->point).norm()) : ends;
-}
-
 double distance_to(const model::Outline& outline, const Vec2& point) {
   double least = std::numeric_limits<double>::max();
-  for (const model::Edge& edge : outline.edges) least = std::min(least, distance_to(edge, point));
+  for (const model::Edge& edge : outline.edges) least = std::min(least, geometry::distance_to(edge, point));
   return least;
 }
 

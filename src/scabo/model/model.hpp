@@ -59,11 +59,22 @@ using geometry::Corner;
 using geometry::Edge;
 using geometry::Outline;
 
-enum class MeshKind { superelement, fem };
+/// One super-element, finite elements, or many super-elements: polygons or the squares of a quadtree.
+enum class MeshKind { superelement, fem, polygons, quadtree };
+
+/// Smaller cells near a point, or on an edge of the outline. Away from it sizes grow by `mesh_growth` of the distance.
+struct LocalSize {
+  std::optional<Vec2> near;
+  int edge = -1;      ///< where `near` is not given
+  double size = 0.0;  ///< > 0
+  Source source;
+};
+constexpr double mesh_growth = 0.3;
 
 struct MeshOptions {
   MeshKind kind = MeshKind::superelement;
-  double size = 0.0;           ///< longest boundary element, > 0
+  double size = 0.0;           ///< longest boundary element; largest side of a cell, > 0
+  std::vector<LocalSize> refine;
   int order = 2;               ///< polynomial order of a boundary element, 1 to 16
   Vec2 centre = Vec2::Zero();  ///< scaling centre: given by the user, a crack's tip, or the centroid
   int centre_corner = -1;      ///< corner of the outline at the scaling centre, or -1: its two edges are side faces
@@ -82,6 +93,14 @@ struct Crack {
   Source source;
 };
 
+/// A part of a body with a material of its own, inside its outline.
+struct Region {
+  std::string name;
+  int material = -1;  ///< index into Model::materials
+  Outline outline;
+  Source source;
+};
+
 struct Body {
   std::string name;
   bool rigid = false;                 ///< an obstacle or a punch, without material and mesh
@@ -89,6 +108,7 @@ struct Body {
   Outline outline;                    ///< with the material on its left
   MeshOptions mesh;                   ///< unused for a rigid body
   std::vector<Crack> cracks;          ///< at most one
+  std::vector<Region> regions;        ///< apart from each other, or one inside another, the outer one first
   std::vector<int> sector_materials;  ///< per edge: its sector's index into Model::materials; empty: `material`
   bool outside = false;               ///< unbounded: the material lies outside the shape; the outline runs clockwise
   std::optional<Vec2> reference;      ///< outside body: displacements are relative to this point

@@ -1,0 +1,591 @@
+#include "scabo/mesh/polygons.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "scabo/base/error.hpp"
+#include "scabo/mesh/dual_vertices.hpp"
+#include "scabo/mesh/polygon_kernel.hpp"
+
+namespace scabo::mesh {
+namespace {
+
+constexpr double short_side = 0.1;    // per local size: sides inside that are shorter are collapsed
+constexpr double well_visible = 0.1;  // h / L (polygon_kernel.hpp): cells below are improved by moving their corners
+constexpr double hardly_visible = 0.02;  // cells that remain below are divided, if that helps
+constexpr int no_node = -1;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// The triangles around a corner vertex within one region: from the edge `first` of the triangulation counter-clockwise
+// to the edge `last`.
+struct Wedge {
+  int vertex = 0, region = 0;
+  PieceEdge first, last;
+  std::vector<int> triangles;
+  int next = -1, previous = -1;  // wedge across `last` and across `first`, of the same body: no crack, no outside
+  int node = no_node;            // the corner as seen from here; no_node: it is a scaling centre
+};
+
+// Nodes of the dual and its cells.
+class Dual {
+ public:
+  Dual(const Domain& domain, DualTriangulation dual)
+      : domain_(domain), dual_(std::move(dual)), vertices_(dual_.vertices), triangles_(dual_.triangles) {
+    free_nodes_ = static_cast<int>(triangles_.size());
+    add_centroids();
+    add_nodes_on_lines();
+    find_cells();
+    find_runs();
+    add_corner_cells();
+    collect_lines();
+  }
+
+  PolygonMesh finish() {
+    collapse_short_sides();
+    place_centres();
+    improve();
+    divide_cells();
+    check();
+    return renumbered();
+  }
+
+ private:
+  bool inside(int triangle) const { return triangle >= 0 && dual_.region[at(triangle)] >= 0; }
+  const Vec2& point(int vertex) const { return vertices_.points[at(vertex)]; }
+  const DomainLine& line_of(const PieceEdge& edge) const {
+    return domain_.lines[at(vertices_.pieces[at(edge.piece)].line)];
+  }
+  PieceEdge edge_between(int a, int b) const { return vertices_.piece_edges.at(DualVertices::pair_key(a, b)); }
+  bool runs_from(const PieceEdge& edge, int vertex) const {
+    return vertices_.pieces[at(edge.piece)].vertices[at(edge.edge)] == vertex;
+  }
+
+  // Centroids of the triangles. Where the facets of an arc leave the edge of a triangle, its centroid goes with them.
+  void add_centroids() {
+    mesh_.nodes.resize(triangles_.size());
+    spacing_.resize(triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& corner = triangles_[t].vertices;
+      Vec2 centroid = (point(corner[0]) + point(corner[1]) + point(corner[2])) / 3.0;
+      spacing_[t] = (vertices_.spacing[at(corner[0])] + vertices_.spacing[at(corner[1])] +
+                     vertices_.spacing[at(corner[2])]) / (3.0 * spacing_per_size);
+      for (std::size_t i = 0; i < 3; ++i)
+        if (triangles_[t].constrained[i]) {
+          const int a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
+          const PieceEdge edge = edge_between(a, b);
+          const LinePiece& piece = vertices_.pieces[at(edge.piece)];
+          if (piece.facets() == 1 || !line_of(edge).arc) continue;
+          const Vec2& node = line_of(edge).points[at(piece.begin + edge.edge + 1)];
+          const Vec2 side = point(b) - point(a);
+          const Vec2 normal(-side.y(), side.x());
+          centroid += (2.0 / 3.0) * cross(side, node - point(a)) / side.squaredNorm() * normal;
+        }
+      mesh_.nodes[t] = centroid;
+    }
+  }
+
+  int add_node(const Vec2& place) {
+    mesh_.nodes.push_back(place);
+    return static_cast<int>(mesh_.nodes.size()) - 1;
+  }
+
+  // Nodes of lines apart from the ends of pieces.
+  void add_nodes_on_lines() {
+    for (auto& side : line_nodes_) side.resize(domain_.lines.size());
+    for (std::size_t i = 0; i < domain_.lines.size(); ++i)
+      for (auto& side : line_nodes_) side[i].assign(domain_.lines[i].points.size(), no_node);
+    for (const LinePiece& piece : vertices_.pieces) {
+      const DomainLine& line = domain_.lines[at(piece.line)];
+      for (int k = piece.begin + 1; k < piece.end; ++k) {
+        const int left = add_node(line.points[at(k)]);
+        line_nodes_[0][at(piece.line)][at(k)] = left;
+        line_nodes_[1][at(piece.line)][at(k)] = line.crack ? add_node(line.points[at(k)]) : left;
+      }
+    }
+  }
+
+  // Side of a line on which a wedge at `vertex` lies that starts or ends at `edge`: 0 left, 1 right.
+  int side_of(const PieceEdge& edge, int vertex, bool starts) const { return runs_from(edge, vertex) == starts ? 0 : 1; }
+
+  // The node on an edge of a piece of several facets.
+  int node_on(const PieceEdge& edge, int side) const {
+    const LinePiece& piece = vertices_.pieces[at(edge.piece)];
+    return line_nodes_[at(side)][at(piece.line)][at(piece.begin + edge.edge + 1)];
+  }
+
+  // Goes around every vertex: cells of vertices inside and in the middle of facets, wedges at corners.
+  void find_cells() {
+    cell_of_.assign(3 * triangles_.size(), -1);
+    std::vector<bool> visited(3 * triangles_.size(), false);
+    std::vector<std::size_t> around;
+    for (std::size_t start = 0; start < 3 * triangles_.size(); ++start) {
+      if (visited[start] || !inside(static_cast<int>(start / 3))) continue;
+      const int vertex = triangles_[start / 3].vertices[start % 3];
+      // Clockwise to where the wedge starts, or once around.
+      std::size_t first = start;
+      while (!triangles_[first / 3].constrained[(first % 3 + 2) % 3]) {
+        first = corner_in(triangles_[first / 3].neighbours[(first % 3 + 2) % 3], vertex);
+        if (first == start) break;
+      }
+      around.clear();
+      bool closed = false;
+      for (std::size_t now = first;;) {
+        visited[now] = true;
+        around.push_back(now);
+        if (triangles_[now / 3].constrained[(now % 3 + 1) % 3]) break;
+        now = corner_in(triangles_[now / 3].neighbours[(now % 3 + 1) % 3], vertex);
+        if (now == first) {
+          closed = true;
+          break;
+        }
+      }
+      add_around(vertex, around, closed);
+    }
+  }
+
+  // Number of the corner of `triangle` at `vertex`: 3 triangle + 0, 1 or 2.
+  std::size_t corner_in(int triangle, int vertex) const {
+    const auto& corner = triangles_[at(triangle)].vertices;
+    return 3 * at(triangle) + (corner[0] == vertex ? 0u : corner[1] == vertex ? 1u : 2u);
+  }
+
+  void add_around(int vertex, const std::vector<std::size_t>& around, bool closed) {
+    PolygonCell cell;
+    cell.region = dual_.region[around.front() / 3];
+    if (closed) {
+      for (const std::size_t corner : around) cell.nodes.push_back(static_cast<int>(corner / 3));
+      add_cell(std::move(cell), around);
+      return;
+    }
+    const Triangle &first = triangles_[around.front() / 3], &last = triangles_[around.back() / 3];
+    const PieceEdge start = edge_between(vertex, first.vertices[(around.front() % 3 + 1) % 3]);
+    const PieceEdge end = edge_between(vertex, last.vertices[(around.back() % 3 + 2) % 3]);
+    if (vertex >= vertices_.corners) {
+      cell.nodes.push_back(node_on(start, side_of(start, vertex, true)));
+      for (const std::size_t corner : around) cell.nodes.push_back(static_cast<int>(corner / 3));
+      cell.nodes.push_back(node_on(end, side_of(end, vertex, false)));
+      add_cell(std::move(cell), around);
+      return;
+    }
+    Wedge wedge{vertex, cell.region, start, end, {}};
+    for (const std::size_t corner : around) {
+      wedge.triangles.push_back(static_cast<int>(corner / 3));
+      wedge_of_[corner] = static_cast<int>(wedges_.size());
+    }
+    wedges_.push_back(std::move(wedge));
+  }
+
+  int add_cell(PolygonCell cell, const std::vector<std::size_t>& corners) {
+    const int number = static_cast<int>(mesh_.cells.size());
+    for (const std::size_t corner : corners) cell_of_[corner] = number;
+    mesh_.cells.push_back(std::move(cell));
+    fixed_centre_.push_back(false);
+    return number;
+  }
+
+  // Wedges at a corner that lie in the same piece of material, and their common node.
+  void find_runs() {
+    std::unordered_map<long long, int> starting;  // wedge that starts at an edge, by vertex and other end
+    const auto key = [&](const Wedge& wedge, const PieceEdge& edge) {
+      return 2LL * (3LL * edge.piece + 0) + (runs_from(edge, wedge.vertex) ? 1 : 0);
+    };
+    // A corner is at the start or at the end of a piece, so that piece and direction determine the edge.
+    for (std::size_t w = 0; w < wedges_.size(); ++w) starting[key(wedges_[w], wedges_[w].first)] = static_cast<int>(w);
+    for (std::size_t w = 0; w < wedges_.size(); ++w) {
+      if (line_of(wedges_[w].last).crack) continue;
+      const auto found = starting.find(key(wedges_[w], wedges_[w].last));
+      if (found == starting.end()) continue;
+      wedges_[w].next = found->second;
+      wedges_[at(found->second)].previous = static_cast<int>(w);
+    }
+    is_centre_.assign(at(vertices_.corners), false);
+    for (const Vec2& centre : domain_.centres) {
+      const int corner = corner_at(vertices_, centre);
+      if (corner < 0)
+        throw InputError("", {Diagnostic{{}, fmt::format("the scaling centre ({}, {}) is not the end of a line",
+                                                         centre.x(), centre.y())}});
+      is_centre_[at(corner)] = true;
+    }
+    std::vector<bool> seen(wedges_.size(), false);
+    for (std::size_t w = 0; w < wedges_.size(); ++w) {
+      if (seen[w]) continue;
+      const std::vector<int> run = run_of(static_cast<int>(w));
+      const bool centre = is_centre_[at(wedges_[w].vertex)];
+      const int node = centre ? no_node : add_node(point(wedges_[w].vertex));
+      for (const int k : run) {
+        seen[at(k)] = true;
+        wedges_[at(k)].node = node;
+      }
+      runs_.push_back(run);
+    }
+  }
+
+  // All wedges of a run, counter-clockwise from its first.
+  std::vector<int> run_of(int w) const {
+    int first = w;
+    while (wedges_[at(first)].previous >= 0 && wedges_[at(first)].previous != w) first = wedges_[at(first)].previous;
+    if (wedges_[at(first)].previous == w) first = w;
+    std::vector<int> run{first};
+    while (wedges_[at(run.back())].next >= 0 && wedges_[at(run.back())].next != first)
+      run.push_back(wedges_[at(run.back())].next);
+    return run;
+  }
+
+  // Whether the cell at `vertex` has the facet of a piece of one facet: a scaling centre has it, otherwise its start.
+  bool owns(const PieceEdge& edge, int vertex) const {
+    const std::vector<int>& chain = vertices_.pieces[at(edge.piece)].vertices;
+    if (is_centre_[at(chain[0])] != is_centre_[at(chain[1])]) return is_centre_[at(vertex)];
+    return chain[0] == vertex;
+  }
+
+  // The node at which the cell of a wedge leaves the edge at its start, or reaches the one at its end.
+  int node_at_edge(const Wedge& wedge, bool start) {
+    const PieceEdge& edge = start ? wedge.first : wedge.last;
+    const int side = side_of(edge, wedge.vertex, start);
+    const LinePiece& piece = vertices_.pieces[at(edge.piece)];
+    if (piece.facets() > 1) return node_on(edge, side);
+    const int other = piece.vertices[runs_from(edge, wedge.vertex) ? 1 : 0];
+    if (is_centre_[at(wedge.vertex)] && is_centre_[at(other)]) return middle_node(edge.piece, side);
+    if (!owns(edge, wedge.vertex)) return wedge.node;
+    const int triangle = start ? wedge.triangles.front() : wedge.triangles.back();
+    return wedges_[at(wedge_of_.at(corner_in(triangle, other)))].node;
+  }
+
+  // The middle of a facet between two scaling centres.
+  int middle_node(int piece, int side) {
+    const DomainLine& line = domain_.lines[at(vertices_.pieces[at(piece)].line)];
+    auto [found, is_new] = middles_.try_emplace(piece, std::array<int, 2>{});
+    if (is_new) {
+      const int begin = vertices_.pieces[at(piece)].begin;
+      const Vec2 middle = 0.5 * (line.points[at(begin)] + line.points[at(begin + 1)]);
+      found->second[0] = add_node(middle);
+      found->second[1] = line.crack ? add_node(middle) : found->second[0];
+    }
+    return found->second[at(side)];
+  }
+
+  void add_corner_cells() {
+    for (const std::vector<int>& run : runs_)
+      if (is_centre_[at(wedges_[at(run.front())].vertex)])
+        add_centre_cell(run);
+      else
+        for (const int w : run) add_corner_cell(wedges_[at(w)]);
+  }
+
+  // The cell of one region at a corner that is one of its nodes.
+  void add_corner_cell(const Wedge& wedge) {
+    PolygonCell cell;
+    cell.region = wedge.region;
+    if (const int node = node_at_edge(wedge, true); node != wedge.node) cell.nodes.push_back(node);
+    cell.nodes.insert(cell.nodes.end(), wedge.triangles.begin(), wedge.triangles.end());
+    if (const int node = node_at_edge(wedge, false); node != wedge.node) cell.nodes.push_back(node);
+    cell.nodes.push_back(wedge.node);
+    if (cell.nodes.size() > 2) add_cell(std::move(cell), corners_of(wedge));  // else its neighbours share its facets
+  }
+
+  // The cell whose scaling centre is the corner.
+  void add_centre_cell(const std::vector<int>& run) {
+    PolygonCell cell;
+    cell.centre = point(wedges_[at(run.front())].vertex);
+    cell.region = wedges_[at(run.front())].region;
+    cell.open = wedges_[at(run.front())].previous < 0;
+    std::vector<std::size_t> corners;
+    for (const int w : run) {
+      const Wedge& wedge = wedges_[at(w)];
+      if (cell.nodes.empty()) cell.nodes.push_back(node_at_edge(wedge, true));
+      cell.nodes.insert(cell.nodes.end(), wedge.triangles.begin(), wedge.triangles.end());
+      cell.nodes.push_back(node_at_edge(wedge, false));
+      cell.side_regions.resize(cell.nodes.size() - 1, wedge.region);
+      const std::vector<std::size_t> more = corners_of(wedge);
+      corners.insert(corners.end(), more.begin(), more.end());
+    }
+    if (!cell.open) cell.nodes.pop_back();  // the node where it began
+    const auto own = [&](int region) { return region == cell.region; };
+    if (std::all_of(cell.side_regions.begin(), cell.side_regions.end(), own)) cell.side_regions.clear();
+    fixed_centre_[at(add_cell(std::move(cell), corners))] = true;
+  }
+
+  std::vector<std::size_t> corners_of(const Wedge& wedge) const {
+    std::vector<std::size_t> corners;
+    for (const int triangle : wedge.triangles) corners.push_back(corner_in(triangle, wedge.vertex));
+    return corners;
+  }
+
+  // Ends of pieces on the lines, as the wedges beside them have them.
+  void collect_lines() {
+    for (std::size_t w = 0; w < wedges_.size(); ++w)
+      for (const bool start : {true, false}) {
+        const Wedge& wedge = wedges_[w];
+        const PieceEdge& edge = start ? wedge.first : wedge.last;
+        const LinePiece& piece = vertices_.pieces[at(edge.piece)];
+        // The edge alone may start and end the piece: then the direction tells its end.
+        const bool at_begin = runs_from(edge, wedge.vertex) && edge.edge == 0;
+        line_nodes_[at(side_of(edge, wedge.vertex, start))][at(piece.line)][at(at_begin ? piece.begin : piece.end)] =
+            wedge.node;
+      }
+    mesh_.left.resize(domain_.lines.size());
+    mesh_.right.resize(domain_.lines.size());
+    std::vector<std::vector<std::pair<int, int>>> middles(domain_.lines.size());  // before which point, piece
+    for (const auto& [piece, nodes] : middles_)
+      middles[at(vertices_.pieces[at(piece)].line)].emplace_back(vertices_.pieces[at(piece)].end, piece);
+    for (std::size_t i = 0; i < domain_.lines.size(); ++i) {
+      const DomainLine& line = domain_.lines[i];
+      for (const int side : {0, 1}) {
+        // The outside has no cells; what it sees are the nodes of the other side.
+        const int seen = (side == 0 ? line.left : line.right) >= 0 ? side : 1 - side;
+        std::vector<int>& nodes = side == 0 ? mesh_.left[i] : mesh_.right[i];
+        for (std::size_t k = 0; k < line.points.size(); ++k) {
+          for (const auto& [before, piece] : middles[i])
+            if (at(before) == k) nodes.push_back(middles_.at(piece)[at(seen)]);
+          if (line_nodes_[at(seen)][i][k] != no_node) nodes.push_back(line_nodes_[at(seen)][i][k]);
+        }
+      }
+    }
+  }
+
+  bool is_free(int node) const { return node < free_nodes_; }
+
+  void points_of(const PolygonCell& cell, std::vector<Vec2>& points) const {
+    points.clear();
+    for (const int node : cell.nodes) points.push_back(mesh_.nodes[at(node)]);
+  }
+
+  // How well a cell is seen from its centre, or from the best one.
+  KernelCentre centre_of(int number) {
+    const PolygonCell& cell = mesh_.cells[at(number)];
+    points_of(cell, points_);
+    if (fixed_centre_[at(number)]) return {cell.centre, visibility(points_, cell.centre, cell.open)};
+    return kernel_centre(points_);
+  }
+
+  // The cells that have a free node.
+  std::vector<int> cells_at(int node) const {
+    std::vector<int> cells;
+    for (int t = node; t >= 0; t = t == node ? partner(node) : -1)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (const int cell = cell_of_[3 * at(t) + i];
+            cell >= 0 && std::find(cells.begin(), cells.end(), cell) == cells.end())
+          cells.push_back(cell);
+    return cells;
+  }
+
+  int partner(int node) const {
+    const auto found = partner_.find(node);
+    return found == partner_.end() ? -1 : found->second;
+  }
+
+  // Two centroids that are close to each other become one node between them.
+  void collapse_short_sides() {
+    std::vector<Vec2> points;
+    for (int t = 0; t < free_nodes_; ++t) {
+      if (!inside(t)) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int u = triangles_[at(t)].neighbours[i];
+        if (u < t || !inside(u) || triangles_[at(t)].constrained[i]) continue;
+        const double size = std::min(spacing_[at(t)], spacing_[at(u)]);
+        if ((mesh_.nodes[at(t)] - mesh_.nodes[at(u)]).squaredNorm() >= short_side * short_side * size * size) continue;
+        if (merged_.count(t) + merged_.count(u) == 0) collapse(t, u);
+      }
+    }
+  }
+
+  void collapse(int t, int u) {
+    std::vector<int> cells = cells_at(t);
+    for (const int cell : cells_at(u))
+      if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+    double before = 1.0, after = 1.0;
+    std::vector<PolygonCell> old;
+    for (const int cell : cells) {
+      before = std::min(before, centre_of(cell).visibility);
+      old.push_back(mesh_.cells[at(cell)]);
+    }
+    const Vec2 place = mesh_.nodes[at(t)];
+    mesh_.nodes[at(t)] = 0.5 * (place + mesh_.nodes[at(u)]);
+    for (const int number : cells) {
+      PolygonCell& cell = mesh_.cells[at(number)];
+      const auto has_t = std::find(cell.nodes.begin(), cell.nodes.end(), t);
+      const auto has_u = std::find(cell.nodes.begin(), cell.nodes.end(), u);
+      if (has_u != cell.nodes.end()) {
+        if (has_t == cell.nodes.end())
+          *has_u = t;
+        else
+          remove_node(cell, has_u - cell.nodes.begin());
+      }
+      after = std::min(after, cell.nodes.size() < 3 ? -1.0 : centre_of(number).visibility);
+    }
+    if (after >= std::min(before, well_visible) && after > 0.0) {
+      merged_.insert({t, u});
+      merged_.insert({u, t});
+      partner_[t] = u;
+      return;
+    }
+    mesh_.nodes[at(t)] = place;
+    for (std::size_t k = 0; k < cells.size(); ++k) mesh_.cells[at(cells[k])] = old[k];
+  }
+
+  // The side that ends at the node, or starts there, vanishes; both lie in one region, for the short side does.
+  static void remove_node(PolygonCell& cell, std::ptrdiff_t k) {
+    cell.nodes.erase(cell.nodes.begin() + k);
+    if (!cell.side_regions.empty())
+      cell.side_regions.erase(cell.side_regions.begin() + std::min<std::ptrdiff_t>(k, static_cast<std::ptrdiff_t>(cell.side_regions.size()) - 1));
+  }
+
+  void place_centres() {
+    visibility_.resize(mesh_.cells.size());
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+      const KernelCentre centre = centre_of(static_cast<int>(c));
+      mesh_.cells[c].centre = centre.centre;
+      visibility_[c] = centre.visibility;
+    }
+  }
+
+  // Moves the free nodes of cells that are hard to see to where the cells around them are seen better.
+  void improve() {
+    for (int round = 0; round < 3; ++round) {
+      bool changed = false;
+      for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+        if (visibility_[c] >= well_visible) continue;
+        const std::vector<int> nodes = mesh_.cells[c].nodes;
+        for (const int node : nodes)
+          if (is_free(node) && visibility_[c] < well_visible) changed = move_node(node) || changed;
+      }
+      if (!changed) break;
+    }
+  }
+
+  bool move_node(int node) {
+    const std::vector<int> cells = cells_at(node);
+    const auto least = [&](double limit) {
+      double value = well_visible;
+      for (const int cell : cells) {
+        value = std::min(value, centre_of(cell).visibility);
+        if (value <= limit) break;
+      }
+      return value;
+    };
+    double best = well_visible;
+    for (const int cell : cells) best = std::min(best, visibility_[at(cell)]);
+    bool moved = false;
+    double step = 0.2 * spacing_[at(node)];
+    for (int k = 0; k < 5 && best < well_visible; ++k, step *= 0.5) {
+      const Vec2 from = mesh_.nodes[at(node)];
+      Vec2 best_place = from;
+      for (const Vec2& direction : {Vec2(1, 0), Vec2(0.6, 0.8), Vec2(0, 1), Vec2(-0.6, 0.8), Vec2(-1, 0),
+                                    Vec2(-0.6, -0.8), Vec2(0, -1), Vec2(0.6, -0.8)}) {
+        mesh_.nodes[at(node)] = from + step * direction;
+        if (const double value = least(best); value > best) {
+          best = value;
+          best_place = mesh_.nodes[at(node)];
+        }
+      }
+      mesh_.nodes[at(node)] = best_place;
+      moved = moved || best_place != from;
+    }
+    if (moved)
+      for (const int cell : cells) {
+        const KernelCentre centre = centre_of(cell);
+        mesh_.cells[at(cell)].centre = centre.centre;
+        visibility_[at(cell)] = centre.visibility;
+      }
+    return moved;
+  }
+
+  // Cells that no point sees well (at re-entrant corners) become several.
+  void divide_cells() {
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+      while (!fixed_centre_[c] && visibility_[c] < hardly_visible) {
+        points_of(mesh_.cells[c], points_);
+        const std::vector<std::vector<int>> parts = divide_by_diagonal(points_);
+        if (parts.empty()) break;
+        std::array<PolygonCell, 2> cells;
+        std::array<KernelCentre, 2> centres;
+        for (std::size_t k = 0; k < 2; ++k) {
+          cells[k].region = mesh_.cells[c].region;
+          for (const int i : parts[k]) cells[k].nodes.push_back(mesh_.cells[c].nodes[at(i)]);
+          points_of(cells[k], points_);
+          centres[k] = kernel_centre(points_);
+          cells[k].centre = centres[k].centre;
+        }
+        if (std::min(centres[0].visibility, centres[1].visibility) < 1.5 * visibility_[c]) break;
+        mesh_.cells[c] = std::move(cells[0]);
+        visibility_[c] = centres[0].visibility;
+        mesh_.cells.push_back(std::move(cells[1]));
+        visibility_.push_back(centres[1].visibility);
+        fixed_centre_.push_back(false);
+      }
+  }
+
+  void check() const {
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+      if (!(visibility_[c] > 0.0)) {
+        const Vec2& place = mesh_.nodes[at(mesh_.cells[c].nodes.front())];
+        throw InputError("", {Diagnostic{{}, fmt::format("no polygon fits between the lines near ({:.6g}, {:.6g}): "
+                                                         "give a smaller size there", place.x(), place.y())}});
+      }
+  }
+
+  // Nodes in the order in which cells meet them; those that no cell has go.
+  PolygonMesh renumbered() {
+    std::vector<int> number(mesh_.nodes.size(), no_node);
+    std::vector<Vec2> nodes;
+    nodes.reserve(mesh_.nodes.size());
+    const auto renumber = [&](int& node) {
+      int& now = number[at(node)];
+      if (now == no_node) {
+        now = static_cast<int>(nodes.size());
+        nodes.push_back(mesh_.nodes[at(node)]);
+      }
+      node = now;
+    };
+    for (PolygonCell& cell : mesh_.cells)
+      for (int& node : cell.nodes) renumber(node);
+    for (auto* side : {&mesh_.left, &mesh_.right})
+      for (std::vector<int>& line : *side)
+        for (int& node : line) renumber(node);
+    mesh_.nodes = std::move(nodes);
+    return std::move(mesh_);
+  }
+
+  const Domain& domain_;
+  const DualTriangulation dual_;
+  const DualVertices& vertices_;
+  const std::vector<Triangle>& triangles_;
+  PolygonMesh mesh_;                // its first nodes are the centroids of all triangles
+  int free_nodes_ = 0;              // their number
+  std::vector<double> spacing_;     // wanted size of cells at them
+  std::vector<int> cell_of_;        // for each corner of each triangle; -1: none
+  std::vector<bool> fixed_centre_;  // for each cell
+  std::vector<double> visibility_;  // for each cell
+  std::array<std::vector<std::vector<int>>, 2> line_nodes_;  // left and right, for each line and each of its points
+  std::vector<Wedge> wedges_;
+  std::unordered_map<std::size_t, int> wedge_of_;  // for each corner of a triangle at a corner of the domain
+  std::vector<std::vector<int>> runs_;             // wedges
+  std::vector<bool> is_centre_;                    // for each corner
+  std::unordered_map<int, std::array<int, 2>> middles_;  // of pieces between two scaling centres: left and right
+  std::unordered_map<int, int> merged_, partner_;
+  std::vector<Vec2> points_;
+};
+
+PolygonMesh mesh_of(const Domain& domain, bool divide_arcs) {
+  return Dual(domain, triangulate_domain(domain, vertices_on_lines(domain, divide_arcs))).finish();
+}
+
+}  // namespace
+
+PolygonMesh polygon_mesh(const Domain& domain) {
+  const bool arcs = std::any_of(domain.lines.begin(), domain.lines.end(),
+                                [](const DomainLine& line) { return line.arc.has_value(); });
+  if (arcs) try {
+      return mesh_of(domain, false);
+    } catch (const InputError&) {
+      // Vertices at every node of an arc follow its facets more closely.
+    }
+  return mesh_of(domain, true);
+}
+
+}  // namespace scabo::mesh

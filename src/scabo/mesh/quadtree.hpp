@@ -1,0 +1,34 @@
+// A quadtree over a plane region: cells of the wanted size, halved towards small features. Cells that no line cuts are
+// equal rectangles (squares where the body allows it) with up to four hanging nodes; cells that lines cut are polygons.
+//
+// Equal roots side by side cover the bounding box exactly, so that axis-parallel rectangles are meshed by uncut cells.
+// Nodes of uncut cells are whole multiples of one length, so that equal cells have equal coordinates relative to their
+// centre, up to rounding. Cells that share a side or a corner differ by one halving at most, except across the outside.
+#pragma once
+
+#include "scabo/mesh/domain.hpp"
+
+namespace scabo::mesh {
+
+struct QuadtreeOptions {
+  /// Length, >= 0: cells are not halved below it on account of lines, except where lines could not be told apart
+  /// otherwise. 0: 1/32 of the wanted size at the cell.
+  double min_size = 0.0;
+  /// Radians, > 0: a cell on an arc is not larger than this times the radius, unless min_size forbids it.
+  double turn = 0.5;
+  /// In parts of the size of a cell, 0 to 0.3: sides that cutting makes shorter than this are collapsed where the cells
+  /// around remain well shaped.
+  double shortest_side = 0.15;
+};
+
+/// The mesh. Nodes on a line are on it to rounding; a side on an arc is the chord between two of them. Of the points of
+/// a line only the first and the last are nodes. A line is straight if it has no arc.
+///
+/// A point of domain.centres becomes the centre of an open cell, made of the cells within about one cell's size, if it
+/// is the tip of one crack in one region, or a corner of two lines with one region between them. Other points, such as
+/// corners of two regions, keep their node.
+///
+/// Throws InputError if lines are too close to each other, or meet elsewhere than at their ends.
+PolygonMesh quadtree_mesh(const Domain& domain, const QuadtreeOptions& options = {});
+
+}  // namespace scabo::mesh

@@ -1,0 +1,424 @@
+// Improvement of the cells that lines cut: no short sides, no small cells, no unseen sides.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "scabo/mesh/quadtree/pieces.hpp"
+
+namespace scabo::mesh::quadtree {
+
+namespace {
+
+// In parts of the size of a cell. A step that leaves a cell with less clearance than `fair` is taken only if it makes no
+// cell much worse; cells with less than `poor`, or with an area below `small`, are merged with a neighbour if that helps.
+constexpr double fair = 0.08, poor = 0.05, small_area = 0.1;
+
+std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes) {
+  std::vector<Vec2> corners;
+  corners.reserve(nodes.size());
+  for (int node : nodes) corners.push_back(pieces.nodes[node]);
+  return corners;
+}
+
+double clearance_of(const Pieces& pieces, const PolygonCell& cell) {
+  const std::vector<Vec2> corners = corners_of(pieces, cell.nodes);
+  return cell.open ? clearance_from(cell.centre, corners, false) : best_sight(corners).clearance;
+}
+
+/// The cells around the nodes of cut cells.
+class Surroundings {
+ public:
+  explicit Surroundings(const Pieces& pieces) : cells_of_(pieces.nodes.size()) {
+    std::vector<char> wanted(pieces.nodes.size(), 0);
+    for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
+      for (int node : pieces.cells[k].nodes) wanted[node] = 1;
+    }
+    for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
+      for (int node : pieces.cells[k].nodes) {
+        if (wanted[node]) add(node, int(k));
+      }
+    }
+  }
+
+  const std::vector<int>& around(int node) const { return cells_of_[node]; }
+  void add(int node, int cell) {
+    std::vector<int>& cells = cells_of_[node];
+    if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+  }
+  void remove(int node, int cell) {
+    std::vector<int>& cells = cells_of_[node];
+    cells.erase(std::remove(cells.begin(), cells.end(), cell), cells.end());
+  }
+
+ private:
+  std::vector<std::vector<int>> cells_of_;
+};
+
+/// Puts node `gone` where `kept` is, if the cells around stay well shaped.
+bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
+  if (pieces.holds[gone] == Hold::corner) return false;
+  const auto between = pieces.line_sides.find(side_key(kept, gone));
+  if (pieces.holds[gone] == Hold::line) {
+    if (between == pieces.line_sides.end() || between->second != pieces.line_of[gone]) return false;
+  } else if (between != pieces.line_sides.end()) {
+    return false;
+  }
+  struct Change {
+    int cell;
+    std::vector<int> nodes;
+  };
+  std::vector<Change> changes;
+  for (int index : surroundings.around(gone)) {
+    const PolygonCell& cell = pieces.cells[index];
+    std::vector<int> nodes = cell.nodes;
+    const bool has_both = std::find(nodes.begin(), nodes.end(), kept) != nodes.end();
+    if (cell.open && has_both && (nodes.front() == nodes.back())) return false;
+    std::replace(nodes.begin(), nodes.end(), gone, kept);
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    if (!cell.open && nodes.size() > 1 && nodes.front() == nodes.back()) nodes.pop_back();
+    if (has_both && std::count(nodes.begin(), nodes.end(), kept) > 1) return false;
+    if (nodes.size() < 3 && cell.open) return false;
+    if (nodes.size() < 3) {
+      // A triangle whose other two sides become one: not both may be on lines.
+      int third = -1;
+      for (int node : cell.nodes) {
+        if (node != kept && node != gone) third = node;
+      }
+      if (third < 0 || (pieces.line_sides.count(side_key(kept, third)) && pieces.line_sides.count(side_key(gone, third)))) {
+        return false;
+      }
+      changes.push_back({index, {}});
+      continue;
+    }
+    const std::vector<Vec2> corners = corners_of(pieces, nodes);
+    const double after = cell.open ? clearance_from(cell.centre, corners, false) : best_sight(corners).clearance;
+    if (after < fair * pieces.sizes[index] && after < 0.8 * clearance_of(pieces, cell)) return false;
+    if (!(after > 0.0) && !(clearance_of(pieces, cell) <= 0.0 && polygon_area(corners) > 0.0)) return false;
+    changes.push_back({index, std::move(nodes)});
+  }
+  // A cell on only one side of a piece of a line that vanishes would change the body.
+  std::vector<std::pair<int, int>> moved;  // other node, line
+  for (int index : surroundings.around(gone)) {
+    for (int node : pieces.cells[index].nodes) {
+      if (node == gone || node == kept) continue;
+      const auto side = pieces.line_sides.find(side_key(gone, node));
+      if (side == pieces.line_sides.end()) continue;
+      const auto other = pieces.line_sides.find(side_key(kept, node));
+      if (other != pieces.line_sides.end()) return false;
+      moved.push_back({node, side->second});
+    }
+  }
+  std::sort(moved.begin(), moved.end());
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  for (const auto& [node, line] : moved) {
+    pieces.line_sides.erase(side_key(gone, node));
+    pieces.line_sides.emplace(side_key(kept, node), line);
+  }
+  pieces.line_sides.erase(side_key(kept, gone));
+  if (pieces.holds[gone] == Hold::line) {
+    std::vector<int>& chain = pieces.chains[pieces.line_of[gone]];
+    chain.erase(std::remove(chain.begin(), chain.end(), gone), chain.end());
+  }
+  for (Change& change : changes) {
+    for (int node : pieces.cells[change.cell].nodes) surroundings.remove(node, change.cell);
+    for (int node : change.nodes) surroundings.add(node, change.cell);
+    pieces.cells[change.cell].nodes = std::move(change.nodes);
+  }
+  return true;
+}
+
+}  // namespace
+
+void collapse_short_sides(Pieces& pieces, double shortest) {
+  Surroundings surroundings(pieces);
+  for (int round = 0; round < 4; ++round) {
+    struct Short {
+      double length;
+      int a, b;
+    };
+    std::vector<Short> found;
+    for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
+      const PolygonCell& cell = pieces.cells[k];
+      for (std::size_t i = 0; i + (cell.open ? 1 : 0) < cell.nodes.size(); ++i) {
+        const int a = cell.nodes[i], b = cell.nodes[i + 1 < cell.nodes.size() ? i + 1 : 0];
+        const double length = (pieces.nodes[a] - pieces.nodes[b]).norm();
+        if (length < shortest * pieces.sizes[k]) found.push_back({length, std::min(a, b), std::max(a, b)});
+      }
+    }
+    std::sort(found.begin(), found.end(), [](const Short& x, const Short& y) {
+      return x.length != y.length ? x.length < y.length : x.a != y.a ? x.a < y.a : x.b < y.b;
+    });
+    bool changed = false;
+    for (const Short& side : found) {
+      const auto& around = surroundings.around(side.a);
+      const bool there = std::any_of(around.begin(), around.end(), [&](int index) {
+        const std::vector<int>& nodes = pieces.cells[index].nodes;
+        return std::find(nodes.begin(), nodes.end(), side.b) != nodes.end();
+      });
+      if (!there) continue;
+      const bool a_first = pieces.holds[side.a] >= pieces.holds[side.b];
+      const int kept = a_first ? side.a : side.b, gone = a_first ? side.b : side.a;
+      if (pieces.holds[kept] == Hold::nothing) continue;
+      if (collapse(pieces, surroundings, kept, gone) ||
+          (pieces.holds[kept] == pieces.holds[gone] && collapse(pieces, surroundings, gone, kept))) {
+        changed = true;
+      }
+    }
+    if (!changed) break;
+  }
+}
+
+void divide_unseen_cells(Pieces& pieces) {
+  for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
+    while (!pieces.cells[k].open && pieces.cells[k].nodes.size() > 3 &&
+           clearance_of(pieces, pieces.cells[k]) < 0.4 * poor * pieces.sizes[k]) {
+      Halves halves = best_division(pieces.cells[k].nodes, pieces.nodes);
+      if (halves.first.empty() || !(halves.clearance > clearance_of(pieces, pieces.cells[k]) || halves.clearance <= 0.0)) {
+        break;
+      }
+      pieces.cells.push_back({std::move(halves.second), Vec2::Zero(), pieces.cells[k].region, false});
+      pieces.sizes.push_back(pieces.sizes[k]);
+      pieces.cells[k].nodes = std::move(halves.first);
+    }
+  }
+}
+
+namespace {
+
+/// The union of two cells that share one run of sides, none on a line; empty if it is not one polygon.
+std::vector<int> united(const Pieces& pieces, const Surroundings& surroundings, const std::vector<int>& first,
+                        const std::vector<int>& second) {
+  const int n = int(first.size()), m = int(second.size());
+  const auto shared = [&](int i) {
+    const int a = first[i], b = first[(i + 1) % n];
+    if (pieces.line_sides.count(side_key(a, b))) return false;
+    for (int j = 0; j < m; ++j) {
+      if (second[j] == b && second[(j + 1) % m] == a) return true;
+    }
+    return false;
+  };
+  int starts = 0, start = -1, count = 0;
+  for (int i = 0; i < n; ++i) {
+    if (!shared(i)) continue;
+    ++count;
+    if (!shared((i + n - 1) % n)) {
+      ++starts;
+      start = i;
+    }
+  }
+  if (starts != 1 || count >= n || count >= m) return {};
+  for (int i = 1; i < count; ++i) {
+    const int node = first[(start + i) % n];
+    if (pieces.holds[node] != Hold::nothing || surroundings.around(node).size() > 2) return {};
+  }
+  std::vector<int> nodes;
+  for (int i = count; i < n; ++i) nodes.push_back(first[(start + i) % n]);
+  const int from = int(std::find(second.begin(), second.end(), first[start]) - second.begin());
+  for (int j = 0; j < m - count; ++j) nodes.push_back(second[(from + j) % m]);
+  std::vector<int> sorted = nodes;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return {};
+  return nodes;
+}
+
+}  // namespace
+
+void merge_small_cells(Pieces& pieces) {
+  Surroundings surroundings(pieces);
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
+      if (pieces.cells[k].open || pieces.cells[k].nodes.empty()) continue;
+      const double size = pieces.sizes[k];
+      const double own = clearance_of(pieces, pieces.cells[k]);
+      if (own >= poor * size && polygon_area(corners_of(pieces, pieces.cells[k].nodes)) >= small_area * size * size) continue;
+      std::vector<int> neighbours;
+      for (int node : pieces.cells[k].nodes) {
+        for (int other : surroundings.around(node)) {
+          if (other == int(k) || pieces.cells[other].open || pieces.cells[other].region != pieces.cells[k].region) continue;
+          if (std::find(neighbours.begin(), neighbours.end(), other) == neighbours.end()) neighbours.push_back(other);
+        }
+      }
+      std::sort(neighbours.begin(), neighbours.end());
+      int best = -1;
+      double best_clearance = 0.0;
+      std::vector<int> best_nodes;
+      for (int other : neighbours) {
+        std::vector<int> nodes = united(pieces, surroundings, pieces.cells[k].nodes, pieces.cells[other].nodes);
+        if (nodes.empty()) continue;
+        const double larger = std::max(size, pieces.sizes[other]);
+        const double clearance = best_sight(corners_of(pieces, nodes)).clearance;
+        // Cells of the tree have 0.5: a neighbour is spoiled less by a cut cell.
+        if (clearance < 1.5 * own || clearance < std::min(2.0 * fair * larger, clearance_of(pieces, pieces.cells[other]))) continue;
+        if (clearance > best_clearance) {
+          best = other;
+          best_clearance = clearance;
+          best_nodes = std::move(nodes);
+        }
+      }
+      if (best < 0) continue;
+      for (int index : {int(k), best}) {
+        for (int node : pieces.cells[index].nodes) surroundings.remove(node, index);
+      }
+      for (int node : best_nodes) surroundings.add(node, int(k));
+      pieces.cells[k].nodes = std::move(best_nodes);
+      pieces.cells[best].nodes.clear();
+      pieces.sizes[k] = std::max(size, pieces.sizes[best]);
+    }
+  }
+}
+
+void place_centres(Pieces& pieces, std::vector<Vec2>& trouble) {
+  for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
+    PolygonCell& cell = pieces.cells[k];
+    if (cell.nodes.empty()) continue;
+    if (cell.open) {
+      if (clearance_of(pieces, cell) < 0.02 * pieces.sizes[k]) trouble.push_back(cell.centre);
+      continue;
+    }
+    if (k < pieces.first_cut &&
+        std::all_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) { return pieces.holds[node] == Hold::nothing; })) {
+      continue;  // untouched cell of the tree; its centre is set
+    }
+    const Sight sight = best_sight(corners_of(pieces, cell.nodes));
+    cell.centre = sight.centre;
+    // Sharp corners leave cells with little clearance, which no refinement changes.
+    if (!(sight.clearance > 1e-5 * pieces.sizes[k])) trouble.push_back(pieces.nodes[cell.nodes.front()]);
+  }
+}
+
+namespace {
+
+/// Gives every fan of cells around a node of a crack a node of its own.
+void separate_cracks(Pieces& pieces, const std::vector<DomainLine>& lines) {
+  std::vector<int> place(pieces.nodes.size(), -1);
+  std::vector<int> cracked;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    if (!lines[line].crack) continue;
+    for (int node : pieces.chains[line]) {
+      if (place[node] >= 0) continue;
+      place[node] = int(cracked.size());
+      cracked.push_back(node);
+    }
+  }
+  if (cracked.empty()) return;
+  struct Visit {
+    int cell, corner;
+    int before, after;  // neighbours in the cell, -1 at a side face
+    int fan;
+  };
+  std::vector<std::vector<Visit>> visits(cracked.size());
+  for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
+    const PolygonCell& cell = pieces.cells[k];
+    const int n = int(cell.nodes.size());
+    for (int i = 0; i < n; ++i) {
+      if (place[cell.nodes[i]] < 0) continue;
+      const int before = i > 0 ? cell.nodes[i - 1] : cell.open ? -1 : cell.nodes[n - 1];
+      const int after = i + 1 < n ? cell.nodes[i + 1] : cell.open ? -1 : cell.nodes[0];
+      visits[place[cell.nodes[i]]].push_back({int(k), i, before, after, int(visits[place[cell.nodes[i]]].size())});
+    }
+  }
+  for (std::size_t c = 0; c < cracked.size(); ++c) {
+    std::vector<Visit>& here = visits[c];
+    const auto joined = [&](int neighbour) {
+      if (neighbour < 0) return false;
+      const auto side = pieces.line_sides.find(side_key(cracked[c], neighbour));
+      return side == pieces.line_sides.end() || !lines[side->second].crack;
+    };
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (Visit& one : here) {
+        for (Visit& other : here) {
+          if (one.after < 0 || one.after != other.before || !joined(one.after) || one.fan == other.fan) continue;
+          one.fan = other.fan = std::min(one.fan, other.fan);
+          changed = true;
+        }
+      }
+    }
+    std::vector<std::pair<int, int>> copies{{here.empty() ? 0 : here.front().fan, cracked[c]}};  // fan and its node
+    for (const Visit& visit : here) {
+      auto known = std::find_if(copies.begin(), copies.end(), [&](const auto& copy) { return copy.first == visit.fan; });
+      if (known == copies.end()) {
+        copies.push_back({visit.fan, int(pieces.nodes.size())});
+        known = copies.end() - 1;
+        const Vec2 at = pieces.nodes[cracked[c]];
+        pieces.nodes.push_back(at);
+      }
+      pieces.cells[visit.cell].nodes[visit.corner] = known->second;
+    }
+  }
+}
+
+}  // namespace
+
+PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
+  const std::size_t original = pieces.nodes.size();
+  // Sides of cells on lines, before nodes of cracks are separated: cell and place of the first node.
+  std::unordered_map<std::uint64_t, std::pair<int, int>> beside;
+  for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
+    const PolygonCell& cell = pieces.cells[k];
+    const bool may = k >= pieces.first_cut ||
+                     std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) { return pieces.holds[node] != Hold::nothing; });
+    for (std::size_t i = 0; may && i + (cell.open ? 1 : 0) < cell.nodes.size(); ++i) {
+      const int a = cell.nodes[i], b = cell.nodes[i + 1 < cell.nodes.size() ? i + 1 : 0];
+      const auto side = pieces.line_sides.find(side_key(a, b));
+      if (side == pieces.line_sides.end()) continue;
+      beside[(std::uint64_t(a) << 32) | std::uint32_t(b)] = {int(k), int(i)};
+    }
+  }
+  separate_cracks(pieces, lines);
+  PolygonMesh mesh;
+  mesh.left.resize(lines.size());
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    if (pieces.chains[line].size() >= 2) mesh.left[line] = pieces.chains[line];
+  }
+  mesh.right = mesh.left;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    const std::vector<int>& chain = pieces.chains[line];
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const auto left = beside.find((std::uint64_t(chain[i]) << 32) | std::uint32_t(chain[i + 1]));
+      const auto right = beside.find((std::uint64_t(chain[i + 1]) << 32) | std::uint32_t(chain[i]));
+      if (left != beside.end()) {
+        const std::vector<int>& nodes = pieces.cells[left->second.first].nodes;
+        const std::size_t at = left->second.second;
+        mesh.left[line][i] = nodes[at];
+        mesh.left[line][i + 1] = nodes[at + 1 < nodes.size() ? at + 1 : 0];
+      }
+      if (right != beside.end()) {
+        const std::vector<int>& nodes = pieces.cells[right->second.first].nodes;
+        const std::size_t at = right->second.second;
+        mesh.right[line][i + 1] = nodes[at];
+        mesh.right[line][i] = nodes[at + 1 < nodes.size() ? at + 1 : 0];
+      }
+      // Both sides of other lines are one; they may begin or end at the mouth of a crack.
+      if (lines[line].crack) continue;
+      auto &one = mesh.left[line], &other = mesh.right[line];
+      auto &from = left != beside.end() ? one : other, &to = left != beside.end() ? other : one;
+      std::copy_n(from.begin() + std::ptrdiff_t(i), 2, to.begin() + std::ptrdiff_t(i));
+    }
+  }
+  // Nodes that no cell has are left out.
+  std::vector<int> number(pieces.nodes.size(), -1);
+  for (const PolygonCell& cell : pieces.cells) {
+    for (int node : cell.nodes) number[node] = 0;
+  }
+  mesh.nodes.reserve(original);
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    if (number[k] < 0) continue;
+    number[k] = int(mesh.nodes.size());
+    mesh.nodes.push_back(pieces.nodes[k]);
+  }
+  mesh.cells = std::move(pieces.cells);
+  mesh.cells.erase(std::remove_if(mesh.cells.begin(), mesh.cells.end(), [](const PolygonCell& cell) { return cell.nodes.empty(); }),
+                   mesh.cells.end());
+  for (PolygonCell& cell : mesh.cells) {
+    for (int& node : cell.nodes) node = number[node];
+  }
+  for (std::vector<std::vector<int>>* chains : {&mesh.left, &mesh.right}) {
+    for (std::vector<int>& chain : *chains) {
+      for (int& node : chain) node = number[node];
+    }
+  }
+  return mesh;
+}
+
+}  // namespace scabo::mesh::quadtree
