@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scabo/geometry/foot_points.hpp"
+#include "scabo/mesh/rays.hpp"
 
 namespace scabo::mesh {
 
@@ -111,14 +112,21 @@ Partners partners_along(const ContactSide& a, const ContactSide& b, const std::a
   return partners;
 }
 
+/// Whether the node also faces the other edge along the rays. Beside curved edges that are far apart it may have its
+/// foot on the other edge, while what faces it lies beyond the end.
+bool is_seen(const ContactSide& side, int i, const ContactSide& other, const Rays& rays) {
+  return facing_point(*other.edge, rays.through(side.points[i]), side.true_normals[i], facing_cosine).has_value();
+}
+
 /// The first node of `side`, from its start or, if `backwards`, from its end, that should have a partner but has none,
 /// and that would (`nearest_matches`) or would not match the nearest node.
 std::optional<int> first_alone(const ContactSide& side, const std::vector<Lie>& lies, const std::vector<bool>& paired,
                                const ContactSide& other, const std::vector<int>& nearest, bool backwards,
                                bool nearest_matches) {
+  const Rays rays(*side.edge, *other.edge);
   for (int k = 0; k < side.size(); ++k) {
     const int i = backwards ? side.size() - 1 - k : k;
-    if (lies[i] != Lie::face_to_face || paired[i]) continue;
+    if (lies[i] != Lie::face_to_face || paired[i] || !is_seen(side, i, other, rays)) continue;
     if (nodes_match(side, i, other, nearest[i]) == nearest_matches) return i;
   }
   return std::nullopt;

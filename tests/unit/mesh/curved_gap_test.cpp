@@ -37,7 +37,7 @@ model::Model disc_in_ring(double gap, double turn) {
 TEST(CurvedGap, NodesMayBeOffByHalfOfTheGapAtMost) {
   const double spacing = pi / 60.0;
   const auto matches = [](double gap, double offset) {
-    return test::message_of(disc_in_ring(gap, offset)).find("do not match") == std::string::npos;
+    return test::message_unmatched(disc_in_ring(gap, offset)).find("do not match") == std::string::npos;
   };
   EXPECT_TRUE(matches(0.0, 0.0));
   EXPECT_FALSE(matches(0.0, 0.01 * spacing));

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/interface.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
@@ -153,6 +155,15 @@ inline std::string message_of(const model::Model& model) {
     return error.what();
   }
   return "no error";
+}
+
+/// What is wrong with the first contact if its sides stay as they are.
+inline std::string message_unmatched(const model::Model& model, int contact = 0) {
+  std::vector<mesh::BodyMesh> bodies;
+  for (const model::Body& body : model.bodies) bodies.push_back(mesh::divide_boundary(body));
+  const auto matched = mesh::match_interface(model, contact, bodies);
+  const Diagnostic* wrong = std::get_if<Diagnostic>(&matched);
+  return wrong ? wrong->at.path + ": " + wrong->message : "no error";
 }
 
 }  // namespace scabo::test
