@@ -6,11 +6,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
+#include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
 #include "scabo/mesh/star_cells.hpp"
@@ -127,6 +129,18 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
   return points;
 }
 
+/// A cell with a side on an arc needs a centre that sees the arc, not only its chord.
+constexpr int parts_of_side = 8;       // in which sides are looked at
+constexpr double well_visible = 0.05;  // h / L (polygon_kernel.hpp) of a whole side; a centre with less is moved
+
+/// The given centre of a closed cell if it sees the cell's sides well, with those on arcs curved, or the point that sees
+/// them best. `sides`: the points of each side, those in between included.
+Vec2 centre_for_curved_sides(const Vec2& centre, std::span<const Vec2> sides) {
+  return visibility(sides, centre) >= parts_of_side * well_visible
+             ? centre
+             : kernel_centre(sides, std::numeric_limits<double>::infinity()).centre;
+}
+
 PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
   switch (mesh.kind) {
     case model::MeshKind::polygons:
@@ -218,8 +232,20 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
     if (!polygon.side_regions.empty()) cell.materials.clear();
     for (const int region : polygon.side_regions) cell.materials.push_back(material_of(region));
     const std::size_t count = polygon.nodes.size();
-    for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i)
-      cell.boundary.push_back(side(polygon.nodes[i], polygon.nodes[(i + 1) % count]));
+    std::vector<Vec2> fine;
+    bool curved = false;
+    for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i) {
+      const int a = polygon.nodes[i], b = polygon.nodes[(i + 1) % count];
+      cell.boundary.push_back(side(a, b));
+      const auto arc = on_arc.find(std::minmax(a, b));
+      curved = curved || arc != on_arc.end();
+      fine.push_back(polygons.nodes[static_cast<std::size_t>(a)]);
+      for (const Vec2& x : between(fine.back(), polygons.nodes[static_cast<std::size_t>(b)], parts_of_side,
+                                   arc == on_arc.end() ? std::nullopt : domain.lines[arc->second].arc))
+        fine.push_back(x);
+    }
+    if (curved && order > 1 && !polygon.open && cell.kind == CellKind::superelement)
+      cell.centre = centre_for_curved_sides(cell.centre, fine);
     mesh.cells.push_back(std::move(cell));
   }
   std::size_t line = 0;
