@@ -134,11 +134,13 @@ constexpr int parts_of_side = 8;       // in which sides are looked at
 constexpr double well_visible = 0.05;  // h / L (polygon_kernel.hpp) of a whole side; a centre with less is moved
 
 /// The given centre of a closed cell if it sees the cell's sides well, with those on arcs curved, or the point that sees
-/// them best. `sides`: the points of each side, those in between included.
+/// them best. `sides`: the points of each side, those in between included. Throws InputError if no point sees them.
 Vec2 centre_for_curved_sides(const Vec2& centre, std::span<const Vec2> sides) {
-  return visibility(sides, centre) >= parts_of_side * well_visible
-             ? centre
-             : kernel_centre(sides, std::numeric_limits<double>::infinity()).centre;
+  if (visibility(sides, centre) >= parts_of_side * well_visible) return centre;
+  const KernelCentre best = kernel_centre(sides, std::numeric_limits<double>::infinity());
+  if (best.visibility > 0.0) return best.centre;
+  throw InputError("", {Diagnostic{{}, fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
+                                                   centre.x(), centre.y())}});
 }
 
 PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
@@ -270,7 +272,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, do
     return body_mesh_of(polygons_of(domain, body.mesh), domain, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
-                      fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};
+                      fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind", error.diagnostics().front().message)};
   }
 }
 
