@@ -105,6 +105,37 @@ bool check_crack(const BodyCheck& of) {
   return good;
 }
 
+/// Cracks in a body of many cells.
+bool check_paths(const BodyCheck& of) {
+  const double size = outline_size(of.outline);
+  bool good = true;
+  for (std::size_t c = 0; c < of.body.cracks.size(); ++c) {
+    const Crack& crack = of.body.cracks[c];
+    const std::string path = fmt::format("{}.cracks.{}", of.path, c);
+    if (crack.path.size() < 2) {
+      of.checking.error(path, "path", "needs two points or more: the ends of the crack");
+      good = false;
+      continue;
+    }
+    for (std::size_t k = 0; k < crack.path.size(); ++k) {
+      const Vec2& point = crack.path[k];
+      if (!of.checking.vector(path, fmt::format("path.{}", k), point)) {
+        good = false;
+      } else if (!encloses(of.outline, point) && distance_to(of.outline, point) > 1e-9 * size) {
+        of.checking.error(path, "path", fmt::format("{} lies outside of body '{}': cracks lie inside or end on the "
+                                                    "boundary",
+                                                    point_text(point), of.body.name));
+        good = false;
+      } else if (k > 0 && (point - crack.path[k - 1]).norm() <= 1e-9 * size) {
+        of.checking.error(path, "path", fmt::format("{} stands there twice: leave one out", point_text(point)));
+        good = false;
+      }
+      if (!good) break;
+    }
+  }
+  return good;
+}
+
 bool check_cracks(const BodyCheck& of) {
   const auto& cracks = of.body.cracks;
   if (cracks.empty()) return true;
@@ -113,9 +144,17 @@ bool check_cracks(const BodyCheck& of) {
                              "cracks in a body with outside: true are not available in this version: leave them out");
     return false;
   }
+  const bool many = of.body.mesh.kind == MeshKind::polygons || of.body.mesh.kind == MeshKind::quadtree;
+  if (many) return check_paths(of);
+  if (!cracks.front().path.empty()) {
+    of.checking.error(of.path, "cracks.0",
+                      "a crack with a 'path' needs many cells: write kind: polygons or kind: quadtree, or give 'tip' and "
+                      "'mouth' of a straight crack");
+    return false;
+  }
   if (cracks.size() > 1) {
     of.checking.error(of.path, "cracks.1",
-                      "a body may have only one crack in this version: divide it into several bodies");
+                      "a body that is one super-element has at most one crack: write kind: polygons or kind: quadtree");
     return false;
   }
   return check_crack(of);
@@ -204,8 +243,8 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
          "kind: polygons or kind: quadtree");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
-  if (!body.cracks.empty() && body.mesh.kind != MeshKind::fem)
-    checking.error(path, "cracks.0", "cracks are available only in a body that is one super-element in this version"),
+  if (!body.cracks.empty() && body.mesh.kind == MeshKind::parts)
+    checking.error(path, "cracks.0", "a crack in a body of several parts needs kind: polygons or kind: quadtree"),
         good = false;
   for (std::size_t i = 0; i < body.mesh.refine.size(); ++i) {
     const LocalSize& local = body.mesh.refine[i];
