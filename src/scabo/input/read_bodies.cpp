@@ -176,7 +176,6 @@ Body moved(Body body, const Vec2& by) {
 /// `repeat: {count: 3, step: [1, 0]}` gives `block_1`, `block_2`, `block_3`; `{count: [2, 3], step: [[1, 0], [0, 1]]}`
 /// gives `block_1_1` to `block_2_3`. Nothing if it is broken.
 std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& body) {
-  constexpr long most = 100'000;
   Report& report = reading.report;
   const std::size_t before = report.count();
   const MapReader map(report, value, {"count", "step"}, "{count: 3, step: [1, 0]}");
@@ -186,9 +185,9 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
   if (count_value && count_value->node->kind == Node::Kind::sequence) {
     const auto items = read_list(report, *count_value, "[2, 3]");
     for (const Value& item : items.value_or(std::vector<Value>{}))
-      counts.push_back(read_integer(report, item, 1, most).value_or(1));
+      counts.push_back(read_integer(report, item, limits::copies).value_or(1));
   } else if (count_value) {
-    counts.push_back(read_integer(report, *count_value, 1, most).value_or(1));
+    counts.push_back(read_integer(report, *count_value, limits::copies).value_or(1));
   }
   if (counts.size() == 2 && step_value) {
     const auto items = read_list(report, *step_value, "[[1, 0], [0, 1]]");
@@ -200,8 +199,9 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
   if (report.count() == before && (counts.empty() || counts.size() > 2 || steps.size() != counts.size()))
     report.error(value, "needs one count and one step, as in {count: 3, step: [1, 0]}, or two of each, as in {count: [2, "
                         "3], step: [[1, 0], [0, 1]]}");
-  if (report.count() == before && counts.size() == 2 && counts[0] * counts[1] > most)
-    report.error(*count_value, fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1], most));
+  if (report.count() == before && counts.size() == 2 && counts[0] * counts[1] > limits::copies.most)
+    report.error(*count_value, fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1],
+                                           limits::copies.most));
   std::vector<Body> copies;
   if (report.count() > before) {
     reading.bodies_known = false;
@@ -260,7 +260,7 @@ void read_body(Reading& reading, const Entry& entry) {
                             body.cracks.empty() || !body.cracks.front().path.empty() ? nullptr : &body.cracks.front());
     if (body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree)
       for (Crack& crack : body.cracks)
-        if (crack.path.empty()) crack.path = {crack.mouth, crack.tip};
+        if (crack.path.empty()) crack.path = {crack.mouth, crack.tip}, crack.edge = -1;
     const bool has_centre = mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre");
     const bool one = body.mesh.kind == MeshKind::superelement && !cracks && !map.has("outside") && !map.has("sectors");
     if (one && !has_centre && state.shape && !body.mesh.tolerance) choose_centre(body);

@@ -110,7 +110,8 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry, Betwee
   if (!between_value) reading.places_known = false;
   const auto between = between_value ? read_partners(reading, *between_value) : std::nullopt;
   if (const auto distance = map.get("reach")) {
-    reach = read_not_negative(report, *distance).value_or(0.0);
+    reach = read_number(report, *distance).value_or(0.0);
+    if (reach < 0.0) report.error(*distance, "must be 0 or more: it is a distance");
     if (between && !between->many)
       map.refuse("reach", "applies to between: all or to two bodies: two edges are in contact at any distance");
   }
