@@ -16,13 +16,14 @@ ALLOWED = {
     "linalg": ["base"],
     "contact": ["base", "linalg"],
     "geometry": ["base"],
-    "model": ["base", "geometry"],
-    "input": ["base", "geometry", "model"],
-    "mesh": ["base", "geometry", "model"],
-    "element": ["base", "linalg", "geometry", "model", "mesh"],
-    "system": ["base", "linalg", "contact", "geometry", "model", "mesh", "element"],
-    "analysis": ["base", "linalg", "contact", "geometry", "model", "mesh", "element", "system"],
-    "result": ["base", "geometry", "model", "mesh", "element", "analysis"],
+    "files": ["base"],
+    "model": ["base", "geometry", "files"],
+    "input": ["base", "geometry", "files", "model"],
+    "mesh": ["base", "geometry", "files", "model"],
+    "element": ["base", "linalg", "geometry", "files", "model", "mesh"],
+    "system": ["base", "linalg", "contact", "geometry", "files", "model", "mesh", "element"],
+    "analysis": ["base", "linalg", "contact", "geometry", "files", "model", "mesh", "element", "system"],
+    "result": ["base", "geometry", "files", "model", "mesh", "element", "analysis"],
     "compare": ["base", "linalg", "contact"],  # beside src, for comparison
 }
 

@@ -10,6 +10,7 @@
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/element/mass.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "scabo/model/validate.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/natural_modes.hpp"
 #include "scabo/system/structure.hpp"
@@ -65,6 +66,7 @@ ModalResult solve_modal(model::Model model, const Options& options) {
   const auto stage = [&](const std::string& what) {
     if (options.on_stage) options.on_stage(what);
   };
+  model::require_valid(model);
   ModalResult result;
   StaticSolution& structure = result.structure;
   structure.model = std::move(model);

@@ -16,6 +16,7 @@
 #include "scabo/contact/uniqueness.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/mesh/output_points.hpp"
+#include "scabo/model/validate.hpp"
 
 namespace scabo::analysis {
 
@@ -219,6 +220,7 @@ double force_scale(const system::Structure& structure) {
 }  // namespace
 
 mesh::Mesh check(const model::Model& model) {
+  model::require_valid(model);
   if (model.analysis.type == model::AnalysisType::modal) {  // bodies may be free and do not interact
     model::Model apart = model;
     apart.contacts.clear();

@@ -166,7 +166,7 @@ struct Options {
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };
 
-/// Meshes the model and checks, without solving anything, that every body is held (not required for a modal analysis)
+/// Validates the model (model/validate.hpp), meshes it and checks, without solving anything, that every body is held (not required for a modal analysis)
 /// and that every output point lies in a body. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 

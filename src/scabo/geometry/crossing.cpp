@@ -2,49 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 
 namespace scabo::geometry {
 
 namespace {
-
-struct Box {
-  Vec2 low, high;
-};
-
-Box box_of(const Edge& edge) {
-  Box box{edge.start.cwiseMin(edge.end), edge.start.cwiseMax(edge.end)};
-  if (!edge.arc) return box;
-  const Arc& arc = *edge.arc;
-  const double first = std::min(arc.start_angle, arc.start_angle + arc.sweep);
-  const double last = std::max(arc.start_angle, arc.start_angle + arc.sweep);
-  const double quarter = std::numbers::pi / 2.0;
-  for (double k = std::ceil(first / quarter); k * quarter <= last; k += 1.0) {
-    const Vec2 extreme = arc.centre + arc.radius * Vec2(std::cos(k * quarter), std::sin(k * quarter));
-    box.low = box.low.cwiseMin(extreme);
-    box.high = box.high.cwiseMax(extreme);
-  }
-  return box;
-}
-
-/// The point of the edge closest to `point`.
-Vec2 closest_on(const Edge& edge, const Vec2& point) {
-  if (!edge.arc) {
-    const Vec2 along = edge.end - edge.start;
-    const double t = (point - edge.start).dot(along) / along.squaredNorm();
-    return edge.at(std::clamp(t, 0.0, 1.0));
-  }
-  const Arc& arc = *edge.arc;
-  const Vec2 ray = point - arc.centre;
-  double turn = std::atan2(ray.y(), ray.x()) - arc.start_angle;
-  const double full = 2.0 * std::numbers::pi;
-  turn = arc.sweep > 0.0 ? turn - full * std::floor(turn / full) : turn - full * std::ceil(turn / full);
-  if (std::abs(turn) <= std::abs(arc.sweep)) return edge.at(turn / arc.sweep);
-  return (point - edge.start).norm() <= (point - edge.end).norm() ? edge.start : edge.end;
-}
 
 /// Up to four points that the curves of two edges may share: intersections of their full lines and circles, without
 /// regard to the ends.
@@ -134,7 +100,7 @@ std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double
     if (b_follows && (point - a.end).norm() <= near_corner) continue;
     if (a_follows && (point - b.end).norm() <= near_corner) continue;
     const double tolerance = 1e-9 * size;
-    if ((closest_on(a, point) - point).norm() <= tolerance && (closest_on(b, point) - point).norm() <= tolerance) {
+    if ((closest_point(a, point) - point).norm() <= tolerance && (closest_point(b, point) - point).norm() <= tolerance) {
       return Crossing{Crossing::Kind::cross, i, j, point};
     }
   }
@@ -142,17 +108,6 @@ std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double
 }
 
 }  // namespace
-
-double outline_size(const Outline& outline) {
-  if (outline.edges.empty()) return 0.0;
-  Box all = box_of(outline.edges.front());
-  for (const Edge& edge : outline.edges) {
-    const Box box = box_of(edge);
-    all.low = all.low.cwiseMin(box.low);
-    all.high = all.high.cwiseMax(box.high);
-  }
-  return (all.high - all.low).norm();
-}
 
 std::optional<Crossing> find_crossing(const Outline& outline) {
   const double size = outline_size(outline);

@@ -1,5 +1,5 @@
-// Exact geometry of an outline: foot of the perpendicular from a point to a line or arc, outward normals, and whether a
-// point is enclosed.
+// Exact geometry of an outline: foot of the perpendicular from a point to a line or arc, outward normals, and which
+// point of it is closest, and whether it encloses a point.
 #pragma once
 
 #include <optional>
@@ -19,10 +19,22 @@ struct Foot {
 /// Empty only for the centre of an arc, where the foot is not unique.
 std::optional<Foot> foot_on(const Edge& edge, const Vec2& point);
 
-/// Distance of a point from a line or arc between its ends.
-double distance_to(const Edge& edge, const Vec2& point);
+/// Position along an edge, from 0 to 1, of its point closest to `point`.
+double closest_position(const Edge& edge, const Vec2& point);
+/// The point of the edge closest to `point`.
+Vec2 closest_point(const Edge& edge, const Vec2& point);
 
-/// Whether the outline encloses the point, with arcs treated exactly.
+/// Distance from `point` to an edge.
+double distance_to(const Edge& edge, const Vec2& point);
+/// Smallest distance from `point` to the edges; the largest double without edges.
+double distance_to(const Outline& outline, const Vec2& point);
+
+/// Number of times that the boundary runs counter-clockwise around a point, with arcs treated exactly: 1 inside an
+/// outline that runs counter-clockwise, -1 inside one that runs clockwise, 0 outside. The edges may form several closed
+/// loops: in a hole that runs clockwise the sum is 0. A point on the boundary belongs to one of its sides.
+int winding_number(const Outline& outline, const Vec2& point);
+
+/// Whether the outline encloses the point: the winding number is not 0.
 bool encloses(const Outline& outline, const Vec2& point);
 
 }  // namespace scabo::geometry

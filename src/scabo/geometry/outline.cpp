@@ -1,6 +1,7 @@
 // Geometry of outlines: points, lengths, area and centroid, arcs included exactly.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scabo/geometry/outline.hpp"
 
@@ -16,10 +17,25 @@ Vec2 Edge::at(double t) const {
   return arc->centre + radius * Vec2(std::cos(angle), std::sin(angle));
 }
 
+namespace {
+
+/// First edge and last + 1 of the chain of an edge.
+std::pair<int, int> chain_of(const Outline& outline, int edge) {
+  const auto after = std::upper_bound(outline.holes.begin(), outline.holes.end(), edge);
+  return {after == outline.holes.begin() ? 0 : *(after - 1),
+          after == outline.holes.end() ? static_cast<int>(outline.edges.size()) : *after};
+}
+
+}  // namespace
+
 int Outline::next(int edge) const {
-  int first = 0, end = static_cast<int>(edges.size());
-  for (const int hole : holes) (hole <= edge ? first : end) = hole <= edge ? hole : std::min(end, hole);
+  const auto [first, end] = chain_of(*this, edge);
   return edge + 1 == end ? first : edge + 1;
+}
+
+int Outline::previous(int edge) const {
+  const auto [first, end] = chain_of(*this, edge);
+  return edge == first ? end - 1 : edge - 1;
 }
 
 double Edge::length() const { return arc ? arc->radius * std::abs(arc->sweep) : (end - start).norm(); }
@@ -72,6 +88,24 @@ Vec2 Outline::centroid() const {
     }
   }
   return origin + sixfold / (3.0 * twice);
+}
+
+void turn_round(Outline& outline) {
+  const std::size_t n = outline.edges.size();
+  // Edge i, from corner i to i + 1, becomes number n - 1 - i and then starts at corner i + 1.
+  Outline turned;
+  for (std::size_t k = 0; k < n; ++k) {
+    Edge edge = outline.edges[n - 1 - k];
+    std::swap(edge.start, edge.end);
+    if (edge.arc) {
+      edge.arc->start_angle += edge.arc->sweep;
+      edge.arc->sweep = -edge.arc->sweep;
+    }
+    turned.edges.push_back(std::move(edge));
+    turned.corners.push_back(outline.corners[(n - k) % n]);
+  }
+  turned.rectangle = outline.rectangle;
+  outline = std::move(turned);
 }
 
 }  // namespace scabo::geometry

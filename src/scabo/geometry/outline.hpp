@@ -25,6 +25,7 @@ struct Edge {
   Vec2 start = Vec2::Zero();
   Vec2 end = Vec2::Zero();
   std::optional<Arc> arc;  ///< empty for a straight line
+  std::vector<Vec2> points;  ///< between start and end, of a chain of straight lines; empty otherwise
   Source source;
 
   Vec2 at(double t) const;  ///< point at 0 <= t <= 1 of the edge's length
@@ -45,10 +46,14 @@ struct Outline {
   std::vector<int> holes;  ///< index of the first edge of every hole, ascending
   bool rectangle = false;  ///< given as `rectangle`, which `fem` meshes require
 
-  int next(int edge) const;  ///< the edge that starts where `edge` ends
+  int next(int edge) const;      ///< the edge that starts where `edge` ends
+  int previous(int edge) const;  ///< the edge that ends where `edge` starts
 
   double area() const;    ///< arcs included exactly
   Vec2 centroid() const;  ///< arcs included exactly
 };
+
+/// Reverses the direction of an outline without holes; every edge and corner keeps its names.
+void turn_round(Outline& outline);
 
 }  // namespace scabo::geometry

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "scabo/geometry/box.hpp"
 #include "scabo/geometry/outline.hpp"
 
 namespace scabo::geometry {
@@ -20,15 +21,9 @@ struct Crossing {
   Vec2 point = Vec2::Zero();
 };
 
-/// Diagonal of the bounding box of the outline.
-double outline_size(const Outline& outline);
-
 /// The first crossing of the closed outline with itself, if there is one. A sweep along x or y compares the bounding
 /// box of an edge only with those that it overlaps in that direction.
 std::optional<Crossing> find_crossing(const Outline& outline);
-
-/// Whether `point` is inside the outline, with arcs approximated by chains of lines.
-bool is_inside(const Outline& outline, const Vec2& point);
 
 /// Edges that are not entirely visible from `centre`. An edge is visible when the tangent at each of its points passes
 /// the centre on its left at a distance of more than 1e-6 of the size of the body. For a straight edge this is the

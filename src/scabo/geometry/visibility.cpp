@@ -38,15 +38,6 @@ double least_tangent_distance(const Edge& edge, const Vec2& centre) {
   return least;
 }
 
-/// Points of the boundary: the corners, and `pieces` - 1 more on each arc.
-std::vector<Vec2> chain(const Outline& outline, int pieces) {
-  std::vector<Vec2> points;
-  for (const Edge& edge : outline.edges) {
-    for (int k = 0; k < (edge.arc ? pieces : 1); ++k) points.push_back(edge.at(double(k) / pieces));
-  }
-  return points;
-}
-
 /// The part of a convex polygon on the left of the line through `point` along the unit vector `along`, at a
 /// distance of at least `least`.
 std::vector<Vec2> clip(const std::vector<Vec2>& polygon, const Vec2& point, const Vec2& along, double least) {
@@ -96,20 +87,6 @@ Vec2 rounded(const Vec2& point, double unit) {
 }
 
 }  // namespace
-
-bool is_inside(const Outline& outline, const Vec2& point) {
-  const std::vector<Vec2> points = chain(outline, 64);
-  bool inside = false;
-  for (std::size_t i = 0, j = points.size() - 1; i < points.size(); j = i++) {
-    const Vec2& a = points[i];
-    const Vec2& b = points[j];
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
 
 std::vector<int> unseen_edges(const Outline& outline, const Vec2& centre) {
   const double least = margin * outline_size(outline);

@@ -109,6 +109,4 @@ std::variant<double, std::string> parse_number(std::string_view text) {
   return value == 0.0 ? 0.0 : value;  // no -0
 }
 
-std::string number_text(double value) { return fmt::format("{}", value); }
-
 }  // namespace scabo::input

@@ -12,7 +12,4 @@ namespace scabo::input {
 /// refused: no length, force or stiffness has them, and their squares would overflow.
 std::variant<double, std::string> parse_number(std::string_view text);
 
-/// The shortest text that reads back as the same number: `3`, `0.3`, `1e-9`.
-std::string number_text(double value);
-
 }  // namespace scabo::input

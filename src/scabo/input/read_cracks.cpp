@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 
@@ -22,23 +21,10 @@ struct OnEdge {
   double at = 0.0;
 };
 
-/// Position, as a fraction of the length of the edge, of its point closest to `x`.
-double closest_fraction(const Edge& edge, const Vec2& x) {
-  if (!edge.arc) {
-    const Vec2 along = edge.end - edge.start;
-    return std::clamp((x - edge.start).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  }
-  const Vec2 from = edge.start - edge.arc->centre, to = x - edge.arc->centre;
-  double turn = std::atan2(cross(from, to), from.dot(to)) / edge.arc->sweep;
-  const double full = 2.0 * std::numbers::pi / std::abs(edge.arc->sweep);
-  if (turn < -1e-9) turn += full;
-  return std::clamp(turn, 0.0, 1.0);
-}
-
 std::optional<OnEdge> find_on_outline(const Outline& outline, const Vec2& x) {
   const double size = outline_size(outline);
   for (std::size_t e = 0; e < outline.edges.size(); ++e) {
-    const double at = closest_fraction(outline.edges[e], x);
+    const double at = closest_position(outline.edges[e], x);
     if ((outline.edges[e].at(at) - x).norm() <= 1e-9 * size) return OnEdge{static_cast<int>(e), at};
   }
   return {};
@@ -82,34 +68,27 @@ std::optional<OnEdge> read_mouth(Reading& reading, const Value& value, const Bod
                from_end = (edge.end - *point).norm();
   if (from_start <= 1e-9 * size) return OnEdge{found->edge, 0.0};
   if (from_end <= 1e-9 * size) return OnEdge{(found->edge + 1) % count, 0.0};
-  if (std::min(from_start, from_end) < 1e-6 * size) {
-    reading.report.error(
-        value,
-        fmt::format("{} is close to a corner of '{}' but not on it: place the mouth on the corner, or farther from it",
-                    point_text(*point), body.name));
-    return {};
-  }
   return found;
 }
 
-std::optional<Crack> read_crack(Reading& reading, const Value& value, const Body& body) {
-  const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"tip", "mouth", "name"}, crack_example,
-                      {{"kink", "cracks are straight; divide the body at the kink"}});
+/// A crack without tip and mouth, which could not be read.
+Crack unread_crack(const Value& value) {
   Crack crack;
   crack.source = value.source();
   crack.name = "crack";
+  crack.tip = crack.mouth = Vec2::Constant(unread);
+  return crack;
+}
+
+Crack read_crack(Reading& reading, const Value& value, const Body& body) {
+  const MapReader map(reading.report, value, {"tip", "mouth", "name"}, crack_example,
+                      {{"kink", "cracks are straight; divide the body at the kink"}});
+  Crack crack = unread_crack(value);
   if (const auto name = map.get("name")) {
     const auto text = read_text(reading.report, *name);
     if (text && check_name(reading.report, name->source(), *text)) crack.name = *text;
   }
-  if (const auto tip = map.need("tip")) {
-    const auto point = read_vector(reading.report, *tip);
-    if (point) crack.tip = *point;
-    if (point && !is_inside(body.outline, *point))
-      reading.report.error(
-          *tip, fmt::format("the tip {} is not inside body '{}': move the tip", point_text(*point), body.name));
-  }
+  if (const auto tip = map.need("tip")) crack.tip = read_vector(reading.report, *tip).value_or(crack.tip);
   if (const auto mouth = map.need("mouth")) {
     if (const auto at = read_mouth(reading, *mouth, body)) {
       crack.edge = at->edge;
@@ -117,32 +96,16 @@ std::optional<Crack> read_crack(Reading& reading, const Value& value, const Body
       crack.mouth = body.outline.edges[static_cast<std::size_t>(at->edge)].at(at->at);
     }
   }
-  for (const Edge& edge : body.outline.edges)
-    if (std::find(edge.names.begin(), edge.names.end(), crack.name) != edge.names.end())
-      reading.report.error(
-          value, fmt::format("an edge of '{}' is also named '{}': give the crack another name", body.name, crack.name));
-  for (const Corner& corner : body.outline.corners)
-    if (std::find(corner.names.begin(), corner.names.end(), crack.name) != corner.names.end())
-      reading.report.error(value, fmt::format("a corner of '{}' is also named '{}': give the crack another name",
-                                              body.name, crack.name));
-  if (reading.report.count() > before) return {};
   return crack;
 }
 
 }  // namespace
 
-std::optional<std::vector<Crack>> read_cracks(Reading& reading, const Value& value, const Body& body) {
-  const std::size_t before = reading.report.count();
+std::vector<Crack> read_cracks(Reading& reading, const Value& value, const Body& body) {
   const auto items = read_list(reading.report, value, fmt::format("[{}]", crack_example));
-  if (!items) return {};
-  if (items->size() > 1) {
-    reading.report.error((*items)[1], "a body may have only one crack in this version: divide it into several bodies");
-    return {};
-  }
+  if (!items) return {unread_crack(value)};
   std::vector<Crack> cracks;
-  for (const Value& item : *items)
-    if (auto crack = read_crack(reading, item, body)) cracks.push_back(std::move(*crack));
-  if (reading.report.count() > before) return {};
+  for (const Value& item : *items) cracks.push_back(read_crack(reading, item, body));
   return cracks;
 }
 

@@ -13,7 +13,6 @@ namespace scabo::input {
 namespace {
 
 constexpr std::size_t most_points = 10;
-constexpr double highest_power = 100.0;
 
 /// A traction `[tx, ty]`, or a pressure.
 std::optional<Vec2> read_value(Reading& reading, const Value& value, bool pressure) {
@@ -39,19 +38,6 @@ std::optional<std::vector<FaceTraction::Term>> read_powers(Reading& reading, con
       return {};
     }
     FaceTraction::Term term{std::get<double>(power), Vec2::Zero()};
-    if (!(term.power > -1.0 && term.power <= highest_power)) {
-      reading.report.error(
-          key,
-          fmt::format(
-              "a power of xi must be greater than -1 (otherwise the total force is infinite) and at most {}, not {}",
-              highest_power, entry.key));
-      return {};
-    }
-    if (std::any_of(terms.begin(), terms.end(), [&](const auto& other) { return other.power == term.power; })) {
-      reading.report.error(key,
-                           fmt::format("the power {} is given twice: remove one of the two", number_text(term.power)));
-      return {};
-    }
     const auto read = read_value(reading, item, pressure);
     if (!read) return {};
     term.value = *read;

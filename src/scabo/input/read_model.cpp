@@ -1,19 +1,14 @@
-// Reading of a model file: text, tree, sections, checks of the whole model.
+// Reading of a model file: text, tree, sections, validation.
 #include "scabo/input/read_model.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "scabo/geometry/outline_checks.hpp"
 #include "scabo/input/overrides.hpp"
 #include "scabo/input/reading.hpp"
 
 namespace scabo::input {
-
-namespace {
-constexpr long most_modes = 1000;
-}
 
 void read_analysis(Reading& reading, const Value& value) {
   const MapReader map(reading.report, value, {"type", "plane", "thickness", "modes"},
@@ -30,7 +25,7 @@ void read_analysis(Reading& reading, const Value& value) {
   }
   if (const auto modes = map.get("modes")) {
     if (analysis.type == AnalysisType::modal || !type_known) {
-      analysis.modes = static_cast<int>(read_integer(reading.report, *modes, 1, most_modes).value_or(10));
+      analysis.modes = static_cast<int>(read_integer(reading.report, *modes, limits::modes).value_or(10));
     } else {
       map.refuse("modes", "belongs to a modal analysis: write type: modal, or leave it out");
     }
@@ -41,7 +36,7 @@ void read_analysis(Reading& reading, const Value& value) {
     if (choice && *choice == "strain") reading.model.analysis.plane = Plane::strain;
   }
   if (const auto thickness = map.get("thickness")) {
-    reading.model.analysis.thickness = read_positive(reading.report, *thickness).value_or(1.0);
+    reading.model.analysis.thickness = read_number(reading.report, *thickness).value_or(1.0);
   }
 }
 
@@ -49,19 +44,13 @@ void read_solver(Reading& reading, const Value& value) {
   const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings", "uniqueness"},
                       "{tolerance: 1e-10}");
   SolverOptions& solver = reading.model.solver;
-  if (const auto tolerance = map.get("tolerance")) {
-    const auto number = read_number(reading.report, *tolerance);
-    if (number && *number >= 1e-14 && *number <= 1e-3) {
-      solver.tolerance = *number;
-    } else if (number) {
-      reading.report.error(*tolerance, fmt::format("must be from 1e-14 to 1e-3, not {}", tolerance->node->text));
-    }
-  }
+  if (const auto tolerance = map.get("tolerance"))
+    solver.tolerance = read_number(reading.report, *tolerance).value_or(solver.tolerance);
   if (const auto iterations = map.get("iterations")) {
-    solver.iterations = static_cast<int>(read_integer(reading.report, *iterations, 1, 10'000).value_or(50));
+    solver.iterations = static_cast<int>(read_integer(reading.report, *iterations, limits::iterations).value_or(50));
   }
   if (const auto halvings = map.get("halvings")) {
-    solver.halvings = static_cast<int>(read_integer(reading.report, *halvings, 0, 30).value_or(6));
+    solver.halvings = static_cast<int>(read_integer(reading.report, *halvings, limits::halvings).value_or(6));
   }
   if (const auto uniqueness = map.get("uniqueness"))
     solver.uniqueness = read_flag(reading.report, *uniqueness).value_or(false);
@@ -90,7 +79,10 @@ void read_sections(Reading& reading, const Value& root) {
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "steps",
                        "solver", "output"},
                       "'scabo: 1' and sections");
-  if (!map.is_map()) return;
+  if (!map.is_map()) {
+    reading.bodies_known = false;
+    return;
+  }
   check_version(reading, map);
   if (const auto title = map.get("title")) reading.model.title = read_text(reading.report, *title).value_or("");
   if (const auto analysis = map.get("analysis")) read_analysis(reading, *analysis);
@@ -149,60 +141,22 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
                       support.name));
 }
 
-/// Edges that coincide everywhere have neither gap nor interference.
-bool coincide(const Edge& a, const Edge& b, double tolerance) {
-  return (a.start - b.end).norm() <= tolerance && (a.end - b.start).norm() <= tolerance &&
-         (a.at(0.5) - b.at(0.5)).norm() <= tolerance;
-}
-
-/// Whether a contact alone may press its bodies together.
-bool may_interfere(const Reading& reading, const Contact& contact) {
-  if (contact.gap < 0.0) return true;
-  const Outline& a = reading.body(contact.a.body).outline;
-  const Outline& b = reading.body(contact.b.body).outline;
-  const double tolerance = 1e-9 * std::max(outline_size(a), outline_size(b));
-  return !coincide(a.edges[static_cast<std::size_t>(contact.a.index)],
-                   b.edges[static_cast<std::size_t>(contact.b.index)], tolerance);
+/// What validate cannot judge, because it could not be read.
+Gaps gaps_of(const Reading& reading) {
+  Gaps gaps;
+  gaps.materials = !reading.materials_known;
+  gaps.bodies = !reading.bodies_known || !reading.rigid_known;
+  gaps.places = !reading.places_known;
+  gaps.conditions = !reading.conditions_known;
+  gaps.steps = !reading.steps_known;
+  for (const BodyState& state : reading.bodies) {
+    gaps.held.push_back(state.held);
+    gaps.touched.push_back(state.touched);
+  }
+  return gaps;
 }
 
 }  // namespace
-
-void check_something_loads(Reading& reading, const Value& root) {
-  const Model& model = reading.model;
-  if (!reading.conditions_known || !model.loads.empty() || model.bodies.empty()) return;
-  for (const Support& support : model.supports) {
-    for (const auto& displacement : support.displacement) {
-      if (displacement.value_or(0.0) != 0.0) return;
-    }
-  }
-  for (const Contact& contact : model.contacts) {
-    if (may_interfere(reading, contact)) return;
-  }
-  Source at = root.source();
-  at.path = "loads";
-  if (const MapEntry* loads = root.node->find("loads"); loads != nullptr && loads->line > 0) {
-    at = {loads->line, loads->column, "loads"};
-  }
-  reading.report.error(at, "the model has no loading: give a load, a prescribed displacement or an interference fit");
-}
-
-void check_bodies_held(Reading& reading) {
-  if (!reading.places_known) return;
-  for (std::size_t i = 0; i < reading.bodies.size(); ++i) {
-    const Body& body = reading.model.bodies[i];
-    const BodyState& state = reading.bodies[i];
-    if (body.rigid && !state.touched) {
-      reading.report.error(
-          body.source,
-          fmt::format("rigid body '{}' is in no contact and has no effect: add a contact, or remove the body",
-                      body.name));
-    } else if (!state.held && !state.touched) {
-      reading.report.error(
-          body.source,
-          fmt::format("body '{}' is insufficiently supported: it has no support and no contact", body.name));
-    }
-  }
-}
 
 Model parse_model(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
   Reading reading;
@@ -216,17 +170,7 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
 
   const Value whole{root, ""};
   read_sections(reading, whole);
-  check_density(reading);
-  check_expansion(reading);
-  const bool modal = reading.model.analysis.type == AnalysisType::modal;
-  if (!modal) {
-    check_bodies_held(reading);
-    check_something_loads(reading, whole);
-  }
-  if (reading.steps_known) {
-    if (!modal) check_never_applied(reading);
-    check_conflicting_supports(reading);
-  }
+  reading.report.add(whole, validate(reading.model, gaps_of(reading)));
   tell_what_has_no_effect(reading, whole);
   reading.report.throw_if_any(file);
   return std::move(reading.model);

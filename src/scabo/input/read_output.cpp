@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
@@ -10,9 +9,6 @@
 namespace scabo::input {
 
 namespace {
-
-constexpr long most_points = 1'000'000;
-constexpr long largest_every = 100'000;  // the largest number of increments of a step
 
 constexpr const char* output_example = "{points: [[1, 0.5]], grid: {spacing: 0.1}}";
 constexpr const char* point_example = "[1, 0.5] or {at: [1, 0.5], name: crest}";
@@ -36,26 +32,18 @@ std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
   return {};
 }
 
-/// `name`, or `what_3`; names must be unique.
-std::string read_name_of(Reading& reading, const MapReader& map, const char* what, std::size_t number,
-                         std::set<std::string>& names) {
-  std::string name = fmt::format("{}_{}", what, number);
-  const auto value = map.get("name");
-  if (value) {
+/// `name`, or `what_3`.
+std::string read_name_of(Reading& reading, const MapReader& map, const char* what, std::size_t number) {
+  if (const auto value = map.get("name")) {
     const auto text = read_text(reading.report, *value);
-    if (!text || !check_name(reading.report, value->source(), *text)) return name;
-    name = *text;
+    if (text && check_name(reading.report, value->source(), *text)) return *text;
   }
-  if (!names.insert(name).second)
-    reading.report.error(value ? value->source() : map.map().source(),
-                         fmt::format("another {} is already named '{}': rename one of them", what, name));
-  return name;
+  return fmt::format("{}_{}", what, number);
 }
 
 void read_points(Reading& reading, const Value& value) {
   const auto items = read_list(reading.report, value, fmt::format("[{}]", point_example));
   if (!items) return;
-  std::set<std::string> names;
   for (std::size_t i = 0; i < items->size(); ++i) {
     const Value& item = (*items)[i];
     const std::size_t before = reading.report.count();
@@ -63,13 +51,12 @@ void read_points(Reading& reading, const Value& value) {
     point.source = item.source();
     if (item.node->kind == Node::Kind::sequence) {
       point.name = fmt::format("point_{}", i + 1);
-      names.insert(point.name);
       point.at = read_vector(reading.report, item).value_or(Vec2::Zero());
     } else {
       const MapReader map(reading.report, item, {"at", "name", "body"}, point_example);
       if (!map.is_map()) continue;
       if (const auto at = map.need("at")) point.at = read_vector(reading.report, *at).value_or(Vec2::Zero());
-      point.name = read_name_of(reading, map, "point", i + 1, names);
+      point.name = read_name_of(reading, map, "point", i + 1);
       const auto body = read_body_of(reading, map);
       if (!body) continue;
       point.body = *body;
@@ -81,7 +68,6 @@ void read_points(Reading& reading, const Value& value) {
 void read_lines(Reading& reading, const Value& value) {
   const auto items = read_list(reading.report, value, fmt::format("[{}]", line_example));
   if (!items) return;
-  std::set<std::string> names;
   for (std::size_t i = 0; i < items->size(); ++i) {
     const Value& item = (*items)[i];
     const std::size_t before = reading.report.count();
@@ -92,15 +78,11 @@ void read_lines(Reading& reading, const Value& value) {
     if (const auto from = map.need("from")) line.from = read_vector(reading.report, *from).value_or(Vec2::Zero());
     if (const auto to = map.need("to")) line.to = read_vector(reading.report, *to).value_or(Vec2::Zero());
     if (const auto points = map.get("points"))
-      line.points = static_cast<int>(read_integer(reading.report, *points, 2, most_points).value_or(101));
-    line.name = read_name_of(reading, map, "line", i + 1, names);
+      line.points = static_cast<int>(read_integer(reading.report, *points, limits::line_points).value_or(101));
+    line.name = read_name_of(reading, map, "line", i + 1);
     const auto body = read_body_of(reading, map);
     if (!body || reading.report.count() > before) continue;
     line.body = *body;
-    if (line.from == line.to) {
-      reading.report.error(item, "the line ends where it starts: give two different points, or use 'points'");
-      continue;
-    }
     reading.model.output.lines.push_back(std::move(line));
   }
 }
@@ -115,15 +97,9 @@ void read_range(Reading& reading, const Value& value, double& first, double& las
   }
   const auto low = read_number(reading.report, (*items)[0]);
   const auto high = read_number(reading.report, (*items)[1]);
-  const auto points = read_integer(reading.report, (*items)[2], 1, most_points);
+  const auto points = read_integer(reading.report, (*items)[2], limits::grid_points);
   if (!low || !high || !points) return;
   first = *low, last = *high, count = static_cast<int>(*points);
-  if (count > 1 && first == last)
-    reading.report.error(value,
-                         fmt::format("the {} points coincide: give different first and last coordinates", count));
-  if (count == 1 && first != last)
-    reading.report.error((*items)[2],
-                         "a single point cannot have different first and last coordinates: give 2 points or more");
 }
 
 void read_grid(Reading& reading, const Value& value) {
@@ -134,7 +110,7 @@ void read_grid(Reading& reading, const Value& value) {
   OutputGrid grid;
   grid.source = value.source();
   if (const auto spacing = map.get("spacing")) {
-    grid.spacing = read_positive(report, *spacing);
+    grid.spacing = read_number(report, *spacing);
     for (const char* key : {"x", "y"})
       map.refuse(key, "'spacing' already determines the points: remove one of the two");
   } else {
@@ -148,11 +124,6 @@ void read_grid(Reading& reading, const Value& value) {
   const auto body = read_body_of(reading, map);
   if (!body || report.count() > before) return;
   grid.body = *body;
-  if (static_cast<double>(grid.counts[0]) * grid.counts[1] > most_points) {
-    report.error(value, fmt::format("has {} x {} points, more than the {} allowed", grid.counts[0], grid.counts[1],
-                                    most_points));
-    return;
-  }
   reading.model.output.grid = grid;
 }
 
@@ -192,7 +163,7 @@ void read_output(Reading& reading, const Value& value) {
   if (const auto grid = map.get("grid")) read_grid(reading, *grid);
   if (const auto fields = map.get("fields")) read_fields(reading, *fields);
   if (const auto every = map.get("every"))
-    reading.model.output.every = static_cast<int>(read_integer(reading.report, *every, 1, largest_every).value_or(1));
+    reading.model.output.every = static_cast<int>(read_integer(reading.report, *every, limits::every).value_or(1));
   if (const auto error = map.get("error"))
     reading.model.output.error = read_flag(reading.report, *error).value_or(false);
   if (const auto problems = map.get("discrete_problems"))

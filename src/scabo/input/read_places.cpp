@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "scabo/geometry/outline_checks.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 
@@ -83,21 +82,6 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
   }
   for (std::size_t i = 0; i < outline.corners.size(); ++i) {
     if (has_name(outline.corners[i].names, part)) {
-      if (static_cast<int>(i) == reading.body(body).mesh.centre_corner) {
-        reading.report.error(
-            value,
-            fmt::format("'{}' is the scaling centre, which has no node: no load or support can act there", text));
-        return result;
-      }
-      for (const Crack& crack : reading.body(body).cracks)
-        if (crack.at == 0.0 && crack.edge == static_cast<int>(i)) {
-          reading.report.error(
-              value,
-              fmt::format("'{0}' is the mouth of crack '{1}', where there are two nodes: write {2}.{1}.mouth_left "
-                          "or {2}.{1}.mouth_right",
-                          text, crack.name, reading.body(body).name));
-          return result;
-        }
       result.place = Place{Place::Kind::corner, body, static_cast<int>(i), Vec2::Zero(), text, value.source()};
       return result;
     }
@@ -119,21 +103,6 @@ ReadPlace read_near(Reading& reading, const Value& value) {
   if (!body) return {};
   ReadPlace result{{}, *body};
   if (!near || !reading.state(*body).shape) return result;
-  if (reading.body(*body).rigid) {
-    reading.report.error(*near_value,
-                         "a rigid body has no nodes, so that 'near' does not apply: name a corner or the body");
-    return result;
-  }
-  const Outline& outline = reading.body(*body).outline;
-  double distance = (outline.edges.front().start - *near).norm();
-  for (const Edge& edge : outline.edges) distance = std::min(distance, (edge.at(0.5) - *near).norm());
-  if (distance > 2.0 * outline_size(outline)) {
-    reading.report.error(
-        *near_value,
-        fmt::format("{} is not near '{}': its distance is greater than the size of the body; check the coordinates",
-                    point_text(*near), *name));
-    return result;
-  }
   const std::string text = fmt::format("{} near {}", *name, point_text(*near));
   result.place = Place{Place::Kind::near, *body, -1, *near, text, value.source()};
   return result;

@@ -1,4 +1,4 @@
-// `shape` of a body -> a closed outline, counter-clockwise.
+// `shape` of a body -> an outline, counter-clockwise if it is closed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "scabo/input/numbers.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
@@ -15,7 +14,7 @@ namespace scabo::input {
 
 namespace {
 
-constexpr std::size_t most_edges = 20'000;
+constexpr auto most_edges = static_cast<std::size_t>(limits::edges);
 
 constexpr const char* shape_example = "{rectangle: {corner: [0, 0], size: [6, 1.5]}}";
 constexpr const char* piece_example = "{line: {from: [0, 0], to: [1, 0]}, name: bottom}";
@@ -41,84 +40,9 @@ void number_names(Outline& outline) {
   }
 }
 
-}  // namespace
-
-void turn_round(Outline& outline) {
-  const std::size_t n = outline.edges.size();
-  // Edge i, from corner i to i + 1, becomes number n - 1 - i and then starts at corner i + 1.
-  Outline turned;
-  for (std::size_t k = 0; k < n; ++k) {
-    Edge edge = outline.edges[n - 1 - k];
-    std::swap(edge.start, edge.end);
-    if (edge.arc) {
-      edge.arc->start_angle += edge.arc->sweep;
-      edge.arc->sweep = -edge.arc->sweep;
-    }
-    turned.edges.push_back(std::move(edge));
-    turned.corners.push_back(outline.corners[(n - k) % n]);
-  }
-  turned.rectangle = outline.rectangle;
-  outline = std::move(turned);
-}
-
-namespace {
-
-/// Checks the extent of the outline; `at`: position of messages about the outline as a whole.
-bool check_extent(Reading& reading, const Value& at, const Outline& outline) {
-  const double size = outline_size(outline);
-  double farthest = 0.0;
-  for (const Edge& edge : outline.edges) farthest = std::max(farthest, edge.start.cwiseAbs().maxCoeff());
-  if (!(size > 0.0)) {
-    reading.report.error(at, "has no extent: all its points coincide");
-    return false;
-  }
-  if (size < 1e-30 || size > 1e30) {
-    reading.report.error(
-        at,
-        fmt::format("has a size of {:.2g}, but sizes must be from 1e-30 to 1e30: use another unit of length", size));
-    return false;
-  }
-  if (farthest > 1e10 * size) {
-    reading.report.error(at, fmt::format("lies {:.1e} times its own size away from the origin, so that its coordinates "
-                                         "lose precision: move the origin closer",
-                                         farthest / size));
-    return false;
-  }
-  for (const Edge& edge : outline.edges) {
-    if (edge.length() > 1e-9 * size) continue;
-    reading.report.error(edge.source,
-                         fmt::format("{} has no length because both its ends are at {}: remove it, or move one end",
-                                     shown_name(edge), point_text(edge.start)));
-    return false;
-  }
-  return true;
-}
-
-/// Checks that the outline is simple and has an area, and makes it counter-clockwise.
-bool finish_outline(Reading& reading, const Value& at, Outline& outline) {
-  if (!check_extent(reading, at, outline)) return false;
-  const double size = outline_size(outline);
-  const double area = outline.area();
-  if (std::abs(area) <= 1e-12 * size * size && outline.edges.size() < 4) {
-    reading.report.error(at, "has no area because its points lie on one line: move some of them");
-    return false;
-  }
-  if (const auto crossing = find_crossing(outline)) {
-    const Edge& first = outline.edges[static_cast<std::size_t>(crossing->first)];
-    const Edge& second = outline.edges[static_cast<std::size_t>(crossing->second)];
-    const bool folds = crossing->kind == Crossing::Kind::fold_back;
-    reading.report.error(at,
-                         fmt::format("{} and {} {} {}: the outline must not {}", shown_name(first), shown_name(second),
-                                     folds ? "overlap, beginning at" : "meet at", point_text(crossing->point),
-                                     folds ? "fold back on itself" : "cross or touch itself"));
-    return false;
-  }
-  if (std::abs(area) <= 1e-12 * size * size) {
-    reading.report.error(at, "has no area because its points lie on one line: move some of them");
-    return false;
-  }
-  if (area < 0.0) turn_round(outline);
-  return true;
+/// Makes a closed outline run counter-clockwise. One that crosses itself has no direction.
+void turn_counter_clockwise(Outline& outline) {
+  if (outline.area() < 0.0 && !find_crossing(outline)) turn_round(outline);
 }
 
 /// `names: {crest: edge_3}`: additional names for edges and corners.
@@ -176,7 +100,6 @@ std::optional<Outline> read_rectangle(Reading& reading, const Value& value) {
     outline.edges.push_back(edge);
     outline.corners.push_back({{corner_names[i]}, points[i]});
   }
-  if (!finish_outline(reading, value, outline)) return {};
   return outline;
 }
 
@@ -186,7 +109,7 @@ std::optional<Outline> read_circle(Reading& reading, const Value& value) {
   const auto centre_value = map.need("centre");
   const auto radius_value = map.need("radius");
   const auto centre = centre_value ? read_vector(reading.report, *centre_value) : std::nullopt;
-  const auto radius = radius_value ? read_positive(reading.report, *radius_value) : std::nullopt;
+  const auto radius = radius_value ? read_number(reading.report, *radius_value) : std::nullopt;
   if (!centre || !radius) return {};
   Edge edge;
   edge.names = {"rim"};
@@ -196,7 +119,6 @@ std::optional<Outline> read_circle(Reading& reading, const Value& value) {
   Outline outline;
   outline.edges = {edge};
   outline.corners = {{{"rim_start"}, edge.start}};
-  if (!check_extent(reading, value, outline)) return {};
   return outline;
 }
 
@@ -228,7 +150,7 @@ std::optional<Outline> read_polygon(Reading& reading, const Value& value) {
   }
   number_names(outline);
   if (const auto names = map.get("names")) read_names(reading, *names, outline);
-  if (!finish_outline(reading, *vertices_value, outline)) return {};
+  turn_counter_clockwise(outline);
   return outline;
 }
 
@@ -239,7 +161,6 @@ struct Piece {
   Vec2 to = Vec2::Zero();
   bool is_arc = false;
   Vec2 centre = Vec2::Zero();
-  Source centre_source;
   bool counter_clockwise = true;
   std::vector<std::string> names;
 };
@@ -255,7 +176,7 @@ std::optional<Piece> read_piece(Reading& reading, const Value& value) {
     }
     return {};
   }
-  Piece piece{value, {}, Vec2::Zero(), map.has("arc"), Vec2::Zero(), {}, true, {}};
+  Piece piece{value, {}, Vec2::Zero(), map.has("arc"), Vec2::Zero(), true, {}};
   std::vector<std::string> keys{"from", "to"};
   if (piece.is_arc) keys.insert(keys.end(), {"centre", "direction"});
   const MapReader ends(report, *map.get(piece.is_arc ? "arc" : "line"), keys,
@@ -265,7 +186,6 @@ std::optional<Piece> read_piece(Reading& reading, const Value& value) {
   if (piece.is_arc) {
     if (const auto centre = ends.need("centre")) {
       piece.centre = read_vector(report, *centre).value_or(Vec2::Zero());
-      piece.centre_source = centre->source();
     }
     if (const auto direction = ends.get("direction")) {
       const auto choice = read_choice(report, *direction, {"counter_clockwise", "clockwise"});
@@ -280,50 +200,15 @@ std::optional<Piece> read_piece(Reading& reading, const Value& value) {
   return piece;
 }
 
-/// The edge of a piece that starts at `start`; nothing if its arc is invalid.
-std::optional<Edge> make_edge(Reading& reading, const Piece& piece, const Vec2& start, std::size_t number) {
+/// The edge of a piece that starts at `start`.
+Edge make_edge(const Piece& piece, const Vec2& start) {
   Edge edge;
   edge.names = piece.names;
   edge.start = start;
   edge.end = piece.to;
   edge.source = piece.at.source();
-  if (!piece.is_arc) return edge;
-  const double ra = (start - piece.centre).norm();
-  const double rb = (piece.to - piece.centre).norm();
-  const double larger = std::max(ra, rb);
-  if ((piece.to - start).norm() <= 1e-9 * larger) {
-    reading.report.error(piece.at, fmt::format("edge_{} is an arc that ends where it starts: write a full circle "
-                                               "as two arcs",
-                                               number));
-    return {};
-  }
-  if (std::abs(ra - rb) > 1e-6 * larger) {
-    reading.report.error(piece.centre_source,
-                         fmt::format("the ends of an arc must be equally far from its centre: from {} it is {:.9g}, "
-                                     "to {} it is {:.9g}",
-                                     point_text(start), ra, point_text(piece.to), rb));
-    return {};
-  }
-  edge.arc = make_arc(start, piece.to, piece.centre, piece.counter_clockwise);
+  if (piece.is_arc) edge.arc = make_arc(start, piece.to, piece.centre, piece.counter_clockwise);
   return edge;
-}
-
-/// Whether no two edges or corners have the same name; reports the first that do.
-bool check_piece_names(Reading& reading, const Outline& outline) {
-  std::unordered_map<std::string, std::string> owners;
-  for (const Corner& corner : outline.corners) owners.emplace(corner.names.front(), corner.names.front());
-  for (const Edge& edge : outline.edges) owners.emplace(edge.names.front(), edge.names.front());
-  for (const Edge& edge : outline.edges) {
-    for (std::size_t k = 1; k < edge.names.size(); ++k) {
-      const auto [owner, is_new] = owners.emplace(edge.names[k], edge.names.front());
-      if (is_new) continue;
-      Source at = edge.source;
-      at.path += ".name";
-      reading.report.error(at, fmt::format("'{}' already names {}: choose another name", edge.names[k], owner->second));
-      return false;
-    }
-  }
-  return true;
 }
 
 std::optional<Outline> read_outline(Reading& reading, const Value& value, const std::optional<Value>& names) {
@@ -344,32 +229,22 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
   double size = 0.0;
   for (const Piece& piece : pieces) size = std::max(size, (piece.to - pieces.front().to).norm());
   Outline outline;
+  bool closed = true;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Vec2 before = pieces[(i + pieces.size() - 1) % pieces.size()].to;
     const Vec2 start = pieces[i].from.value_or(before);
-    if ((start - before).norm() > 1e-9 * size) {
-      const std::string why = fmt::format("edge_{} starts at {}, but {} ends at {}", i + 1, point_text(start),
-                                          i == 0 ? "the last piece" : "the piece before", point_text(before));
-      reading.report.error(pieces[i].at, why + (i == 0 ? ": the outline is not closed" : ""));
-      return {};
-    }
+    const bool joined = (start - before).norm() <= 1e-9 * size;
+    closed = closed && joined;
     // Exactly the same point, so that neighbouring edges share their corner.
-    const auto edge = make_edge(reading, pieces[i], before, i + 1);
-    if (!edge) return {};
-    outline.edges.push_back(*edge);
+    outline.edges.push_back(make_edge(pieces[i], joined ? before : start));
   }
   number_names(outline);
-  if (!check_piece_names(reading, outline)) return {};
   if (names) read_names(reading, *names, outline);
-  if (!finish_outline(reading, value, outline)) return {};
+  if (closed) turn_counter_clockwise(outline);
   return outline;
 }
 
 }  // namespace
-
-const std::string& shown_name(const Edge& edge) { return edge.names.size() > 1 ? edge.names[1] : edge.names[0]; }
-
-std::string point_text(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
 
 std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
@@ -406,28 +281,6 @@ void prefix_names(Outline& outline, const std::string& name) {
   for (Corner& corner : outline.corners) corner.names.front() = name + "_" + corner.names.front();
 }
 
-/// Whether the shapes of `inner` and the outline of the body are apart from each other, and `outline` is inside.
-bool check_inside(Reading& reading, const Value& at, const std::string& what, const Outline& outer,
-                  const Outline& outline) {
-  Outline both = outer;
-  both.holes.push_back(static_cast<int>(both.edges.size()));
-  both.edges.insert(both.edges.end(), outline.edges.begin(), outline.edges.end());
-  if (const auto crossing = find_crossing(both)) {
-    reading.report.error(
-        at, fmt::format("{} and {} meet at {}: {} must lie inside the body, apart from its boundary and other holes "
-                        "and regions",
-                        shown_name(both.edges[static_cast<std::size_t>(crossing->first)]),
-                        shown_name(both.edges[static_cast<std::size_t>(crossing->second)]),
-                        point_text(crossing->point), what));
-    return false;
-  }
-  if (!is_inside(outer, outline.edges.front().at(0.5))) {
-    reading.report.error(at, fmt::format("{} lies outside of the body: move it inside", what));
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 bool read_holes(Reading& reading, const Value& value, Outline& outline) {
@@ -437,17 +290,16 @@ bool read_holes(Reading& reading, const Value& value, Outline& outline) {
     auto hole = read_shape(reading, entry.value);
     if (!hole) continue;
     prefix_names(*hole, entry.key);
-    if (!check_inside(reading, entry.value, fmt::format("hole '{}'", entry.key), outline, *hole)) continue;
     turn_round(*hole);  // its material is on the left
     outline.holes.push_back(static_cast<int>(outline.edges.size()));
     outline.edges.insert(outline.edges.end(), hole->edges.begin(), hole->edges.end());
     outline.corners.insert(outline.corners.end(), hole->corners.begin(), hole->corners.end());
     outline.rectangle = false;
   }
-  return reading.report.count() == before && check_piece_names(reading, outline);
+  return reading.report.count() == before;
 }
 
-void read_regions(Reading& reading, const Value& value, Body& body, bool shape_known) {
+void read_regions(Reading& reading, const Value& value, Body& body) {
   const char* example = "{inclusion: {material: steel, shape: {circle: {centre: [1, 1], radius: 0.2}}}}";
   for (const Entry& entry : read_named(reading.report, value, "regions", example)) {
     const MapReader map(reading.report, entry.value, {"material", "shape"}, example);
@@ -457,21 +309,11 @@ void read_regions(Reading& reading, const Value& value, Body& body, bool shape_k
     if (const auto material = map.need("material"))
       region.material = read_material_name(reading, *material).value_or(-1);
     const auto shape = map.need("shape");
-    const auto outline = shape ? read_shape(reading, *shape) : std::nullopt;
-    if (!outline || !shape_known) continue;
-    region.outline = *outline;
-    prefix_names(region.outline, entry.key);
-    bool apart = check_inside(reading, *shape, fmt::format("region '{}'", entry.key), body.outline, region.outline);
-    for (const Region& other : body.regions) {
-      Outline both = other.outline;
-      both.holes.push_back(static_cast<int>(both.edges.size()));
-      both.edges.insert(both.edges.end(), region.outline.edges.begin(), region.outline.edges.end());
-      if (!apart || !find_crossing(both)) continue;
-      reading.report.error(*shape, fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart",
-                                               other.name, region.name));
-      apart = false;
+    if (auto outline = shape ? read_shape(reading, *shape) : std::nullopt) {
+      region.outline = std::move(*outline);
+      prefix_names(region.outline, entry.key);
     }
-    if (apart) body.regions.push_back(std::move(region));
+    body.regions.push_back(std::move(region));
   }
 }
 

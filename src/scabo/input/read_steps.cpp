@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
@@ -15,7 +14,6 @@ namespace scabo::input {
 
 namespace {
 
-constexpr long most_increments = 100'000;
 constexpr std::size_t most_factors = 20'000'000;
 
 bool is_fixed(const Support& support) {
@@ -94,7 +92,7 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
     if (text && check_name(reading.report, name->source(), *text)) step.name = *text;
   }
   if (const auto increments = map.get("increments")) {
-    step.increments = static_cast<int>(read_integer(reading.report, *increments, 1, most_increments).value_or(1));
+    step.increments = static_cast<int>(read_integer(reading.report, *increments, limits::increments).value_or(1));
   }
   const auto loads = map.get("loads");
   if (!loads) {
@@ -136,32 +134,9 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
   Index supports;  // those with a name given by the user
   for (std::size_t i = 0; i < reading.model.supports.size(); ++i)
     if (reading.support_is_named[i]) supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
-  std::set<std::string> names;
   for (std::size_t i = 0; i < items->size(); ++i) {
     step = read_step(reading, supports, (*items)[i], step, i + 1);
-    if (!names.insert(step.name).second) {
-      reading.report.error((*items)[i],
-                           fmt::format("another step is already named '{}': rename one of them", step.name));
-    }
     reading.model.steps.push_back(step);
-  }
-}
-
-void check_never_applied(Reading& reading) {
-  const std::vector<Step>& steps = reading.model.steps;
-  for (std::size_t i = 0; i < reading.model.loads.size(); ++i) {
-    const Load& load = reading.model.loads[i];
-    if (std::all_of(steps.begin(), steps.end(), [&](const Step& step) { return step.load_factors[i] == 0.0; })) {
-      reading.report.error(load.source, fmt::format("load '{}' is never applied: name it in a step", load.name));
-    }
-  }
-  for (std::size_t i = 0; i < reading.model.supports.size(); ++i) {
-    const Support& support = reading.model.supports[i];
-    if (std::all_of(steps.begin(), steps.end(), [&](const Step& step) { return step.support_factors[i] == 0.0; })) {
-      reading.report.error(support.source, fmt::format("the displacement of support '{}' is never applied: name it "
-                                                       "in a step",
-                                                       support.name));
-    }
   }
 }
 

@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
@@ -82,10 +81,6 @@ std::optional<Displacement> read_displacement(Reading& reading, const Value& val
     good = good && displacement[i].has_value();
   }
   if (!good) return {};
-  if (!displacement[0] && !displacement[1]) {
-    reading.report.error(value, "prescribes no displacement: give a number for x or y");
-    return {};
-  }
   return displacement;
 }
 
@@ -100,9 +95,7 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
     const auto text = read_text(report, *name);
     if (text && check_name(report, name->source(), *text)) {
       support.name = *text;
-      if (!reading.own_support_names.insert(*text).second) {
-        report.error(*name, fmt::format("another support is already named '{}': rename one of them", *text));
-      }
+      reading.own_support_names.insert(*text);
     }
   }
   const auto on = map.need("on");
@@ -110,14 +103,6 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   const ReadPlace place = on ? read_place(reading, *on) : ReadPlace{};
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
-  if (place.place && place.place->kind == Place::Kind::face) {
-    report.error(
-        *on,
-        fmt::format(
-            "'{}' is a side face, which has no nodes between its ends: support an edge, a corner or a point instead",
-            place.place->text));
-    return {};
-  }
   std::optional<Displacement> displacement;
   if (map.has("fix") == map.has("displacement")) {
     if (map.has("fix") || report.count() == before) {
@@ -161,130 +146,6 @@ void read_supports(Reading& reading, const Value& value) {
     }
   }
   name_supports(reading);
-}
-
-namespace {
-
-/// Whether a corner belongs to a place of the same body.
-bool includes_corner(const Place& place, int corner, int corners) {
-  switch (place.kind) {
-    case Place::Kind::body:
-      return true;
-    case Place::Kind::corner:
-      return place.index == corner;
-    case Place::Kind::edge:
-      return place.index == corner || (place.index + 1) % corners == corner;
-    case Place::Kind::face:
-    case Place::Kind::mouth:
-    case Place::Kind::near:
-      return false;  // known only after meshing
-  }
-  return false;
-}
-
-/// Whether two places of the same body certainly share a point.
-bool share_a_point(const Place& a, const Place& b, const Body& body) {
-  const int corners = static_cast<int>(body.outline.corners.size());
-  const auto is_point = [](const Place& p) { return p.kind == Place::Kind::near || p.kind == Place::Kind::mouth; };
-  if (is_point(a) && is_point(b)) return a.kind == b.kind && a.near == b.near && a.index == b.index;
-  if (is_point(a) || is_point(b)) {
-    return a.kind == Place::Kind::body || b.kind == Place::Kind::body;
-  }
-  if (a.kind == Place::Kind::edge && b.kind == Place::Kind::edge && a.index == b.index) return true;
-  // A body and an edge share the ends of the edge; a corner shares itself; two edges may share a corner.
-  const Place& smaller = a.kind == Place::Kind::body ? b : a;
-  const Place& larger = a.kind == Place::Kind::body ? a : b;
-  if (smaller.kind == Place::Kind::body) return true;
-  // At the mouth of a crack on a corner the two edges have different nodes.
-  const auto shared = [&](int corner) {
-    const bool mouth = !body.cracks.empty() && body.cracks.front().at == 0.0 && body.cracks.front().edge == corner;
-    return !mouth && includes_corner(larger, corner, corners);
-  };
-  return shared(smaller.index) || (smaller.kind == Place::Kind::edge && shared((smaller.index + 1) % corners));
-}
-
-std::string where(const Source& source) { return source.line > 0 ? fmt::format("line {}", source.line) : source.path; }
-
-/// Whether two supports that share a point move it differently in some step.
-bool differ(const Reading& reading, std::size_t first, std::size_t second, std::size_t component) {
-  const auto& a = reading.model.supports[first].displacement[component];
-  const auto& b = reading.model.supports[second].displacement[component];
-  return a && b && std::any_of(reading.model.steps.begin(), reading.model.steps.end(), [&](const Step& step) {
-           return *a * step.support_factors[first] != *b * step.support_factors[second];
-         });
-}
-
-/// Equal places have equal keys.
-using PlaceKey = std::tuple<Place::Kind, int, double, double>;
-PlaceKey key_of(const Place& place) { return {place.kind, place.index, place.near.x(), place.near.y()}; }
-
-/// For the supports of one place: the first that prescribes x and the first that prescribes y. Later ones have the same
-/// motion or were reported.
-using First = std::array<std::optional<std::size_t>, 2>;
-using Places = std::map<PlaceKey, First>;
-
-/// The previous supports of the body that a new one can contradict: those at its own place, and those at places that
-/// share a point with it. A `near` place shares a point only with itself and with the whole body, and there may be many
-/// of them.
-std::vector<const First*> candidates(const Places& places, const Place& place, const Body& body) {
-  std::vector<const First*> found;
-  const auto add = [&](const Place& other) {
-    if (const auto at = places.find(key_of(other)); at != places.end() && share_a_point(other, place, body))
-      found.push_back(&at->second);
-  };
-  Place other;
-  add(place);
-  other.kind = Place::Kind::body;
-  if (place.kind != Place::Kind::body) add(other);
-  const int corners = static_cast<int>(body.outline.corners.size());
-  if (place.kind == Place::Kind::edge || place.kind == Place::Kind::corner)
-    for (const int step : {-1, 0, 1})
-      for (const Place::Kind kind : {Place::Kind::edge, Place::Kind::corner}) {
-        other.kind = kind;
-        other.index = (place.index + step + corners) % corners;
-        if (key_of(other) != key_of(place)) add(other);
-      }
-  if (place.kind == Place::Kind::body)
-    for (const auto& [key, first] : places)
-      if (std::get<0>(key) != Place::Kind::body) found.push_back(&first);
-  return found;
-}
-
-void report_conflict(Reading& reading, std::size_t first, std::size_t second, std::size_t component) {
-  const Support& a = reading.model.supports[first];
-  const Support& b = reading.model.supports[second];
-  reading.report.error(b.source, fmt::format("prescribes another {} of {} than the support of {} in {}, although they "
-                                             "share a point: remove one, or free the component there",
-                                             component == 0 ? "x" : "y", b.on.text, a.on.text, where(a.source)));
-}
-
-}  // namespace
-
-void check_conflicting_supports(Reading& reading) {
-  std::vector<Places> of_body(reading.model.bodies.size());
-  for (std::size_t i = 0; i < reading.model.supports.size(); ++i) {
-    const Support& support = reading.model.supports[i];
-    Places& places = of_body[static_cast<std::size_t>(support.on.body)];
-    const auto at = places.find(key_of(support.on));
-    // A whole body shares points with all places; once one was compared, another like it adds nothing.
-    const bool known = at != places.end() && (!support.displacement[0] || at->second[0]) &&
-                       (!support.displacement[1] || at->second[1]);
-    std::optional<std::pair<std::size_t, std::size_t>> conflict;  // the first other support, component
-    const auto compare = [&](const First& first) {
-      for (std::size_t c = 0; c < 2; ++c)
-        if (first[c] && (!conflict || *first[c] < conflict->first) && differ(reading, *first[c], i, c))
-          conflict = {*first[c], c};
-    };
-    if (known && support.on.kind == Place::Kind::body) {
-      compare(at->second);
-    } else {
-      for (const First* first : candidates(places, support.on, reading.body(support.on.body))) compare(*first);
-    }
-    if (conflict) report_conflict(reading, conflict->first, i, conflict->second);  // one message for each support
-    First& own = places[key_of(support.on)];
-    for (std::size_t c = 0; c < 2; ++c)
-      if (support.displacement[c] && !own[c]) own[c] = i;
-  }
 }
 
 }  // namespace scabo::input

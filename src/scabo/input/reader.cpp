@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <tuple>
 
 #include "scabo/input/numbers.hpp"
 #include "scabo/input/suggestions.hpp"
+#include "scabo/model/wording.hpp"
 
 namespace scabo::input {
 
@@ -18,13 +20,14 @@ std::string join_path(const std::string& path, std::string_view key) {
 }
 
 constexpr std::size_t longest_path = 300;
+constexpr std::string_view of_command_line = "--set ";
 
 Source source_of(const Node& node, const std::string& path) {
   // A value from the command line has no line; its position is the path with which it was given.
   if (!node.override_path.empty()) {
     const bool inside = path.size() > node.override_path.size();
     const std::string rest = inside ? path.substr(node.override_path.size()) : "";
-    return {0, 0, "--set " + node.override_path + rest};
+    return {0, 0, std::string(of_command_line) + node.override_path + rest};
   }
   return {node.line, node.column, path};
 }
@@ -39,6 +42,7 @@ void Report::error(const Source& at, std::string message) {
   ++count_;
   if (full()) return;
   Source place = at;
+  paths_.insert(at.path.starts_with(of_command_line) ? at.path.substr(of_command_line.size()) : at.path);
   place.path = one_line(at.path);  // keys may be any text
   if (place.path.size() > longest_path) place.path = shortened(place.path, longest_path);
   diagnostics_.push_back({place, std::move(message)});
@@ -88,21 +92,8 @@ std::optional<double> read_number(Report& report, const Value& value) {
   return std::get<double>(number);
 }
 
-std::optional<double> read_positive(Report& report, const Value& value) {
-  const auto number = read_number(report, value);
-  if (!number || *number > 0.0) return number;
-  report.error(value, fmt::format("must be greater than 0, not {}", value.node->text));
-  return {};
-}
-
-std::optional<double> read_not_negative(Report& report, const Value& value) {
-  const auto number = read_number(report, value);
-  if (!number || *number >= 0.0) return number;
-  report.error(value, fmt::format("must be 0 or more, not {}", value.node->text));
-  return {};
-}
-
-std::optional<long> read_integer(Report& report, const Value& value, long least, long most) {
+std::optional<long> read_integer(Report& report, const Value& value, const model::limits::Range& range) {
+  const auto [least, most] = range;
   const auto number = read_number(report, value);
   if (!number) return {};
   if (std::floor(*number) != *number || *number < static_cast<double>(least) || *number > static_cast<double>(most)) {
@@ -189,6 +180,110 @@ constexpr std::string_view written_for_on = "true";
 
 }  // namespace
 
+namespace {
+
+/// Where a path leads: to a value, or to the innermost part of the file that contains what it names.
+struct Located {
+  Value value;
+  Source key;            ///< of the value; the value itself for items of lists
+  std::string key_text;  ///< as written
+  bool complete = true;  ///< the path leads to the value
+};
+
+/// The entry with a key; powers of xi may be spelled differently.
+const MapEntry* entry_called(const Node& map, std::string_view key) {
+  if (const MapEntry* entry = map.find(key)) return entry;
+  if (key == "on") return map.find(written_for_on);
+  const auto number = parse_number(key);
+  if (!std::holds_alternative<double>(number)) return nullptr;
+  for (const MapEntry& entry : map.entries)
+    if (parse_number(entry.key) == number) return &entry;
+  return nullptr;
+}
+
+Located locate(const Value& root, std::string_view path) {
+  Located at{root, root.source(), "", true};
+  while (!path.empty()) {
+    const Node& node = *at.value.node;
+    std::string_view key = path;  // a power of xi contains a dot
+    const MapEntry* entry = node.kind == Node::Kind::map ? entry_called(node, key) : nullptr;
+    if (entry == nullptr) {
+      key = path.substr(0, path.find('.'));
+      if (node.kind == Node::Kind::map) entry = entry_called(node, key);
+    }
+    if (entry != nullptr) {
+      at.key = source_of_key(at.value, *entry);
+      at.key_text = entry->key;
+      at.value = {entry->value, join_path(at.value.path, key)};
+    } else {
+      std::size_t index = 0;
+      const auto [end, code] = std::from_chars(key.data(), key.data() + key.size(), index);
+      if (node.kind != Node::Kind::sequence || code != std::errc() || end != key.data() + key.size() ||
+          index >= node.items.size()) {
+        at.complete = false;
+        return at;
+      }
+      at.value = at.value.item(index);
+      at.key = at.value.source();
+      at.key_text.clear();
+    }
+    path.remove_prefix(std::min(path.size(), key.size() + 1));
+  }
+  return at;
+}
+
+/// A mistake of a whole shape is shown at the points or pieces that make it.
+Value part_of_shape(const Value& shape) {
+  Value part = shape;
+  for (const char* key : {"rectangle", "outline", "polygon", "vertices"})
+    if (part.node->kind == Node::Kind::map)
+      if (const MapEntry* entry = part.node->find(key); entry != nullptr)
+        part = {entry->value, join_path(part.path, key)};
+  return part;
+}
+
+/// The message, with the wrong number as it is written in the file.
+std::string as_written(const model::Mistake& mistake, const Located& at) {
+  std::string message = mistake.message;
+  if (mistake.given.empty() || !at.complete) return message;
+  const bool scalar = at.value.node->kind == Node::Kind::scalar;
+  if (!mistake.of_key && !scalar) return message;
+  const std::string shown = ", not " + mistake.given;
+  if (const auto found = message.find(shown); found != std::string::npos)
+    message.replace(found, shown.size(), ", not " + (mistake.of_key ? at.key_text : at.value.node->text));
+  return message;
+}
+
+}  // namespace
+
+void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes) {
+  const std::set<std::string> told = paths_;
+  const auto is_told = [&](const std::string& path, bool with_parts) {
+    if (told.contains(path) || !with_parts) return told.contains(path);
+    const auto below = told.lower_bound(path + ".");
+    return below != told.end() && below->starts_with(path + ".");
+  };
+  for (const model::Mistake& mistake : mistakes) {
+    if (mistake.given == "nan") continue;  // stands for a number that could not be read
+    if (full()) {
+      ++count_;
+      continue;
+    }
+    const Located at = locate(root, mistake.at.path);
+    if (at.value.path.empty()) {
+      if (told.contains(mistake.at.path)) continue;
+      Source place = root.source();
+      place.path = mistake.at.path;
+      error(place, mistake.message);
+      continue;
+    }
+    if (is_told(at.value.path, !mistake.of_whole)) continue;
+    const bool whole_shape = at.complete && !mistake.of_key && at.value.path.ends_with(".shape");
+    error(mistake.of_key && at.complete ? at.key : (whole_shape ? part_of_shape(at.value) : at.value).source(),
+          as_written(mistake, at));
+  }
+}
+
 std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what, std::string_view example) {
   const Node& node = *value.node;
   std::vector<Entry> entries;
@@ -205,14 +300,8 @@ std::vector<Entry> read_named(Report& report, const Value& value, std::string_vi
   return entries;
 }
 
-bool is_name(std::string_view text) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto is_rest = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
-  return !text.empty() && is_letter(text[0]) && std::all_of(text.begin(), text.end(), is_rest);
-}
-
 bool check_name(Report& report, const Source& at, std::string_view text) {
-  if (is_name(text)) return true;
+  if (model::is_name(text)) return true;
   const char* why = "";
   if (text.find('.') != std::string_view::npos) why = "; a dot separates a body from its edge";
   if (text.find(':') != std::string_view::npos) why = "; put a space after the colon";

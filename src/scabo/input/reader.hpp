@@ -1,10 +1,11 @@
-// Functions that convert the tree of a model file to checked values and collect all mistakes.
+// Functions that convert the tree of a model file to values of the right type and collect all mistakes.
 //
 // A function that finds a mistake reports it once and returns nothing; its caller continues without the value, so that
 // one mistake leads to one message.
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,8 @@
 #include "scabo/base/error.hpp"
 #include "scabo/base/types.hpp"
 #include "scabo/input/yaml_document.hpp"
+#include "scabo/model/limits.hpp"
+#include "scabo/model/validate.hpp"
 
 namespace scabo::input {
 
@@ -39,6 +42,9 @@ class Report {
 
   void error(const Source& at, std::string message);
   void error(const Value& at, std::string message) { error(at.source(), std::move(message)); }
+  /// Adds what validate says about the model read from `root`, each at its place in the file. Left out are mistakes of
+  /// parts that could not be read, which have been reported.
+  void add(const Value& root, const std::vector<model::Mistake>& mistakes);
   std::size_t count() const { return count_; }
   bool clean() const { return count_ == 0; }
   /// Whether further mistakes are only counted: their messages, and suggestions in them, need not be made.
@@ -48,6 +54,7 @@ class Report {
 
  private:
   std::vector<Diagnostic> diagnostics_;
+  std::set<std::string> paths_;  // of the mistakes, without `--set`
   std::size_t count_ = 0;
 };
 
@@ -56,9 +63,7 @@ std::string describe(const Node& node);
 
 // Scalars. Anything else is reported as `must be ...`, and nothing is returned.
 std::optional<double> read_number(Report& report, const Value& value);
-std::optional<double> read_positive(Report& report, const Value& value);
-std::optional<double> read_not_negative(Report& report, const Value& value);
-std::optional<long> read_integer(Report& report, const Value& value, long least, long most);
+std::optional<long> read_integer(Report& report, const Value& value, const model::limits::Range& range);
 std::optional<bool> read_flag(Report& report, const Value& value);
 /// The text of any scalar.
 std::optional<std::string> read_text(Report& report, const Value& value);
@@ -73,10 +78,7 @@ std::optional<std::vector<Value>> read_list(Report& report, const Value& value, 
 /// Entries of a map whose keys are names chosen by the user. Invalid names are reported and left out.
 std::vector<Entry> read_named(Report& report, const Value& value, std::string_view what, std::string_view example);
 
-/// Whether `text` is a name: letters, digits, _ and -, beginning with a letter or _. Paths and places separate names by
-/// dots.
-bool is_name(std::string_view text);
-/// Whether `text` is a name; reports it at `at` if it is not.
+/// Whether `text` is a name (model/wording.hpp); reports it at `at` if it is not.
 bool check_name(Report& report, const Source& at, std::string_view text);
 
 /// A map with known keys. The constructor reports all other keys.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scabo/model/wording.hpp"
+
 namespace scabo::input {
 
 namespace {
@@ -146,21 +148,11 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return nearest;
 }
 
-std::string name_list(const std::vector<std::string>& names) {
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i == 12) return list + ", ...";
-    if (i > 0) list += ", ";
-    list += names[i].substr(0, longest_name);
-  }
-  return list;
-}
-
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(name, known);
   if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
   if (known.empty()) return "";
-  return fmt::format(" (available: {})", name_list(known));
+  return fmt::format(" (available: {})", model::name_list(known));
 }
 
 std::string one_line(std::string_view text) {

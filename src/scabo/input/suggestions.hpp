@@ -16,9 +16,6 @@ std::string key_of_synonym(std::string_view name, const std::vector<std::string>
 /// ` (did you mean 'concrete'?)`, or the list of available names if none is close, or nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string>& known);
 
-/// `a, b, c`, at most twelve names.
-std::string name_list(const std::vector<std::string>& names);
-
 /// The text with line ends and tabs replaced by spaces, because a message is one line.
 std::string one_line(std::string_view text);
 

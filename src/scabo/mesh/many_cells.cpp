@@ -10,8 +10,10 @@
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/domain_triangles.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
+#include "scabo/mesh/star_cells.hpp"
 
 namespace scabo::mesh {
 
@@ -80,7 +82,7 @@ int region_around(const model::Body& body, std::size_t inner) {
   const Vec2 point = body.regions[inner].outline.edges.front().at(0.5);
   for (std::size_t k = 0; k < body.regions.size(); ++k) {
     const geometry::Outline& outline = body.regions[k].outline;
-    if (k == inner || outline.area() >= least || !geometry::is_inside(outline, point)) continue;
+    if (k == inner || outline.area() >= least || !geometry::encloses(outline, point)) continue;
     around = static_cast<int>(k) + 1;
     least = outline.area();
   }
@@ -123,6 +125,22 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
     points.push_back(arc->centre + radius * Vec2(std::cos(angle), std::sin(angle)));
   }
   return points;
+}
+
+PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
+  switch (mesh.kind) {
+    case model::MeshKind::polygons:
+      return polygon_mesh(domain);
+    case model::MeshKind::quadtree:
+      return quadtree_mesh(domain, {.min_size = mesh.min_size});
+    case model::MeshKind::parts:
+      return star_cells(domain);
+    case model::MeshKind::fem:
+      return triangle_mesh(domain);
+    case model::MeshKind::superelement:
+      break;
+  }
+  throw BrokenInvariant("one super-element is not made of polygons");
 }
 
 }  // namespace
@@ -191,6 +209,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
   };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
+    if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
     cell.centre = polygon.centre;
     const auto material_of = [&](int region) {
       return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
@@ -215,16 +234,14 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
 }
 
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, double most_nodes) {
-  const double nodes = approximate_nodes(body);
+  const double nodes = body.mesh.kind == model::MeshKind::parts ? 0.0 : approximate_nodes(body);
   if (!(nodes <= most_nodes))
     return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
                                                     "allowed: use a larger 'size'",
                                                     body.mesh.size, nodes, most_nodes)};
   const Domain domain = domain_of(body);
   try {
-    const PolygonMesh polygons = body.mesh.kind == model::MeshKind::polygons ? polygon_mesh(domain)
-                                                                             : quadtree_mesh(domain, {});
-    return body_mesh_of(polygons, domain, body);
+    return body_mesh_of(polygons_of(domain, body.mesh), domain, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
                       fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};

@@ -7,46 +7,18 @@
 #include <limits>
 #include <numbers>
 
+#include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
 
 namespace scabo::mesh {
 
 namespace {
 
+using geometry::Box, geometry::distance_to, geometry::outline_size;
+
 /// Tolerance relative to the size of a body.
 constexpr double on_outline = 1e-9;
 constexpr double most_points = 1e6;
-
-double distance_to(const model::Outline& outline, const Vec2& point) {
-  double least = std::numeric_limits<double>::max();
-  for (const model::Edge& edge : outline.edges) least = std::min(least, geometry::distance_to(edge, point));
-  return least;
-}
-
-struct Box {
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::max());
-  Vec2 high = -low;
-  void add(const Vec2& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); }
-};
-
-/// Bounding box; arcs are represented by sufficiently many points, and their extremes exactly.
-void add(Box& box, const model::Outline& outline) {
-  for (const model::Edge& edge : outline.edges) {
-    box.add(edge.start);
-    if (!edge.arc) continue;
-    for (const Vec2& side : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
-      const Vec2 extreme = edge.arc->centre + edge.arc->radius * side;
-      const std::optional<geometry::Foot> foot = geometry::foot_on(edge, extreme);
-      if (foot && foot->t >= 0.0 && foot->t <= 1.0) box.add(extreme);
-    }
-  }
-}
-
-double size_of(const model::Outline& outline) {
-  Box box;
-  add(box, outline);
-  return (box.high - box.low).norm();
-}
 
 /// Whether a point of an unbounded body lies in the angle between its side faces; true if it has none.
 bool between_side_faces(const model::Body& body, const Vec2& point, double slack) {
@@ -89,7 +61,7 @@ std::vector<Box> boxes_of(const model::Model& model) {
       boxes[b].low = -boxes[b].high;
       continue;
     }
-    add(boxes[b], model.bodies[b].outline);
+    boxes[b] = geometry::box_of(model.bodies[b].outline);
     const Vec2 margin = Vec2::Constant(2.0 * on_outline * (boxes[b].high - boxes[b].low).norm());
     boxes[b].low -= margin, boxes[b].high += margin;
   }
@@ -157,7 +129,7 @@ void add_grid(const model::Model& model, const std::vector<Box>& boxes, const mo
   if (grid.spacing) {
     Box box;
     for (std::size_t b = 0; b < model.bodies.size(); ++b)
-      if (grid.body < 0 ? !model.bodies[b].rigid : static_cast<int>(b) == grid.body) add(box, model.bodies[b].outline);
+      if (grid.body < 0 ? !model.bodies[b].rigid : static_cast<int>(b) == grid.body) box.add(geometry::box_of(model.bodies[b].outline));
     std::array<double, 2> counts{};
     for (const int k : {0, 1})
       counts[static_cast<std::size_t>(k)] =
@@ -186,7 +158,7 @@ void add_grid(const model::Model& model, const std::vector<Box>& boxes, const mo
 }  // namespace
 
 bool holds(const model::Body& body, const Vec2& point) {
-  const double slack = on_outline * size_of(body.outline);
+  const double slack = on_outline * outline_size(body.outline);
   if (before_side_faces(body, point, slack)) return false;
   if (distance_to(body.outline, point) <= slack) return true;
   if (!body.outside) return geometry::encloses(body.outline, point);

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,6 +14,8 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/types.hpp"
+#include "scabo/files/image.hpp"
+#include "scabo/files/imported_mesh.hpp"
 #include "scabo/geometry/outline.hpp"
 
 namespace scabo::model {
@@ -59,8 +63,9 @@ using geometry::Corner;
 using geometry::Edge;
 using geometry::Outline;
 
-/// One super-element, finite elements, or many super-elements: polygons or the squares of a quadtree.
-enum class MeshKind { superelement, fem, polygons, quadtree };
+/// One super-element; finite elements; many super-elements: polygons, or the squares of a quadtree; few super-elements,
+/// for a shape that no point sees as a whole.
+enum class MeshKind { superelement, fem, polygons, quadtree, parts };
 
 /// Smaller cells near a point, or on an edge of the outline. Away from it sizes grow by `mesh_growth` of the distance.
 struct LocalSize {
@@ -74,6 +79,7 @@ constexpr double mesh_growth = 0.3;
 struct MeshOptions {
   MeshKind kind = MeshKind::superelement;
   double size = 0.0;           ///< longest boundary element; largest side of a cell, > 0
+  double min_size = 0.0;       ///< quadtree: cells are not halved below it on account of lines; 0: 1/32 of their size
   std::vector<LocalSize> refine;
   int order = 2;               ///< polynomial order of a boundary element, 1 to 16
   Vec2 centre = Vec2::Zero();  ///< scaling centre: given by the user, a crack's tip, or the centroid
@@ -87,6 +93,9 @@ struct MeshOptions {
 /// A straight crack from its mouth, a point of an edge, to its tip, the scaling centre. Its two faces are side faces.
 struct Crack {
   std::string name;
+  /// In a body of many cells: its points from one end to the other, two or more; then `tip` and `mouth` are not used. An
+  /// end on the boundary or on another crack is open, any other end is a tip.
+  std::vector<Vec2> path;
   Vec2 tip = Vec2::Zero(), mouth = Vec2::Zero();
   int edge = -1;    ///< edge with the mouth
   double at = 0.0;  ///< mouth = edge.at(at), 0 <= at < 1; 0 is the corner at the start of the edge
@@ -101,6 +110,13 @@ struct Region {
   Source source;
 };
 
+/// A body that an image shows: labels of pixels stand for materials.
+struct ImageShape {
+  std::shared_ptr<const files::Image> image;
+  double pixel = 0.0;             ///< length of the side of a pixel, > 0
+  std::map<int, int> materials;   ///< index into Model::materials of each label; other labels are empty
+};
+
 struct Body {
   std::string name;
   bool rigid = false;                 ///< an obstacle or a punch, without material and mesh
@@ -110,6 +126,8 @@ struct Body {
   std::vector<Crack> cracks;          ///< at most one
   std::vector<Region> regions;        ///< apart from each other, or one inside another, the outer one first
   std::vector<int> sector_materials;  ///< per edge: its sector's index into Model::materials; empty: `material`
+  std::shared_ptr<const files::ImportedMesh> imported;  ///< the mesh of the body; its outline is made from it
+  std::optional<ImageShape> image;    ///< divided by a quadtree; the outline is its rectangle
   bool outside = false;               ///< unbounded: the material lies outside the shape; the outline runs clockwise
   std::optional<Vec2> reference;      ///< outside body: displacements are relative to this point
   Source source;
@@ -117,6 +135,13 @@ struct Body {
   /// Whether two side faces meet at the scaling centre.
   bool open() const { return !cracks.empty() || mesh.centre_corner >= 0; }
 };
+
+/// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
+/// of finite elements in a rectangle.
+inline bool is_divided_inside(const Body& body) {
+  return body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
+                                                       body.regions.empty() && body.mesh.refine.empty());
+}
 
 /// Where a support, load or contact acts.
 struct Place {
@@ -201,6 +226,13 @@ struct Contact {
   Source source;
 };
 
+/// Two edges of different bodies that do not separate.
+struct Tie {
+  std::string name;
+  Place a, b;
+  Source source;
+};
+
 /// Factors change linearly, over `increments` increments, from those at the end of the previous step (zero before the
 /// first) to these.
 struct Step {
@@ -273,6 +305,7 @@ struct Model {
   std::vector<Support> supports;
   std::vector<Load> loads;
   std::vector<Contact> contacts;
+  std::vector<Tie> ties;
   std::vector<Step> steps;
   SolverOptions solver;
   std::vector<std::string> warnings;  ///< sentences about input that has no effect in this analysis

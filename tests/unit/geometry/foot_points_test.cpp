@@ -62,6 +62,43 @@ TEST(Encloses, TakesArcsExactly) {
   }
 }
 
+TEST(Encloses, CountsLoopsSoThatHolesAreOutside) {
+  // A square with a square hole and a round one, which run clockwise; within the square hole lies an island.
+  model::Outline shape = test::outline({line("bottom", {0, 0}, {4, 0}), line("right", {4, 0}, {4, 3}),
+                                        line("top", {4, 3}, {0, 3}), line("left", {0, 3}, {0, 0})});
+  const auto add = [&](const model::Outline& loop) {
+    shape.edges.insert(shape.edges.end(), loop.edges.begin(), loop.edges.end());
+  };
+  add(test::outline({line("a", {0.5, 0.5}, {0.5, 2}), line("b", {0.5, 2}, {2, 2}), line("c", {2, 2}, {2, 0.5}),
+                     line("d", {2, 0.5}, {0.5, 0.5})}));
+  add(test::outline({arc("e", {3, 1}, 0.5, 0.0, -pi), arc("f", {3, 1}, 0.5, -pi, -pi)}));
+  add(test::outline({line("g", {1, 1}, {1.5, 1}), line("h", {1.5, 1}, {1.5, 1.5}), line("i", {1.5, 1.5}, {1, 1})}));
+  const auto within = [](const Vec2& x, double x0, double x1, double y0, double y1) {
+    return x.x() > x0 && x.x() < x1 && x.y() > y0 && x.y() < y1;
+  };
+  for (double x = -0.1013; x < 4.2; x += 0.0337) {
+    for (double y = -0.1017; y < 3.2; y += 0.0339) {
+      const Vec2 at(x, y);
+      const bool island = within(at, 1, 1.5, 1, 1.5) && x > y;
+      const bool hole = within(at, 0.5, 2, 0.5, 2) || (at - Vec2(3, 1)).norm() < 0.5;
+      const bool body = island || (within(at, 0, 4, 0, 3) && !hole);
+      EXPECT_EQ(geometry::encloses(shape, at), body) << x << ' ' << y;
+      EXPECT_EQ(geometry::winding_number(shape, at), body ? 1 : 0) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(ClosestPoint, LiesOnTheEdge) {
+  const model::Edge straight = line("line", {0, 0}, {4, 3});
+  EXPECT_NEAR(geometry::closest_position(straight, {4, -3}), 0.28, 1e-15);  // (16 - 9) / 25
+  EXPECT_NEAR(geometry::distance_to(straight, {8, 6}), 5.0, 1e-15);
+  const model::Edge half = arc("half", {0, 0}, 1.0, pi, pi);  // from (-1, 0) below to (1, 0)
+  EXPECT_NEAR(geometry::closest_position(half, {0, -3}), 0.5, 1e-15);
+  EXPECT_EQ(geometry::closest_position(half, {3, 1}), 1.0);
+  EXPECT_NEAR(geometry::distance_to(half, {0, 1}), std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(geometry::distance_to(half, {0, 0}), 1.0, 1e-15);
+}
+
 TEST(NearestPoint, IsTheNearestOfAll) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-2.0, 2.0);

@@ -157,9 +157,9 @@ TEST(Visibility, SuggestedCentreIsAccepted) {
 
 TEST(Inside, ConcaveOutline) {
   const Outline u = polygon({{0, 0}, {10, 0}, {10, 5}, {8, 5}, {8, 2}, {2, 2}, {2, 5}, {0, 5}});
-  EXPECT_TRUE(is_inside(u, {1, 4}));
-  EXPECT_FALSE(is_inside(u, {5, 4}));
-  EXPECT_FALSE(is_inside(u, {11, 1}));
+  EXPECT_TRUE(encloses(u, {1, 4}));
+  EXPECT_FALSE(encloses(u, {5, 4}));
+  EXPECT_FALSE(encloses(u, {11, 1}));
 }
 
 }  // namespace

@@ -14,12 +14,12 @@ enum class Hold : signed char { nothing, line, corner };
 
 struct Pieces {
   std::vector<Vec2> nodes;
-  std::vector<Hold> holds;               // one for each node
-  std::vector<int> line_of;              // of a node held by a line: which one, otherwise -1
-  std::vector<PolygonCell> cells;        // no nodes: given up
-  std::vector<double> sizes;             // of the cell of the tree that a cell comes from
-  std::size_t first_cut = 0;             // cells before are rectangles of the tree
-  std::vector<std::vector<int>> chains;  // nodes along each line from its start to its end
+  std::vector<Hold> holds;                            // one for each node
+  std::vector<int> line_of;                           // of a node held by a line: which one, otherwise -1
+  std::vector<PolygonCell> cells;                     // no nodes: given up
+  std::vector<double> sizes;                          // of the cell of the tree that a cell comes from
+  std::size_t first_cut = 0;                          // cells before are rectangles of the tree
+  std::vector<std::vector<int>> chains;               // nodes along each line from its start to its end
   std::unordered_map<std::uint64_t, int> line_sides;  // sides on lines, by `side_key`
 };
 
@@ -55,7 +55,7 @@ void divide_unseen_cells(Pieces& pieces);
 void merge_small_cells(Pieces& pieces);
 /// Sets centres. Appends a point to `trouble` for each cell whose sides no point sees.
 void place_centres(Pieces& pieces, std::vector<Vec2>& trouble);
-/// Gives both sides of the lines in `cracks` nodes of their own and returns the mesh without unused nodes.
+/// Gives both sides of cracks nodes of their own and returns the mesh without unused nodes.
 PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines);
 
 }  // namespace scabo::mesh::quadtree

@@ -1,0 +1,17 @@
+// Mesh files of Gmsh (.msh), versions 2.0 to 2.2 and 4.1, as text and binary.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scabo/files/imported_mesh.hpp"
+
+namespace scabo::files {
+
+/// The mesh in the bytes of a file of that name. Physical surfaces become regions and cell sets, physical curves facet
+/// sets, physical points node sets; without a name `region_7`, `boundary_7`, `points_7` by their tags. What is in no
+/// physical group is called after its entity: `surface_5`, `curve_5`, `point_5`. Of quadrilaterals with 9 nodes the
+/// centre node is left out. Throws InputError.
+ImportedMesh parse_gmsh(std::string_view bytes, const std::string& file);
+
+}  // namespace scabo::files

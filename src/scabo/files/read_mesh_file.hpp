@@ -1,0 +1,18 @@
+// A mesh file of any format that Scabo reads (docs/mesh_files.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scabo/files/imported_mesh.hpp"
+
+namespace scabo::files {
+
+/// Reads a .msh, .inp or .vtu file. The content decides where it shows its format, else the extension. Throws
+/// InputError with the file, the line (text) or the byte or cell (binary), what is wrong and how to correct it.
+ImportedMesh read_mesh_file(const std::string& path);
+
+/// The same for the bytes of a file of that name; *INCLUDE is read beside it.
+ImportedMesh parse_mesh(std::string_view bytes, const std::string& path);
+
+}  // namespace scabo::files

@@ -1,0 +1,401 @@
+// Validation of bodies: material, mesh, scaling centre, cracks, sectors, unbounded bodies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/model/checking.hpp"
+
+namespace scabo::model {
+
+namespace {
+
+constexpr double most_superelement_dofs = 20'000;  // dense matrices: 3 GB each at this number
+constexpr double most_fem_dofs = 1e6;
+
+/// One body under check; `outline` runs counter-clockwise, for unbounded bodies as well.
+struct BodyCheck {
+  Checking& checking;
+  const Body& body;
+  const std::string path;
+  const Outline& outline;
+  int centre_corner = -1;  // of `outline`
+
+  int edges() const { return static_cast<int>(outline.edges.size()); }
+  bool is_side_face(int edge) const {
+    return centre_corner >= 0 && (edge == centre_corner || edge == (centre_corner + edges() - 1) % edges());
+  }
+  const Edge& edge(int index) const { return outline.edges[static_cast<std::size_t>(index)]; }
+};
+
+/// Number of pieces of at most `size` on `length`, without an additional piece due to rounding of their quotient.
+double pieces(double length, double size) { return std::max(1.0, std::ceil(length / size * (1.0 - 1e-12))); }
+
+/// Number of degrees of freedom for a mesh size; in floating point, since it may be as large as 1e30.
+double estimated_dofs(const Outline& outline, const MeshOptions& mesh) {
+  if (mesh.kind == MeshKind::fem) {
+    const double nx = pieces(outline.edges[0].length(), mesh.size);
+    const double ny = pieces(outline.edges[1].length(), mesh.size);
+    if (mesh.order == 1) return 2.0 * (nx + 1.0) * (ny + 1.0);
+    return 2.0 * ((nx + 1.0) * (ny + 1.0) + nx * (ny + 1.0) + ny * (nx + 1.0));
+  }
+  double elements = 0.0;
+  for (const Edge& edge : outline.edges) elements += pieces(edge.length(), mesh.size);
+  return 2.0 * mesh.order * elements;
+}
+
+bool check_material(Checking& checking, const std::string& path, std::string_view key, int index) {
+  const std::size_t count = checking.model.materials.size();
+  if (index >= 0 && static_cast<std::size_t>(index) < count) return true;
+  if (!checking.gaps.materials)
+    checking.error(path, key, fmt::format("there is no material number {}: the model has {}, counted from 0", index,
+                                          count));
+  return false;
+}
+
+bool check_crack(const BodyCheck& of) {
+  const Crack& crack = of.body.cracks.front();
+  Checking& checking = of.checking;
+  const std::string path = of.path + ".cracks.0";
+  const std::string& body = of.body.name;
+  if (!is_name(crack.name)) {
+    checking.error(path, "name", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with a "
+                                             "letter or _",
+                                             crack.name));
+    return false;
+  }
+  bool good = true;
+  if (!checking.vector(path, "tip", crack.tip)) {
+    good = false;
+  } else if (!encloses(of.outline, crack.tip)) {
+    checking.error(path, "tip",
+                   fmt::format("the tip {} is not inside body '{}': move the tip", point_text(crack.tip), body));
+    good = false;
+  }
+  const double size = outline_size(of.outline);
+  if (!checking.vector(path, "mouth", crack.mouth)) {
+    good = false;
+  } else if (crack.edge < 0 || crack.edge >= of.edges() || !(crack.at >= 0.0 && crack.at < 1.0) ||
+             (of.edge(crack.edge).at(crack.at) - crack.mouth).norm() > 1e-9 * size) {
+    checking.error(path, "mouth",
+                   fmt::format("{} does not lie on the boundary of '{}': place the mouth of the crack on the boundary",
+                               point_text(crack.mouth), body));
+    good = false;
+  } else if (crack.at > 0.0 && std::min((of.edge(crack.edge).start - crack.mouth).norm(),
+                                        (of.edge(crack.edge).end - crack.mouth).norm()) < 1e-6 * size) {
+    checking.error(path, "mouth",
+                   fmt::format("{} is close to a corner of '{}' but not on it: place the mouth on the corner, or "
+                               "farther from it",
+                               point_text(crack.mouth), body));
+    good = false;
+  }
+  const auto taken = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), crack.name) != names.end();
+  };
+  const auto& edges = of.outline.edges;
+  const auto& corners = of.outline.corners;
+  const bool edge = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return taken(e.names); });
+  if (edge || std::any_of(corners.begin(), corners.end(), [&](const Corner& c) { return taken(c.names); })) {
+    checking.error(path, "", fmt::format("{} of '{}' is also named '{}': give the crack another name",
+                                         edge ? "an edge" : "a corner", body, crack.name));
+    good = false;
+  }
+  return good;
+}
+
+bool check_cracks(const BodyCheck& of) {
+  const auto& cracks = of.body.cracks;
+  if (cracks.empty()) return true;
+  if (of.body.outside) {
+    of.checking.error_of_key(of.path, "cracks",
+                             "cracks in a body with outside: true are not available in this version: leave them out");
+    return false;
+  }
+  if (cracks.size() > 1) {
+    of.checking.error(of.path, "cracks.1",
+                      "a body may have only one crack in this version: divide it into several bodies");
+    return false;
+  }
+  return check_crack(of);
+}
+
+std::string edge_names(const Outline& outline, const std::vector<int>& indices) {
+  std::vector<std::string> names;
+  names.reserve(indices.size());
+  for (const int i : indices) names.push_back(shown_name(outline.edges[static_cast<std::size_t>(i)]));
+  return name_list(names);
+}
+
+/// The whole boundary is visible from the scaling centre; otherwise a better one is suggested if there is one.
+void check_visibility(const BodyCheck& of) {
+  const Vec2& centre = of.body.mesh.centre;
+  std::vector<int> unseen = unseen_edges(of.outline, centre);
+  std::erase_if(unseen, [&](int e) { return of.is_side_face(e); });  // side faces are not divided
+  if (unseen.empty()) return;
+  if (!of.body.cracks.empty()) {
+    of.checking.error(of.path, "cracks.0",
+                      fmt::format("from the tip {} of crack '{}', which is the scaling centre, not every point of {} "
+                                  "is visible: move the tip, or divide the body into several bodies",
+                                  point_text(centre), of.body.cracks.front().name, edge_names(of.outline, unseen)));
+    return;
+  }
+  const bool given = (centre - of.outline.centroid()).norm() > 1e-12 * outline_size(of.outline);
+  const auto better = seeing_point(of.outline);
+  const std::string remedy =
+      better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
+                           given ? "use" : "give", better->x(), better->y())
+             : "the whole boundary is visible from no point: divide the body into several bodies";
+  const std::string who = fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
+  // Without mesh.centre the remedy is to give one; the mistake is then one of the mesh.
+  const char* key = given ? "mesh.centre" : "mesh";
+  if (of.centre_corner < 0 && !encloses(of.outline, centre))
+    of.checking.error(of.path, key, fmt::format("{} is not inside the body: {}", who, remedy));
+  else
+    of.checking.error(of.path, key, fmt::format("not every point of {} is visible from {}: {}",
+                                                edge_names(of.outline, unseen), who, remedy));
+}
+
+/// The two edges at a scaling centre on a corner are its side faces, which must be straight.
+bool check_side_faces(const BodyCheck& of) {
+  const int corner = of.centre_corner;
+  if (of.body.mesh.centre_corner == -1) return true;
+  if (corner < 0 || corner >= of.edges()) {
+    of.checking.error(of.path, "mesh.centre", fmt::format("there is no corner number {}: the outline has {}, counted "
+                                                          "from 0",
+                                                          of.body.mesh.centre_corner, of.edges()));
+    return false;
+  }
+  if (!of.body.cracks.empty()) {
+    of.checking.error(of.path, "mesh.centre",
+                      "the scaling centre of a body with a crack is the tip of the crack: leave 'centre' out");
+    return false;
+  }
+  const Vec2& position = of.outline.corners[static_cast<std::size_t>(corner)].position;
+  if (!((position - of.body.mesh.centre).norm() <= 1e-9 * outline_size(of.outline))) {
+    of.checking.error(of.path, "mesh.centre",
+                      fmt::format("the scaling centre {} is not at corner {}, which is at {}",
+                                  point_text(of.body.mesh.centre),
+                                  of.outline.corners[static_cast<std::size_t>(corner)].names.front(),
+                                  point_text(position)));
+    return false;
+  }
+  bool good = true;
+  for (const int face : {corner, (corner + of.edges() - 1) % of.edges()})
+    if (of.edge(face).arc) {
+      of.checking.error(of.path, "mesh.centre",
+                        fmt::format("{} is an arc that ends at the scaling centre, where side faces must be straight: "
+                                    "use a line there, or move the scaling centre",
+                                    shown_name(of.edge(face))));
+      good = false;
+    }
+  return good;
+}
+
+/// What bodies of many cells cannot have, and the sizes of their cells.
+bool check_many_cells(Checking& checking, const std::string& path, const Body& body) {
+  bool good = true;
+  const auto refuse = [&](bool given, const char* key, const char* why) {
+    if (given) checking.error_of_key(path, key, why), good = false;
+  };
+  refuse(body.mesh.tolerance.has_value() && body.mesh.kind != MeshKind::fem, "mesh.tolerance",
+         "is available only for a body that is one super-element in this version: leave it out, and use 'refine' with "
+         "kind: polygons or kind: quadtree");
+  refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
+         "an unbounded body is one super-element in this version: leave 'kind' out");
+  if (!body.cracks.empty() && body.mesh.kind != MeshKind::fem)
+    checking.error(path, "cracks.0", "cracks are available only in a body that is one super-element in this version"),
+        good = false;
+  for (std::size_t i = 0; i < body.mesh.refine.size(); ++i) {
+    const LocalSize& local = body.mesh.refine[i];
+    const std::string at = fmt::format("mesh.refine.{}", i);
+    good = checking.positive(path, at + ".size", local.size) && good;
+    if (local.near) {
+      good = checking.vector(path, at + ".near", *local.near) && good;
+    } else if (local.edge < 0 || static_cast<std::size_t>(local.edge) >= body.outline.edges.size()) {
+      checking.error(path, at + ".on", fmt::format("body '{}' has no edge number {}: it has {}, counted from 0",
+                                                   body.name, local.edge, body.outline.edges.size()));
+      good = false;
+    }
+  }
+  return good;
+}
+
+/// Values of the mesh that do not depend on the shape.
+bool check_mesh_options(Checking& checking, const std::string& path, const Body& body) {
+  const MeshOptions& mesh = body.mesh;
+  bool good = checking.positive(path, "mesh.size", mesh.size);
+  if (mesh.kind == MeshKind::superelement && !mesh.refine.empty())
+    checking.error_of_key(path, "mesh.refine", "is not available for kind: superelement: use polygons, quadtree or fem"),
+        good = false;
+  if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty()))
+    checking.error(path, "mesh",
+                   "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree"),
+        good = false;
+  good = checking.whole(path, "mesh.order", mesh.order, limits::order) && good;
+  if (mesh.kind == MeshKind::fem) {
+    if (good && mesh.order > 2)
+      checking.error(path, "mesh.order",
+                     fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", mesh.order)),
+          good = false;
+    if (mesh.tolerance)
+      checking.error_of_key(path, "mesh.tolerance",
+                            "only super-elements are refined: leave 'tolerance' out for fem"),
+          good = false;
+    if (!body.cracks.empty())
+      checking.error(path, "cracks.0",
+                     "only a super-element can have a crack: leave the crack out, or use superelement"),
+          good = false;
+    if (body.outside)
+      checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
+          good = false;
+  }
+  if (is_divided_inside(body)) {
+    good = check_many_cells(checking, path, body) && good;
+  } else if (mesh.tolerance && mesh.kind != MeshKind::fem) {
+    good = checking.within(path, "mesh.tolerance", *mesh.tolerance, "1e-5", "0.5") && good;
+  }
+  if (mesh.kind != MeshKind::superelement && !body.sector_materials.empty())
+    checking.error_of_key(path, "sectors",
+                          "only a body that is one super-element has sectors: use 'regions' instead");
+  return good;
+}
+
+bool check_dofs(const BodyCheck& of) {
+  const bool fem = of.body.mesh.kind == MeshKind::fem;
+  const double dofs = estimated_dofs(of.outline, of.body.mesh);
+  const double most = fem ? most_fem_dofs : most_superelement_dofs;
+  if (dofs <= most) return true;
+  of.checking.error(of.path, "mesh.size",
+                    fmt::format("gives {:.6g} degrees of freedom, but {} at most {:.6g}: use a larger size{}", dofs,
+                                fem ? "finite elements may have" : "one super-element may have", most,
+                                fem ? "" : " or divide the body"));
+  return false;
+}
+
+void check_mesh(const BodyCheck& of, bool values_good) {
+  const MeshOptions& mesh = of.body.mesh;
+  if (!values_good || is_divided_inside(of.body)) return;  // the mesher counts its nodes
+  if (!check_dofs(of) || mesh.kind == MeshKind::fem) return;
+  if (!of.checking.vector(of.path, "mesh.centre", mesh.centre)) return;
+  if (!of.body.cracks.empty() && mesh.centre != of.body.cracks.front().tip) {
+    of.checking.error(of.path, "mesh.centre",
+                      "the scaling centre of a body with a crack is the tip of the crack: leave 'centre' out");
+    return;
+  }
+  check_visibility(of);
+}
+
+void check_sectors(const BodyCheck& of) {
+  const auto& materials = of.body.sector_materials;
+  if (materials.empty() || of.body.mesh.kind != MeshKind::superelement) return;
+  if (materials.size() != of.body.outline.edges.size()) {
+    of.checking.error(of.path, "sectors", fmt::format("gives {} materials for {} edges: one for each edge is needed",
+                                                      materials.size(), of.body.outline.edges.size()));
+    return;
+  }
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (materials[i] != of.body.material &&
+        !check_material(of.checking, of.path, "sectors." + of.body.outline.edges[i].names.front(), materials[i]))
+      return;
+}
+
+void check_reference(const BodyCheck& of) {
+  if (!of.body.reference) return;
+  if (!of.body.outside) {
+    of.checking.error_of_key(of.path, "reference",
+                             "only a body with outside: true has a reference point: leave it out");
+  } else if (of.checking.vector(of.path, "reference", *of.body.reference) &&
+             encloses(of.outline, *of.body.reference)) {
+    of.checking.error(of.path, "reference", fmt::format("{} lies in the hole, not in the body: choose a point of the "
+                                                        "body",
+                                                        point_text(*of.body.reference)));
+  }
+}
+
+/// Regions lie inside the body, apart from its boundary and from each other.
+void check_regions(const BodyCheck& of) {
+  std::unordered_set<std::string> names;
+  std::vector<const Region*> sound;
+  for (std::size_t i = 0; i < of.body.regions.size(); ++i) {
+    const Region& region = of.body.regions[i];
+    const std::string path = path_of(of.path + ".regions", region.name, i);
+    check_name(of.checking, path, region.name, "region", names);
+    check_material(of.checking, path, "material", region.material);
+    if (!check_outline(of.checking, path + ".shape", region.outline) ||
+        !check_inside(of.checking, path + ".shape", fmt::format("region '{}'", region.name), of.outline,
+                      region.outline))
+      continue;
+    const auto touches = [&](const Region* other) { return crossing_between(other->outline, region.outline); };
+    const auto other = std::find_if(sound.begin(), sound.end(), touches);
+    if (other != sound.end())
+      of.checking.error(path, "shape", fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart",
+                                                   (*other)->name, region.name));
+    else
+      sound.push_back(&region);
+  }
+}
+
+void check_rigid(Checking& checking, const std::string& path, const Body& body) {
+  const auto refuse = [&](const char* key, bool given) {
+    if (given) checking.error_of_key(path, key, not_for_rigid);
+  };
+  refuse("material", body.material != -1);
+  refuse("cracks", !body.cracks.empty());
+  refuse("sectors", !body.sector_materials.empty());
+  refuse("outside", body.outside);
+  refuse("reference", body.reference.has_value());
+  refuse("regions", !body.regions.empty());
+}
+
+void check_body(Checking& checking, std::size_t index) {
+  const Body& body = checking.model.bodies[index];
+  const std::string path = path_of("bodies", body.name, index);
+  Outline turned;
+  if (body.outside && body.outline.holes.empty() && body.outline.corners.size() == body.outline.edges.size()) {
+    turned = body.outline;
+    turn_round(turned);
+  }
+  const Outline& outline = turned.edges.empty() ? body.outline : turned;
+  checking.shape[index] = check_outline(checking, path + ".shape", outline);
+  if (body.rigid) {
+    check_rigid(checking, path, body);
+    checking.faces[index] = checking.shape[index];
+    return;
+  }
+  check_material(checking, path, "material", body.material);
+  const bool good = check_mesh_options(checking, path, body);
+  if (!checking.shape[index]) return;
+  BodyCheck of{checking, body, path, outline, body.mesh.centre_corner};
+  if (!turned.edges.empty() && of.centre_corner > 0) of.centre_corner = of.edges() - of.centre_corner;
+  check_regions(of);
+  const bool whole = body.mesh.kind != MeshKind::superelement;  // without side faces
+  checking.faces[index] = whole || (check_cracks(of) && check_side_faces(of));
+  if (checking.faces[index]) check_mesh(of, good);
+  check_sectors(of);
+  check_reference(of);
+}
+
+}  // namespace
+
+void check_bodies(Checking& checking) {
+  const auto& bodies = checking.model.bodies;
+  if (checking.gaps.bodies) {
+  } else if (bodies.empty()) {
+    checking.enter({});
+    checking.error("bodies", "", "contains no body: define at least one");
+  } else if (std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.rigid; })) {
+    checking.enter({});
+    checking.error("bodies", "", "all bodies are rigid: at least one must be elastic");
+    checking.of_whole();
+  }
+  std::unordered_set<std::string> names;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    checking.enter(bodies[i].source);
+    check_name(checking, path_of("bodies", bodies[i].name, i), bodies[i].name, "body", names);
+    check_body(checking, i);
+  }
+}
+
+}  // namespace scabo::model

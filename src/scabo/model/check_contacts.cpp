@@ -1,0 +1,162 @@
+// Validation of contacts: their two edges and their laws.
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+
+#include "scabo/model/checking.hpp"
+
+namespace scabo::model {
+
+namespace {
+
+constexpr double largest_coefficient = 1e6;  // for larger values the forces in balance are lost in rounding
+
+/// One side of a contact, an edge without a crack mouth.
+bool check_side(Checking& checking, const std::string& path, const Place& place) {
+  if (checking.is_body(place.body)) checking.touched[static_cast<std::size_t>(place.body)] = 1;
+  if (!check_place(checking, path, place)) return false;
+  const std::string text = text_of(checking.model, place);
+  if (place.kind == Place::Kind::face) {
+    checking.error(path, "", fmt::format("'{}' is a side face, which has no nodes between its ends: for contact "
+                                         "between the faces of a crack, divide the body along the crack",
+                                         text));
+    return false;
+  }
+  if (place.kind != Place::Kind::edge) {
+    checking.error(path, "", fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is not "
+                                         "an edge",
+                                         text));
+    return false;
+  }
+  for (const Crack& crack : checking.body(place.body).cracks)
+    if (crack.edge == place.index) {
+      checking.error(path, "", fmt::format("the mouth of crack '{}' lies on '{}', but a contact needs an edge without a "
+                                           "crack mouth: divide the edge, or name another one",
+                                           crack.name, text));
+      return false;
+    }
+  return true;
+}
+
+bool check_sides(Checking& checking, const std::string& path, const Contact& contact) {
+  const bool a = check_side(checking, path + ".between.0", contact.a);
+  const bool b = check_side(checking, path + ".between.1", contact.b);
+  if (!checking.is_body(contact.a.body) || !checking.is_body(contact.b.body)) return false;
+  const Body& body_a = checking.body(contact.a.body);
+  const Body& body_b = checking.body(contact.b.body);
+  if (contact.a.body == contact.b.body) {
+    checking.error(path, "between",
+                   fmt::format("a body cannot be in contact with itself: both edges belong to '{}'", body_a.name));
+    return false;
+  }
+  if (body_a.rigid && body_b.rigid) {
+    checking.error(path, "between", fmt::format("'{}' and '{}' are both rigid: one of them must be elastic",
+                                                body_a.name, body_b.name));
+    return false;
+  }
+  return a && b;
+}
+
+bool check_coefficient(Checking& checking, const std::string& path, std::string_view key, double friction) {
+  if (!checking.not_negative(path, key, friction)) return false;
+  if (friction <= largest_coefficient) return true;
+  checking.error(path, key, fmt::format("a coefficient of friction must be at most 1e6, not {}: 1e6 already prevents "
+                                        "slip, and 'bond: true' prevents both slip and opening",
+                                        number_text(friction)));
+  return false;
+}
+
+bool check_along(Checking& checking, const std::string& path, const Contact& contact) {
+  if (contact.dynamic_friction)
+    checking.error_of_key(path, "friction.dynamic", "cannot be combined with 'along': leave one of them out");
+  bool good = true;
+  const FrictionPoint* before = nullptr;
+  for (std::size_t i = 0; i < contact.friction_along.size(); ++i) {
+    const FrictionPoint& point = contact.friction_along[i];
+    const std::string key = fmt::format("friction.along.{}", i);
+    const auto refuse = [&](std::string message) { checking.error(path, key, std::move(message)), good = false; };
+    if (!checking.number(path, key, point.position) || !checking.number(path, key, point.friction))
+      good = false;
+    else if (point.friction > largest_coefficient)
+      refuse(fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(point.friction)));
+    else if (point.position < 0.0 || point.position > 1.0)
+      refuse(
+          fmt::format("a position along the contact must be from 0 to 1, not {}", number_text(point.position)));
+    else if (point.friction < 0.0)
+      refuse(fmt::format("a coefficient of friction must be 0 or more, not {}", number_text(point.friction)));
+    else if (before != nullptr && point.position <= before->position)
+      refuse("positions along the contact must be in ascending order");
+    else
+      before = &point;
+  }
+  return good;
+}
+
+bool check_friction(Checking& checking, const std::string& path, const Contact& contact) {
+  if (!contact.friction_along.empty()) return check_along(checking, path, contact);
+  if (!contact.dynamic_friction) return check_coefficient(checking, path, "friction", contact.friction);
+  bool good = check_coefficient(checking, path, "friction.static", contact.friction);
+  good = check_coefficient(checking, path, "friction.dynamic", *contact.dynamic_friction) && good;
+  if (good && *contact.dynamic_friction > contact.friction) {
+    checking.error(path, "friction.dynamic",
+                   fmt::format("must be at most the static coefficient {}, not {}", number_text(contact.friction),
+                               number_text(*contact.dynamic_friction)));
+    good = false;
+  }
+  return checking.not_negative(path, "friction.slip_distance", contact.slip_distance) && good;
+}
+
+}  // namespace
+
+void check_law(Checking& checking, const std::string& path, const Contact& contact) {
+  bool good = check_friction(checking, path, contact);
+  good = checking.not_negative(path, "cohesion", contact.cohesion) && good;
+  good = checking.not_negative(path, "tension", contact.tension) && good;
+  if (contact.shear_strength) good = checking.not_negative(path, "shear_strength", *contact.shear_strength) && good;
+  good = checking.number(path, "gap", contact.gap) && good;
+  if (!good) return;
+  const auto refuse = [&](const char* key, bool given, const char* why) {
+    if (given) checking.error_of_key(path, key, why);
+  };
+  const bool friction = contact.friction > 0.0 || contact.dynamic_friction || !contact.friction_along.empty();
+  if (contact.bond || contact.shear_strength) {
+    const char* why = contact.bond ? no_effect_beside_bond : replaced_by_shear_strength;
+    refuse("friction", friction, why);
+    refuse("cohesion", contact.cohesion > 0.0, why);
+    refuse("tension", contact.tension > 0.0, why);
+    if (!contact.bond) return;
+    refuse("shear_strength", contact.shear_strength.has_value(), why);
+    refuse("gap", contact.gap != 0.0, no_gap_beside_bond);
+    return;
+  }
+  refuse("tension", contact.tension > 0.0 && contact.cohesion == 0.0,
+         "a joint that slips loses its tensile strength, and without 'cohesion' nothing prevents this one from "
+         "slipping: give both");
+}
+
+void check_contacts(Checking& checking) {
+  const Model& model = checking.model;
+  std::map<std::array<int, 4>, std::string> pairs;
+  std::unordered_set<std::string> names;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const Contact& contact = model.contacts[i];
+    const std::string path = path_of("contacts", contact.name, i);
+    checking.enter(contact.source);
+    check_name(checking, path, contact.name, "contact", names);
+    check_law(checking, path, contact);
+    if (!check_sides(checking, path, contact)) {
+      checking.gaps.conditions = true;
+      continue;
+    }
+    std::array<int, 4> pair{contact.a.body, contact.a.index, contact.b.body, contact.b.index};
+    if (pair[0] > pair[2]) pair = {pair[2], pair[3], pair[0], pair[1]};
+    const auto [first, is_new] = pairs.emplace(pair, contact.name);
+    if (!is_new)
+      checking.error_of_key(
+          path, "",
+          fmt::format("contact '{}' already connects the same two edges: remove one of the two", first->second));
+  }
+}
+
+}  // namespace scabo::model

@@ -1,0 +1,183 @@
+// Validation of loads: finite values, and places on which loads of their kind can act.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "scabo/model/checking.hpp"
+
+namespace scabo::model {
+
+namespace {
+
+constexpr double highest_power = 100.0;
+
+template <typename... Functions>
+struct Cases : Functions... {
+  using Functions::operator()...;
+};
+template <typename... Functions>
+Cases(Functions...) -> Cases<Functions...>;
+
+/// The key of a load in a model file.
+const char* key_of(const Load& load) {
+  return std::visit(Cases{[](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
+                          [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
+                          [](const BodyForce&) { return "body_force"; },
+                          [](const Temperature&) { return "temperature"; },
+                          [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; }},
+                    load.kind);
+}
+
+const char* kind_text(Place::Kind kind) {
+  switch (kind) {
+    case Place::Kind::body:
+      return "a whole body";
+    case Place::Kind::edge:
+      return "an edge";
+    case Place::Kind::corner:
+      return "a corner";
+    case Place::Kind::near:
+    case Place::Kind::mouth:
+      return "a point";
+    case Place::Kind::face:
+      return "a side face";
+  }
+  return "";
+}
+
+/// Why a load of this kind cannot act on a place, and an alternative; empty if it can.
+std::string why_not_on(const Body& of, const Place& place, const std::string& kind) {
+  const std::string& body = of.name;
+  if (kind == "gravity" || kind == "body_force" || kind == "temperature") {
+    if (place.kind != Place::Kind::body) return fmt::format("{} acts on a whole body: write on: {}", kind, body);
+    if (of.rigid)
+      return fmt::format("'{}' is rigid: {}", body,
+                         kind == "temperature" ? "temperature has no effect on it"
+                                               : "it has no weight; apply a force to it instead");
+    if (of.outside) return fmt::format("'{}' is unbounded: loads can act only on its boundary", body);
+    return "";
+  }
+  if (place.kind == Place::Kind::face) {
+    if (of.outside)
+      return fmt::format("'{}' is unbounded: loads can act only on its inner boundary, not on its side faces", body);
+    if (kind == "force")
+      return "a force cannot act on a side face: use a traction, which is the force divided by length and thickness";
+    return "";
+  }
+  if (kind == "force") {
+    if (of.rigid && place.kind == Place::Kind::edge)
+      return fmt::format("'{}' is rigid: apply the force to the body or to a corner", body);
+    if (!of.rigid && place.kind == Place::Kind::body)
+      return "a force on an elastic body acts on a corner, a point or an edge: name one of these, or use gravity";
+    return "";
+  }
+  if (of.rigid) return fmt::format("'{}' is rigid: apply a force to the body instead", body);
+  if (place.kind != Place::Kind::edge)
+    return fmt::format("{} acts on an edge, but this is {}: name an edge", kind, kind_text(place.kind));
+  return "";
+}
+
+bool check_terms(Checking& checking, const std::string& path, const std::string& kind, const FaceTraction& face) {
+  if (face.terms.empty()) {
+    checking.error(path, kind,
+                   fmt::format("must be powers of xi, as in {{0: {0}, 1: {0}}}, not none",
+                               face.pressure ? "1e3" : "[0, -1e3]"));
+    return false;
+  }
+  for (std::size_t i = 0; i < face.terms.size(); ++i) {
+    const FaceTraction::Term& term = face.terms[i];
+    const std::string key = fmt::format("{}.powers.{}", kind, number_text(term.power));
+    if (!(term.power > -1.0 && term.power <= highest_power)) {
+      checking.error_of_key(path, key,
+                            fmt::format("a power of xi must be greater than -1 (otherwise the total force is infinite) "
+                                        "and at most {}, not {}",
+                                        highest_power, number_text(term.power)));
+      checking.found.back().given = number_text(term.power);
+      return false;
+    }
+    const auto same = [&](const FaceTraction::Term& other) { return other.power == term.power; };
+    if (std::any_of(face.terms.begin(), face.terms.begin() + static_cast<std::ptrdiff_t>(i), same)) {
+      checking.error_of_key(path, key, fmt::format("the power {} is given twice: remove one of the two",
+                                                   number_text(term.power)));
+      return false;
+    }
+    if (!checking.vector(path, key, term.value)) return false;
+  }
+  return true;
+}
+
+bool check_linear(Checking& checking, const std::string& path, const std::string& kind, const Linear& linear) {
+  return checking.number(path, kind + ".constant", linear.constant) && checking.number(path, kind + ".x", linear.per_x) &&
+         checking.number(path, kind + ".y", linear.per_y);
+}
+
+bool check_values(Checking& checking, const std::string& path, const Load& load) {
+  const std::string kind = key_of(load);
+  const auto of_vector = [&](const auto& with) { return checking.vector(path, kind, with.value); };
+  return std::visit(
+      Cases{[&](const Force& force) { return of_vector(force); },
+            [&](const Traction& traction) { return of_vector(traction); },
+            [&](const Gravity& gravity) { return of_vector(gravity); },
+            [&](const Pressure& pressure) { return checking.number(path, kind, pressure.value); },
+            [&](const FaceTraction& face) { return check_terms(checking, path, kind, face); },
+            [&](const BodyForce& force) {
+              return check_linear(checking, path, kind, force.x) && check_linear(checking, path, kind, force.y);
+            },
+            [&](const Temperature& temperature) { return check_linear(checking, path, kind, temperature.change); }},
+      load.kind);
+}
+
+/// Whether a load acts where loads of its kind can.
+bool check_on(Checking& checking, const std::string& path, const Load& load) {
+  const std::string kind = key_of(load);
+  if (!load.on) {
+    if (kind == "gravity" || kind == "temperature") return true;
+    checking.error(path, "", "'on' is missing");
+    return false;
+  }
+  const Place& place = *load.on;
+  if (!check_place(checking, path + ".on", place)) return false;
+  if (const std::string why = why_not_on(checking.body(place.body), place, kind); !why.empty()) {
+    checking.error(path, "on", why);
+    return false;
+  }
+  const bool in_powers = std::holds_alternative<FaceTraction>(load.kind);
+  if (in_powers && place.kind == Place::Kind::edge) {
+    checking.error(path, kind,
+                   fmt::format("powers and points of xi are available only on side faces: on an edge, give a constant "
+                               "{}",
+                               kind));
+    return false;
+  }
+  if (!in_powers && place.kind == Place::Kind::face) {
+    checking.error(path, kind, fmt::format("on a side face, {} is given as powers of xi", kind));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void check_loads(Checking& checking) {
+  const Model& model = checking.model;
+  // A load on an unknown body gives no information about which bodies are held.
+  const bool places = checking.gaps.places;
+  std::unordered_set<std::string> names, supports;
+  for (const Support& support : model.supports)
+    if (support.name != support.on.text) supports.insert(support.name);
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    const std::string path = path_of("loads", load.name, i);
+    checking.enter(load.source);
+    check_name(checking, path, load.name, "load", names);
+    if (supports.contains(load.name))
+      checking.error_of_key(path, "", named_like_a_support(load.name));
+    const bool on = check_on(checking, path, load);
+    checking.load[i] = check_values(checking, path, load) && on;
+    if (!checking.load[i]) checking.gaps.conditions = true;
+  }
+  checking.gaps.places = places;
+}
+
+}  // namespace scabo::model

@@ -1,0 +1,9 @@
+#include "read_mesh_fuzzer.hpp"
+#include "scabo/files/abaqus.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  check_mesh_reader(data, size, [](std::string_view bytes, const std::string& file) {
+    return scabo::mesh::parse_abaqus(bytes, file);
+  });
+  return 0;
+}

@@ -1,0 +1,8 @@
+#include "read_mesh_fuzzer.hpp"
+#include "scabo/files/gmsh.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  check_mesh_reader(
+      data, size, [](std::string_view bytes, const std::string& file) { return scabo::mesh::parse_gmsh(bytes, file); });
+  return 0;
+}
