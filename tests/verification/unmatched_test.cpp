@@ -247,7 +247,7 @@ contacts:
 // without friction. For half angles e of contact: E* dR / Q and R p_max / Q.
 class Persson : public testing::TestWithParam<std::array<double, 3>> {};
 
-TEST_P(Persson, PolygonsInUnboundedPlate) {
+TEST_P(Persson, QuadtreeInUnboundedPlate) {
   const auto [half_angle, clearance, pressure] = GetParam();
   const double dR = 1e-5, Q = 1e3 * dR / clearance;  // E* = 1e3, R = 1
   const auto solution = run(fmt::format(R"(
@@ -262,7 +262,7 @@ bodies:
         - {{arc: {{from: [1, 0], to: [-1, 0], centre: [0, 0]}}, name: crown}}
         - {{arc: {{to: [1, 0], centre: [0, 0]}}, name: rim}}
     holes: {{bore: {{circle: {{centre: [0, 0], radius: 0.02}}}}}}
-    mesh: {{size: 0.2, kind: polygons, refine: [{{on: rim, size: 0.05}}, {{near: [0, 0], size: 0.01}}]}}
+    mesh: {{size: 0.2, kind: quadtree, refine: [{{on: rim, size: 0.05}}, {{near: [0, 0], size: 0.01}}]}}
   plate:
     material: m
     outside: true
