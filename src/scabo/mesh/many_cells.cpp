@@ -12,6 +12,7 @@
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
+#include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
 #include "scabo/mesh/star_cells.hpp"
@@ -21,7 +22,7 @@ namespace scabo::mesh {
 namespace {
 
 /// A side on an arc turns by at most this, so that its chord is near it and cells beside it stay valid.
-constexpr double largest_turn_of_side = std::numbers::pi / 8;
+constexpr double largest_turn_of_side = std::numbers::pi / 12;
 
 /// Fractions of the length of an edge at which its part from `from` to `to` is divided, both included.
 std::vector<double> breaks_of(const model::Body& body, const geometry::Edge& edge, double from, double to) {
@@ -308,10 +309,31 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     element.nodes.push_back(b);
     return element;
   };
+  // A side on a hollow arc is seen from where its end tangents are seen: the corner where they meet stands for it.
+  const auto seeing_centre = [&](const PolygonCell& polygon) {
+    std::vector<Vec2> points;
+    bool hollow = false;
+    const std::size_t count = polygon.nodes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const int a = polygon.nodes[i], b = polygon.nodes[(i + 1) % count];
+      const Vec2 &from = mesh.nodes[static_cast<std::size_t>(a)], &to = mesh.nodes[static_cast<std::size_t>(b)];
+      points.push_back(from);
+      const auto arc = on_arc.find(std::minmax(a, b));
+      if (arc == on_arc.end() || (polygon.open && i + 1 == count)) continue;
+      const Vec2 &centre = domain.lines[arc->second].arc->centre, middle = 0.5 * (from + to) - centre;
+      if (cross(from - centre, to - centre) >= 0.0) continue;  // bulges outwards
+      hollow = true;
+      points.push_back(centre + (from - centre).squaredNorm() / middle.squaredNorm() * middle);
+    }
+    constexpr double well_seen = 0.1;
+    if (!hollow || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
+    const KernelCentre better = kernel_centre(points, well_seen);
+    return better.visibility > 0.0 ? better.centre : polygon.centre;
+  };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
     if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
-    cell.centre = polygon.centre;
+    cell.centre = seeing_centre(polygon);
     const auto material_of = [&](int region) {
       return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
     };
