@@ -31,7 +31,7 @@ BEYOND_SCHEMA = re.compile(
     r"|contact_(with_itself|unknown_edge|twice|of_two_rigid|at_a_corner)"
     r"|crack_(and_centre|face_|in_finite|mouth_(inside|on_a|unknown)|named_like|tip_)|face_(points_(twice|xi)|power_|powers_on)|notch_"
     r"|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
-    r"|temperature_(in_finite|on_an|without)|body_force_(in_finite|on_a)|law_(dynamic_above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names)|later_")
+    r"|temperature_(on_an|without)|body_force_on_a|law_(dynamic_above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names)|later_")
 
 
 class Loader(yaml.SafeLoader):

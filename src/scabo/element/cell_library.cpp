@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "scabo/element/finite_element.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/linalg/parallel.hpp"
 
@@ -70,6 +71,22 @@ Domain domain_of(const model::Body& body, const Ring& ring) {
   return domain;
 }
 
+/// One mistake for all finite elements of a body that have no stiffness.
+std::optional<Diagnostic> folded_elements(const model::Body& body, const mesh::BodyMesh& mesh) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.cells[c].kind == mesh::CellKind::finite_element &&
+        !is_well_shaped(finite_element_of(mesh.cells[c], mesh.nodes)) && count++ == 0)
+      first = c;
+  if (count == 0) return std::nullopt;
+  const FiniteElement element = finite_element_of(mesh.cells[first], mesh.nodes);
+  return Diagnostic{body.source, fmt::format("{} of {} finite elements of body '{}' {} folded: number {}, with a corner "
+                                             "at ({:.6g}, {:.6g}), has a Jacobian of {:.3g}, which must be positive "
+                                             "everywhere: move its nodes",
+                                             count, mesh.count(mesh::CellKind::finite_element), body.name,
+                                             count == 1 ? "is" : "are", first + 1, element.x[0].x(), element.x[0].y(),
+                                             least_jacobian(element))};
+}
 
 /// Equal for super-elements that are alike (but for coordinates whose rounding falls on two sides of a step, which only
 /// costs a second solution).
@@ -114,7 +131,9 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
   std::unordered_multimap<std::size_t, std::size_t> known;  // hash to index in `distinct`
   std::vector<std::size_t> bodies;
   std::vector<SolvedCells> solved(model.bodies.size());
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+  std::vector<Diagnostic> folded;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (auto mistake = folded_elements(model.bodies[b], mesh.bodies[b])) folded.push_back(std::move(*mistake));
     for (const mesh::Cell& cell : mesh.bodies[b].cells) {
       if (cell.kind != mesh::CellKind::superelement) {
         solved[b].emplace_back();
@@ -138,6 +157,8 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
       bodies.push_back(b);
       solved[b].push_back(std::move(wanted));
     }
+  }
+  if (!folded.empty()) throw InputError(model.file, std::move(folded));
   solve_all(model, distinct, bodies, threads);
   return solved;
 }

@@ -38,7 +38,7 @@ std::vector<int> dofs_of(const mesh::Cell& cell);
 
 /// Solves the super-elements of all bodies, each distinct one once, on up to `threads` threads; [body][cell]. Two are
 /// equal if their boundaries relative to the scaling centre, their elasticity and their thickness agree. Throws
-/// InputError for those that cannot be solved.
+/// InputError for those that cannot be solved, and for finite elements that are folded.
 std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads);
 
 }  // namespace scabo::element

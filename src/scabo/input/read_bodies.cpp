@@ -128,6 +128,17 @@ void turn_outside(Body& body) {
   if (body.mesh.centre_corner >= 0) body.mesh.centre_corner = (count - body.mesh.centre_corner) % count;
 }
 
+/// A body without its own scaling centre whose centroid does not see its boundary: another centre, or several parts.
+void choose_centre(Body& body) {
+  const bool parts = !body.outline.holes.empty() || !body.regions.empty();
+  if (!parts && unseen_edges(body.outline, body.mesh.centre).empty()) return;
+  const auto seeing = parts ? std::nullopt : seeing_point(body.outline);
+  if (seeing)
+    body.mesh.centre = *seeing;
+  else
+    body.mesh.kind = MeshKind::parts;
+}
+
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
@@ -168,9 +179,12 @@ void read_body(Reading& reading, const Entry& entry) {
     if (mesh)
       body.mesh = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
                             body.cracks.empty() ? nullptr : &body.cracks.front());
+    const bool has_centre = mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre");
+    const bool one = body.mesh.kind == MeshKind::superelement && !cracks && !map.has("outside") && !map.has("sectors");
+    if (one && !has_centre && state.shape && !body.mesh.tolerance) choose_centre(body);
     // Names of side faces, and of the crack, may not be known.
     const bool broken = report.count() > before;
-    if (broken && (cracks || (mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre"))))
+    if (broken && (cracks || has_centre))
       state.shape = false;
     if (const auto sectors = map.get("sectors"); sectors && state.shape)
       body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});

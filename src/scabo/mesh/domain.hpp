@@ -25,26 +25,27 @@ struct DomainLine {
 struct Domain {
   std::vector<DomainLine> lines;
   std::function<double(const Vec2&)> size;  ///< wanted length of the sides of a cell, > 0, at a point
-  /// Points at which lines end and which are to be scaling centres (crack tips, re-entrant corners); their cells have no
-  /// node there.
+  /// Points at which lines end and which are to be scaling centres (crack tips, re-entrant corners); their cells have
+  /// no node there.
   std::vector<Vec2> centres;
 };
 
 /// A cell: a polygon all of whose sides are visible from its scaling centre.
 struct PolygonCell {
-  std::vector<int> nodes;      ///< counter-clockwise; three or more, or two or more if it is open
-  Vec2 centre = Vec2::Zero();  ///< strictly inside; of an open cell it is the point where its two side faces meet
-  int region = 0;              ///< of its first side, if its sides are of several regions
+  std::vector<int> nodes;         ///< counter-clockwise; three or more, or two or more if it is open
+  Vec2 centre = Vec2::Zero();     ///< strictly inside; of an open cell it is the point where its two side faces meet
+  int region = 0;                 ///< of its first side, if its sides are of several regions
   std::vector<int> side_regions;  ///< empty: all of `region`. Otherwise the region of each side (node i to node i + 1)
-  bool open = false;           ///< no side leads from the last node back to the first: between them are two side faces
+  bool open = false;  ///< no side leads from the last node back to the first: between them are two side faces
 };
 
 struct PolygonMesh {
   std::vector<Vec2> nodes;
   std::vector<PolygonCell> cells;
-  /// For each line of the domain the nodes along it from its start to its end, as its left side has them: one for each of
-  /// its points, except for an end that is a scaling centre. `right` differs from `left` only for cracks, whose sides
-  /// share at most the node of a tip.
+  /// For each line of the domain the nodes along it from its start to its end, as its left side has them: one for each
+  /// of its points, except for an end that is a scaling centre (and one more at the middle of a single facet between
+  /// two of them, or between two crack tips). `right` differs from `left` only for cracks, whose sides share at most
+  /// the node of a tip.
   std::vector<std::vector<int>> left, right;
 };
 

@@ -14,7 +14,8 @@
 namespace scabo::mesh {
 namespace {
 
-constexpr double largest_facet_turn = std::numbers::pi / 6.0;  // of a facet of an arc that has vertices at middles of facets
+constexpr double largest_facet_turn =
+    std::numbers::pi / 6.0;  // of a facet of an arc that has vertices at middles of facets
 constexpr int rounds_of_smoothing = 3;
 
 [[noreturn]] void refuse(const std::string& message) { throw InputError("", {Diagnostic{{}, message}}); }
@@ -28,7 +29,8 @@ class DistinctPoints {
 
   int number(const Vec2& p) {
     const Vec2 place = (p - origin_) / (4.0 * tolerance_);
-    const auto i = static_cast<std::int64_t>(std::floor(place.x())), j = static_cast<std::int64_t>(std::floor(place.y()));
+    const auto i = static_cast<std::int64_t>(std::floor(place.x())),
+               j = static_cast<std::int64_t>(std::floor(place.y()));
     for (std::int64_t a = i - 1; a <= i + 1; ++a)
       for (std::int64_t b = j - 1; b <= j + 1; ++b)
         if (const auto found = boxes_.find({a, b}); found != boxes_.end())
@@ -72,7 +74,8 @@ std::vector<bool> divided_lines(const Domain& domain, const std::vector<std::pai
   std::map<std::pair<int, int>, std::vector<std::size_t>> between;
   for (std::size_t i = 0; i < domain.lines.size(); ++i) {
     const DomainLine& line = domain.lines[i];
-    if (line.arc) divided[i] = divide_arcs || ends[i].first == ends[i].second || largest_turn_of(line) > largest_facet_turn;
+    if (line.arc)
+      divided[i] = divide_arcs || ends[i].first == ends[i].second || largest_turn_of(line) > largest_facet_turn;
     if (line.points.size() <= 3) between[std::minmax(ends[i].first, ends[i].second)].push_back(i);
   }
   for (const auto& [pair, lines] : between)
@@ -101,7 +104,8 @@ double facet_at(const DomainLine& line, const LinePiece& piece, int edge) {
 }
 
 // Regions of all triangles, from the lines that bound them.
-std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices, const std::vector<Triangle>& triangles) {
+std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices,
+                            const std::vector<Triangle>& triangles) {
   constexpr int unknown = -2;
   std::vector<int> region(triangles.size(), unknown);
   std::vector<std::size_t> known;
@@ -135,6 +139,10 @@ std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices, 
   }
   // What no line encloses lies between the shape and the convex hull.
   std::replace(region.begin(), region.end(), unknown, -1);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (region[t] >= 0 && triangles[t].neighbours[i] < 0 && !triangles[t].constrained[i])
+        refuse("the lines of the shape do not enclose its regions");
   return region;
 }
 
@@ -150,8 +158,9 @@ void smooth(DualTriangulation& dual) {
     const auto& corner = dual.triangles[t].vertices;
     const Vec2 &a = vertices.points[index_of(corner[0])], &b = vertices.points[index_of(corner[1])],
                &c = vertices.points[index_of(corner[2])];
-    const double spacing =
-        (vertices.spacing[index_of(corner[0])] + vertices.spacing[index_of(corner[1])] + vertices.spacing[index_of(corner[2])]) / 3.0;
+    const double spacing = (vertices.spacing[index_of(corner[0])] + vertices.spacing[index_of(corner[1])] +
+                            vertices.spacing[index_of(corner[2])]) /
+                           3.0;
     // The density of a centroidal tessellation whose points have this spacing: spacing^-4.
     const double part = cross(b - a, c - a) / (spacing * spacing * spacing * spacing);
     const Vec2 centroid = (a + b + c) / 3.0;
@@ -170,7 +179,8 @@ void smooth(DualTriangulation& dual) {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& corner = dual.triangles[t].vertices;
       if (corner[i] < first) continue;
-      const Vec2 &a = vertices.points[index_of(corner[(i + 1) % 3])], &b = vertices.points[index_of(corner[(i + 2) % 3])];
+      const Vec2 &a = vertices.points[index_of(corner[(i + 1) % 3])],
+                 &b = vertices.points[index_of(corner[(i + 2) % 3])];
       const std::size_t k = index_of(corner[i] - first);
       const double area = cross(b - a, vertices.points[index_of(corner[i])] - a);
       if (cross(b - a, moved[k] - a) < 0.2 * area) stays[k] = true;
@@ -191,7 +201,8 @@ DualVertices vertices_on_lines(const Domain& domain, bool divide_arcs) {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    for (int k = 0; k + 1 < static_cast<int>(line.points.size()); ++k) shortest = std::min(shortest, facet_length(line, k));
+    for (int k = 0; k + 1 < static_cast<int>(line.points.size()); ++k)
+      shortest = std::min(shortest, facet_length(line, k));
   }
   ensure(!domain.lines.empty() && shortest > 0.0, "the facets of a domain have a length");
   DistinctPoints corners(low, std::max(1e-9 * shortest, 1e-14 * (high - low).maxCoeff()));
@@ -265,8 +276,9 @@ DualTriangulation triangulate_domain(const Domain& domain, DualVertices vertices
   }
 
   DualTriangulation dual{std::move(vertices), {}, {}};
+  const std::vector<std::size_t> order = spatial_order(dual.vertices.points);
   for (int round = 0;; ++round) {
-    dual.triangles = triangulate(dual.vertices.points, dual.vertices.segments);
+    dual.triangles = triangulate(dual.vertices.points, dual.vertices.segments, order);
     dual.region = regions_of(domain, dual.vertices, dual.triangles);
     if (round == rounds_of_smoothing) return dual;
     smooth(dual);

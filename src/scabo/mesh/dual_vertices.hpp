@@ -11,8 +11,8 @@
 
 namespace scabo::mesh {
 
-/// A line or a part of one, with vertices of the triangulation at both ends and at the middles of its facets, except for
-/// the first and the last.
+/// A line or a part of one, with vertices of the triangulation at both ends and at the middles of its facets, except
+/// for the first and the last.
 struct LinePiece {
   int line = 0;
   int begin = 0, end = 0;     ///< points of the line from where to where: end - begin facets
@@ -20,8 +20,8 @@ struct LinePiece {
   int facets() const { return end - begin; }
 };
 
-/// The edge of the triangulation from vertex `edge` to vertex `edge` + 1 of a piece. With two facets or more, it contains
-/// the point begin + edge + 1 of the line.
+/// The edge of the triangulation from vertex `edge` to vertex `edge` + 1 of a piece. With two facets or more, it
+/// contains the point begin + edge + 1 of the line.
 struct PieceEdge {
   int piece = -1, edge = -1;
 };
@@ -33,7 +33,7 @@ struct DualVertices {
   std::vector<Vec2> points;
   std::vector<double> spacing;  ///< wanted distance from neighbours
   int corners = 0, on_lines = 0;
-  std::vector<std::pair<int, int>> segments;            ///< all edges of pieces
+  std::vector<std::pair<int, int>> segments;             ///< all edges of pieces
   std::unordered_map<long long, PieceEdge> piece_edges;  ///< by pair_key of two vertices
 
   static long long pair_key(int a, int b) {

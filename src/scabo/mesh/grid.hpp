@@ -1,8 +1,9 @@
-// Mesh for comparison with finite elements: a rectangle divided into 8-node serendipity elements.
+// A rectangle divided into finite elements: quadrilaterals of 8 nodes (order 2) or 4 (order 1).
 //
 // clang-format off
 //     3---6---2      Nodes are numbered row by row from the first corner of the outline, along its first edge:
-//     |       |      2 nx + 1 nodes in a row of corners, nx + 1 in a row of middles.
+//     |       |      2 nx + 1 nodes in a row of corners, nx + 1 in a row of middles; with order 1 only rows of nx + 1
+//     |       |      corners.
 //     7       5
 //     |       |
 //     0---4---1

@@ -14,9 +14,9 @@
 namespace scabo::mesh {
 namespace {
 
-constexpr double from_points = 0.72;    // least distance of a new point from others, per spacing
-constexpr double from_lines = 0.5;      // the same from lines
-constexpr double from_segments = 0.3;   // and per length of the segment: long facets have no crowd of points before them
+constexpr double from_points = 0.72;   // least distance of a new point from others, per spacing
+constexpr double from_lines = 0.55;    // the same from lines
+constexpr double from_segments = 0.3;  // and per length of the segment: long facets have no crowd of points before them
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -33,9 +33,9 @@ bool segments_cross(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b) 
 
 // What the segments ask of a point. All three change slowly with the point, so that most points need no search.
 struct Surroundings {
-  double distance = infinity;  // least distance
-  double clearance = infinity; // least distance - from_segments * length
-  double spacing = infinity;   // least spacing_per_facet * facet + growth_of_spacing * distance
+  double distance = infinity;   // least distance
+  double clearance = infinity;  // least distance - from_segments * length
+  double spacing = infinity;    // least spacing_per_facet * facet + growth_of_spacing * distance
 };
 
 // A tree of boxes around segments.
@@ -46,6 +46,9 @@ class SegmentTree {
     nodes_.reserve(segments.size());
     if (!segments.empty()) build(0, segments.size());
   }
+
+  // Whether p lies in the box around all segments; beyond, it is outside of every region.
+  bool box_contains(const Vec2& p) const { return !nodes_.empty() && distance_to_box(nodes_.front(), p) == 0.0; }
 
   Surroundings around(const Vec2& p) const {
     Surroundings found;
@@ -123,9 +126,8 @@ class SegmentTree {
       return false;
     if (node.second != 0) return crosses(index + 1, p, q) || crosses(node.second, p, q);
     return std::any_of(order_.begin() + static_cast<std::ptrdiff_t>(node.begin),
-                       order_.begin() + static_cast<std::ptrdiff_t>(node.end), [&](std::size_t i) {
-                         return segments_cross(p, q, segments_[i].start, segments_[i].end);
-                       });
+                       order_.begin() + static_cast<std::ptrdiff_t>(node.end),
+                       [&](std::size_t i) { return segments_cross(p, q, segments_[i].start, segments_[i].end); });
   }
 
   const std::vector<BorderSegment>& segments_;
@@ -186,7 +188,7 @@ class PointBoxes {
   std::size_t find(int level, std::int64_t i, std::int64_t j) const {
     std::uint64_t hash = static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15u;
     hash ^= (static_cast<std::uint64_t>(j) + (hash >> 29)) * 0xBF58476D1CE4E5B9u;
-    hash += static_cast<std::uint64_t>(level - lowest_) * 0x94D049BB133111EBu;
+    hash += static_cast<std::uint64_t>(level + 4096) * 0x94D049BB133111EBu;
     hash ^= hash >> 32;
     std::size_t at = hash & (slots_.size() - 1);
     while (slots_[at].first >= 0 && (slots_[at].i != i || slots_[at].j != j || slots_[at].level != level))
@@ -265,17 +267,19 @@ class Growth {
     return wanted;
   }
 
-  // Adds the point at `distance` from `from` if there is room for it; a little nearer, if it adapts and the wanted spacing
-  // decreases on the way.
-  void propose(const Vec2& from, double spacing, const Surroundings& around_from, const Vec2& direction, double distance,
-               double angle, bool adapts) {
+  // Adds the point at `distance` from `from` if there is room for it; a little nearer or farther, if it adapts and the
+  // wanted spacing changes on the way.
+  void propose(const Vec2& from, double spacing, const Surroundings& around_from, const Vec2& direction,
+               double distance, double angle, bool adapts) {
     Vec2 point = from + distance * direction;
     if (boxes_.any_within(result_.points, point, spacing, 0.5 * spacing)) return;
     double wanted = wanted_at(point);
-    if (adapts && wanted < spacing) {
-      distance = 0.5 * (distance + wanted);  // between two spacings the step is their mean
+    if (adapts && wanted != spacing) {  // between two spacings the step is their mean
+      distance = 0.5 * (distance + std::min(wanted, 1.5 * spacing));
       point = from + distance * direction;
+      wanted = wanted_at(point);
     }
+    if (!tree_.box_contains(point)) return;
     Surroundings around{around_from.distance - distance, around_from.clearance - distance,
                         around_from.spacing - growth_of_spacing * distance};
     const bool sure = around.clearance >= std::max(from_lines * wanted, 0.0) && around.spacing >= wanted;

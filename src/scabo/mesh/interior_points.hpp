@@ -1,9 +1,10 @@
 // Points inside the regions of a domain from which a triangulation with triangles of the wanted size is made.
 //
 // They grow as a triangular lattice: a point proposes its six neighbours at the spacing wanted there, in the directions
-// that it has from the point that proposed it, and a proposal is accepted unless it lies too near to a point or to a line.
-// With a constant spacing this is one regular lattice in every region; where the spacing varies the lattice follows it,
-// with defects that smoothing removes. Growth begins at the finest segment, and a smaller spacing goes first.
+// that it has from the point that proposed it, and a proposal is accepted unless it lies too near to a point or to a
+// line. With a constant spacing this is one regular lattice in every region; where the spacing varies the lattice
+// follows it, with defects that smoothing removes. Growth begins at the finest segment, and a smaller spacing goes
+// first.
 #pragma once
 
 #include <functional>
@@ -32,8 +33,8 @@ struct InteriorPoints {
   std::vector<double> spacing;  ///< wanted distance to the neighbours, for each point
 };
 
-/// `spacing` is the wanted distance between neighbours at a point; throws BrokenInvariant where it is not positive. Every
-/// connected part of a region that is wide enough for a point has one.
+/// `spacing` is the wanted distance between neighbours at a point; throws BrokenInvariant where it is not positive.
+/// Every connected part of a region that is wide enough for a point has one.
 InteriorPoints interior_points(const std::vector<BorderSegment>& segments,
                                const std::function<double(const Vec2&)>& spacing);
 

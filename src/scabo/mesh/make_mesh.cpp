@@ -6,6 +6,7 @@
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/grid.hpp"
 #include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/mesh.hpp"
 
 namespace scabo::mesh {
@@ -18,13 +19,9 @@ constexpr double most_nodes = 1e6;
 /// Reason why the body cannot be divided, found before memory is allocated.
 std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) {
   const bool fem = body.mesh.kind == model::MeshKind::fem;
-  if (fem && !body.outline.rectangle) {
-    return {{body.mesh.source,
-             "'kind: fem' is available only for rectangles: give the body a 'rectangle' shape, or leave out 'kind'"}};
-  }
-  if (fem && body.mesh.order != 2) {
-    return {{body.mesh.source,
-             fmt::format("'kind: fem' uses elements of order 2, not {}: leave out 'order'", body.mesh.order)}};
+  if (fem && body.mesh.order > 2) {
+    return {{body.mesh.source, fmt::format("'kind: fem' uses elements of order 1 or 2, not {}: use one of these",
+                                           body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
   if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {
@@ -79,7 +76,18 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
   double nodes = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (body.rigid || add(obstacles(body, nodes))) continue;
+    if (body.rigid) continue;
+    if (model::is_divided_inside(body)) {
+      auto divided = divide_into_cells(body, most_nodes - nodes);
+      if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
+        mistakes.push_back(*wrong);
+        continue;
+      }
+      mesh.bodies[b] = std::get<BodyMesh>(std::move(divided));
+      nodes += static_cast<double>(mesh.bodies[b].nodes.size());
+      continue;
+    }
+    if (add(obstacles(body, nodes))) continue;
     const bool fem = body.mesh.kind == model::MeshKind::fem;
     mesh.bodies[b] = fem                   ? divide_grid(body)
                      : division[b].empty() ? divide_boundary(body)

@@ -10,8 +10,10 @@
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/domain_triangles.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
+#include "scabo/mesh/star_cells.hpp"
 
 namespace scabo::mesh {
 
@@ -19,13 +21,6 @@ namespace {
 
 /// A side on an arc turns by at most this, so that its chord is near it and cells beside it stay valid.
 constexpr double largest_turn_of_side = std::numbers::pi / 8;
-
-double distance_to(const geometry::Edge& edge, const Vec2& x) {
-  double distance = std::min((edge.start - x).norm(), (edge.end - x).norm());
-  if (const auto foot = geometry::foot_on(edge, x); foot && foot->t > 0.0 && foot->t < 1.0)
-    distance = std::min(distance, (foot->point - x).norm());
-  return distance;
-}
 
 /// Fractions of the length of an edge at which it is divided, 0 and 1 included.
 std::vector<double> breaks_of(const model::Body& body, const geometry::Edge& edge) {
@@ -132,6 +127,22 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
   return points;
 }
 
+PolygonMesh polygons_of(const Domain& domain, model::MeshKind kind) {
+  switch (kind) {
+    case model::MeshKind::polygons:
+      return polygon_mesh(domain);
+    case model::MeshKind::quadtree:
+      return quadtree_mesh(domain);
+    case model::MeshKind::parts:
+      return star_cells(domain);
+    case model::MeshKind::fem:
+      return triangle_mesh(domain);
+    case model::MeshKind::superelement:
+      break;
+  }
+  throw BrokenInvariant("one super-element is not made of polygons");
+}
+
 }  // namespace
 
 double wanted_size(const model::Body& body, const Vec2& x) {
@@ -139,7 +150,7 @@ double wanted_size(const model::Body& body, const Vec2& x) {
   for (const model::LocalSize& local : body.mesh.refine) {
     const double distance = local.near
                                 ? (*local.near - x).norm()
-                                : distance_to(body.outline.edges[static_cast<std::size_t>(local.edge)], x);
+                                : geometry::distance_to(body.outline.edges[static_cast<std::size_t>(local.edge)], x);
     size = std::min(size, local.size + model::mesh_growth * distance);
   }
   return size;
@@ -198,9 +209,14 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
   };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
+    if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
     cell.centre = polygon.centre;
-    cell.materials = {polygon.region == 0 ? body.material
-                                          : body.regions[static_cast<std::size_t>(polygon.region - 1)].material};
+    const auto material_of = [&](int region) {
+      return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
+    };
+    cell.materials = {material_of(polygon.region)};
+    if (!polygon.side_regions.empty()) cell.materials.clear();
+    for (const int region : polygon.side_regions) cell.materials.push_back(material_of(region));
     const std::size_t count = polygon.nodes.size();
     for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i)
       cell.boundary.push_back(side(polygon.nodes[i], polygon.nodes[(i + 1) % count]));
@@ -218,19 +234,17 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
 }
 
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, double most_nodes) {
-  const double nodes = approximate_nodes(body);
+  const double nodes = body.mesh.kind == model::MeshKind::parts ? 0.0 : approximate_nodes(body);
   if (!(nodes <= most_nodes))
     return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
                                                     "allowed: use a larger 'size'",
                                                     body.mesh.size, nodes, most_nodes)};
   const Domain domain = domain_of(body);
   try {
-    const PolygonMesh polygons = body.mesh.kind == model::MeshKind::polygons ? polygon_mesh(domain)
-                                                                             : quadtree_mesh(domain, {});
-    return body_mesh_of(polygons, domain, body);
-  } catch (const BrokenInvariant& error) {
+    return body_mesh_of(polygons_of(domain, body.mesh.kind), domain, body);
+  } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
-                      fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.what())};
+                      fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};
   }
 }
 

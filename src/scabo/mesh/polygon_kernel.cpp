@@ -63,8 +63,8 @@ KernelCentre kernel_centre(std::span<const Vec2> polygon, double enough) {
     best.visibility = visibility(polygon, best.centre);
     if (best.visibility >= enough) return best;
   }
-  // The largest measure by bisection; the points with at least that measure form a convex polygon, whose corners' mean is
-  // one of them.
+  // The largest measure by bisection; the points with at least that measure form a convex polygon, whose corners' mean
+  // is one of them.
   Vec2 low = polygon[0], high = polygon[0];
   for (const Vec2& p : polygon) {
     low = low.cwiseMin(p);

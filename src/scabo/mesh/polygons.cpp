@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 
 #include "scabo/base/error.hpp"
@@ -14,9 +15,11 @@
 namespace scabo::mesh {
 namespace {
 
-constexpr double short_side = 0.1;    // per local size: sides inside that are shorter are collapsed
-constexpr double well_visible = 0.1;  // h / L (polygon_kernel.hpp): cells below are improved by moving their corners
+constexpr double short_side = 0.1;       // per local size: sides inside that are shorter are collapsed
+constexpr double well_visible = 0.1;     // h / L (polygon_kernel.hpp): cells below are improved by moving their corners
 constexpr double hardly_visible = 0.02;  // cells that remain below are divided, if that helps
+constexpr double largest_corner =
+    1.55 * std::numbers::pi;  // of a cell that has it as a node; beyond there are two cells
 constexpr int no_node = -1;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -28,6 +31,7 @@ struct Wedge {
   PieceEdge first, last;
   std::vector<int> triangles;
   int next = -1, previous = -1;  // wedge across `last` and across `first`, of the same body: no crack, no outside
+  int run = -1;                  // of wedges linked in this way
   int node = no_node;            // the corner as seen from here; no_node: it is a scaling centre
 };
 
@@ -41,6 +45,7 @@ class Dual {
     add_nodes_on_lines();
     find_cells();
     find_runs();
+    find_split_facets();
     add_corner_cells();
     collect_lines();
   }
@@ -72,8 +77,9 @@ class Dual {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto& corner = triangles_[t].vertices;
       Vec2 centroid = (point(corner[0]) + point(corner[1]) + point(corner[2])) / 3.0;
-      spacing_[t] = (vertices_.spacing[at(corner[0])] + vertices_.spacing[at(corner[1])] +
-                     vertices_.spacing[at(corner[2])]) / (3.0 * spacing_per_size);
+      spacing_[t] =
+          (vertices_.spacing[at(corner[0])] + vertices_.spacing[at(corner[1])] + vertices_.spacing[at(corner[2])]) /
+          (3.0 * spacing_per_size);
       for (std::size_t i = 0; i < 3; ++i)
         if (triangles_[t].constrained[i]) {
           const int a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
@@ -110,7 +116,9 @@ class Dual {
   }
 
   // Side of a line on which a wedge at `vertex` lies that starts or ends at `edge`: 0 left, 1 right.
-  int side_of(const PieceEdge& edge, int vertex, bool starts) const { return runs_from(edge, vertex) == starts ? 0 : 1; }
+  int side_of(const PieceEdge& edge, int vertex, bool starts) const {
+    return runs_from(edge, vertex) == starts ? 0 : 1;
+  }
 
   // The node on an edge of a piece of several facets.
   int node_on(const PieceEdge& edge, int side) const {
@@ -188,17 +196,20 @@ class Dual {
     return number;
   }
 
+  // Number of an edge of the triangulation at the corner of a wedge, seen from there. A corner is at the start or at
+  // the end of a piece, so that piece and direction determine the edge.
+  int outgoing(const Wedge& wedge, const PieceEdge& edge) const {
+    return 2 * edge.piece + (runs_from(edge, wedge.vertex) ? 1 : 0);
+  }
+
   // Wedges at a corner that lie in the same piece of material, and their common node.
   void find_runs() {
-    std::unordered_map<long long, int> starting;  // wedge that starts at an edge, by vertex and other end
-    const auto key = [&](const Wedge& wedge, const PieceEdge& edge) {
-      return 2LL * (3LL * edge.piece + 0) + (runs_from(edge, wedge.vertex) ? 1 : 0);
-    };
-    // A corner is at the start or at the end of a piece, so that piece and direction determine the edge.
-    for (std::size_t w = 0; w < wedges_.size(); ++w) starting[key(wedges_[w], wedges_[w].first)] = static_cast<int>(w);
+    std::unordered_map<int, int> starting;  // wedge that starts at an edge
+    for (std::size_t w = 0; w < wedges_.size(); ++w)
+      starting[outgoing(wedges_[w], wedges_[w].first)] = static_cast<int>(w);
     for (std::size_t w = 0; w < wedges_.size(); ++w) {
       if (line_of(wedges_[w].last).crack) continue;
-      const auto found = starting.find(key(wedges_[w], wedges_[w].last));
+      const auto found = starting.find(outgoing(wedges_[w], wedges_[w].last));
       if (found == starting.end()) continue;
       wedges_[w].next = found->second;
       wedges_[at(found->second)].previous = static_cast<int>(w);
@@ -207,8 +218,9 @@ class Dual {
     for (const Vec2& centre : domain_.centres) {
       const int corner = corner_at(vertices_, centre);
       if (corner < 0)
-        throw InputError("", {Diagnostic{{}, fmt::format("the scaling centre ({}, {}) is not the end of a line",
-                                                         centre.x(), centre.y())}});
+        throw InputError(
+            "", {Diagnostic{
+                    {}, fmt::format("the scaling centre ({}, {}) is not the end of a line", centre.x(), centre.y())}});
       is_centre_[at(corner)] = true;
     }
     std::vector<bool> seen(wedges_.size(), false);
@@ -220,6 +232,7 @@ class Dual {
       for (const int k : run) {
         seen[at(k)] = true;
         wedges_[at(k)].node = node;
+        wedges_[at(k)].run = static_cast<int>(runs_.size());
       }
       runs_.push_back(run);
     }
@@ -236,6 +249,24 @@ class Dual {
     return run;
   }
 
+  // Facets that need a node at their middle: those between two scaling centres, and cracks of one facet that end in a
+  // tip on both sides, which could not open otherwise.
+  void find_split_facets() {
+    std::vector<int> tips(vertices_.pieces.size(), 0);
+    std::unordered_map<int, int> starting;  // run that starts at an edge
+    for (const Wedge& wedge : wedges_) starting[outgoing(wedge, wedge.first)] = wedge.run;
+    for (const Wedge& wedge : wedges_)
+      if (const auto found = starting.find(outgoing(wedge, wedge.last));
+          found != starting.end() && found->second == wedge.run && line_of(wedge.last).crack)
+        ++tips[at(wedge.last.piece)];
+    split_.assign(vertices_.pieces.size(), false);
+    for (std::size_t p = 0; p < vertices_.pieces.size(); ++p) {
+      const LinePiece& piece = vertices_.pieces[p];
+      if (piece.facets() > 1) continue;
+      split_[p] = tips[p] == 2 || (is_centre_[at(piece.vertices[0])] && is_centre_[at(piece.vertices[1])]);
+    }
+  }
+
   // Whether the cell at `vertex` has the facet of a piece of one facet: a scaling centre has it, otherwise its start.
   bool owns(const PieceEdge& edge, int vertex) const {
     const std::vector<int>& chain = vertices_.pieces[at(edge.piece)].vertices;
@@ -250,13 +281,13 @@ class Dual {
     const LinePiece& piece = vertices_.pieces[at(edge.piece)];
     if (piece.facets() > 1) return node_on(edge, side);
     const int other = piece.vertices[runs_from(edge, wedge.vertex) ? 1 : 0];
-    if (is_centre_[at(wedge.vertex)] && is_centre_[at(other)]) return middle_node(edge.piece, side);
+    if (split_[at(edge.piece)]) return middle_node(edge.piece, side);
     if (!owns(edge, wedge.vertex)) return wedge.node;
     const int triangle = start ? wedge.triangles.front() : wedge.triangles.back();
     return wedges_[at(wedge_of_.at(corner_in(triangle, other)))].node;
   }
 
-  // The middle of a facet between two scaling centres.
+  // The middle of a split facet.
   int middle_node(int piece, int side) {
     const DomainLine& line = domain_.lines[at(vertices_.pieces[at(piece)].line)];
     auto [found, is_new] = middles_.try_emplace(piece, std::array<int, 2>{});
@@ -277,15 +308,37 @@ class Dual {
         for (const int w : run) add_corner_cell(wedges_[at(w)]);
   }
 
-  // The cell of one region at a corner that is one of its nodes.
+  // The cell of one region at a corner that is one of its nodes; two where the region surrounds the corner almost.
   void add_corner_cell(const Wedge& wedge) {
-    PolygonCell cell;
-    cell.region = wedge.region;
-    if (const int node = node_at_edge(wedge, true); node != wedge.node) cell.nodes.push_back(node);
-    cell.nodes.insert(cell.nodes.end(), wedge.triangles.begin(), wedge.triangles.end());
-    if (const int node = node_at_edge(wedge, false); node != wedge.node) cell.nodes.push_back(node);
-    cell.nodes.push_back(wedge.node);
-    if (cell.nodes.size() > 2) add_cell(std::move(cell), corners_of(wedge));  // else its neighbours share its facets
+    const int first = node_at_edge(wedge, true), last = node_at_edge(wedge, false);
+    std::vector<std::size_t> corners = corners_of(wedge);
+    std::vector<double> angle{0.0};  // before each triangle
+    for (const std::size_t corner : corners) {
+      const auto& vertices = triangles_[corner / 3].vertices;
+      const Vec2 a = point(vertices[(corner % 3 + 1) % 3]) - point(wedge.vertex);
+      const Vec2 b = point(vertices[(corner % 3 + 2) % 3]) - point(wedge.vertex);
+      angle.push_back(angle.back() + std::atan2(cross(a, b), a.dot(b)));
+    }
+    std::size_t middle = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k)  // the angle of a centroid is about that of its triangle's middle
+      if (std::abs(angle[k] + angle[k + 1] - angle.back()) < std::abs(angle[middle] + angle[middle + 1] - angle.back()))
+        middle = k;
+    const bool two = angle.back() > largest_corner;
+    for (const bool second : {false, true}) {
+      if (second && !two) break;
+      const std::size_t begin = second ? middle : 0, end = two && !second ? middle + 1 : corners.size();
+      PolygonCell cell;
+      cell.region = wedge.region;
+      if (!second && first != wedge.node) cell.nodes.push_back(first);
+      cell.nodes.insert(cell.nodes.end(), wedge.triangles.begin() + static_cast<std::ptrdiff_t>(begin),
+                        wedge.triangles.begin() + static_cast<std::ptrdiff_t>(end));
+      if ((second || !two) && last != wedge.node) cell.nodes.push_back(last);
+      cell.nodes.push_back(wedge.node);
+      if (cell.nodes.size() < 3) continue;  // its neighbours share its facets
+      if (second) second_cell_[wedge.triangles[middle]].push_back(static_cast<int>(mesh_.cells.size()));
+      add_cell(std::move(cell), {corners.begin() + static_cast<std::ptrdiff_t>(second ? begin + 1 : begin),
+                                 corners.begin() + static_cast<std::ptrdiff_t>(end)});
+    }
   }
 
   // The cell whose scaling centre is the corner.
@@ -371,6 +424,9 @@ class Dual {
         if (const int cell = cell_of_[3 * at(t) + i];
             cell >= 0 && std::find(cells.begin(), cells.end(), cell) == cells.end())
           cells.push_back(cell);
+    for (const int t : {node, partner(node)})
+      if (const auto found = second_cell_.find(t); found != second_cell_.end())
+        cells.insert(cells.end(), found->second.begin(), found->second.end());
     return cells;
   }
 
@@ -381,7 +437,6 @@ class Dual {
 
   // Two centroids that are close to each other become one node between them.
   void collapse_short_sides() {
-    std::vector<Vec2> points;
     for (int t = 0; t < free_nodes_; ++t) {
       if (!inside(t)) continue;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -432,7 +487,8 @@ class Dual {
   static void remove_node(PolygonCell& cell, std::ptrdiff_t k) {
     cell.nodes.erase(cell.nodes.begin() + k);
     if (!cell.side_regions.empty())
-      cell.side_regions.erase(cell.side_regions.begin() + std::min<std::ptrdiff_t>(k, static_cast<std::ptrdiff_t>(cell.side_regions.size()) - 1));
+      cell.side_regions.erase(cell.side_regions.begin() +
+                              std::min<std::ptrdiff_t>(k, static_cast<std::ptrdiff_t>(cell.side_regions.size()) - 1));
   }
 
   void place_centres() {
@@ -524,8 +580,10 @@ class Dual {
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
       if (!(visibility_[c] > 0.0)) {
         const Vec2& place = mesh_.nodes[at(mesh_.cells[c].nodes.front())];
-        throw InputError("", {Diagnostic{{}, fmt::format("no polygon fits between the lines near ({:.6g}, {:.6g}): "
-                                                         "give a smaller size there", place.x(), place.y())}});
+        throw InputError("", {Diagnostic{{},
+                                         fmt::format("no polygon fits between the lines near ({:.6g}, {:.6g}): "
+                                                     "give a smaller size there",
+                                                     place.x(), place.y())}});
       }
   }
 
@@ -555,18 +613,20 @@ class Dual {
   const DualTriangulation dual_;
   const DualVertices& vertices_;
   const std::vector<Triangle>& triangles_;
-  PolygonMesh mesh_;                // its first nodes are the centroids of all triangles
-  int free_nodes_ = 0;              // their number
-  std::vector<double> spacing_;     // wanted size of cells at them
-  std::vector<int> cell_of_;        // for each corner of each triangle; -1: none
-  std::vector<bool> fixed_centre_;  // for each cell
-  std::vector<double> visibility_;  // for each cell
+  PolygonMesh mesh_;                                         // its first nodes are the centroids of all triangles
+  int free_nodes_ = 0;                                       // their number
+  std::vector<double> spacing_;                              // wanted size of cells at them
+  std::vector<int> cell_of_;                                 // for each corner of each triangle; -1: none
+  std::unordered_map<int, std::vector<int>> second_cell_;    // of triangles where the cells at a corner are divided
+  std::vector<bool> fixed_centre_;                           // for each cell
+  std::vector<double> visibility_;                           // for each cell
   std::array<std::vector<std::vector<int>>, 2> line_nodes_;  // left and right, for each line and each of its points
   std::vector<Wedge> wedges_;
   std::unordered_map<std::size_t, int> wedge_of_;  // for each corner of a triangle at a corner of the domain
   std::vector<std::vector<int>> runs_;             // wedges
   std::vector<bool> is_centre_;                    // for each corner
-  std::unordered_map<int, std::array<int, 2>> middles_;  // of pieces between two scaling centres: left and right
+  std::vector<bool> split_;                        // for each piece: whether its only facet has a node at its middle
+  std::unordered_map<int, std::array<int, 2>> middles_;  // of those: left and right
   std::unordered_map<int, int> merged_, partner_;
   std::vector<Vec2> points_;
 };

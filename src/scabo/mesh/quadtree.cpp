@@ -15,8 +15,8 @@ namespace scabo::mesh {
 namespace quadtree {
 namespace {
 
-constexpr double closed = 1e-6;  // in parts of a cell's size: lines this close to a cell touch it
-constexpr double rim = 0.02;     // lines in this outer part of a cell alone demand no refinement
+constexpr double margin_of_lists = 1e-6;  // in parts of a cell's size: lines this close to a cell touch it
+constexpr double rim = 0.02;              // lines in this outer part of a cell alone demand no refinement
 
 /// How many roots side by side make cells of at most `size` that are square, or nearly so.
 std::pair<int, int> root_numbers(const Vec2& extent, double size) {
@@ -63,8 +63,9 @@ class Grower {
 
  private:
   [[noreturn]] void give_up(const std::string& reason) const {
-    throw InputError({}, {{{}, "the quadtree cannot divide the body: " + reason + " (" + std::to_string(last_trouble_.x()) +
-                                   ", " + std::to_string(last_trouble_.y()) + ")"}});
+    throw InputError({}, {{{},
+                           "the quadtree cannot divide the body: " + reason + " (" + std::to_string(last_trouble_.x()) +
+                               ", " + std::to_string(last_trouble_.y()) + ")"}});
   }
 
   Forest make_forest() {
@@ -111,8 +112,9 @@ class Grower {
   /// Enters a line in the lists of the roots it touches, by halving of blocks of roots.
   void list_block(int line, int x0, int y0, int x1, int y1, int nx) {
     const Vec2 size = forest_.size(0);
-    const Box box{forest_.origin() + size.cwiseProduct(Vec2(x0, y0)), forest_.origin() + size.cwiseProduct(Vec2(x1, y1))};
-    if (!curves_.curves[line].meets(box.grown(closed * size.minCoeff()))) return;
+    const Box box{forest_.origin() + size.cwiseProduct(Vec2(x0, y0)),
+                  forest_.origin() + size.cwiseProduct(Vec2(x1, y1))};
+    if (!curves_.curves[line].meets(box.grown(margin_of_lists * size.minCoeff()))) return;
     if (x1 - x0 == 1 && y1 - y0 == 1) {
       TreeCell& cell = forest_.cells[y0 * nx + x0];
       if (cell.lines < 0) {
@@ -134,7 +136,7 @@ class Grower {
   void hand_down(int parent) {
     const TreeCell above = forest_.cells[parent];
     if (above.lines < 0) return;
-    const double margin = closed * forest_.size(above.level + 1).minCoeff();
+    const double margin = margin_of_lists * forest_.size(above.level + 1).minCoeff();
     for (int k = 0; k < 4; ++k) {
       TreeCell& cell = forest_.cells[above.child + k];
       const Box box = box_of(cell).grown(margin);
@@ -155,7 +157,8 @@ class Grower {
   void refine(std::size_t from) {
     for (std::size_t k = from; k < forest_.cells.size(); ++k) {
       if (forest_.cells[k].child < 0 && too_large(forest_.cells[k])) forest_.split(int(k));
-      if (forest_.cells.size() > 400000000) give_up("the wanted sizes make more than 400 million cells, for a body that begins at");
+      if (forest_.cells.size() > 400000000)
+        give_up("the wanted sizes make more than 400 million cells, for a body that begins at");
     }
   }
 
@@ -196,7 +199,7 @@ class Grower {
     return corners > 1 || apart || (corner < 0 && curves > 1) || curved;
   }
 
-  /// The points that become centres: tips of one crack, or corners of two lines, in one region.
+  /// The points that become centres: where at most one crack or one part of the outside ends.
   void find_centres() {
     const double near = 1e-9 * (curves_.box.upper - curves_.box.lower).norm();
     for (std::size_t corner = 0; corner < curves_.corners.size(); ++corner) {
@@ -204,17 +207,16 @@ class Grower {
         return (centre - curves_.corners[corner]).norm() <= near;
       });
       if (!wanted) continue;
-      int cracks = 0, borders = 0;
-      std::set<int> around;
+      int cracks = 0, borders = 0, lines = 0;  // borders: of the body
       for (const Curve& curve : curves_.curves) {
         for (int end : {curve.first, curve.last}) {
           if (end != int(corner)) continue;
-          ++(curve.crack ? cracks : borders);
-          around.insert({curve.left, curve.right});
+          ++lines;
+          cracks += curve.crack;
+          borders += curve.left < 0 || curve.right < 0;
         }
       }
-      around.erase(-1);
-      if (around.size() == 1 && ((cracks == 1 && borders == 0) || (cracks == 0 && borders == 2))) {
+      if ((2 * cracks + borders == 2) || (cracks + borders == 0 && lines >= 2)) {
         patches_.push_back({int(corner), {}});
       }
     }
@@ -229,7 +231,6 @@ class Grower {
       if (forest_.cells.size() == before) return;
     }
   }
-
 
   void make_room(Patch& patch) {
     const Vec2& centre = curves_.corners[patch.corner];
@@ -289,7 +290,8 @@ class Grower {
     for (const Vec2& point : points) {
       const TreeCell leaf = forest_.cells[forest_.leaf_at(point)];
       const Vec2 near = 1e-3 * forest_.size(leaf.level);
-      for (int k = 0; k < 4; ++k) found.insert(forest_.leaf_at(point + near.cwiseProduct(Vec2(k & 1 ? 1 : -1, k >> 1 ? 1 : -1))));
+      for (int k = 0; k < 4; ++k)
+        found.insert(forest_.leaf_at(point + near.cwiseProduct(Vec2(k & 1 ? 1 : -1, k >> 1 ? 1 : -1))));
     }
     bool divided = false;
     for (int index : found) {

@@ -22,11 +22,13 @@ struct QuadtreeOptions {
 };
 
 /// The mesh. Nodes on a line are on it to rounding; a side on an arc is the chord between two of them. Of the points of
-/// a line only the first and the last are nodes. A line is straight if it has no arc.
+/// a line only the first and the last are nodes. A line is straight if it has no arc. The chain of a line from a centre
+/// to a node of the centre's cell is this node alone.
 ///
-/// A point of domain.centres becomes the centre of an open cell, made of the cells within about one cell's size, if it
-/// is the tip of one crack in one region, or a corner of two lines with one region between them. Other points, such as
-/// corners of two regions, keep their node.
+/// A point of domain.centres becomes the centre of a cell made of those within about one cell's size: an open one at
+/// the tip of a crack or a corner of the body, a closed one where only regions meet. Lines between regions that end
+/// there have no nodes inside this cell; its sides know their regions. Points at which more than one crack or part of
+/// the outside ends keep their node.
 ///
 /// Throws InputError if lines are too close to each other, or meet elsewhere than at their ends.
 PolygonMesh quadtree_mesh(const Domain& domain, const QuadtreeOptions& options = {});

@@ -22,8 +22,8 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<
-    Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+using FaceBase =
+    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
@@ -43,11 +43,12 @@ std::vector<std::size_t> spatial_order(const std::vector<Vec2>& points) {
   return order;
 }
 
-std::vector<Triangle> triangulate(const std::vector<Vec2>& points, const std::vector<std::pair<int, int>>& segments) {
+std::vector<Triangle> triangulate(const std::vector<Vec2>& points, const std::vector<std::pair<int, int>>& segments,
+                                  const std::vector<std::size_t>& order) {
   Delaunay delaunay;
   std::vector<Delaunay::Vertex_handle> vertices(points.size());
   Delaunay::Face_handle near;
-  for (const std::size_t i : spatial_order(points)) {
+  for (const std::size_t i : order) {
     vertices[i] = delaunay.insert(point_of(points[i]), near);
     vertices[i]->info() = static_cast<int>(i);
     near = vertices[i]->face();
@@ -58,7 +59,8 @@ std::vector<Triangle> triangulate(const std::vector<Vec2>& points, const std::ve
     for (const auto& [a, b] : segments)
       delaunay.insert_constraint(vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)]);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
-    throw InputError("", {Diagnostic{{}, "two lines of the shape cross, or their facets are too long to tell them apart"}});
+    throw InputError("",
+                     {Diagnostic{{}, "two lines of the shape cross, or their facets are too long to tell them apart"}});
   }
 
   int count = 0;

@@ -38,6 +38,7 @@ double estimated_dofs(const Outline& outline, const MeshOptions& mesh) {
   if (mesh.kind == MeshKind::fem) {
     const double nx = pieces(outline.edges[0].length(), mesh.size);
     const double ny = pieces(outline.edges[1].length(), mesh.size);
+    if (mesh.order == 1) return 2.0 * (nx + 1.0) * (ny + 1.0);
     return 2.0 * ((nx + 1.0) * (ny + 1.0) + nx * (ny + 1.0) + ny * (nx + 1.0));
   }
   double elements = 0.0;
@@ -192,18 +193,18 @@ bool check_side_faces(const BodyCheck& of) {
   return good;
 }
 
-bool is_many(const MeshOptions& mesh) { return mesh.kind == MeshKind::polygons || mesh.kind == MeshKind::quadtree; }
-
 /// What bodies of many cells cannot have, and the sizes of their cells.
 bool check_many_cells(Checking& checking, const std::string& path, const Body& body) {
   bool good = true;
   const auto refuse = [&](bool given, const char* key, const char* why) {
     if (given) checking.error_of_key(path, key, why), good = false;
   };
-  refuse(body.mesh.tolerance.has_value(), "mesh.tolerance",
-         "is not available for many cells in this version: leave it out, and use 'refine'");
-  refuse(body.outside, "outside", "an unbounded body is one super-element in this version: leave 'kind' out");
-  if (!body.cracks.empty())
+  refuse(body.mesh.tolerance.has_value() && body.mesh.kind != MeshKind::fem, "mesh.tolerance",
+         "is available only for a body that is one super-element in this version: leave it out, and use 'refine' with "
+         "kind: polygons or kind: quadtree");
+  refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
+         "an unbounded body is one super-element in this version: leave 'kind' out");
+  if (!body.cracks.empty() && body.mesh.kind != MeshKind::fem)
     checking.error(path, "cracks.0", "cracks are available only in a body that is one super-element in this version"),
         good = false;
   for (std::size_t i = 0; i < body.mesh.refine.size(); ++i) {
@@ -225,16 +226,19 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
 bool check_mesh_options(Checking& checking, const std::string& path, const Body& body) {
   const MeshOptions& mesh = body.mesh;
   bool good = checking.positive(path, "mesh.size", mesh.size);
-  if (!is_many(mesh) && !mesh.refine.empty())
-    checking.error_of_key(path, "mesh.refine", "is available for kind: polygons and kind: quadtree only"), good = false;
-  if (!is_many(mesh) && (!body.outline.holes.empty() || !body.regions.empty()))
+  if (mesh.kind == MeshKind::superelement && !mesh.refine.empty())
+    checking.error_of_key(path, "mesh.refine", "is not available for kind: superelement: use polygons, quadtree or fem"),
+        good = false;
+  if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty()))
     checking.error(path, "mesh",
-                   "a body with holes or regions needs many cells: write kind: polygons or kind: quadtree"),
+                   "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree"),
         good = false;
   good = checking.whole(path, "mesh.order", mesh.order, limits::order) && good;
   if (mesh.kind == MeshKind::fem) {
-    if (good && mesh.order != 2)
-      checking.error(path, "mesh.order", "fem uses 8-node elements of order 2: leave 'order' out"), good = false;
+    if (good && mesh.order > 2)
+      checking.error(path, "mesh.order",
+                     fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", mesh.order)),
+          good = false;
     if (mesh.tolerance)
       checking.error_of_key(path, "mesh.tolerance",
                             "only super-elements are refined: leave 'tolerance' out for fem"),
@@ -246,9 +250,10 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
     if (body.outside)
       checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
           good = false;
-  } else if (is_many(mesh)) {
+  }
+  if (is_divided_inside(body)) {
     good = check_many_cells(checking, path, body) && good;
-  } else if (mesh.tolerance) {
+  } else if (mesh.tolerance && mesh.kind != MeshKind::fem) {
     good = checking.within(path, "mesh.tolerance", *mesh.tolerance, "1e-5", "0.5") && good;
   }
   if (mesh.kind != MeshKind::superelement && !body.sector_materials.empty())
@@ -271,11 +276,7 @@ bool check_dofs(const BodyCheck& of) {
 
 void check_mesh(const BodyCheck& of, bool values_good) {
   const MeshOptions& mesh = of.body.mesh;
-  if (mesh.kind == MeshKind::fem && !of.outline.rectangle) {
-    of.checking.error(of.path, "mesh.kind", "fem is available only for a shape given as rectangle: use superelement");
-    values_good = false;
-  }
-  if (!values_good || is_many(mesh)) return;  // the mesher counts its nodes
+  if (!values_good || is_divided_inside(of.body)) return;  // the mesher counts its nodes
   if (!check_dofs(of) || mesh.kind == MeshKind::fem) return;
   if (!of.checking.vector(of.path, "mesh.centre", mesh.centre)) return;
   if (!of.body.cracks.empty() && mesh.centre != of.body.cracks.front().tip) {

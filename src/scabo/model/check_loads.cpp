@@ -56,8 +56,6 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
                          kind == "temperature" ? "temperature has no effect on it"
                                                : "it has no weight; apply a force to it instead");
     if (of.outside) return fmt::format("'{}' is unbounded: loads can act only on its boundary", body);
-    if (kind != "gravity" && of.mesh.kind == MeshKind::fem)
-      return fmt::format("{} is not available for finite elements: use kind superelement", kind);
     return "";
   }
   if (place.kind == Place::Kind::face) {

@@ -72,6 +72,7 @@ void check_law(Checking& checking, const std::string& path, const Anisotropic& a
 std::set<int> materials_of(const Model& model, const Body& body) {
   std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
   if (materials.empty()) materials.insert(body.material);
+  for (const Region& region : body.regions) materials.insert(region.material);
   std::erase_if(materials, [&](int i) { return i < 0 || static_cast<std::size_t>(i) >= model.materials.size(); });
   return materials;
 }
@@ -169,13 +170,6 @@ void check_expansion(Checking& checking) {
     for (std::size_t i = first; i < last; ++i) {
       const Body& body = model.bodies[i];
       if (body.rigid || body.outside) continue;
-      if (!load.on && body.mesh.kind == MeshKind::fem) {
-        checking.enter(load.source);
-        checking.error_of_key(path_of("loads", load.name, l), "",
-                              fmt::format("temperature is not available for finite elements, of which body '{}' "
-                                          "consists: name another body with 'on'",
-                                          body.name));
-      }
       for (const int index : materials_of(model, body)) {
         if (model.materials[static_cast<std::size_t>(index)].expansion || !told.insert(index).second) continue;
         report_lack(checking, index, fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'",

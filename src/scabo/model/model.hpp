@@ -59,8 +59,9 @@ using geometry::Corner;
 using geometry::Edge;
 using geometry::Outline;
 
-/// One super-element, finite elements, or many super-elements: polygons or the squares of a quadtree.
-enum class MeshKind { superelement, fem, polygons, quadtree };
+/// One super-element; finite elements; many super-elements: polygons, or the squares of a quadtree; few super-elements,
+/// for a shape that no point sees as a whole.
+enum class MeshKind { superelement, fem, polygons, quadtree, parts };
 
 /// Smaller cells near a point, or on an edge of the outline. Away from it sizes grow by `mesh_growth` of the distance.
 struct LocalSize {
@@ -117,6 +118,13 @@ struct Body {
   /// Whether two side faces meet at the scaling centre.
   bool open() const { return !cracks.empty() || mesh.centre_corner >= 0; }
 };
+
+/// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
+/// of finite elements in a rectangle.
+inline bool is_divided_inside(const Body& body) {
+  return body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
+                                                       body.regions.empty() && body.mesh.refine.empty());
+}
 
 /// Where a support, load or contact acts.
 struct Place {

@@ -1,44 +1,9 @@
 #include "scabo/result/cell_locator.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace scabo::result {
-
-std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x) {
-  constexpr double slack = 1e-9;  // points between two elements belong to one of them
-  Vec2 low = corners[0], high = corners[0];
-  for (const Vec2& corner : corners) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
-  const Vec2 size = high - low;
-  // Curved sides may extend beyond the bounding box of their nodes by less than a quarter of its size.
-  if (((x - low).array() < -0.25 * size.array()).any() || ((x - high).array() > 0.25 * size.array()).any())
-    return std::nullopt;
-  // Position and its gradient are computed like a displacement field whose nodal values are the coordinates.
-  element::Vector16 nodal;
-  for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(static_cast<Eigen::Index>(2 * i)) = corners[i];
-  const auto position = [&](const Vec2& at) {
-    return element::plane_element8_values(element::plane_element8_nodes, nodal, element::Mat3::Zero(), at.x(), at.y())
-        .displacement;
-  };
-  Vec2 natural = Vec2::Zero();
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    const Vec2 miss = x - position(natural);
-    if (miss.norm() <= 1e-14 * size.norm()) break;
-    constexpr double h = 1e-3;  // position is quadratic along r and along s: central differences are exact
-    Mat2 J;
-    J.col(0) = (position(natural + Vec2(h, 0.0)) - position(natural - Vec2(h, 0.0))) / (2.0 * h);
-    J.col(1) = (position(natural + Vec2(0.0, h)) - position(natural - Vec2(0.0, h))) / (2.0 * h);
-    natural += J.inverse() * miss;
-    if (!(natural.lpNorm<Eigen::Infinity>() < 3.0)) return std::nullopt;
-  }
-  if (natural.lpNorm<Eigen::Infinity>() > 1.0 + slack) return std::nullopt;
-  return natural;
-}
 
 CellLocator::CellLocator(const mesh::BodyMesh& mesh, const element::SolvedCells& cells) : mesh_(mesh), cells_(cells) {
   ensure(!mesh.cells.empty(), "a rigid body has no cells");
@@ -71,14 +36,15 @@ CellLocator::CellLocator(const mesh::BodyMesh& mesh, const element::SolvedCells&
   }
 }
 
-std::size_t CellLocator::bucket_of(const Vec2& x) const {
-  if (buckets_.size() == 1) return 0;
-  std::size_t at[2];
-  for (int k = 0; k < 2; ++k) {
-    const double position = std::clamp((x[k] - low_[k]) / step_[k], 0.0, counts_[k] - 1.0);
-    at[k] = static_cast<std::size_t>(position);
-  }
-  return at[1] * static_cast<std::size_t>(counts_[0]) + at[0];
+Eigen::Vector2i CellLocator::indices_of(const Vec2& x) const {
+  Eigen::Vector2i at;
+  for (int k = 0; k < 2; ++k)
+    at[k] = static_cast<int>(std::clamp((x[k] - low_[k]) / step_[k], 0.0, counts_[k] - 1.0));
+  return at;
+}
+
+const std::vector<std::size_t>& CellLocator::bucket(int i, int j) const {
+  return buckets_[static_cast<std::size_t>(j) * static_cast<std::size_t>(counts_[0]) + static_cast<std::size_t>(i)];
 }
 
 std::optional<CellPlace> CellLocator::in_cell(std::size_t cell, const Vec2& x) const {
@@ -91,38 +57,63 @@ std::optional<CellPlace> CellLocator::in_cell(std::size_t cell, const Vec2& x) c
     place.scaled = *scaled;
     return place;
   }
-  const auto natural = natural_coordinates(element::corners8_of(mesh_.cells[cell], mesh_.nodes), x);
+  const auto natural =
+      element::natural_coordinates(element::finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
   if (!natural) return std::nullopt;
   place.natural = *natural;
   return place;
 }
 
 std::optional<CellPlace> CellLocator::find(const Vec2& x) const {
-  for (const std::size_t cell : buckets_[bucket_of(x)])
+  const Eigen::Vector2i at = indices_of(x);
+  for (const std::size_t cell : bucket(at[0], at[1]))
     if (const auto place = in_cell(cell, x)) return place;
   return std::nullopt;
 }
 
+std::optional<CellLocator::Candidate> CellLocator::nearest_in(std::size_t cell, const Vec2& x) const {
+  if (!cells_[cell]) {
+    const auto nearest = element::nearest_on_sides(element::finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
+    Candidate candidate{{}, nearest.distance};
+    candidate.place.cell = cell;
+    candidate.place.natural = nearest.natural;
+    return candidate;
+  }
+  // Moved towards the scaling centre the point lies in the cell; the factor tells how far outside it was.
+  const Vec2& centre = mesh_.cells[cell].centre;
+  const double factor = cells_[cell]->domain.unbounded ? 2.0 : 0.5;
+  auto place = in_cell(cell, centre + factor * (x - centre));
+  if (!place) return std::nullopt;
+  const double distance = (x - centre).norm() * std::abs(1.0 - factor / place->scaled.xi);
+  place->scaled.xi = 1.0;
+  return Candidate{*place, distance};
+}
+
 CellPlace CellLocator::nearest(const Vec2& x) const {
   if (const auto place = find(x)) return *place;
-  // Moved towards the scaling centre the point lies in the cell; the factor tells how far outside it was.
-  std::optional<CellPlace> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (!cells_[c]) continue;
-    const Vec2& centre = mesh_.cells[c].centre;
-    const bool unbounded = cells_[c]->domain.unbounded;
-    const double factor = unbounded ? 2.0 : 0.5;
-    auto place = in_cell(c, centre + factor * (x - centre));
-    if (!place) continue;
-    const double outside = std::abs(std::log(place->scaled.xi / factor));
-    if (outside >= least) continue;
-    least = outside;
-    place->scaled.xi = 1.0;
-    best = place;
+  std::optional<Candidate> best;
+  const auto look = [&](int i, int j) {
+    if (i < 0 || j < 0 || i >= counts_[0] || j >= counts_[1]) return;
+    for (const std::size_t cell : bucket(i, j)) {
+      const auto candidate = nearest_in(cell, x);
+      if (candidate && (!best || candidate->distance < best->distance)) best = candidate;
+    }
+  };
+  // Squares of buckets around that of the point; what lies beyond square k is at least k steps away.
+  const Eigen::Vector2i at = indices_of(x);
+  for (int k = 0; k < counts_.maxCoeff(); ++k) {
+    for (int i = -k; i <= k; ++i) {
+      look(at[0] + i, at[1] - k);
+      if (k > 0) look(at[0] + i, at[1] + k);
+    }
+    for (int j = 1 - k; j < k; ++j) {
+      look(at[0] - k, at[1] + j);
+      look(at[0] + k, at[1] + j);
+    }
+    if (best && best->distance <= k * step_.minCoeff()) break;
   }
   ensure(best.has_value(), "a point of a body has no place in its cells");
-  return *best;
+  return best->place;
 }
 
 }  // namespace scabo::result

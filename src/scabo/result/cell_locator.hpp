@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
-#include "scabo/element/plane_element8.hpp"
 
 namespace scabo::result {
 
@@ -30,16 +30,20 @@ class CellLocator {
 
  private:
   std::optional<CellPlace> in_cell(std::size_t cell, const Vec2& x) const;
-  std::size_t bucket_of(const Vec2& x) const;
+  /// The point of the boundary of a cell near `x`, which lies outside; nothing if a super-element does not see it.
+  struct Candidate {
+    CellPlace place;
+    double distance = 0.0;
+  };
+  std::optional<Candidate> nearest_in(std::size_t cell, const Vec2& x) const;
+  Eigen::Vector2i indices_of(const Vec2& x) const;
+  const std::vector<std::size_t>& bucket(int i, int j) const;
 
   const mesh::BodyMesh& mesh_;
   const element::SolvedCells& cells_;
   Vec2 low_ = Vec2::Zero(), step_ = Vec2::Ones();
   Eigen::Vector2i counts_ = Eigen::Vector2i::Ones();
-  std::vector<std::vector<std::size_t>> buckets_;  // cells whose boxes overlap each; one bucket for a single cell
+  std::vector<std::vector<std::size_t>> buckets_;  // cells whose boxes overlap each; row by row; one for a single cell
 };
-
-/// Natural coordinates of `x` in an element; nothing if it lies outside.
-std::optional<Vec2> natural_coordinates(const element::Corners8& corners, const Vec2& x);
 
 }  // namespace scabo::result

@@ -142,13 +142,17 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       }
       result.has_stress = !named.rigid && !(super_element && group.infinite[i]);
       if (!result.has_stress) continue;
-      const double temperature = interior.temperature.at(x);
+      const double temperature = element::loads_in(increment.interior[b], place.cell).temperature.at(x);
       int material = solution.mesh.bodies[b].cells[place.cell].materials.front();
       element::Vec3 elastic = result.values.strain;
       if (super_element) {
         const auto element = static_cast<std::size_t>(place.scaled.element);
         material = super_element->sectors.material_of(element);
         elastic -= super_element->sectors.unit_strain_of(element) * temperature;
+      } else {
+        elastic -= element::thermal_strain(solution.model.materials[static_cast<std::size_t>(material)],
+                                           solution.model.analysis.plane) *
+                   temperature;
       }
       result.stress_zz =
           element::stress_zz(result.values.stress, solution.model.materials[static_cast<std::size_t>(material)],

@@ -21,13 +21,21 @@ Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
   return {motion[0] - motion[2] * arm.y(), motion[1] + motion[2] * arm.x()};
 }
 
-FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::Cell& cell, const Vector& u) {
-  FiniteElementState state;
-  state.x = element::corners8_of(cell, mesh.nodes);
-  const std::array<int, 8> nodes = element::plane_element8_nodes_of(cell);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    state.u.segment<2>(static_cast<Eigen::Index>(2 * i)) = u.segment<2>(2 * nodes[i]);
-  return state;
+FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution,
+                                       const analysis::IncrementResult& increment, std::size_t body, std::size_t cell) {
+  const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
+  element_ = element::finite_element_of(mesh.cells[cell], mesh.nodes);
+  u_ = increment.displacements[body](element::dofs_of(element_));
+  const model::Material& material =
+      solution.model.materials[static_cast<std::size_t>(mesh.cells[cell].materials.front())];
+  D_ = element::elasticity_matrix(material, solution.model.analysis.plane);
+  unit_strain_ = element::thermal_strain(material, solution.model.analysis.plane);
+  temperature_ = element::loads_in(increment.interior[body], cell).temperature;
+}
+
+element::PointValues FiniteElementState::at(const Vec2& natural) const {
+  const element::Vec3 free = unit_strain_ * temperature_.at(element::position_in(element_, natural));
+  return element::finite_element_values(element_, u_, D_, natural, free);
 }
 
 struct Probe::CellField {
@@ -40,6 +48,7 @@ struct Probe::CellField {
 
 Probe::Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body)
     : solution_(solution),
+      increment_(increment),
       body_(static_cast<std::size_t>(body)),
       u_(increment.displacements[body_]),
       reference_displacement_(increment.reference_displacement),
@@ -83,7 +92,6 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
 }
 
 element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
-  const mesh::BodyMesh& mesh = solution_.mesh.bodies[body_];
   element::PointValues values;
   if (const auto& super_element = solution_.cells[body_][place.cell]) {
     CellField& field = field_of(place.cell);
@@ -93,12 +101,7 @@ element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
     values = element::point_values(super_element->ring, field.table ? field.table->at(at.xi) : field.radial.at(at.xi),
                                    super_element->sectors.D, at.element, at.eta, free);
   } else {
-    const mesh::Cell& cell = mesh.cells[place.cell];
-    const FiniteElementState state = finite_element_state(mesh, cell, u_);
-    const model::Material& material = solution_.model.materials[static_cast<std::size_t>(cell.materials.front())];
-    values = element::plane_element8_values(state.x, state.u,
-                                            element::elasticity_matrix(material, solution_.model.analysis.plane),
-                                            place.natural.x(), place.natural.y());
+    values = FiniteElementState(solution_, increment_, body_, place.cell).at(place.natural);
   }
   values.displacement -= reference_displacement_;
   return values;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
-#include "scabo/element/plane_element8.hpp"
 #include "scabo/element/radial_table.hpp"
 #include "scabo/result/cell_locator.hpp"
 
@@ -39,6 +39,7 @@ class Probe {
   CellField& field_of(std::size_t cell) const;
 
   const analysis::StaticSolution& solution_;
+  const analysis::IncrementResult& increment_;
   std::size_t body_;
   const Vector& u_;
   Vec2 reference_displacement_;
@@ -52,12 +53,22 @@ class Probe {
 std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
                                              const analysis::IncrementResult& increment, int body, const Vec2& x);
 
-/// Corners and displacements of a finite element.
-struct FiniteElementState {
-  element::Corners8 x;
-  element::Vector16 u;
+/// A finite element with its material and its state after an increment.
+class FiniteElementState {
+ public:
+  FiniteElementState(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment,
+                     std::size_t body, std::size_t cell);
+  const element::FiniteElement& element() const { return element_; }
+  /// Without the reference displacement; the change of temperature is taken out of the stress.
+  element::PointValues at(const Vec2& natural) const;
+
+ private:
+  element::FiniteElement element_;
+  element::ElementVector u_;
+  element::Mat3 D_;
+  element::Vec3 unit_strain_;
+  element::LinearField temperature_;
 };
-FiniteElementState finite_element_state(const mesh::BodyMesh& mesh, const mesh::Cell& cell, const Vector& u);
 
 /// Displacement of a point of a rigid body at `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.
 Vec2 rigid_displacement(const Vector& motion, const Vec2& arm);

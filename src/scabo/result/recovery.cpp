@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/line_basis.hpp"
-#include "scabo/element/plane_element8.hpp"
 #include "scabo/result/probe.hpp"
 
 namespace scabo::result {
@@ -56,6 +56,20 @@ void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSamplin
   }
 }
 
+CellType type_of(element::FiniteElementKind kind) {
+  switch (kind) {
+    case element::FiniteElementKind::triangle3:
+      return CellType::triangle;
+    case element::FiniteElementKind::triangle6:
+      return CellType::quadratic_triangle;
+    case element::FiniteElementKind::quad4:
+      return CellType::quad;
+    case element::FiniteElementKind::quad8:
+      return CellType::quadratic_quad;
+  }
+  throw BrokenInvariant("a finite element of unknown kind");
+}
+
 /// Every cell: the sides at the points that cells of one material share, and what is inside of them. Rings as above.
 CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::SolvedCells& cells, SamplingLibrary& library,
                     std::int32_t number) {
@@ -85,7 +99,7 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const mesh::Cell& cell = body.cells[c];
     if (!cells[c]) {
-      for (const int node : element::plane_element8_nodes_of(cell))
+      for (const int node : element::finite_element_of(cell, body.nodes).nodes())
         made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
       continue;
     }
@@ -99,9 +113,9 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
   for (std::size_t c = 0; c < cells.size(); ++c) {
     CellsBody::OfCell& of_cell = made.cells[c];
     if (!cells[c]) {
-      std::array<std::int32_t, 8> points{};
-      for (std::size_t i = 0; i < 8; ++i) points[i] = first + of_cell.outer[i];
-      grid.add_cell(CellType::quadratic_quad, points, number);
+      std::vector<std::int32_t> points = of_cell.outer;
+      for (std::int32_t& point : points) point += first;
+      grid.add_cell(type_of(element::finite_element_of(body.cells[c], body.nodes).kind), points, number);
       continue;
     }
     const RingSampling& sampling = *of_cell.sampling;
@@ -243,19 +257,14 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
     const mesh::Cell& cell = mesh.cells[c];
     const CellsBody::OfCell& of_cell = made.cells[c];
     const auto& super_element = solution.cells[body][c];
-    if (!super_element) {
-      const element::Mat3 D = element::elasticity_matrix(
-          solution.model.materials[static_cast<std::size_t>(cell.materials.front())], solution.model.analysis.plane);
-      const FiniteElementState state = finite_element_state(mesh, cell, u);
-      for (std::size_t i = 0; i < of_cell.outer.size(); ++i) {
-        const Vec2& natural = element::plane_element8_nodes[i];
-        add(of_cell.outer[i],
-            element::plane_element8_values(state.x, state.u, D, natural.x(), natural.y()).stress);
-      }
-      continue;
-    }
     const element::InteriorLoads& interior = element::loads_in(increment.interior[body], c);
     temperature = interior.temperature;
+    if (!super_element) {
+      const FiniteElementState state(solution, increment, body, c);
+      const auto natural = element::natural_nodes(state.element().kind);
+      for (std::size_t i = 0; i < natural.size(); ++i) add(of_cell.outer[i], state.at(natural[i]).stress);
+      continue;
+    }
     const Vector own = u(element::dofs_of(cell));
     const element::RadialField field(super_element->solution, super_element->modes(), own, interior.loads);
     const Eigen::Matrix3Xd at_sides =

@@ -1,6 +1,6 @@
 // The loads of a model as nodal forces and as loads inside bodies.
+#include "scabo/element/finite_element.hpp"
 #include "scabo/element/modal_solution.hpp"
-#include "scabo/element/plane_element8.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 #include "scabo/system/structure.hpp"
@@ -64,8 +64,9 @@ class Applied {
           loads.loads =
               element::body_force_loads(cell.ring, {gravity.value.x()}, {gravity.value.y()}, thickness(), density);
         },
-        [&](const mesh::Cell& cell) {
-          add_uniform_body_force(cell, density_of(cell.materials.front()) * gravity.value);
+        [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads&) {
+          const Vec2 force = material.density.value_or(0.0) * gravity.value;
+          return element::finite_element_body_force(cell, {force.x()}, {force.y()}, thickness());
         });
   }
 
@@ -81,7 +82,7 @@ class Applied {
                                       1.0);
           }
         },
-        [](const mesh::Cell&) {});
+        no_force);
   }
 
   void operator()(const model::BodyForce& force) {
@@ -90,22 +91,30 @@ class Applied {
           loads.loads =
               element::body_force_loads(cell.ring, about(centre, force.x), about(centre, force.y), thickness());
         },
-        [](const mesh::Cell&) { throw BrokenInvariant("a body force that varies acts on super-elements only"); });
+        [&](const element::FiniteElement& cell, const model::Material&, element::InteriorLoads&) {
+          return element::finite_element_body_force(cell, linear(force.x), linear(force.y), thickness());
+        });
   }
 
   void operator()(const model::Temperature& temperature) {
     const model::Linear& change = temperature.change;
     for_each_cell(
         [&](const element::SolvedSuperElement& cell, const Vec2& centre, element::InteriorLoads& loads) {
-          loads.temperature = {change.constant, change.per_x, change.per_y};
+          loads.temperature = linear(change);
           loads.loads = element::thermal_loads(cell.ring, cell.sectors.D, cell.sectors.unit_strain,
                                                about(centre, change), thickness());
         },
-        [](const mesh::Cell&) { throw BrokenInvariant("a temperature acts on super-elements only"); });
+        [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads& loads) {
+          loads.temperature = linear(change);
+          const model::Plane plane = model_.analysis.plane;
+          return element::finite_element_thermal_force(cell, element::elasticity_matrix(material, plane),
+                                                       element::thermal_strain(material, plane), loads.temperature,
+                                                       thickness());
+        });
   }
 
  private:
-  /// Fills `interior` and adds what it is worth at the nodes; `of_finite` adds to the nodal forces itself.
+  /// Fills `interior` and adds what it is worth at the nodes, which `of_finite` returns for finite elements.
   template <typename OfSuperElement, typename OfFinite>
   void for_each_cell(const OfSuperElement& of_super_element, const OfFinite& of_finite) {
     nodal = Vector::Zero(system_.size());
@@ -113,7 +122,9 @@ class Applied {
     for (std::size_t c = 0; c < interior.size(); ++c) {
       const mesh::Cell& cell = body_mesh_.cells[c];
       if (!cells_[c]) {
-        of_finite(cell);
+        const element::FiniteElement finite = element::finite_element_of(cell, body_mesh_.nodes);
+        const model::Material& material = model_.materials[static_cast<std::size_t>(cell.materials.front())];
+        nodal(element::dofs_of(finite)) += of_finite(finite, material, interior[c]);
         continue;
       }
       of_super_element(*cells_[c], cell.centre, interior[c]);
@@ -122,12 +133,12 @@ class Applied {
     }
   }
 
-  void add_uniform_body_force(const mesh::Cell& cell, const Vec2& force) {
-    const std::array<int, 8> nodes = element::plane_element8_nodes_of(cell);
-    const auto areas = element::plane_element8_areas(element::corners8_of(cell, body_mesh_.nodes));
-    for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(2 * nodes[i]) += areas[i] * thickness() * force;
+  static element::ElementVector no_force(const element::FiniteElement& cell, const model::Material&,
+                                         element::InteriorLoads&) {
+    return element::ElementVector::Zero(2 * cell.size());
   }
 
+  static element::LinearField linear(const model::Linear& field) { return {field.constant, field.per_x, field.per_y}; }
   static element::LinearField about(const Vec2& centre, const model::Linear& field) {
     return {field.constant + field.per_x * centre.x() + field.per_y * centre.y(), field.per_x, field.per_y};
   }

@@ -1,6 +1,6 @@
 #include "scabo/system/assembly.hpp"
 
-#include "scabo/element/plane_element8.hpp"
+#include "scabo/element/finite_element.hpp"
 
 namespace scabo::system {
 
@@ -47,15 +47,6 @@ class Assembler {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-std::vector<int> finite_element_dofs(const mesh::Cell& cell) {
-  std::vector<int> dofs;
-  for (const int node : element::plane_element8_nodes_of(cell)) {
-    dofs.push_back(2 * node);
-    dofs.push_back(2 * node + 1);
-  }
-  return dofs;
-}
-
 const model::Material& material_of(const model::Model& model, const mesh::Cell& cell) {
   return model.materials[static_cast<std::size_t>(cell.materials.front())];
 }
@@ -80,8 +71,9 @@ Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, 
       continue;
     }
     const element::Mat3 D = element::elasticity_matrix(material_of(model, cell), model.analysis.plane);
-    assembler.add(finite_element_dofs(cell),
-                  element::plane_element8_stiffness(element::corners8_of(cell, mesh.nodes), D, model.analysis.thickness));
+    const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
+    assembler.add(element::dofs_of(finite),
+                  element::finite_element_stiffness(finite, D, model.analysis.thickness));
   }
   stiffness.sparse = assembler.finish();
   return stiffness;
@@ -107,13 +99,9 @@ Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const
       assembler.add(element::dofs_of(cell), *masses.of(*cells[c]));
       continue;
     }
-    const element::Matrix8 of_nodes =
-        element::plane_element8_mass(element::corners8_of(cell, mesh.nodes), *material_of(model, cell).density,
-                                     model.analysis.thickness);
-    element::Matrix16 both = element::Matrix16::Zero();  // equal for the two components
-    for (Eigen::Index j = 0; j < 8; ++j)
-      for (Eigen::Index i = 0; i < 8; ++i) both(2 * i, 2 * j) = both(2 * i + 1, 2 * j + 1) = of_nodes(i, j);
-    assembler.add(finite_element_dofs(cell), both);
+    const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
+    assembler.add(element::dofs_of(finite), element::finite_element_mass(finite, *material_of(model, cell).density,
+                                                                         model.analysis.thickness));
   }
   mass.sparse = assembler.finish();
   return mass;

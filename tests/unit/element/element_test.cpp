@@ -1,11 +1,10 @@
-// Elasticity, coefficient matrices, symmetry blocks, the 8-node element.
+// Elasticity, coefficient matrices, symmetry blocks.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
-#include "scabo/element/plane_element8.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {
@@ -86,45 +85,6 @@ TEST(SymmetryBlocks, LookAtElementsToo) {
     at += order;
   }
   EXPECT_EQ(symmetry_blocks(ring, elasticity(1.0, 0.3)).size(), 1u);
-}
-
-Corners8 distorted_quadrilateral() {
-  Corners8 x = {Vec2(0, 0), Vec2(2, 0.3), Vec2(2.4, 1.9), Vec2(-0.3, 1.5)};
-  for (std::size_t i = 0; i < 4; ++i) x[4 + i] = 0.5 * (x[i] + x[(i + 1) % 4]);
-  return x;
-}
-
-TEST(PatchTest, EightNodeElementIsExactForLinearFields) {
-  const Corners8 x = distorted_quadrilateral();
-  const Mat3 D = elasticity(10e9, 0.3);
-  Mat2 gradient;
-  gradient << 1e-3, 2e-3, -1e-3, 5e-4;
-  Vector16 u;
-  for (Eigen::Index i = 0; i < 8; ++i) u.segment<2>(2 * i) = gradient * x[static_cast<std::size_t>(i)];
-  const Vec3 strain(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0)), stress = D * strain;
-  const PointValues values = plane_element8_values(x, u, D, 0.3, -0.7);
-  EXPECT_LT(largest(values.strain - strain), 1e-17);
-  EXPECT_LT(largest(values.stress - stress), 1e-14 * largest(stress));
-
-  const double thickness = 0.2;
-  const Matrix16 K = plane_element8_stiffness(x, D, thickness);
-  Vector16 f = Vector16::Zero();  // Simpson's rule: 1/6, 4/6, 1/6 of a side's force
-  for (std::size_t side = 0; side < 4; ++side) {
-    const std::size_t from = side, to = (side + 1) % 4, middle = 4 + side;
-    const Vec2 along = x[to] - x[from];
-    const Vec2 force = thickness * traction_of(stress, Vec2(along.y(), -along.x()));
-    f.segment<2>(static_cast<Eigen::Index>(2 * from)) += force / 6;
-    f.segment<2>(static_cast<Eigen::Index>(2 * to)) += force / 6;
-    f.segment<2>(static_cast<Eigen::Index>(2 * middle)) += 4 * force / 6;
-  }
-  EXPECT_LT(largest(K * u - f), 1e-13 * largest(f));
-  EXPECT_EQ(K, K.transpose());
-
-  double area = 0.0;
-  for (double part : plane_element8_areas(x)) area += part;
-  double exact = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) exact += 0.5 * cross(x[i], x[(i + 1) % 4]);
-  EXPECT_NEAR(area, exact, 1e-14 * exact);
 }
 
 }  // namespace

@@ -203,11 +203,23 @@ TEST(Grid, HasTheEdgeNodesOfASuperElementOfOrderTwo) {
   }
 }
 
-TEST(Grid, NeedsARectangleAndOrderTwo) {
+TEST(Grid, OfOrderOneHasTheCornersOnly) {
+  const BodyMesh mesh = mesh_of(fem(elastic("plate", test::rectangle({1, 2}, {3, 2}), 1.0, 1)));
+  EXPECT_EQ(mesh.nodes.size(), 4u * 3u);
+  ASSERT_EQ(mesh.cells.size(), 6u);
+  EXPECT_EQ(mesh.nodes[5], Vec2(2, 3));
+  EXPECT_EQ(mesh.cells[4].nodes(), (std::vector<int>{5, 6, 10, 9}));
+  ASSERT_EQ(mesh.edges[2].size(), 3u);
+  EXPECT_EQ(mesh.edges[2][0].nodes, (std::vector<int>{11, 10}));
+  EXPECT_EQ(mesh.edges[3][1].nodes, (std::vector<int>{4, 0}));
+  EXPECT_EQ(mesh.corners, (std::vector<int>{0, 3, 11, 8}));
+}
+
+TEST(Grid, NeedsARectangleAndOrderOneOrTwo) {
   EXPECT_THAT(message_of(with({fem(elastic("disc", quarter_disc(), 0.1))})),
               HasSubstr("available only for rectangles"));
   EXPECT_THAT(message_of(with({fem(elastic("plate", test::rectangle({0, 0}, {1, 1}), 0.1, 3))})),
-              HasSubstr("elements of order 2, not 3"));
+              HasSubstr("elements of order 1 or 2, not 3"));
 }
 
 TEST(Places, NameNodes) {

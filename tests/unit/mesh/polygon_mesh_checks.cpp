@@ -33,8 +33,8 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
   out.areas.assign(regions, 0.0);
   const Vec2 origin = domain.lines.front().points.front();
 
-  std::map<std::pair<int, int>, int> cell_of;  // by directed side
-  std::vector<double> widths(mesh.cells.size(), 0.0);
+  std::map<std::pair<int, int>, int> region_of;  // by directed side
+  std::vector<double> widths(mesh.cells.size(), 0.0), shapes(mesh.cells.size(), 0.0);
   for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
     const mesh::PolygonCell& cell = mesh.cells[k];
     const int n = int(cell.nodes.size());
@@ -50,7 +50,15 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       fault(name + " has no region");
       continue;
     }
-    out.areas[cell.region] += area;
+    if (cell.side_regions.empty()) {
+      out.areas[cell.region] += area;
+    } else if (int(cell.side_regions.size()) != n - cell.open || cell.side_regions.front() != cell.region) {
+      fault(name + " has wrong regions of its sides");
+    } else {
+      for (int i = 0; i < n - cell.open; ++i) {
+        out.areas.at(cell.side_regions[i]) += 0.5 * cross(p[i] - cell.centre, p[(i + 1) % n] - cell.centre);
+      }
+    }
     out.open += cell.open;
     for (int i = 0; i + (cell.open ? 1 : 0) < n; ++i) {
       const int j = (i + 1) % n;
@@ -59,7 +67,9 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       out.least_clearance = std::min(out.least_clearance, clearance / std::sqrt(area));
       out.least_side = std::min(out.least_side, length / std::sqrt(area));
       if (!(clearance > 1e-6 * std::sqrt(area))) fault(name + fmt::format(" does not see its side {}", i));
-      if (!cell_of.emplace(std::pair(cell.nodes[i], cell.nodes[j]), int(k)).second) fault(name + " has a side of another cell");
+      const int side_region = cell.side_regions.empty() ? cell.region : cell.side_regions[i];
+      if (!region_of.emplace(std::pair(cell.nodes[i], cell.nodes[j]), side_region).second)
+        fault(name + " has a side of another cell");
       for (int l = i + 2; l + (cell.open ? 1 : 0) < n; ++l) {
         if ((l + 1) % n != i && pieces_cross(p[i], p[j], p[l], p[(l + 1) % n])) fault(name + " is not simple");
       }
@@ -69,9 +79,10 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       lower = lower.cwiseMin(q);
       upper = upper.cwiseMax(q);
     }
-    if (!cell.open && std::abs(area - (upper - lower).prod()) < 1e-9 * area) {
+    if (!cell.open && cell.side_regions.empty() && std::abs(area - (upper - lower).prod()) < 1e-9 * area) {
       ++out.squares;
       widths[k] = upper.x() - lower.x();
+      shapes[k] = (upper.y() - lower.y()) / widths[k];
     }
   }
 
@@ -84,7 +95,9 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
     const std::string name = fmt::format("line {}", l);
     if (!line.crack && mesh.left[l] != mesh.right[l]) fault(name + " has two chains");
     const auto is_centre = [&](const Vec2& point) {
-      return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const auto& cell) { return cell.open && cell.centre == point; });
+      return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const auto& cell) {
+        return (cell.open || !cell.side_regions.empty()) && cell.centre == point;
+      });
     };
     for (const bool left : {true, false}) {
       const std::vector<int>& chain = left ? mesh.left[l] : mesh.right[l];
@@ -95,8 +108,6 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
         if (p.empty() || ((front ? p.front() : p.back()) - end).norm() > 1e-12 * scale) {
           if (!domain.centres.empty() && is_centre(end)) {
             p.insert(front ? p.begin() : p.end(), end);
-          } else if (p.empty() && !domain.centres.empty()) {
-            p.insert(p.end(), end);
           } else {
             fault(name + " does not reach its end");
           }
@@ -105,14 +116,16 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       double before = -1.0;
       for (const Vec2& q : p) {
         if (line.arc) {
-          if (std::abs((q - line.arc->centre).norm() - line.arc->radius) > 1e-14 * scale) fault(name + " has a node beside its arc");
+          if (std::abs((q - line.arc->centre).norm() - line.arc->radius) > 1e-14 * scale)
+            fault(name + " has a node beside its arc");
           continue;
         }
         const Vec2 along = line.points.back() - line.points.front();
         const double t = (q - line.points.front()).dot(along) / along.squaredNorm();
         if (t <= before && &q != &p.front()) fault(name + " does not run forwards");
         before = t;
-        if (std::abs(cross(along, q - line.points.front())) / along.norm() > 1e-14 * scale) fault(name + " has a node beside it");
+        if (std::abs(cross(along, q - line.points.front())) / along.norm() > 1e-14 * scale)
+          fault(name + " has a node beside it");
       }
       const int region = left ? line.left : line.right;
       double twice = 0.0;
@@ -120,20 +133,20 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       if (region >= 0) expected[region] += (left ? 0.5 : -0.5) * twice;
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const std::pair<int, int> side = left ? std::pair(chain[i], chain[i + 1]) : std::pair(chain[i + 1], chain[i]);
-        const auto found = cell_of.find(side);
-        const int there = found == cell_of.end() ? -1 : mesh.cells[found->second].region;
+        const auto found = region_of.find(side);
+        const int there = found == region_of.end() ? -1 : found->second;
         if (there != region) fault(name + fmt::format(" has region {} instead of {} at piece {}", there, region, i));
         if (!on_line.emplace(side, std::pair(int(l), region)).second) fault(name + " shares a side with another line");
       }
     }
   }
-  for (const auto& [side, k] : cell_of) {
+  for (const auto& [side, region] : region_of) {
     if (on_line.count(side)) continue;
-    const auto twin = cell_of.find({side.second, side.first});
+    const auto twin = region_of.find({side.second, side.first});
     const Vec2 at = 0.5 * (mesh.nodes[side.first] + mesh.nodes[side.second]);
-    if (twin == cell_of.end()) {
+    if (twin == region_of.end()) {
       fault(fmt::format("a side at ({:.9g}, {:.9g}) has one cell and no line", at.x(), at.y()));
-    } else if (mesh.cells[twin->second].region != mesh.cells[k].region) {
+    } else if (twin->second != region) {
       fault(fmt::format("a side at ({:.9g}, {:.9g}) has two regions and no line", at.x(), at.y()));
     }
   }
@@ -142,10 +155,15 @@ MeshSummary check_polygon_mesh(const mesh::Domain& domain, const mesh::PolygonMe
       fault(fmt::format("region {} has area {:.17g} instead of {:.17g}", r, out.areas[r], expected[r]));
     }
   }
+  // Cut cells may be rectangles too, but rarely of the shape of the cells of the tree.
+  std::vector<double> sorted = shapes;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual =
+      sorted.empty() ? 0.0 : sorted[sorted.size() - std::size_t(out.squares + 1) / 2 - (out.squares == 0)];
   std::vector<std::pair<double, double>> around(mesh.nodes.size(), {1e300, 0.0});
   for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
     for (int node : mesh.cells[k].nodes) {
-      if (widths[k] == 0.0) continue;
+      if (widths[k] == 0.0 || std::abs(shapes[k] - usual) > 1e-6 * usual) continue;
       around[node].first = std::min(around[node].first, widths[k]);
       around[node].second = std::max(around[node].second, widths[k]);
     }

@@ -75,15 +75,23 @@ TEST(Polygons, ReentrantCorner) {
 TEST(Polygons, NarrowNotch) {
   // A notch of 3 degrees: its cell must be divided.
   const double half = std::tan(1.5 * pi / 180.0);
-  EXPECT_EQ(mesh_and_check(domain_of({{-1, -1}, {1, -1}, {1, 1}, {half, 1}, {0, 0}, {-half, 1}, {-1, 1}}, 0.1), "notch").euler, 1);
+  EXPECT_EQ(mesh_and_check(domain_of({{-1, -1}, {1, -1}, {1, 1}, {half, 1}, {0, 0}, {-half, 1}, {-1, 1}}, 0.1), "notch")
+                .euler,
+            1);
 }
 
 TEST(Polygons, Holes) {
   std::vector<Vec2> corners{{0.4, 0.3}, {0.4, 0.6}, {0.7, 0.6}, {0.7, 0.3}};
   EXPECT_EQ(mesh_and_check(with_hole(loop(corners, constant_tenth), 0.1), "square hole").euler, 0);
   for (const int facets : {4, 6, 8, 12, 16, 40})
-    EXPECT_EQ(mesh_and_check(with_hole({arc({0.5, 0.5}, 0.2, 0.3, -2 * pi, facets)}, 0.1), "round hole " + std::to_string(facets)).euler, 0);
-  EXPECT_EQ(mesh_and_check(with_hole({arc({0.5, 0.5}, 0.2, 0, -pi, 9), arc({0.5, 0.5}, 0.2, pi, -pi, 9)}, 0.1), "two arcs").euler, 0);
+    EXPECT_EQ(mesh_and_check(with_hole({arc({0.5, 0.5}, 0.2, 0.3, -2 * pi, facets)}, 0.1),
+                             "round hole " + std::to_string(facets))
+                  .euler,
+              0);
+  EXPECT_EQ(
+      mesh_and_check(with_hole({arc({0.5, 0.5}, 0.2, 0, -pi, 9), arc({0.5, 0.5}, 0.2, pi, -pi, 9)}, 0.1), "two arcs")
+          .euler,
+      0);
 }
 
 TEST(Polygons, Discs) {
@@ -92,16 +100,24 @@ TEST(Polygons, Discs) {
     EXPECT_EQ(mesh_and_check(domain, "disc " + std::to_string(facets)).euler, 1);
   }
   // Half a disc of two facets, and a lens of two arcs.
-  EXPECT_EQ(mesh_and_check({{arc({0, 0}, 1, 0, pi, 2), straight({-1, 0}, {1, 0}, 1)}, [](const Vec2&) { return 1.0; }, {}}, "half").euler, 1);
+  EXPECT_EQ(mesh_and_check(
+                {{arc({0, 0}, 1, 0, pi, 2), straight({-1, 0}, {1, 0}, 1)}, [](const Vec2&) { return 1.0; }, {}}, "half")
+                .euler,
+            1);
   const double far = std::sqrt(3.0);
-  EXPECT_EQ(mesh_and_check({{arc({0, -far}, 2, pi / 3, pi / 3, 2), arc({0, far}, 2, 4 * pi / 3, pi / 3, 2)}, [](const Vec2&) { return 0.5; }, {}}, "lens").euler, 1);
+  EXPECT_EQ(mesh_and_check({{arc({0, -far}, 2, pi / 3, pi / 3, 2), arc({0, far}, 2, 4 * pi / 3, pi / 3, 2)},
+                            [](const Vec2&) { return 0.5; },
+                            {}},
+                           "lens")
+                .euler,
+            1);
 }
 
 TEST(Polygons, SlantedBorderOfMaterials) {
   Domain domain;
   domain.size = constant_tenth;
   const Vec2 a(0.3, 0), b(0.6, 1);
-  domain.lines = {straight({0, 0}, a, 3, 0), straight(a, {1, 0}, 7, 1),      straight({1, 0}, {1, 1}, 10, 1),
+  domain.lines = {straight({0, 0}, a, 3, 0), straight(a, {1, 0}, 7, 1), straight({1, 0}, {1, 1}, 10, 1),
                   straight({1, 1}, b, 4, 1), straight(b, {0, 1}, 6, 0), straight({0, 1}, {0, 0}, 10, 0),
                   straight(a, b, 10, 0, 1)};
   EXPECT_EQ(mesh_and_check(domain, "nodes at the ends").euler, 1);
@@ -122,9 +138,9 @@ TEST(Polygons, ThreeMaterialsMeetInside) {
   Domain domain;
   domain.size = constant_tenth;
   const Vec2 centre(0.55, 0.45), a(0.5, 0), b(1, 0.7), c(0, 0.6);
-  domain.lines = {straight({0, 0}, a, 5, 0),      straight(a, {1, 0}, 5, 1),      straight({1, 0}, b, 7, 1),
-                  straight(b, {1, 1}, 3, 2),      straight({1, 1}, {0, 1}, 10, 2), straight({0, 1}, c, 4, 2),
-                  straight(c, {0, 0}, 6, 0),      straight(centre, a, 5, 1, 0),   straight(centre, b, 5, 2, 1),
+  domain.lines = {straight({0, 0}, a, 5, 0),   straight(a, {1, 0}, 5, 1),       straight({1, 0}, b, 7, 1),
+                  straight(b, {1, 1}, 3, 2),   straight({1, 1}, {0, 1}, 10, 2), straight({0, 1}, c, 4, 2),
+                  straight(c, {0, 0}, 6, 0),   straight(centre, a, 5, 1, 0),    straight(centre, b, 5, 2, 1),
                   straight(centre, c, 6, 0, 2)};
   // Left of the line from the centre down to `a` is the region to the east of it.
   EXPECT_EQ(mesh_and_check(domain, "node").euler, 1);
@@ -164,15 +180,18 @@ TEST(Polygons, InnerCracks) {
     Domain domain = domain_of(unit_square, 0.1);
     domain.lines.push_back(crack({0.3, 0.4}, {0.7, 0.6}, facets));
     const std::string name = "inner crack " + std::to_string(facets);
-    EXPECT_EQ(mesh_and_check(domain, name).euler, facets == 1 ? 1 : 0);  // the two sides of one facet share both nodes
+    const PolygonMesh mesh = polygon_mesh(domain);
+    EXPECT_EQ(expect_valid(domain, mesh, name).euler, 0);
+    EXPECT_EQ(mesh.left.back().size(), facets == 1 ? 3u : static_cast<std::size_t>(facets) + 1);
     domain.centres = {{0.3, 0.4}};
-    mesh_and_check(domain, name + ", one tip a centre");
+    EXPECT_EQ(mesh_and_check(domain, name + ", one tip a centre").euler, 0);
     domain.centres = {{0.3, 0.4}, {0.7, 0.6}};
     EXPECT_EQ(mesh_and_check(domain, name + ", tips are centres").euler, 0);
   }
   // Bent, and branched: three lines meet in a point.
   Domain domain = domain_of(unit_square, 0.1);
-  for (const Vec2& end : {Vec2(0.2, 0.3), Vec2(0.75, 0.35), Vec2(0.6, 0.8)}) domain.lines.push_back(crack({0.5, 0.5}, end, 3));
+  for (const Vec2& end : {Vec2(0.2, 0.3), Vec2(0.75, 0.35), Vec2(0.6, 0.8)})
+    domain.lines.push_back(crack({0.5, 0.5}, end, 3));
   EXPECT_EQ(mesh_and_check(domain, "branched").euler, 0);
   domain.centres = {{0.2, 0.3}, {0.75, 0.35}, {0.6, 0.8}};
   EXPECT_EQ(mesh_and_check(domain, "branched, tips are centres").euler, 0);
@@ -188,7 +207,9 @@ TEST(Polygons, EmbeddedLineWithoutACrack) {
 
 TEST(Polygons, SlenderStrip) {
   for (const double size : {0.1, 0.5, 1.0, 3.0, 10.0})
-    EXPECT_EQ(mesh_and_check(domain_of({{0, 0}, {100, 0}, {100, 1}, {0, 1}}, size), "strip " + std::to_string(size)).euler, 1);
+    EXPECT_EQ(
+        mesh_and_check(domain_of({{0, 0}, {100, 0}, {100, 1}, {0, 1}}, size), "strip " + std::to_string(size)).euler,
+        1);
 }
 
 TEST(Polygons, GradedSize) {
@@ -199,7 +220,8 @@ TEST(Polygons, GradedSize) {
     const Vec2 a = unit_square[i], b = unit_square[(i + 1) % 4];
     DomainLine line;
     line.points = {a};
-    for (double t = size(a); t < 1.0 - 0.6 * size(b); t += size(a + t * (b - a))) line.points.push_back(a + t * (b - a));
+    for (double t = size(a); t < 1.0 - 0.6 * size(b); t += size(a + t * (b - a)))
+      line.points.push_back(a + t * (b - a));
     line.points.push_back(b);
     domain.lines.push_back(line);
   }
@@ -209,12 +231,29 @@ TEST(Polygons, GradedSize) {
   EXPECT_GT(figures.visibility, 0.05);
   double smallest = 1.0, largest = 0.0;
   for (const PolygonCell& cell : mesh.cells) {
-    const double side = (mesh.nodes[static_cast<std::size_t>(cell.nodes[0])] - mesh.nodes[static_cast<std::size_t>(cell.nodes[1])]).norm();
+    const double side =
+        (mesh.nodes[static_cast<std::size_t>(cell.nodes[0])] - mesh.nodes[static_cast<std::size_t>(cell.nodes[1])])
+            .norm();
     smallest = std::min(smallest, side);
     largest = std::max(largest, side);
   }
   EXPECT_LT(smallest, 0.0012);
   EXPECT_GT(largest, 0.05);
+}
+
+TEST(Polygons, FinerInside) {
+  // Spacing of many levels, away from lines: the wanted areas are reached everywhere.
+  const Vec2 place(0.5, 0.6);
+  Domain domain = domain_of(unit_square, 0.02);
+  domain.size = [&](const Vec2& p) { return std::clamp(0.25 * (p - place).norm(), 0.0004, 0.02); };
+  const PolygonMesh mesh = polygon_mesh(domain);
+  EXPECT_EQ(expect_valid(domain, mesh, "finer inside").euler, 1);
+  double cells = 0.0;
+  for (const PolygonCell& cell : mesh.cells)
+    if ((cell.centre - place).norm() < 0.05) cells += 1.0;
+  // The integral of 1 / size^2: pi r0^2 / s0^2 + 2 pi / 0.25^2 ln(r / r0), r0 = 4 s0 where the size begins to grow.
+  const double wanted = 16 * pi + 32 * pi * std::log(0.05 / 0.0016);
+  EXPECT_NEAR(cells / wanted, 1.0, 0.15);
 }
 
 // Random polygons around a point (star-shaped from it, not convex), with facets and sizes that do not fit each other.
@@ -235,6 +274,9 @@ TEST(Polygons, RandomShapes) {
       const std::vector<DomainLine> lines = loop(corners, [&](const Vec2&) { return facet; });
       domain.lines.push_back(lines[i]);
     }
+    if (trial % 2 == 1)
+      for (const Vec2& corner : corners)
+        if (test::whole(random, 0, 3) == 0) domain.centres.push_back(corner);
     const MeshFigures figures = mesh_and_check(domain, "shape " + std::to_string(trial));
     EXPECT_EQ(figures.euler, 1);
     least = std::min(least, figures.visibility);

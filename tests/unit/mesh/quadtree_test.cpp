@@ -18,13 +18,19 @@ namespace {
 using test::check_polygon_mesh;
 using test::MeshSummary;
 
-DomainLine straight(const Vec2& a, const Vec2& b, int left = 0, int right = -1) { return {{a, b}, {}, left, right, false}; }
+DomainLine straight(const Vec2& a, const Vec2& b, int left = 0, int right = -1) {
+  return {{a, b}, {}, left, right, false};
+}
 
 DomainLine crack(const Vec2& a, const Vec2& b, int region = 0) { return {{a, b}, {}, region, region, true}; }
 
 DomainLine arc(const Vec2& centre, double radius, double from, double sweep, int left, int right) {
   const auto at = [&](double angle) { return Vec2(centre + radius * Vec2(std::cos(angle), std::sin(angle))); };
-  DomainLine line{{at(from), at(from + 0.5 * sweep), at(from + sweep)}, geometry::Arc{centre, radius, from, sweep}, left, right, false};
+  DomainLine line{{at(from), at(from + 0.5 * sweep), at(from + sweep)},
+                  geometry::Arc{centre, radius, from, sweep},
+                  left,
+                  right,
+                  false};
   return line;
 }
 
@@ -43,7 +49,9 @@ void add_circle(Domain& domain, const Vec2& centre, double radius, int inside, i
   domain.lines.back().points.back() = domain.lines[domain.lines.size() - 2].points.front();
 }
 
-std::vector<Vec2> rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+std::vector<Vec2> rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
 
 std::function<double(const Vec2&)> uniform_size(double size) {
   return [size](const Vec2&) { return size; };
@@ -165,10 +173,12 @@ TEST(QuadtreeMesh, DiscAndInclusion) {
 
 TEST(QuadtreeMesh, SlantedRectangleOfTwoRegions) {
   const double angle = 13.0 * std::numbers::pi / 180.0;
-  const auto turned = [&](double x, double y) { return Vec2(x * std::cos(angle) - y * std::sin(angle), x * std::sin(angle) + y * std::cos(angle)); };
+  const auto turned = [&](double x, double y) {
+    return Vec2(x * std::cos(angle) - y * std::sin(angle), x * std::sin(angle) + y * std::cos(angle));
+  };
   Domain domain;
   const std::vector<Vec2> p{turned(0, 0), turned(1.2, 0), turned(3, 0), turned(3, 1), turned(1.2, 1), turned(0, 1)};
-  domain.lines = {straight(p[0], p[1], 0), straight(p[1], p[2], 1), straight(p[2], p[3], 1), straight(p[3], p[4], 1),
+  domain.lines = {straight(p[0], p[1], 0), straight(p[1], p[2], 1), straight(p[2], p[3], 1),   straight(p[3], p[4], 1),
                   straight(p[4], p[5], 0), straight(p[5], p[0], 0), straight(p[1], p[4], 0, 1)};
   for (double size : {1.0, 0.3, 0.11, 0.04, 0.013}) {
     domain.size = uniform_size(size);
@@ -219,7 +229,8 @@ TEST(QuadtreeMesh, EdgeCrackWithTipAsCentre) {
     EXPECT_EQ(mesh.left[4].front(), mesh.right[5].front());
     for (const PolygonCell& cell : mesh.cells) {
       if (!cell.open) continue;
-      EXPECT_EQ(cell.nodes.front(), mesh.right[5].back() == cell.nodes.front() ? mesh.right[5].back() : mesh.left[5].back());
+      EXPECT_EQ(cell.nodes.front(),
+                mesh.right[5].back() == cell.nodes.front() ? mesh.right[5].back() : mesh.left[5].back());
       EXPECT_NE(cell.nodes.front(), cell.nodes.back());
       EXPECT_EQ(mesh.nodes[cell.nodes.front()], mesh.nodes[cell.nodes.back()]);
     }
@@ -244,6 +255,50 @@ TEST(QuadtreeMesh, InnerCrackWithAndWithoutCentres) {
   const PolygonMesh mesh = quadtree_mesh(domain);
   EXPECT_EQ(valid(domain, mesh).open, 2);
   for (std::size_t k = 0; k < mesh.left[4].size(); ++k) EXPECT_NE(mesh.left[4][k], mesh.right[4][k]);
+}
+
+TEST(QuadtreeMesh, CornersOfRegionsAsCentres) {
+  // A quadrilateral inclusion with a corner at (0.43, 0.52), and an edge crack that ends on a border between two
+  // regions.
+  const std::vector<Vec2> p{{0.43, 0.52}, {0.7, 0.3}, {0.81, 0.66}, {0.52, 0.84}};
+  Domain domain = polygon_domain(rectangle(0, 0, 1, 1), 0.06);
+  add_polygon(domain, p, 1, 0);
+  domain.centres = {p[0]};
+  const PolygonMesh mesh = quadtree_mesh(domain);
+  const MeshSummary summary = valid(domain, mesh);
+  EXPECT_EQ(summary.open, 0);
+  EXPECT_NEAR(summary.areas[1], area_of(p), 1e-13);
+  int found = 0;
+  for (const PolygonCell& cell : mesh.cells) {
+    if (cell.side_regions.empty()) continue;
+    ++found;
+    EXPECT_EQ(cell.centre, p[0]);
+    EXPECT_EQ(cell.side_regions.size(), cell.nodes.size());
+    EXPECT_GE(std::count(cell.side_regions.begin(), cell.side_regions.end(), 0), 4);
+    EXPECT_GE(std::count(cell.side_regions.begin(), cell.side_regions.end(), 1), 2);
+  }
+  EXPECT_EQ(found, 1);
+
+  Domain second;
+  const std::vector<Vec2> q{{0, 0}, {0.55, 0}, {1, 0}, {1, 1}, {0.55, 1}, {0, 1}, {0, 0.47}, {0.55, 0.47}};
+  second.lines = {straight(q[0], q[1], 0), straight(q[1], q[2], 1),    straight(q[2], q[3], 1),
+                  straight(q[3], q[4], 1), straight(q[4], q[5], 0),    straight(q[5], q[6], 0),
+                  straight(q[6], q[0], 0), straight(q[1], q[7], 0, 1), straight(q[7], q[4], 0, 1),
+                  crack(q[6], q[7], 0)};
+  second.centres = {q[7]};
+  second.size = uniform_size(0.1);
+  const PolygonMesh other = quadtree_mesh(second);
+  const MeshSummary figures = valid(second, other);
+  EXPECT_EQ(figures.open, 1);
+  EXPECT_NEAR(figures.areas[0], 0.55, 1e-13);
+  for (const PolygonCell& cell : other.cells) {
+    if (!cell.open) continue;
+    EXPECT_EQ(other.nodes[cell.nodes.front()], other.nodes[cell.nodes.back()]);
+    EXPECT_NE(cell.nodes.front(), cell.nodes.back());
+    EXPECT_EQ(cell.side_regions.front(), 0);
+    EXPECT_EQ(cell.side_regions.back(), 0);
+    EXPECT_GE(std::count(cell.side_regions.begin(), cell.side_regions.end(), 1), 2);
+  }
 }
 
 TEST(QuadtreeMesh, BranchedCrack) {
@@ -346,7 +401,8 @@ TEST(QuadtreeMesh, RandomStarsWithTheirReentrantCornersAsCentres) {
     Domain domain;
     const int n = test::whole(random, 3, 7);
     for (int i = 0; i < 2 * n; ++i) {
-      const double angle = std::numbers::pi * (i + test::uniform(random, -0.2, 0.2)) / n, r = i % 2 ? test::uniform(random, 0.3, 0.5) : 1.0;
+      const double angle = std::numbers::pi * (i + test::uniform(random, -0.2, 0.2)) / n,
+                   r = i % 2 ? test::uniform(random, 0.3, 0.5) : 1.0;
       corners.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
     domain = polygon_domain(corners, test::uniform(random, 0.05, 0.2));
@@ -396,7 +452,9 @@ TEST(QuadtreeMesh, ManyDiscsAsInclusions) {
   for (int tries = 0; tries < 4000 && discs.size() < 60; ++tries) {
     const double r = test::uniform(random, 0.1, 0.8);
     const Vec2 c(test::uniform(random, r + 0.02, 9.98 - r), test::uniform(random, r + 0.02, 9.98 - r));
-    if (std::any_of(discs.begin(), discs.end(), [&](const auto& d) { return (d.first - c).norm() < d.second + r + 0.02; })) continue;
+    if (std::any_of(discs.begin(), discs.end(),
+                    [&](const auto& d) { return (d.first - c).norm() < d.second + r + 0.02; }))
+      continue;
     discs.push_back({c, r});
     add_circle(domain, c, r, 1, 0, test::uniform(random, 0.0, 6.0));
   }

@@ -63,21 +63,5 @@ TEST(Probe, OutsideIsNothing) {
   EXPECT_TRUE(value_at(solution, increment, 2, {9.5, 0.0}));
 }
 
-TEST(NaturalCoordinates, CurvedElement) {
-  element::Corners8 x = element::plane_element8_nodes;
-  for (Vec2& corner : x)
-    corner = Vec2(2.0 * corner.x() + 0.2 * corner.y(), corner.y() + 0.15 * corner.x() * corner.x());
-  for (const Vec2& natural : {Vec2(0.3, -0.8), Vec2(-1.0, 1.0), Vec2(0.99, 0.2)}) {
-    element::Vector16 nodal;
-    for (std::size_t i = 0; i < 8; ++i) nodal.segment<2>(static_cast<Eigen::Index>(2 * i)) = x[i];
-    const Vec2 at =
-        element::plane_element8_values(x, nodal, element::Mat3::Zero(), natural.x(), natural.y()).displacement;
-    const auto found = natural_coordinates(x, at);
-    ASSERT_TRUE(found);
-    EXPECT_LT((*found - natural).norm(), 1e-12);
-  }
-  EXPECT_FALSE(natural_coordinates(x, {0.0, 1.2}));
-}
-
 }  // namespace
 }  // namespace scabo::result

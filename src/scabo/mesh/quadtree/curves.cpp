@@ -59,7 +59,8 @@ bool Curve::meets(const Box& other) const {
   const Vec2 nearest = arc->centre.cwiseMax(other.lower).cwiseMin(other.upper);
   const Vec2 farthest = (other.lower - arc->centre).cwiseAbs().cwiseMax((other.upper - arc->centre).cwiseAbs());
   if ((nearest - arc->centre).norm() > arc->radius || farthest.norm() < arc->radius) return false;
-  const Vec2 corners[4] = {other.lower, {other.upper.x(), other.lower.y()}, other.upper, {other.lower.x(), other.upper.y()}};
+  const Vec2 corners[4] = {
+      other.lower, {other.upper.x(), other.lower.y()}, other.upper, {other.lower.x(), other.upper.y()}};
   for (int k = 0; k < 4; ++k) {
     if (!crossings(corners[k], corners[(k + 1) % 4]).empty()) return true;
   }
@@ -121,7 +122,8 @@ Curves::Curves(const std::vector<DomainLine>& lines) {
   const double same = 1e-12 * (box.upper - box.lower).norm();
   std::map<std::pair<double, double>, int> known;
   const auto corner = [&](Vec2& at) {
-    for (auto it = known.lower_bound({at.x() - same, -infinity}); it != known.end() && it->first.first <= at.x() + same; ++it) {
+    for (auto it = known.lower_bound({at.x() - same, -infinity}); it != known.end() && it->first.first <= at.x() + same;
+         ++it) {
       if (std::abs(it->first.second - at.y()) <= same) {
         at = corners[it->second];
         return it->second;

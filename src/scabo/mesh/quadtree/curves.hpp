@@ -9,9 +9,11 @@
 namespace scabo::mesh::quadtree {
 
 struct Box {
-  Vec2 lower, upper;
+  Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();
 
-  bool contains(const Vec2& p) const { return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all(); }
+  bool contains(const Vec2& p) const {
+    return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
+  }
   Box grown(double by) const { return {lower - Vec2::Constant(by), upper + Vec2::Constant(by)}; }
 };
 
@@ -29,8 +31,8 @@ struct Curve {
   bool crack = false;
   Box box;
 
-  bool meets(const Box& other) const;                             ///< whether a part is in the closed box
-  CurvePoint foot(const Vec2& point) const;                       ///< the nearest point, on its ends at most
+  bool meets(const Box& other) const;                                     ///< whether a part is in the closed box
+  CurvePoint foot(const Vec2& point) const;                               ///< the nearest point, on its ends at most
   std::vector<CurvePoint> crossings(const Vec2& a, const Vec2& b) const;  ///< with the straight piece from a to b
 };
 

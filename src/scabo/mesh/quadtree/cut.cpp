@@ -20,9 +20,16 @@ struct HalfSide {
 class Cutter {
  public:
   Cutter(const Forest& forest, const std::vector<int>& leaves, const std::vector<std::vector<int>>& lists,
-         const Curves& curves, const RegionFinder& regions, const std::vector<Patch>& patches, std::vector<Vec2>& trouble)
-      : forest_(forest), leaves_(leaves), lists_(lists), curves_(curves), regions_(regions), patches_(patches),
-        trouble_(trouble), numbers_(forest, leaves) {}
+         const Curves& curves, const RegionFinder& regions, const std::vector<Patch>& patches,
+         std::vector<Vec2>& trouble)
+      : forest_(forest),
+        leaves_(leaves),
+        lists_(lists),
+        curves_(curves),
+        regions_(regions),
+        patches_(patches),
+        trouble_(trouble),
+        numbers_(forest, leaves) {}
 
   Pieces run() {
     start();
@@ -61,6 +68,7 @@ class Cutter {
     pieces_.holds.assign(pieces_.nodes.size(), Hold::nothing);
     pieces_.line_of.assign(pieces_.nodes.size(), -1);
     pieces_.chains.resize(curves_.curves.size());
+    sectors_.resize(patches_.size());
     corner_node_.assign(curves_.corners.size(), -1);
     along_.resize(curves_.curves.size());
     absent_.assign(pieces_.nodes.size(), 0);
@@ -77,7 +85,7 @@ class Cutter {
       if (leaf.region == TreeCell::cut || patch >= 0) {
         active_.push_back({index, patch, size.maxCoeff(), polygon});
       } else {
-        pieces_.cells.push_back({polygon, forest_.middle(leaf), leaf.region, false});
+        pieces_.cells.push_back({polygon, forest_.middle(leaf), leaf.region, {}, false});
         pieces_.sizes.push_back(size.maxCoeff());
       }
     }
@@ -259,7 +267,8 @@ class Cutter {
   }
 
   void link() {
-    // Sides that leave a node, by their angle. Around a face the next side is the first one clockwise from the way back.
+    // Sides that leave a node, by their angle. Around a face the next side is the first one clockwise from the way
+    // back.
     const auto angle = [&](int from, int to) {
       const Vec2 along = pieces_.nodes[to] - pieces_.nodes[from];
       return std::atan2(along.y(), along.x());
@@ -313,6 +322,61 @@ class Cutter {
       }
       make_cell(face);
     }
+    join_sectors();
+  }
+
+  /// Joins the parts of a patch around its corner, which lines that end there divide, to one cell.
+  void join_sectors() {
+    for (std::size_t p = 0; p < patches_.size(); ++p) {
+      std::vector<Sector>& sectors = sectors_[p];
+      const Vec2 centre = curves_.corners[patches_[p].corner];
+      if (sectors.empty()) continue;
+      const auto follows = [&](const Sector& next, const Sector& one) {
+        return one.nodes.back() == next.nodes.front() && !one.crack_at_end;
+      };
+      std::size_t first = 0;
+      for (std::size_t k = 0; k < sectors.size(); ++k) {
+        if (std::none_of(sectors.begin(), sectors.end(), [&](const Sector& one) { return follows(sectors[k], one); }))
+          first = k;
+      }
+      PolygonCell cell{sectors[first].nodes, centre, sectors[first].region, {}, true};
+      cell.side_regions.assign(cell.nodes.size() - 1, cell.region);
+      double size = sectors[first].size;
+      std::size_t joined = 1;
+      for (std::size_t last = first; joined <= sectors.size();) {
+        const auto next = std::find_if(sectors.begin(), sectors.end(),
+                                       [&](const Sector& one) { return follows(one, sectors[last]); });
+        if (next == sectors.end()) break;
+        last = std::size_t(next - sectors.begin());
+        if (last == first) {
+          cell.nodes.pop_back();
+          cell.open = false;
+          break;
+        }
+        cell.nodes.insert(cell.nodes.end(), next->nodes.begin() + 1, next->nodes.end());
+        cell.side_regions.insert(cell.side_regions.end(), next->nodes.size() - 1, next->region);
+        size = std::max(size, next->size);
+        ++joined;
+      }
+      if (joined != sectors.size()) {
+        trouble_.push_back(centre);
+        continue;
+      }
+      if (cell.open && sectors.size() == 1) cell.side_regions.clear();
+      const int node = corner_node_[patches_[p].corner];
+      for (const Sector& sector : sectors) {
+        for (int neighbour : {sector.nodes.front(), sector.nodes.back()})
+          pieces_.line_sides.erase(side_key(node, neighbour));
+      }
+      for (std::size_t line = 0; line < pieces_.chains.size(); ++line) {
+        const Curve& curve = curves_.curves[line];
+        if (curve.first != patches_[p].corner && curve.last != patches_[p].corner) continue;
+        std::vector<int>& chain = pieces_.chains[line];
+        chain.erase(std::remove(chain.begin(), chain.end(), node), chain.end());
+      }
+      pieces_.cells.push_back(std::move(cell));
+      pieces_.sizes.push_back(size);
+    }
   }
 
   void make_cell(const std::vector<int>& face) {
@@ -349,26 +413,20 @@ class Cutter {
 
   void add_cell(std::vector<int> nodes, int region, double size) {
     const int n = int(nodes.size());
-    for (const Patch& patch : patches_) {
-      const int centre = corner_node_[patch.corner];
+    for (std::size_t p = 0; p < patches_.size(); ++p) {
+      const int centre = corner_node_[patches_[p].corner];
       const auto found = std::find(nodes.begin(), nodes.end(), centre);
       if (found == nodes.end()) continue;
       std::rotate(nodes.begin(), found, nodes.end());
-      if (std::count(nodes.begin(), nodes.end(), centre) != 1 || n < 3 || !drop_face(centre, nodes[1]) ||
-          !drop_face(centre, nodes.back())) {
+      if (std::count(nodes.begin(), nodes.end(), centre) != 1 || n < 3 ||
+          !pieces_.line_sides.count(side_key(centre, nodes[1])) ||
+          !pieces_.line_sides.count(side_key(centre, nodes.back()))) {
         trouble_.push_back(pieces_.nodes[centre]);
         return;
       }
-      for (int neighbour : {nodes[1], nodes.back()}) pieces_.line_sides.erase(side_key(centre, neighbour));
+      const bool crack_at_end = curves_.curves[pieces_.line_sides.at(side_key(centre, nodes.back()))].crack;
       nodes.erase(nodes.begin());
-      for (std::size_t line = 0; line < pieces_.chains.size(); ++line) {
-        const Curve& curve = curves_.curves[line];
-        if (curve.first != patch.corner && curve.last != patch.corner) continue;
-        std::vector<int>& chain = pieces_.chains[line];
-        chain.erase(std::remove(chain.begin(), chain.end(), centre), chain.end());
-      }
-      pieces_.cells.push_back({std::move(nodes), pieces_.nodes[centre], region, true});
-      pieces_.sizes.push_back(size);
+      sectors_[p].push_back({std::move(nodes), region, size, crack_at_end});
       return;
     }
     for (int k = 0; k < n; ++k) {
@@ -383,12 +441,17 @@ class Cutter {
       add_cell(halves.second, region, size);
       return;
     }
-    pieces_.cells.push_back({std::move(nodes), Vec2::Zero(), region, false});
+    pieces_.cells.push_back({std::move(nodes), Vec2::Zero(), region, {}, false});
     pieces_.sizes.push_back(size);
   }
 
-  /// Whether a side is on a line, so that it can be a side face.
-  bool drop_face(int a, int b) const { return pieces_.line_sides.count(side_key(a, b)) > 0; }
+  /// Part of a patch between two lines that end at its corner, or all around the tip of a crack.
+  struct Sector {
+    std::vector<int> nodes;  // counter-clockwise, without the corner
+    int region;
+    double size;
+    bool crack_at_end;  // the line from the last node to the corner is a crack
+  };
 
   const Forest& forest_;
   const std::vector<int>& leaves_;
@@ -405,6 +468,7 @@ class Cutter {
   std::vector<int> corner_node_;
   std::vector<std::vector<std::pair<double, int>>> along_;  // position and node, the two ends first
   std::vector<HalfSide> halves_;
+  std::vector<std::vector<Sector>> sectors_;  // for each patch
   std::unordered_map<std::uint64_t, int> half_at_;
 };
 

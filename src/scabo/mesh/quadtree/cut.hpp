@@ -1,5 +1,5 @@
-// The planar graph of the sides of the cells that lines touch and of the pieces of the lines between them. Its faces are
-// the cut cells.
+// The planar graph of the sides of the cells that lines touch and of the pieces of the lines between them. Its faces
+// are the cut cells.
 #pragma once
 
 #include "scabo/mesh/quadtree/curves.hpp"

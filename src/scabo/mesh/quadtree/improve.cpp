@@ -9,8 +9,9 @@ namespace scabo::mesh::quadtree {
 
 namespace {
 
-// In parts of the size of a cell. A step that leaves a cell with less clearance than `fair` is taken only if it makes no
-// cell much worse; cells with less than `poor`, or with an area below `small`, are merged with a neighbour if that helps.
+// In parts of the size of a cell. A step that leaves a cell with less clearance than `fair` is taken only if it makes
+// no cell much worse; cells with less than `poor`, or with an area below `small`, are merged with a neighbour if that
+// helps.
 constexpr double fair = 0.08, poor = 0.05, small_area = 0.1;
 
 std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes) {
@@ -20,10 +21,16 @@ std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes
   return corners;
 }
 
-double clearance_of(const Pieces& pieces, const PolygonCell& cell) {
-  const std::vector<Vec2> corners = corners_of(pieces, cell.nodes);
-  return cell.open ? clearance_from(cell.centre, corners, false) : best_sight(corners).clearance;
+/// Whether the centre is a point of the domain: of open cells, and of cells around a corner of several regions.
+bool is_fixed(const PolygonCell& cell) { return cell.open || !cell.side_regions.empty(); }
+
+/// Of a cell that is to have the given nodes.
+double clearance_with(const Pieces& pieces, const PolygonCell& cell, const std::vector<int>& nodes) {
+  const std::vector<Vec2> corners = corners_of(pieces, nodes);
+  return is_fixed(cell) ? clearance_from(cell.centre, corners, !cell.open) : best_sight(corners).clearance;
 }
+
+double clearance_of(const Pieces& pieces, const PolygonCell& cell) { return clearance_with(pieces, cell, cell.nodes); }
 
 /// The cells around the nodes of cut cells.
 class Surroundings {
@@ -73,6 +80,7 @@ bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
     std::vector<int> nodes = cell.nodes;
     const bool has_both = std::find(nodes.begin(), nodes.end(), kept) != nodes.end();
     if (cell.open && has_both && (nodes.front() == nodes.back())) return false;
+    if (!cell.side_regions.empty() && has_both) return false;
     std::replace(nodes.begin(), nodes.end(), gone, kept);
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (!cell.open && nodes.size() > 1 && nodes.front() == nodes.back()) nodes.pop_back();
@@ -84,16 +92,17 @@ bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
       for (int node : cell.nodes) {
         if (node != kept && node != gone) third = node;
       }
-      if (third < 0 || (pieces.line_sides.count(side_key(kept, third)) && pieces.line_sides.count(side_key(gone, third)))) {
+      if (third < 0 ||
+          (pieces.line_sides.count(side_key(kept, third)) && pieces.line_sides.count(side_key(gone, third)))) {
         return false;
       }
       changes.push_back({index, {}});
       continue;
     }
-    const std::vector<Vec2> corners = corners_of(pieces, nodes);
-    const double after = cell.open ? clearance_from(cell.centre, corners, false) : best_sight(corners).clearance;
+    const double after = clearance_with(pieces, cell, nodes);
     if (after < fair * pieces.sizes[index] && after < 0.8 * clearance_of(pieces, cell)) return false;
-    if (!(after > 0.0) && !(clearance_of(pieces, cell) <= 0.0 && polygon_area(corners) > 0.0)) return false;
+    if (!(after > 0.0) && !(clearance_of(pieces, cell) <= 0.0 && polygon_area(corners_of(pieces, nodes)) > 0.0))
+      return false;
     changes.push_back({index, std::move(nodes)});
   }
   // A cell on only one side of a piece of a line that vanishes would change the body.
@@ -170,13 +179,14 @@ void collapse_short_sides(Pieces& pieces, double shortest) {
 
 void divide_unseen_cells(Pieces& pieces) {
   for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
-    while (!pieces.cells[k].open && pieces.cells[k].nodes.size() > 3 &&
+    while (!is_fixed(pieces.cells[k]) && pieces.cells[k].nodes.size() > 3 &&
            clearance_of(pieces, pieces.cells[k]) < 0.4 * poor * pieces.sizes[k]) {
       Halves halves = best_division(pieces.cells[k].nodes, pieces.nodes);
-      if (halves.first.empty() || !(halves.clearance > clearance_of(pieces, pieces.cells[k]) || halves.clearance <= 0.0)) {
+      if (halves.first.empty() ||
+          !(halves.clearance > clearance_of(pieces, pieces.cells[k]) || halves.clearance <= 0.0)) {
         break;
       }
-      pieces.cells.push_back({std::move(halves.second), Vec2::Zero(), pieces.cells[k].region, false});
+      pieces.cells.push_back({std::move(halves.second), Vec2::Zero(), pieces.cells[k].region, {}, false});
       pieces.sizes.push_back(pieces.sizes[k]);
       pieces.cells[k].nodes = std::move(halves.first);
     }
@@ -227,14 +237,16 @@ void merge_small_cells(Pieces& pieces) {
   Surroundings surroundings(pieces);
   for (int round = 0; round < 2; ++round) {
     for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
-      if (pieces.cells[k].open || pieces.cells[k].nodes.empty()) continue;
+      if (is_fixed(pieces.cells[k]) || pieces.cells[k].nodes.empty()) continue;
       const double size = pieces.sizes[k];
       const double own = clearance_of(pieces, pieces.cells[k]);
-      if (own >= poor * size && polygon_area(corners_of(pieces, pieces.cells[k].nodes)) >= small_area * size * size) continue;
+      if (own >= poor * size && polygon_area(corners_of(pieces, pieces.cells[k].nodes)) >= small_area * size * size)
+        continue;
       std::vector<int> neighbours;
       for (int node : pieces.cells[k].nodes) {
         for (int other : surroundings.around(node)) {
-          if (other == int(k) || pieces.cells[other].open || pieces.cells[other].region != pieces.cells[k].region) continue;
+          if (other == int(k) || is_fixed(pieces.cells[other]) || pieces.cells[other].region != pieces.cells[k].region)
+            continue;
           if (std::find(neighbours.begin(), neighbours.end(), other) == neighbours.end()) neighbours.push_back(other);
         }
       }
@@ -248,7 +260,9 @@ void merge_small_cells(Pieces& pieces) {
         const double larger = std::max(size, pieces.sizes[other]);
         const double clearance = best_sight(corners_of(pieces, nodes)).clearance;
         // Cells of the tree have 0.5: a neighbour is spoiled less by a cut cell.
-        if (clearance < 1.5 * own || clearance < std::min(2.0 * fair * larger, clearance_of(pieces, pieces.cells[other]))) continue;
+        if (clearance < 1.5 * own ||
+            clearance < std::min(2.0 * fair * larger, clearance_of(pieces, pieces.cells[other])))
+          continue;
         if (clearance > best_clearance) {
           best = other;
           best_clearance = clearance;
@@ -271,12 +285,12 @@ void place_centres(Pieces& pieces, std::vector<Vec2>& trouble) {
   for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
     PolygonCell& cell = pieces.cells[k];
     if (cell.nodes.empty()) continue;
-    if (cell.open) {
+    if (is_fixed(cell)) {
       if (clearance_of(pieces, cell) < 0.02 * pieces.sizes[k]) trouble.push_back(cell.centre);
       continue;
     }
-    if (k < pieces.first_cut &&
-        std::all_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) { return pieces.holds[node] == Hold::nothing; })) {
+    if (k < pieces.first_cut && std::all_of(cell.nodes.begin(), cell.nodes.end(),
+                                            [&](int node) { return pieces.holds[node] == Hold::nothing; })) {
       continue;  // untouched cell of the tree; its centre is set
     }
     const Sight sight = best_sight(corners_of(pieces, cell.nodes));
@@ -336,7 +350,8 @@ void separate_cracks(Pieces& pieces, const std::vector<DomainLine>& lines) {
     }
     std::vector<std::pair<int, int>> copies{{here.empty() ? 0 : here.front().fan, cracked[c]}};  // fan and its node
     for (const Visit& visit : here) {
-      auto known = std::find_if(copies.begin(), copies.end(), [&](const auto& copy) { return copy.first == visit.fan; });
+      auto known =
+          std::find_if(copies.begin(), copies.end(), [&](const auto& copy) { return copy.first == visit.fan; });
       if (known == copies.end()) {
         copies.push_back({visit.fan, int(pieces.nodes.size())});
         known = copies.end() - 1;
@@ -356,8 +371,9 @@ PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
   std::unordered_map<std::uint64_t, std::pair<int, int>> beside;
   for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
     const PolygonCell& cell = pieces.cells[k];
-    const bool may = k >= pieces.first_cut ||
-                     std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) { return pieces.holds[node] != Hold::nothing; });
+    const bool may = k >= pieces.first_cut || std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) {
+                       return pieces.holds[node] != Hold::nothing;
+                     });
     for (std::size_t i = 0; may && i + (cell.open ? 1 : 0) < cell.nodes.size(); ++i) {
       const int a = cell.nodes[i], b = cell.nodes[i + 1 < cell.nodes.size() ? i + 1 : 0];
       const auto side = pieces.line_sides.find(side_key(a, b));
@@ -367,10 +383,7 @@ PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
   }
   separate_cracks(pieces, lines);
   PolygonMesh mesh;
-  mesh.left.resize(lines.size());
-  for (std::size_t line = 0; line < lines.size(); ++line) {
-    if (pieces.chains[line].size() >= 2) mesh.left[line] = pieces.chains[line];
-  }
+  mesh.left = pieces.chains;
   mesh.right = mesh.left;
   for (std::size_t line = 0; line < lines.size(); ++line) {
     const std::vector<int>& chain = pieces.chains[line];
@@ -408,8 +421,9 @@ PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
     mesh.nodes.push_back(pieces.nodes[k]);
   }
   mesh.cells = std::move(pieces.cells);
-  mesh.cells.erase(std::remove_if(mesh.cells.begin(), mesh.cells.end(), [](const PolygonCell& cell) { return cell.nodes.empty(); }),
-                   mesh.cells.end());
+  mesh.cells.erase(
+      std::remove_if(mesh.cells.begin(), mesh.cells.end(), [](const PolygonCell& cell) { return cell.nodes.empty(); }),
+      mesh.cells.end());
   for (PolygonCell& cell : mesh.cells) {
     for (int& node : cell.nodes) node = number[node];
   }

@@ -14,12 +14,12 @@ enum class Hold : signed char { nothing, line, corner };
 
 struct Pieces {
   std::vector<Vec2> nodes;
-  std::vector<Hold> holds;               // one for each node
-  std::vector<int> line_of;              // of a node held by a line: which one, otherwise -1
-  std::vector<PolygonCell> cells;        // no nodes: given up
-  std::vector<double> sizes;             // of the cell of the tree that a cell comes from
-  std::size_t first_cut = 0;             // cells before are rectangles of the tree
-  std::vector<std::vector<int>> chains;  // nodes along each line from its start to its end
+  std::vector<Hold> holds;                            // one for each node
+  std::vector<int> line_of;                           // of a node held by a line: which one, otherwise -1
+  std::vector<PolygonCell> cells;                     // no nodes: given up
+  std::vector<double> sizes;                          // of the cell of the tree that a cell comes from
+  std::size_t first_cut = 0;                          // cells before are rectangles of the tree
+  std::vector<std::vector<int>> chains;               // nodes along each line from its start to its end
   std::unordered_map<std::uint64_t, int> line_sides;  // sides on lines, by `side_key`
 };
 

@@ -54,7 +54,8 @@ Sight best_sight(const std::vector<Vec2>& corners) {
   if (!(area > 0.0)) return {corners.front(), -1.0};
   Vec2 moment = Vec2::Zero();
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    moment += cross(corners[i] - corners[0], corners[i + 1] - corners[0]) * (corners[i] + corners[i + 1] - 2.0 * corners[0]);
+    moment +=
+        cross(corners[i] - corners[0], corners[i + 1] - corners[0]) * (corners[i] + corners[i + 1] - 2.0 * corners[0]);
   }
   Sight best{corners[0] + moment / (6.0 * area), 0.0};
   best.clearance = clearance_from(best.centre, corners, true);
@@ -111,7 +112,8 @@ bool crosses_side(const std::vector<Vec2>& p, int i, int j) {
   for (int k = 0; k < n; ++k) {
     const Vec2 &c = p[k], &d = p[(k + 1) % n];
     if (c == a || d == a || c == b || d == b) continue;
-    if (cross(b - a, c - a) * cross(b - a, d - a) <= 0.0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0.0) return true;
+    if (cross(b - a, c - a) * cross(b - a, d - a) <= 0.0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0.0)
+      return true;
   }
   return false;
 }
@@ -137,7 +139,8 @@ Halves best_division(const std::vector<int>& polygon, const std::vector<Vec2>& n
         tried.second.push_back(polygon[at]);
         if (at == i) break;
       }
-      const Sight first = best_sight(places_of(tried.first, nodes)), second = best_sight(places_of(tried.second, nodes));
+      const Sight first = best_sight(places_of(tried.first, nodes)),
+                  second = best_sight(places_of(tried.second, nodes));
       tried.clearance = std::min(first.clearance, second.clearance);
       const double score = tried.clearance + 1e-3 * std::max(first.clearance, second.clearance);
       if (score > best_score) {

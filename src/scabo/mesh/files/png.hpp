@@ -1,0 +1,18 @@
+// Images in PNG files.
+#pragma once
+
+#include <string>
+
+#include "scabo/mesh/image.hpp"
+
+namespace scabo::mesh {
+
+/// Reads an image. Labels are levels of grey as stored: 0 to 255, or 0 to 65535 if the file has 16 bits per sample.
+/// Images of 1, 2 or 4 bits are spread to 0 to 255. Colours, also those of a palette, become their grey,
+/// 0.299 red + 0.587 green + 0.114 blue, rounded. Transparency is ignored.
+///
+/// Throws InputError with the name of the file and the reason if it cannot be read, is not a PNG file, is broken, or
+/// has more than 2^28 pixels.
+Image read_png(const std::string& file);
+
+}  // namespace scabo::mesh

@@ -1,0 +1,124 @@
+#include "scabo/mesh/image.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/base/error.hpp"
+#include "scabo/mesh/quadtree/forest.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+using quadtree::TreeCell;
+
+/// Regions of blocks of 2^k by 2^k pixels: `cut` where they are not uniform, `outside` beyond the image and where void.
+class Blocks {
+ public:
+  Blocks(const Image& image, const ImageOptions& options, int levels) {
+    Level pixels{image.width, image.height, {}};
+    pixels.regions.resize(std::size_t(image.width) * image.height);
+    int last = 0, last_region = TreeCell::outside;
+    bool first = true;
+    for (int y = 0; y < image.height; ++y) {
+      const int* row = image.labels.data() + std::size_t(image.height - 1 - y) * image.width;
+      for (int x = 0; x < image.width; ++x) {
+        if (first || row[x] != last) {
+          last = row[x];
+          last_region = region_of(last, options);
+          first = false;
+        }
+        pixels.regions[std::size_t(y) * image.width + x] = last_region;
+      }
+    }
+    levels_.push_back(std::move(pixels));
+    for (int k = 1; k <= levels; ++k) {
+      const Level& fine = levels_.back();
+      Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
+      coarse.regions.resize(std::size_t(coarse.width) * coarse.height);
+      for (int y = 0; y < coarse.height; ++y) {
+        for (int x = 0; x < coarse.width; ++x) {
+          const int one = fine.at(2 * x, 2 * y);
+          const bool uniform = one == fine.at(2 * x + 1, 2 * y) && one == fine.at(2 * x, 2 * y + 1) &&
+                               one == fine.at(2 * x + 1, 2 * y + 1);
+          coarse.regions[std::size_t(y) * coarse.width + x] = uniform ? one : TreeCell::cut;
+        }
+      }
+      levels_.push_back(std::move(coarse));
+    }
+  }
+
+  int at(int level, int x, int y) const { return levels_[level].at(x, y); }
+
+ private:
+  struct Level {
+    int width, height;
+    std::vector<int> regions;
+
+    int at(int x, int y) const {
+      return x < width && y < height ? regions[std::size_t(y) * width + x] : int(TreeCell::outside);
+    }
+  };
+
+  static int region_of(int label, const ImageOptions& options) {
+    if (options.regions.empty()) return label < 0 ? int(TreeCell::outside) : label;
+    const auto found = options.regions.find(label);
+    return found == options.regions.end() ? int(TreeCell::outside) : found->second;
+  }
+
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+PolygonMesh image_mesh(const Image& image, const ImageOptions& options) {
+  ensure(image.width > 0 && image.height > 0 && image.labels.size() == std::size_t(image.width) * image.height,
+         "an image without pixels, or with a wrong number of labels");
+  const double largest = options.size > 0.0 ? options.size / options.pixel * (1.0 + 1e-9) : 1e9;
+  int levels = 0;  // of the tree; its roots have 2^levels pixels on a side
+  while ((2 << levels) <= std::min(image.width, image.height) && double(2 << levels) <= largest) ++levels;
+  const int side = 1 << levels;
+  const Blocks blocks(image, options, levels);
+  quadtree::Forest forest(Vec2::Zero(), Vec2::Constant(options.pixel * side), (image.width + side - 1) / side,
+                          (image.height + side - 1) / side);
+  const auto set_region = [&](TreeCell& cell) { cell.region = blocks.at(levels - cell.level, cell.x, cell.y); };
+  for (TreeCell& root : forest.cells) set_region(root);
+  forest.divided = [&](int parent) {
+    for (int k = 0; k < 4; ++k) set_region(forest.cells[forest.cells[parent].child + k]);
+  };
+  for (std::size_t k = 0; k < forest.cells.size(); ++k) {
+    if (forest.cells[k].region == TreeCell::cut && forest.cells[k].child < 0) forest.split(int(k));
+  }
+  forest.balance();
+
+  const std::vector<int> leaves = forest.leaves();
+  const quadtree::ForestNodes nodes(forest, leaves);
+  PolygonMesh mesh;
+  mesh.nodes = nodes.positions;
+  std::vector<int> polygon;
+  for (int index : leaves) {
+    const TreeCell& leaf = forest.cells[index];
+    if (leaf.region < 0) continue;
+    nodes.polygon(leaf, polygon);
+    mesh.cells.push_back({polygon, forest.middle(leaf), leaf.region, {}, false});
+  }
+  if (mesh.cells.empty()) throw InputError({}, {{{}, "the image has no pixel of any material"}});
+
+  // Nodes are whole multiples of half the smallest cell, so that these comparisons are exact.
+  const Vec2 size = options.pixel * Vec2(image.width, image.height);
+  mesh.left.resize(4);
+  for (int line = 0; line < 4; ++line) {
+    const int along = line % 2;  // x on the bottom and top
+    const double across = line == 1 || line == 2 ? size[1 - along] : 0.0;
+    for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+      if (mesh.nodes[k][1 - along] == across) mesh.left[line].push_back(int(k));
+    }
+    std::sort(mesh.left[line].begin(), mesh.left[line].end(), [&](int a, int b) {
+      return line < 2 ? mesh.nodes[a][along] < mesh.nodes[b][along] : mesh.nodes[a][along] > mesh.nodes[b][along];
+    });
+  }
+  mesh.right = mesh.left;
+  return mesh;
+}
+
+}  // namespace scabo::mesh
