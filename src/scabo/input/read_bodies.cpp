@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scabo/geometry/box.hpp"
+#include "scabo/geometry/outline_checks.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 
@@ -131,8 +132,8 @@ void turn_outside(Body& body) {
 /// A body without its own scaling centre whose centroid does not see its boundary: another centre, or several parts.
 void choose_centre(Body& body) {
   const bool parts = !body.outline.holes.empty() || !body.regions.empty();
-  if (!parts && unseen_edges(body.outline, body.mesh.centre).empty()) return;
-  const auto seeing = parts ? std::nullopt : seeing_point(body.outline);
+  if (!parts && geometry::unseen_edges(body.outline, body.mesh.centre).empty()) return;
+  const auto seeing = parts ? std::nullopt : geometry::seeing_point(body.outline);
   if (seeing)
     body.mesh.centre = *seeing;
   else

@@ -82,7 +82,7 @@ int region_around(const model::Body& body, std::size_t inner) {
   const Vec2 point = body.regions[inner].outline.edges.front().at(0.5);
   for (std::size_t k = 0; k < body.regions.size(); ++k) {
     const geometry::Outline& outline = body.regions[k].outline;
-    if (k == inner || outline.area() >= least || !geometry::is_inside(outline, point)) continue;
+    if (k == inner || outline.area() >= least || !geometry::encloses(outline, point)) continue;
     around = static_cast<int>(k) + 1;
     least = outline.area();
   }
