@@ -82,15 +82,15 @@ std::vector<Mutation> mutations() {
       {"poisson_large", [](Model& m) { m.materials[0].poisson = 0.51; }, "materials.steel.poisson"},
       {"poisson_minus_one", [](Model& m) { m.materials[0].poisson = -1.0; }, "materials.steel.poisson"},
       {"poisson_nan", [](Model& m) { m.materials[0].poisson = nan; }, "materials.steel.poisson"},
-      {"poisson_plane_strain",
-       [](Model& m) { m.analysis.plane = Plane::strain, m.materials[0].poisson = 0.5; }, "materials.steel.poisson"},
+      {"poisson_plane_strain", [](Model& m) { m.analysis.plane = Plane::strain, m.materials[0].poisson = 0.5; },
+       "materials.steel.poisson"},
       {"density_negative", [](Model& m) { m.materials[0].density = -1.0; }, "materials.steel.density"},
       {"density_nan", [](Model& m) { m.materials[0].density = nan; }, "materials.steel.density"},
       {"density_missing", [](Model& m) { m.materials[1].density.reset(); }, "materials.wood"},
-      {"density_missing_modal",
-       [](Model& m) { m.analysis.type = AnalysisType::modal, m.materials[1].density.reset(); }, "materials.wood"},
-      {"density_zero_modal",
-       [](Model& m) { m.analysis.type = AnalysisType::modal, m.materials[1].density = 0.0; }, "materials.wood"},
+      {"density_missing_modal", [](Model& m) { m.analysis.type = AnalysisType::modal, m.materials[1].density.reset(); },
+       "materials.wood"},
+      {"density_zero_modal", [](Model& m) { m.analysis.type = AnalysisType::modal, m.materials[1].density = 0.0; },
+       "materials.wood"},
       {"expansion_infinite", [](Model& m) { m.materials[0].expansion->at(1) = inf; }, "materials.steel.expansion.1"},
       {"expansion_missing", [](Model& m) { m.materials[0].expansion.reset(); }, "materials.steel"},
       {"E1_negative", [](Model& m) { wood(m).E1 = -1.0; }, "materials.wood.orthotropic.E1"},
@@ -118,14 +118,27 @@ std::vector<Mutation> mutations() {
       {"order_zero", [](Model& m) { m.bodies[1].mesh.order = 0; }, "bodies.upper.mesh.order"},
       {"order_17", [](Model& m) { m.bodies[1].mesh.order = 17; }, "bodies.upper.mesh.order"},
       {"order_of_fem", [](Model& m) { make_fem(m.bodies[1]), m.bodies[1].mesh.order = 3; }, "bodies.upper.mesh.order"},
-      {"tolerance_of_fem",
-       [](Model& m) { make_fem(m.bodies[1]), m.bodies[1].mesh.tolerance = 0.1; }, "bodies.upper.mesh.tolerance"},
-      {"fem_of_no_rectangle",
-       [](Model& m) { make_fem(m.bodies[1]), m.bodies[1].outline.rectangle = false; }, "bodies.upper.mesh.kind"},
+      {"tolerance_of_fem", [](Model& m) { make_fem(m.bodies[1]), m.bodies[1].mesh.tolerance = 0.1; },
+       "bodies.upper.mesh.tolerance"},
+      {"cracks_of_fem",
+       [](Model& m) {
+         make_fem(m.bodies[2]), m.bodies[2].sector_materials.clear(), m.loads.pop_back(),
+             m.steps[0].load_factors.pop_back();
+       },
+       "bodies.plate.cracks.0"},
+      {"sectors_of_polygons",
+       [](Model& m) {
+         m.bodies[1].mesh.kind = MeshKind::polygons;
+         m.bodies[1].sector_materials = {0, 0, 0, 0};
+       },
+       "bodies.upper.sectors"},
       {"mesh_tolerance_nan", [](Model& m) { m.bodies[1].mesh.tolerance = nan; }, "bodies.upper.mesh.tolerance"},
       {"mesh_tolerance_small", [](Model& m) { m.bodies[1].mesh.tolerance = 1e-9; }, "bodies.upper.mesh.tolerance"},
       {"refine_of_one_super_element",
-       [](Model& m) { m.bodies[1].mesh.refine = {{Vec2(0, 1), -1, 0.1, {}}}; }, "bodies.upper.mesh.refine"},
+       [](Model& m) {
+         m.bodies[1].mesh.refine = {{Vec2(0, 1), -1, 0.1, {}}};
+       },
+       "bodies.upper.mesh.refine"},
       {"refine_size",
        [](Model& m) {
          m.bodies[1].mesh.kind = MeshKind::polygons;
@@ -138,9 +151,21 @@ std::vector<Mutation> mutations() {
          m.bodies[1].mesh.refine = {{{}, 4, 0.1, {}}};
        },
        "bodies.upper.mesh.refine.0.on"},
-      {"centre_nan", [](Model& m) { m.bodies[1].mesh.centre = {nan, 0.0}; }, "bodies.upper.mesh.centre.0"},
-      {"centre_outside", [](Model& m) { m.bodies[1].mesh.centre = {9, 9}; }, "bodies.upper.mesh.centre"},
-      {"centre_on_an_edge", [](Model& m) { m.bodies[1].mesh.centre = {1, 1}; }, "bodies.upper.mesh.centre"},
+      {"centre_nan",
+       [](Model& m) {
+         m.bodies[1].mesh.centre = {nan, 0.0};
+       },
+       "bodies.upper.mesh.centre.0"},
+      {"centre_outside",
+       [](Model& m) {
+         m.bodies[1].mesh.centre = {9, 9};
+       },
+       "bodies.upper.mesh.centre"},
+      {"centre_on_an_edge",
+       [](Model& m) {
+         m.bodies[1].mesh.centre = {1, 1};
+       },
+       "bodies.upper.mesh.centre"},
       {"centre_corner_unknown", [](Model& m) { m.bodies[1].mesh.centre_corner = 4; }, "bodies.upper.mesh.centre"},
       {"centre_corner_negative", [](Model& m) { m.bodies[1].mesh.centre_corner = -2; }, "bodies.upper.mesh.centre"},
       {"centre_corner_elsewhere", [](Model& m) { m.bodies[1].mesh.centre_corner = 2; }, "bodies.upper.mesh.centre"},
@@ -150,26 +175,39 @@ std::vector<Mutation> mutations() {
        [](Model& m) { m.bodies[1].outline.edges.resize(1), m.bodies[1].outline.corners.resize(1); },
        "bodies.upper.shape"},
       {"corner_missing", [](Model& m) { m.bodies[1].outline.corners.pop_back(); }, "bodies.upper.shape"},
-      {"corner_elsewhere",
-       [](Model& m) { m.bodies[1].outline.corners[2].position.x() += 0.1; }, "bodies.upper.shape.top"},
+      {"corner_elsewhere", [](Model& m) { m.bodies[1].outline.corners[2].position.x() += 0.1; },
+       "bodies.upper.shape.top"},
       {"corner_nan", [](Model& m) { m.bodies[1].outline.corners[2].position.x() = nan; }, "bodies.upper.shape.top"},
       {"vertex_nan", [](Model& m) { m.bodies[1].outline.edges[1].end.x() = nan; }, "bodies.upper.shape.right"},
       {"vertex_infinite", [](Model& m) { m.bodies[1].outline.edges[1].start.y() = inf; }, "bodies.upper.shape.right"},
       {"edge_without_name", [](Model& m) { m.bodies[1].outline.edges[1].names.clear(); }, "bodies.upper.shape.edge_2"},
-      {"corner_without_name",
-       [](Model& m) { m.bodies[1].outline.corners[1].names.clear(); }, "bodies.upper.shape.right"},
-      {"edge_name_twice",
-       [](Model& m) { m.bodies[1].outline.edges[1].names.push_back("top"); }, "bodies.upper.shape.right.name"},
+      {"corner_without_name", [](Model& m) { m.bodies[1].outline.corners[1].names.clear(); },
+       "bodies.upper.shape.right"},
+      {"edge_name_twice", [](Model& m) { m.bodies[1].outline.edges[1].names.push_back("top"); },
+       "bodies.upper.shape.right.name"},
       {"not_closed", [](Model& m) { m.bodies[1].outline.edges[1].end.x() += 0.5; }, "bodies.upper.shape.top"},
-      {"clockwise",
-       [](Model& m) { turn_round(m.bodies[1].outline), m.bodies[1].outline.rectangle = false; }, "bodies.upper.shape"},
+      {"clockwise", [](Model& m) { turn_round(m.bodies[1].outline), m.bodies[1].outline.rectangle = false; },
+       "bodies.upper.shape"},
       {"no_extent",
-       [](Model& m) { m.bodies[1].outline = test::rectangle({0, 0}, {0, 0}); }, "bodies.upper.shape"},
+       [](Model& m) {
+         m.bodies[1].outline = test::rectangle({0, 0}, {0, 0});
+       },
+       "bodies.upper.shape"},
       {"too_large",
-       [](Model& m) { m.bodies[1].outline = test::rectangle({0, 0}, {1e40, 1e40}); }, "bodies.upper.shape"},
+       [](Model& m) {
+         m.bodies[1].outline = test::rectangle({0, 0}, {1e40, 1e40});
+       },
+       "bodies.upper.shape"},
       {"far_away",
-       [](Model& m) { m.bodies[1].outline = test::rectangle({1e12, 0}, {1, 1}); }, "bodies.upper.shape"},
-      {"flat", [](Model& m) { m.bodies[1].outline = test::rectangle({0, 0}, {1, 0}); }, "bodies.upper.shape.right"},
+       [](Model& m) {
+         m.bodies[1].outline = test::rectangle({1e12, 0}, {1, 1});
+       },
+       "bodies.upper.shape"},
+      {"flat",
+       [](Model& m) {
+         m.bodies[1].outline = test::rectangle({0, 0}, {1, 0});
+       },
+       "bodies.upper.shape.right"},
       {"bow_tie",
        [](Model& m) {
          m.bodies[1].outline = test::polygon({{0, 0}, {1, 1}, {1, 0}, {0, 2}}, {"a", "b", "c", "d"});
@@ -182,29 +220,51 @@ std::vector<Mutation> mutations() {
        },
        "bodies.upper.shape"},
       {"arc_radius",
-       [](Model& m) { m.bodies[1].outline.edges[1].arc = Arc{{2, 1.5}, 0.4, -test::pi / 2, test::pi}; },
+       [](Model& m) {
+         m.bodies[1].outline.edges[1].arc = Arc{{2, 1.5}, 0.4, -test::pi / 2, test::pi};
+       },
        "bodies.upper.shape.right.arc"},
       {"arc_nan",
-       [](Model& m) { m.bodies[1].outline.edges[1].arc = Arc{{2, 1.5}, 0.5, nan, test::pi}; },
+       [](Model& m) {
+         m.bodies[1].outline.edges[1].arc = Arc{{2, 1.5}, 0.5, nan, test::pi};
+       },
        "bodies.upper.shape.right"},
       {"arc_no_sweep",
-       [](Model& m) { m.bodies[1].outline.edges[1].arc = Arc{{2, 1.5}, 0.5, -test::pi / 2, 0.0}; },
+       [](Model& m) {
+         m.bodies[1].outline.edges[1].arc = Arc{{2, 1.5}, 0.5, -test::pi / 2, 0.0};
+       },
        "bodies.upper.shape.right.arc"},
       {"arc_centre",
-       [](Model& m) { m.bodies[1].outline.edges[1].arc = Arc{{2, 1.7}, 0.5, -test::pi / 2, test::pi}; },
+       [](Model& m) {
+         m.bodies[1].outline.edges[1].arc = Arc{{2, 1.7}, 0.5, -test::pi / 2, test::pi};
+       },
        "bodies.upper.shape.right.arc.centre"},
       // holes and regions
       {"hole_in_one_super_element",
-       [](Model& m) { add_hole(m.bodies[1], {1, 1.5}, 0.2), m.bodies[1].mesh.kind = MeshKind::superelement; },
+       [](Model& m) {
+         add_hole(m.bodies[1], {1, 1.5}, 0.2), m.bodies[1].mesh.kind = MeshKind::superelement;
+       },
        "bodies.upper.mesh"},
-      {"hole_crosses", [](Model& m) { add_hole(m.bodies[1], {1, 1.5}, 0.6); }, "bodies.upper.holes.0"},
-      {"hole_outside", [](Model& m) { add_hole(m.bodies[1], {1, 8}, 0.2); }, "bodies.upper.holes.0"},
+      {"hole_crosses",
+       [](Model& m) {
+         add_hole(m.bodies[1], {1, 1.5}, 0.6);
+       },
+       "bodies.upper.holes.0"},
+      {"hole_outside",
+       [](Model& m) {
+         add_hole(m.bodies[1], {1, 8}, 0.2);
+       },
+       "bodies.upper.holes.0"},
       {"hole_without_edges",
-       [](Model& m) { m.bodies[1].mesh.kind = MeshKind::polygons, m.bodies[1].outline.holes = {4}; }, "bodies.upper.shape"},
-      {"hole_negative",
-       [](Model& m) { m.bodies[1].mesh.kind = MeshKind::polygons, m.bodies[1].outline.holes = {-1}; }, "bodies.upper.shape"},
+       [](Model& m) { m.bodies[1].mesh.kind = MeshKind::polygons, m.bodies[1].outline.holes = {4}; },
+       "bodies.upper.shape"},
+      {"hole_negative", [](Model& m) { m.bodies[1].mesh.kind = MeshKind::polygons, m.bodies[1].outline.holes = {-1}; },
+       "bodies.upper.shape"},
       {"region_in_one_super_element",
-       [](Model& m) { m.bodies[1].regions = {region("core", {0.5, 1.2}, {0.5, 0.5})}; }, "bodies.upper.mesh"},
+       [](Model& m) {
+         m.bodies[1].regions = {region("core", {0.5, 1.2}, {0.5, 0.5})};
+       },
+       "bodies.upper.mesh"},
       {"region_outside",
        [](Model& m) {
          m.bodies[1].mesh.kind = MeshKind::polygons;
@@ -242,14 +302,20 @@ std::vector<Mutation> mutations() {
       {"support_body_negative", [](Model& m) { m.supports[0].on.body = -1; }, "supports.0.on"},
       {"support_edge", [](Model& m) { m.supports[0].on.index = 4; }, "supports.0.on"},
       {"support_edge_negative", [](Model& m) { m.supports[0].on.index = -1; }, "supports.0.on"},
-      {"support_corner",
-       [](Model& m) { m.supports[0].on = test::place_on(Kind::corner, 0, 17, "lower.x"); }, "supports.0.on"},
+      {"support_corner", [](Model& m) { m.supports[0].on = test::place_on(Kind::corner, 0, 17, "lower.x"); },
+       "supports.0.on"},
       {"support_face", [](Model& m) { m.supports[1].on = test::place_on(Kind::face, 2, 0, "f"); }, "supports.1.on"},
       {"support_mouth", [](Model& m) { m.supports[1].on = test::place_on(Kind::mouth, 2, 2, "f"); }, "supports.1.on"},
       {"support_near_nan",
-       [](Model& m) { m.supports[0].on.kind = Kind::near, m.supports[0].on.near = {nan, 0}; }, "supports.0.on.near.0"},
+       [](Model& m) {
+         m.supports[0].on.kind = Kind::near, m.supports[0].on.near = {nan, 0};
+       },
+       "supports.0.on.near.0"},
       {"support_near_far",
-       [](Model& m) { m.supports[0].on.kind = Kind::near, m.supports[0].on.near = {99, 0}; }, "supports.0.on.near"},
+       [](Model& m) {
+         m.supports[0].on.kind = Kind::near, m.supports[0].on.near = {99, 0};
+       },
+       "supports.0.on.near"},
       {"support_free", [](Model& m) { m.supports[0].displacement = {}; }, "supports.0.displacement"},
       {"support_nan", [](Model& m) { m.supports[0].displacement[1] = nan; }, "supports.0.displacement.1"},
       {"support_unnamed", [](Model& m) { m.supports[0].name = ""; }, "supports.0.name"},
@@ -278,46 +344,57 @@ std::vector<Mutation> mutations() {
       {"load_on_no_body", [](Model& m) { m.loads[1].on->body = 9; }, "loads.press.on"},
       {"load_on_no_edge", [](Model& m) { m.loads[1].on->index = 9; }, "loads.press.on"},
       {"pressure_nan", [](Model& m) { load<Pressure>(m, 1).value = nan; }, "loads.press.pressure"},
-      {"pressure_on_a_corner",
-       [](Model& m) { m.loads[1].on = test::place_on(Kind::corner, 1, 0, "upper.c"); }, "loads.press.on"},
+      {"pressure_on_a_corner", [](Model& m) { m.loads[1].on = test::place_on(Kind::corner, 1, 0, "upper.c"); },
+       "loads.press.on"},
       {"traction_infinite", [](Model& m) { load<Traction>(m, 2).value.y() = inf; }, "loads.pull.traction.1"},
-      {"traction_on_a_face",
-       [](Model& m) { m.loads[2].on = test::place_on(Kind::face, 2, 1, "plate.flaw.left"); }, "loads.pull.traction"},
+      {"traction_on_a_face", [](Model& m) { m.loads[2].on = test::place_on(Kind::face, 2, 1, "plate.flaw.left"); },
+       "loads.pull.traction"},
       {"force_nan", [](Model& m) { load<Force>(m, 3).value.x() = nan; }, "loads.point.force.0"},
-      {"force_on_a_body",
-       [](Model& m) { m.loads[3].on = test::place_on(Kind::body, 1, -1, "upper"); }, "loads.point.on"},
+      {"force_on_a_body", [](Model& m) { m.loads[3].on = test::place_on(Kind::body, 1, -1, "upper"); },
+       "loads.point.on"},
       {"gravity_nan", [](Model& m) { load<Gravity>(m, 0).value.x() = nan; }, "loads.weight.gravity.0"},
-      {"gravity_on_the_wall",
-       [](Model& m) { m.loads[0].on = test::place_on(Kind::body, 3, -1, "wall"); }, "loads.weight.on"},
+      {"gravity_on_the_wall", [](Model& m) { m.loads[0].on = test::place_on(Kind::body, 3, -1, "wall"); },
+       "loads.weight.on"},
       {"temperature_nan", [](Model& m) { load<Temperature>(m, 4).change.per_x = nan; }, "loads.warm.temperature.x"},
-      {"temperature_of_fem", [](Model& m) { m.loads.erase(m.loads.begin() + 5); m.steps[0].load_factors.pop_back();
-                                            make_fem(m.bodies[0]); }, "loads.warm.on"},
+      {"temperature_on_the_wall", [](Model& m) { m.loads[4].on = test::place_on(Kind::body, 3, -1, "wall"); },
+       "loads.warm.on"},
       {"body_force_nan", [](Model& m) { load<BodyForce>(m, 5).y.per_y = inf; }, "loads.field.body_force.y"},
       {"powers_none", [](Model& m) { load<FaceTraction>(m, 6).terms.clear(); }, "loads.inside.pressure"},
-      {"power_minus_one",
-       [](Model& m) { load<FaceTraction>(m, 6).terms[0].power = -1.0; }, "loads.inside.pressure.powers.-1"},
-      {"power_nan",
-       [](Model& m) { load<FaceTraction>(m, 6).terms[0].power = nan; }, "loads.inside.pressure.powers.nan"},
-      {"power_twice",
-       [](Model& m) { load<FaceTraction>(m, 6).terms[0].power = 1.5; }, "loads.inside.pressure.powers.1.5"},
-      {"powers_on_an_edge",
-       [](Model& m) { m.loads[6].on = test::place_on(Kind::edge, 2, 2, "plate.top"); }, "loads.inside.pressure"},
-      {"face_of_a_closed_body",
-       [](Model& m) { m.loads[6].on = test::place_on(Kind::face, 1, 0, "upper.f"); }, "loads.inside.on"},
+      {"power_minus_one", [](Model& m) { load<FaceTraction>(m, 6).terms[0].power = -1.0; },
+       "loads.inside.pressure.powers.-1"},
+      {"power_nan", [](Model& m) { load<FaceTraction>(m, 6).terms[0].power = nan; },
+       "loads.inside.pressure.powers.nan"},
+      {"power_twice", [](Model& m) { load<FaceTraction>(m, 6).terms[0].power = 1.5; },
+       "loads.inside.pressure.powers.1.5"},
+      {"powers_on_an_edge", [](Model& m) { m.loads[6].on = test::place_on(Kind::edge, 2, 2, "plate.top"); },
+       "loads.inside.pressure"},
+      {"face_of_a_closed_body", [](Model& m) { m.loads[6].on = test::place_on(Kind::face, 1, 0, "upper.f"); },
+       "loads.inside.on"},
       {"face_unknown", [](Model& m) { m.loads[6].on->index = 2; }, "loads.inside.on"},
       // contacts
       {"friction_negative", [](Model& m) { m.contacts[0].friction = -0.1; }, "contacts.joint.friction"},
       {"friction_nan", [](Model& m) { m.contacts[0].friction = nan; }, "contacts.joint.friction"},
       {"friction_large", [](Model& m) { m.contacts[0].friction = 1e7; }, "contacts.joint.friction"},
-      {"dynamic_above_static", [](Model& m) { m.contacts[0].dynamic_friction = 0.9; }, "contacts.joint.friction.dynamic"},
+      {"dynamic_above_static", [](Model& m) { m.contacts[0].dynamic_friction = 0.9; },
+       "contacts.joint.friction.dynamic"},
       {"slip_distance_negative",
        [](Model& m) { m.contacts[0].dynamic_friction = 0.1, m.contacts[0].slip_distance = -1.0; },
        "contacts.joint.friction.slip_distance"},
-      {"along_outside", [](Model& m) { m.contacts[0].friction_along = {{0, 0.1}, {2, 0.1}}; },
+      {"along_outside",
+       [](Model& m) {
+         m.contacts[0].friction_along = {{0, 0.1}, {2, 0.1}};
+       },
        "contacts.joint.friction.along.1"},
-      {"along_not_ascending", [](Model& m) { m.contacts[0].friction_along = {{1, 0.1}, {0, 0.1}}; },
+      {"along_not_ascending",
+       [](Model& m) {
+         m.contacts[0].friction_along = {{1, 0.1}, {0, 0.1}};
+       },
        "contacts.joint.friction.along.1"},
-      {"along_nan", [](Model& m) { m.contacts[0].friction_along = {{0, nan}}; }, "contacts.joint.friction.along.0"},
+      {"along_nan",
+       [](Model& m) {
+         m.contacts[0].friction_along = {{0, nan}};
+       },
+       "contacts.joint.friction.along.0"},
       {"cohesion_negative", [](Model& m) { m.contacts[0].cohesion = -1.0; }, "contacts.joint.cohesion"},
       {"tension_nan", [](Model& m) { m.contacts[0].tension = nan; }, "contacts.joint.tension"},
       {"tension_without_cohesion", [](Model& m) { m.contacts[0].tension = 1.0; }, "contacts.joint.tension"},
@@ -326,17 +403,16 @@ std::vector<Mutation> mutations() {
        [](Model& m) { m.contacts[0].bond = true, m.contacts[0].friction = 0.0, m.contacts[0].gap = 1.0; },
        "contacts.joint.gap"},
       {"shear_strength_and_friction", [](Model& m) { m.contacts[0].shear_strength = 1.0; }, "contacts.joint.friction"},
-      {"shear_strength_negative",
-       [](Model& m) { m.contacts[0].friction = 0.0, m.contacts[0].shear_strength = -1.0; },
+      {"shear_strength_negative", [](Model& m) { m.contacts[0].friction = 0.0, m.contacts[0].shear_strength = -1.0; },
        "contacts.joint.shear_strength"},
       {"gap_infinite", [](Model& m) { m.contacts[0].gap = inf; }, "contacts.joint.gap"},
       {"contact_of_no_body", [](Model& m) { m.contacts[1].b.body = 5; }, "contacts.side.between.1"},
       {"contact_of_no_edge", [](Model& m) { m.contacts[1].b.index = 5; }, "contacts.side.between.1"},
       {"contact_of_a_corner", [](Model& m) { m.contacts[1].b.kind = Kind::corner; }, "contacts.side.between.1"},
-      {"contact_with_itself",
-       [](Model& m) { m.contacts[0].a = test::edge_of(m, "upper", "top"); }, "contacts.joint.between"},
-      {"contact_twice",
-       [](Model& m) { m.contacts.push_back(m.contacts[0]), m.contacts[2].name = "again"; }, "contacts.again"},
+      {"contact_with_itself", [](Model& m) { m.contacts[0].a = test::edge_of(m, "upper", "top"); },
+       "contacts.joint.between"},
+      {"contact_twice", [](Model& m) { m.contacts.push_back(m.contacts[0]), m.contacts[2].name = "again"; },
+       "contacts.again"},
       {"contact_name_twice", [](Model& m) { m.contacts[1].name = "joint"; }, "contacts.joint"},
       {"wall_in_no_contact", [](Model& m) { m.contacts.pop_back(); }, "bodies.wall"},
       // steps
@@ -359,7 +435,11 @@ std::vector<Mutation> mutations() {
       {"line_infinite", [](Model& m) { m.output.lines[0].to.y() = inf; }, "output.lines.0.to.1"},
       {"grid_counts", [](Model& m) { m.output.grid->counts[1] = 0; }, "output.grid.y.2"},
       {"grid_spacing", [](Model& m) { m.output.grid->spacing = 0.0; }, "output.grid.spacing"},
-      {"grid_too_many", [](Model& m) { m.output.grid->counts = {10'000, 10'000}; }, "output.grid"},
+      {"grid_too_many",
+       [](Model& m) {
+         m.output.grid->counts = {10'000, 10'000};
+       },
+       "output.grid"},
       {"grid_body", [](Model& m) { m.output.grid->body = -2; }, "output.grid.body"},
       {"every_zero", [](Model& m) { m.output.every = 0; }, "output.every"},
   };
@@ -445,23 +525,22 @@ TEST_P(Twins, HearTheSameSentence) {
 
 INSTANTIATE_TEST_SUITE_P(
     Models, Twins,
-    testing::Values(
-        Twin{"young", "young: 210", "young: 0", [](Model& m) { m.materials[0].young = 0.0; }},
-        Twin{"poisson", "poisson: 0.3", "poisson: 0.7", [](Model& m) { m.materials[0].poisson = 0.7; }},
-        Twin{"order", "order: 2", "order: 17", [](Model& m) { m.bodies[0].mesh.order = 17; }},
-        Twin{"size", "size: 0.5", "size: 1e-9", [](Model& m) { m.bodies[0].mesh.size = 1e-9; }},
-        Twin{"tolerance", "1e-10", "1", [](Model& m) { m.solver.tolerance = 1.0; }},
-        Twin{"unsupported", "supports: [{on: block.edge_4, fix: [x, y]}]\n", "",
-             [](Model& m) { m.supports.clear(), m.steps[0].support_factors.clear(); }},
-        Twin{"unloaded", "loads: {push: {on: block.edge_2, force: [1, 0]}}\n", "",
-             [](Model& m) { m.loads.clear(), m.steps[0].load_factors.clear(); }},
-        Twin{"no_edge_length", "[2, 1]", "[2, 0]",
-             [](Model& m) {
-               Outline& outline = m.bodies[0].outline;
-               outline.edges[1].end = outline.edges[2].start = outline.corners[2].position = {2, 0};
-             }},
-        Twin{"force_on_a_body", "on: block.edge_2", "on: block",
-             [](Model& m) { m.loads[0].on = test::place_on(Kind::body, 0, -1, "block"); }}),
+    testing::Values(Twin{"young", "young: 210", "young: 0", [](Model& m) { m.materials[0].young = 0.0; }},
+                    Twin{"poisson", "poisson: 0.3", "poisson: 0.7", [](Model& m) { m.materials[0].poisson = 0.7; }},
+                    Twin{"order", "order: 2", "order: 17", [](Model& m) { m.bodies[0].mesh.order = 17; }},
+                    Twin{"size", "size: 0.5", "size: 1e-9", [](Model& m) { m.bodies[0].mesh.size = 1e-9; }},
+                    Twin{"tolerance", "1e-10", "1", [](Model& m) { m.solver.tolerance = 1.0; }},
+                    Twin{"unsupported", "supports: [{on: block.edge_4, fix: [x, y]}]\n", "",
+                         [](Model& m) { m.supports.clear(), m.steps[0].support_factors.clear(); }},
+                    Twin{"unloaded", "loads: {push: {on: block.edge_2, force: [1, 0]}}\n", "",
+                         [](Model& m) { m.loads.clear(), m.steps[0].load_factors.clear(); }},
+                    Twin{"no_edge_length", "[2, 1]", "[2, 0]",
+                         [](Model& m) {
+                           Outline& outline = m.bodies[0].outline;
+                           outline.edges[1].end = outline.edges[2].start = outline.corners[2].position = {2, 0};
+                         }},
+                    Twin{"force_on_a_body", "on: block.edge_2", "on: block",
+                         [](Model& m) { m.loads[0].on = test::place_on(Kind::body, 0, -1, "block"); }}),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace
