@@ -50,8 +50,8 @@ bool check_material(Checking& checking, const std::string& path, std::string_vie
   const std::size_t count = checking.model.materials.size();
   if (index >= 0 && static_cast<std::size_t>(index) < count) return true;
   if (!checking.gaps.materials)
-    checking.error(path, key, fmt::format("there is no material number {}: the model has {}, counted from 0", index,
-                                          count));
+    checking.error(path, key,
+                   fmt::format("there is no material number {}: the model has {}, counted from 0", index, count));
   return false;
 }
 
@@ -61,9 +61,10 @@ bool check_crack(const BodyCheck& of) {
   const std::string path = of.path + ".cracks.0";
   const std::string& body = of.body.name;
   if (!is_name(crack.name)) {
-    checking.error(path, "name", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with a "
-                                             "letter or _",
-                                             crack.name));
+    checking.error(path, "name",
+                   fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with a "
+                               "letter or _",
+                               crack.name));
     return false;
   }
   bool good = true;
@@ -98,8 +99,9 @@ bool check_crack(const BodyCheck& of) {
   const auto& corners = of.outline.corners;
   const bool edge = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return taken(e.names); });
   if (edge || std::any_of(corners.begin(), corners.end(), [&](const Corner& c) { return taken(c.names); })) {
-    checking.error(path, "", fmt::format("{} of '{}' is also named '{}': give the crack another name",
-                                         edge ? "an edge" : "a corner", body, crack.name));
+    checking.error(path, "",
+                   fmt::format("{} of '{}' is also named '{}': give the crack another name",
+                               edge ? "an edge" : "a corner", body, crack.name));
     good = false;
   }
   return good;
@@ -192,8 +194,9 @@ void check_visibility(const BodyCheck& of) {
   if (of.centre_corner < 0 && !encloses(of.outline, centre))
     of.checking.error(of.path, key, fmt::format("{} is not inside the body: {}", who, remedy));
   else
-    of.checking.error(of.path, key, fmt::format("not every point of {} is visible from {}: {}",
-                                                edge_names(of.outline, unseen), who, remedy));
+    of.checking.error(
+        of.path, key,
+        fmt::format("not every point of {} is visible from {}: {}", edge_names(of.outline, unseen), who, remedy));
 }
 
 /// The two edges at a scaling centre on a corner are its side faces, which must be straight.
@@ -201,9 +204,10 @@ bool check_side_faces(const BodyCheck& of) {
   const int corner = of.centre_corner;
   if (of.body.mesh.centre_corner == -1) return true;
   if (corner < 0 || corner >= of.edges()) {
-    of.checking.error(of.path, "mesh.centre", fmt::format("there is no corner number {}: the outline has {}, counted "
-                                                          "from 0",
-                                                          of.body.mesh.centre_corner, of.edges()));
+    of.checking.error(of.path, "mesh.centre",
+                      fmt::format("there is no corner number {}: the outline has {}, counted "
+                                  "from 0",
+                                  of.body.mesh.centre_corner, of.edges()));
     return false;
   }
   if (!of.body.cracks.empty()) {
@@ -213,11 +217,10 @@ bool check_side_faces(const BodyCheck& of) {
   }
   const Vec2& position = of.outline.corners[static_cast<std::size_t>(corner)].position;
   if (!((position - of.body.mesh.centre).norm() <= 1e-9 * outline_size(of.outline))) {
-    of.checking.error(of.path, "mesh.centre",
-                      fmt::format("the scaling centre {} is not at corner {}, which is at {}",
-                                  point_text(of.body.mesh.centre),
-                                  of.outline.corners[static_cast<std::size_t>(corner)].names.front(),
-                                  point_text(position)));
+    of.checking.error(
+        of.path, "mesh.centre",
+        fmt::format("the scaling centre {} is not at corner {}, which is at {}", point_text(of.body.mesh.centre),
+                    of.outline.corners[static_cast<std::size_t>(corner)].names.front(), point_text(position)));
     return false;
   }
   bool good = true;
@@ -253,8 +256,9 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
     if (local.near) {
       good = checking.vector(path, at + ".near", *local.near) && good;
     } else if (local.edge < 0 || static_cast<std::size_t>(local.edge) >= body.outline.edges.size()) {
-      checking.error(path, at + ".on", fmt::format("body '{}' has no edge number {}: it has {}, counted from 0",
-                                                   body.name, local.edge, body.outline.edges.size()));
+      checking.error(path, at + ".on",
+                     fmt::format("body '{}' has no edge number {}: it has {}, counted from 0", body.name, local.edge,
+                                 body.outline.edges.size()));
       good = false;
     }
   }
@@ -266,7 +270,8 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
   const MeshOptions& mesh = body.mesh;
   bool good = checking.positive(path, "mesh.size", mesh.size);
   if (mesh.kind == MeshKind::superelement && !mesh.refine.empty())
-    checking.error_of_key(path, "mesh.refine", "is not available for kind: superelement: use polygons, quadtree or fem"),
+    checking.error_of_key(path, "mesh.refine",
+                          "is not available for kind: superelement: use polygons, quadtree or fem"),
         good = false;
   if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty()))
     checking.error(path, "mesh",
@@ -279,8 +284,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
                      fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", mesh.order)),
           good = false;
     if (mesh.tolerance)
-      checking.error_of_key(path, "mesh.tolerance",
-                            "only super-elements are refined: leave 'tolerance' out for fem"),
+      checking.error_of_key(path, "mesh.tolerance", "only super-elements are refined: leave 'tolerance' out for fem"),
           good = false;
     if (!body.cracks.empty())
       checking.error(path, "cracks.0",
@@ -296,8 +300,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
     good = checking.within(path, "mesh.tolerance", *mesh.tolerance, "1e-5", "0.5") && good;
   }
   if (mesh.kind != MeshKind::superelement && !body.sector_materials.empty())
-    checking.error_of_key(path, "sectors",
-                          "only a body that is one super-element has sectors: use 'regions' instead");
+    checking.error_of_key(path, "sectors", "only a body that is one super-element has sectors: use 'regions' instead");
   return good;
 }
 
@@ -330,8 +333,9 @@ void check_sectors(const BodyCheck& of) {
   const auto& materials = of.body.sector_materials;
   if (materials.empty() || of.body.mesh.kind != MeshKind::superelement) return;
   if (materials.size() != of.body.outline.edges.size()) {
-    of.checking.error(of.path, "sectors", fmt::format("gives {} materials for {} edges: one for each edge is needed",
-                                                      materials.size(), of.body.outline.edges.size()));
+    of.checking.error(of.path, "sectors",
+                      fmt::format("gives {} materials for {} edges: one for each edge is needed", materials.size(),
+                                  of.body.outline.edges.size()));
     return;
   }
   for (std::size_t i = 0; i < materials.size(); ++i)
@@ -345,11 +349,11 @@ void check_reference(const BodyCheck& of) {
   if (!of.body.outside) {
     of.checking.error_of_key(of.path, "reference",
                              "only a body with outside: true has a reference point: leave it out");
-  } else if (of.checking.vector(of.path, "reference", *of.body.reference) &&
-             encloses(of.outline, *of.body.reference)) {
-    of.checking.error(of.path, "reference", fmt::format("{} lies in the hole, not in the body: choose a point of the "
-                                                        "body",
-                                                        point_text(*of.body.reference)));
+  } else if (of.checking.vector(of.path, "reference", *of.body.reference) && encloses(of.outline, *of.body.reference)) {
+    of.checking.error(of.path, "reference",
+                      fmt::format("{} lies in the hole, not in the body: choose a point of the "
+                                  "body",
+                                  point_text(*of.body.reference)));
   }
 }
 
@@ -369,8 +373,9 @@ void check_regions(const BodyCheck& of) {
     const auto touches = [&](const Region* other) { return crossing_between(other->outline, region.outline); };
     const auto other = std::find_if(sound.begin(), sound.end(), touches);
     if (other != sound.end())
-      of.checking.error(path, "shape", fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart",
-                                                   (*other)->name, region.name));
+      of.checking.error(
+          path, "shape",
+          fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart", (*other)->name, region.name));
     else
       sound.push_back(&region);
   }

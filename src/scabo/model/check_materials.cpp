@@ -172,8 +172,9 @@ void check_expansion(Checking& checking) {
       if (body.rigid || body.outside) continue;
       for (const int index : materials_of(model, body)) {
         if (model.materials[static_cast<std::size_t>(index)].expansion || !told.insert(index).second) continue;
-        report_lack(checking, index, fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'",
-                                                 load.name, body.name));
+        report_lack(
+            checking, index,
+            fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'", load.name, body.name));
       }
     }
   }
