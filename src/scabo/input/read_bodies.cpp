@@ -234,7 +234,12 @@ void read_body(Reading& reading, const Entry& entry) {
   body.rigid = rigid.value_or(false);
   const auto shape = map.need("shape");
   if (shape) {
-    if (auto outline = read_shape(reading, *shape)) {
+    const MapEntry* image = shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
+    auto outline = image != nullptr ? read_image(reading, {image->value, shape->path + ".image"}, body)
+                                    : read_shape(reading, *shape);
+    if (image != nullptr && shape->node->entries.size() > 1)
+      report.error(*shape, "an image is the whole shape: leave the other keys out");
+    if (outline) {
       body.outline = std::move(*outline);
       state.shape = true;
     }
@@ -248,7 +253,9 @@ void read_body(Reading& reading, const Entry& entry) {
     reading.rigid_known = false;
     state.touched = true;
   } else {
-    if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
+    if (body.image) map.refuse("material", "the image names the materials: leave 'material' out");
+    const auto material = body.image ? std::nullopt : map.need("material");
+    if (material) body.material = read_material_name(reading, *material).value_or(-1);
     if (const auto regions = map.get("regions")) read_regions(reading, *regions, body);
     const std::size_t before = report.count();
     const auto cracks = map.get("cracks");

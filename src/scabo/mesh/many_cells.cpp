@@ -12,6 +12,7 @@
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
+#include "scabo/mesh/image.hpp"
 #include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
@@ -335,6 +336,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
     cell.centre = seeing_centre(polygon);
     const auto material_of = [&](int region) {
+      if (body.image) return std::next(body.image->materials.begin(), region)->second;
       return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
     };
     cell.materials = {material_of(polygon.region)};
@@ -355,7 +357,36 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
   return mesh;
 }
 
+namespace {
+
+/// A body that an image shows. Region k is that of label number k with a material.
+BodyMesh divide_image(const model::Body& body) {
+  const model::ImageShape& shape = *body.image;
+  ImageOptions options;
+  options.pixel = shape.pixel;
+  options.size = body.mesh.size;
+  for (const auto& [label, material] : shape.materials)
+    options.regions.emplace(label, static_cast<int>(options.regions.size()));
+  PolygonMesh polygons = image_mesh(*shape.image, options);
+  const Vec2 corner = body.outline.edges.front().start;
+  for (Vec2& node : polygons.nodes) node += corner;
+  for (PolygonCell& cell : polygons.cells) cell.centre += corner;
+  BodyDomain of;
+  of.domain.lines.resize(4);
+  of.lines_of_edge = {{0}, {1}, {2}, {3}};
+  return body_mesh_of(polygons, of, body);
+}
+
+}  // namespace
+
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, double most_nodes) {
+  if (body.image) {
+    try {
+      return divide_image(body);
+    } catch (const InputError& error) {
+      return Diagnostic{body.source, error.diagnostics().front().message};
+    }
+  }
   const double nodes = body.mesh.kind == model::MeshKind::parts ? 0.0 : approximate_nodes(body);
   if (!(nodes <= most_nodes))
     return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "

@@ -249,6 +249,11 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
   if (!body.cracks.empty() && body.mesh.kind == MeshKind::parts)
     checking.error(path, "cracks.0", "a crack in a body of several parts needs kind: polygons or kind: quadtree"),
         good = false;
+  refuse(body.image && body.mesh.kind != MeshKind::quadtree, "mesh.kind",
+         "a body that an image shows is divided by a quadtree: write kind: quadtree");
+  refuse(body.image && !(body.cracks.empty() && body.regions.empty() && body.outline.holes.empty() &&
+                         body.mesh.refine.empty()),
+         "shape", "a body that an image shows has no holes, regions, cracks or 'refine' besides: leave them out");
   for (std::size_t i = 0; i < body.mesh.refine.size(); ++i) {
     const LocalSize& local = body.mesh.refine[i];
     const std::string at = fmt::format("mesh.refine.{}", i);

@@ -139,8 +139,8 @@ struct Body {
 /// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
 /// of finite elements in a rectangle.
 inline bool is_divided_inside(const Body& body) {
-  return body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
-                                                       body.regions.empty() && body.mesh.refine.empty());
+  return body.image || (body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
+                                                       body.regions.empty() && body.mesh.refine.empty()));
 }
 
 /// Where a support, load or contact acts.
