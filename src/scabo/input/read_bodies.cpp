@@ -60,7 +60,7 @@ std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const O
 
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
-  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance", "refine"},
+  const MapReader map(report, value, {"size", "min_size", "order", "kind", "centre", "tolerance", "refine"},
                       "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
@@ -77,6 +77,7 @@ MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outli
   if (const auto tolerance = map.get("tolerance")) mesh.tolerance = number_or_unread(reading, tolerance);
   const auto size = map.has("tolerance") && !fem && !many ? map.get("size") : map.need("size");
   mesh.size = number_or_unread(reading, size);
+  if (const auto least = map.get("min_size")) mesh.min_size = number_or_unread(reading, least);
   if (!size && mesh.tolerance && outline != nullptr) {
     mesh.size = 0.0;
     for (const Edge& edge : outline->edges) mesh.size = std::max(mesh.size, 0.25 * edge.length());

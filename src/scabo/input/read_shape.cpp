@@ -94,6 +94,10 @@ std::optional<Outline> read_circle(Reading& reading, const Value& value) {
   const auto radius_value = map.need("radius");
   const auto centre = centre_value ? read_vector(reading.report, *centre_value) : std::nullopt;
   const auto radius = radius_value ? read_number(reading.report, *radius_value) : std::nullopt;
+  if (radius && !(*radius > 0.0)) {
+    reading.report.error(*radius_value, fmt::format("must be greater than 0, not {}", number_text(*radius)));
+    return {};
+  }
   if (!centre || !radius) return {};
   Edge edge;
   edge.names = {"rim"};
@@ -251,10 +255,11 @@ Outline rectangle_outline(const Vec2& a, const Vec2& size, const Source& source)
 
 std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
-  const MapReader map(
-      reading.report, value, {"rectangle", "circle", "polygon", "outline", "names"}, shape_example,
-      {{"holes", "'holes' is a key of the body, beside 'shape'"}});
+  const MapReader map(reading.report, value, {"rectangle", "circle", "polygon", "outline", "names", "holes"},
+                      shape_example);
   if (!map.is_map()) return {};
+  map.refuse("holes", "is a key of the body: write holes: {bore: {circle: {centre: [1, 1], radius: 0.2}}} beside "
+                      "'shape'");
   const int kinds =
       int(map.has("rectangle")) + int(map.has("circle")) + int(map.has("polygon")) + int(map.has("outline"));
   if (kinds != 1) {

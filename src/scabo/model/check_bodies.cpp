@@ -169,6 +169,14 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
   return name_list(names);
 }
 
+/// What to do about a body that is no single super-element: it becomes several, unless some key requires one.
+const char* remedy_for_unseen(const Body& body, bool centre_given) {
+  if (body.outside || !body.sector_materials.empty()) return "divide the body into several bodies";
+  if (body.mesh.tolerance) return "leave 'tolerance' out, and the body is divided into several super-elements";
+  return centre_given ? "leave 'centre' out, and the body is divided into several super-elements"
+                      : "use kind: polygons, which divides the body into many super-elements";
+}
+
 /// The whole boundary is visible from the scaling centre; otherwise a better one is suggested if there is one.
 void check_visibility(const BodyCheck& of) {
   const Vec2& centre = of.body.mesh.centre;
@@ -187,7 +195,7 @@ void check_visibility(const BodyCheck& of) {
   const std::string remedy =
       better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
                            given ? "use" : "give", better->x(), better->y())
-             : "the whole boundary is visible from no point: divide the body into several bodies";
+             : fmt::format("the whole boundary is visible from no point: {}", remedy_for_unseen(of.body, given));
   const std::string who = fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
   // Without mesh.centre the remedy is to give one; the mistake is then one of the mesh.
   const char* key = given ? "mesh.centre" : "mesh";
@@ -270,18 +278,42 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
   return good;
 }
 
+/// `min_size`, of a quadtree; 0 is the default.
+bool check_min_size(Checking& checking, const std::string& path, const MeshOptions& mesh) {
+  if (mesh.min_size == 0.0) return true;
+  if (mesh.kind != MeshKind::quadtree) {
+    checking.error_of_key(path, "mesh.min_size",
+                          "only a quadtree has a least size of its cells: leave 'min_size' out, or use kind: quadtree");
+    return false;
+  }
+  if (!checking.positive(path, "mesh.min_size", mesh.min_size)) return false;
+  if (!(mesh.min_size > mesh.size)) return true;
+  checking.error(path, "mesh.min_size",
+                 fmt::format("{} is larger than 'size', {}: it is the least size of a cell", number_text(mesh.min_size),
+                             number_text(mesh.size)),
+                 number_text(mesh.min_size));
+  return false;
+}
+
 /// Values of the mesh that do not depend on the shape.
 bool check_mesh_options(Checking& checking, const std::string& path, const Body& body) {
   const MeshOptions& mesh = body.mesh;
   bool good = checking.positive(path, "mesh.size", mesh.size);
+  good = check_min_size(checking, path, mesh) && good;
   if (mesh.kind == MeshKind::superelement && !mesh.refine.empty())
     checking.error_of_key(path, "mesh.refine",
                           "is not available for kind: superelement: use polygons, quadtree or fem"),
         good = false;
-  if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty()))
-    checking.error(path, "mesh",
-                   "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree"),
-        good = false;
+  if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty())) {
+    if (mesh.tolerance)
+      checking.error_of_key(path, "mesh.tolerance",
+                            "is available only for a body that is one super-element, without holes and regions: leave "
+                            "it out");
+    else
+      checking.error(path, "mesh",
+                     "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree");
+    good = false;
+  }
   good = checking.whole(path, "mesh.order", mesh.order, limits::order) && good;
   if (mesh.kind == MeshKind::fem) {
     if (good && mesh.order > 2)
@@ -317,7 +349,7 @@ bool check_dofs(const BodyCheck& of) {
   of.checking.error(of.path, "mesh.size",
                     fmt::format("gives {:.6g} degrees of freedom, but {} at most {:.6g}: use a larger size{}", dofs,
                                 fem ? "finite elements may have" : "one super-element may have", most,
-                                fem ? "" : " or divide the body"));
+                                fem ? "" : ", or kind: polygons or quadtree"));
   return false;
 }
 

@@ -295,7 +295,7 @@ bool check_holes(Checking& checking, const std::string& path, const Outline& out
     with.edges.insert(with.edges.end(), hole.edges.begin(), hole.edges.end());
     with.corners.insert(with.corners.end(), hole.corners.begin(), hole.corners.end());
   }
-  return check_names({checking, path, outline});
+  return check_names({checking, body, outline});
 }
 
 }  // namespace
