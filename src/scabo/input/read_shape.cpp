@@ -84,23 +84,7 @@ std::optional<Outline> read_rectangle(Reading& reading, const Value& value) {
     return {};
   }
   if (!corner || !size) return {};
-  const Vec2& a = *corner;
-  const Vec2 b = a + *size;
-  const std::array<Vec2, 4> points{a, Vec2(b.x(), a.y()), b, Vec2(a.x(), b.y())};
-  const std::array<const char*, 4> edge_names{"bottom", "right", "top", "left"};
-  const std::array<const char*, 4> corner_names{"bottom_left", "bottom_right", "top_right", "top_left"};
-  Outline outline;
-  outline.rectangle = true;
-  for (std::size_t i = 0; i < 4; ++i) {
-    Edge edge;
-    edge.names = {edge_names[i]};
-    edge.start = points[i];
-    edge.end = points[(i + 1) % 4];
-    edge.source = value.source();
-    outline.edges.push_back(edge);
-    outline.corners.push_back({{corner_names[i]}, points[i]});
-  }
-  return outline;
+  return rectangle_outline(*corner, *size, value.source());
 }
 
 /// A full circle: one edge that ends where it starts.
@@ -249,6 +233,25 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
 }
 
 }  // namespace
+
+Outline rectangle_outline(const Vec2& a, const Vec2& size, const Source& source) {
+  const Vec2 b = a + size;
+  const std::array<Vec2, 4> points{a, Vec2(b.x(), a.y()), b, Vec2(a.x(), b.y())};
+  const std::array<const char*, 4> edge_names{"bottom", "right", "top", "left"};
+  const std::array<const char*, 4> corner_names{"bottom_left", "bottom_right", "top_right", "top_left"};
+  Outline outline;
+  outline.rectangle = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Edge edge;
+    edge.names = {edge_names[i]};
+    edge.start = points[i];
+    edge.end = points[(i + 1) % 4];
+    edge.source = source;
+    outline.edges.push_back(edge);
+    outline.corners.push_back({{corner_names[i]}, points[i]});
+  }
+  return outline;
+}
 
 std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();

@@ -80,7 +80,8 @@ void check_something_loads(Checking& checking);
 void check_never_applied(Checking& checking);
 void check_conflicting_supports(Checking& checking);
 
-/// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes inside.
+/// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes
+/// inside.
 bool check_outline(Checking& checking, const std::string& path, const Outline& outline);
 /// The first point that the edges of two outlines share, if there is one; edges of `b` are numbered after those of `a`.
 std::optional<geometry::Crossing> crossing_between(const Outline& a, const Outline& b);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "scabo/geometry/foot_points.hpp"
 #include "unit/input/models.hpp"
 
 namespace scabo::geometry {
