@@ -329,7 +329,10 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     constexpr double well_seen = 0.1;
     if (!hollow || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
     const KernelCentre better = kernel_centre(points, well_seen);
-    return better.visibility > 0.0 ? better.centre : polygon.centre;
+    if (better.visibility > 0.0) return better.centre;
+    if (order == 1 || body.mesh.kind == model::MeshKind::fem) return polygon.centre;
+    throw InputError("", {Diagnostic{{}, fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
+                                                     polygon.centre.x(), polygon.centre.y())}});
   };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
@@ -397,7 +400,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, do
     return body_mesh_of(polygons_of(of.domain, body.mesh), of, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
-                      fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};
+                      fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind", error.diagnostics().front().message)};
   }
 }
 

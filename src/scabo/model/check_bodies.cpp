@@ -452,7 +452,8 @@ void check_body(Checking& checking, std::size_t index) {
   if (!turned.edges.empty() && of.centre_corner > 0) of.centre_corner = of.edges() - of.centre_corner;
   check_regions(of);
   const bool whole = body.mesh.kind != MeshKind::superelement;  // without side faces
-  checking.faces[index] = whole || (check_cracks(of) && check_side_faces(of));
+  const bool many = body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree;
+  checking.faces[index] = whole ? !many || check_cracks(of) : check_cracks(of) && check_side_faces(of);
   if (checking.faces[index]) check_mesh(of, good);
   check_sectors(of);
   check_reference(of);
