@@ -18,6 +18,8 @@ namespace {
 constexpr double coarse_turn = std::numbers::pi / 4, least_turn = std::numbers::pi / 128;
 /// Least height over length of a side as seen from the centre of a joined part (polygon_kernel.hpp).
 constexpr double well_seen = 0.12;
+/// A part with less than this is joined to any neighbour with which it is seen better.
+constexpr double poorly_seen = 0.05;
 /// The same of any part; if less, arcs are divided into more chords.
 constexpr double hardly_seen = 0.02;
 
@@ -151,6 +153,15 @@ class Division {
     return made;
   }
 
+  /// Whether joining the two parts at a side is worth it.
+  bool is_better(const Ends& side, const Candidate& candidate) const {
+    if (candidate.seen > well_seen) return true;
+    if (candidate.corners.empty()) return false;
+    double worse = poorly_seen;
+    for (const std::size_t part : at_side_.at(side)) worse = std::min(worse, centre_of(parts_[part]).visibility);
+    return worse < poorly_seen && candidate.seen > worse;
+  }
+
   void join_parts() {
     std::map<Ends, Candidate> candidates;
     for (const auto& [side, sides] : at_side_)
@@ -158,7 +169,8 @@ class Division {
     while (true) {
       auto best = candidates.end();
       for (auto at = candidates.begin(); at != candidates.end(); ++at)
-        if (at->second.seen > well_seen && (best == candidates.end() || at->second.seen > best->second.seen)) best = at;
+        if ((best == candidates.end() || at->second.seen > best->second.seen) && is_better(at->first, at->second))
+          best = at;
       if (best == candidates.end()) return;
       const std::size_t kept = at_side_[best->first][0], gone = at_side_[best->first][1];
       parts_[kept].corners = best->second.corners;
