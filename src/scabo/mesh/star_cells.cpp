@@ -105,7 +105,8 @@ class Division {
     return points;
   }
 
-  /// The point from which the part is seen best; its measure is that of the coarse sides, 0 if not all of an arc is seen.
+  /// The point from which the part is seen best; its measure is that of the coarse sides, 0 if not all of an arc is
+  /// seen.
   KernelCentre centre_of(const Part& part) const {
     const std::vector<Vec2> fine = fine_points_of(part.corners);
     KernelCentre centre = kernel_centre(fine, std::numeric_limits<double>::infinity());
@@ -126,8 +127,7 @@ class Division {
     if (i == na || j == nb) return std::nullopt;
     // The common chain runs forwards in a and backwards in b: find its ends.
     std::size_t before = 0, after = 0;
-    while (before + 2 < std::min(na, nb) &&
-           a.corners[(i + na - before - 1) % na] == b.corners[(j + 2 + before) % nb])
+    while (before + 2 < std::min(na, nb) && a.corners[(i + na - before - 1) % na] == b.corners[(j + 2 + before) % nb])
       ++before;
     while (before + after + 2 < std::min(na, nb) &&
            a.corners[(i + 2 + after) % na] == b.corners[(j + nb - after - 1) % nb])
@@ -257,8 +257,7 @@ PolygonMesh star_cells(const Domain& domain) {
     Division division(domain, turn);
     const double seen = division.seen();
     if (seen > hardly_seen || (seen > 0.0 && turn <= least_turn)) return division.mesh();
-    if (turn <= least_turn)
-      throw InputError("", {Diagnostic{{}, "a part between two arcs is too thin for its sides"}});
+    if (turn <= least_turn) throw InputError("", {Diagnostic{{}, "a part between two arcs is too thin for its sides"}});
   }
 }
 
