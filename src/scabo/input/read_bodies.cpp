@@ -144,8 +144,8 @@ void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
       report, entry.value,
-      {"material", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
-      body_example, {{"file", "describe the body with shape"}});
+      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
+      body_example, {{"file", "write mesh: {file: part.msh} instead of shape"}});
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -154,13 +154,15 @@ void read_body(Reading& reading, const Entry& entry) {
   const auto rigid_value = map.get("rigid");
   const auto rigid = rigid_value ? read_flag(report, *rigid_value) : std::optional(false);
   body.rigid = rigid.value_or(false);
-  const auto shape = map.need("shape");
+  const bool from_file = rigid && !body.rigid && is_from_file(map.get("mesh"));
+  const auto shape = from_file ? std::nullopt : map.need("shape");
   if (shape) {
     if (auto outline = read_shape(reading, *shape)) {
       body.outline = std::move(*outline);
       state.shape = true;
     }
   }
+  if (!from_file) map.refuse("materials", "only a body from a mesh file has materials of its regions: use 'material'");
   if (const auto holes = map.get("holes"); holes && state.shape) state.shape = read_holes(reading, *holes, body.outline);
   if (body.rigid) {
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"})
@@ -169,6 +171,8 @@ void read_body(Reading& reading, const Entry& entry) {
     body.rigid = true;
     reading.rigid_known = false;
     state.touched = true;
+  } else if (from_file) {
+    read_imported_body(reading, map, *map.get("mesh"), body, state);
   } else {
     if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
     if (const auto regions = map.get("regions")) read_regions(reading, *regions, body);
