@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import meshio
 import numpy as np
 import running
+from matplotlib.collections import LineCollection
 from matplotlib.tri import Triangulation
 
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.labelsize": 9,
@@ -67,6 +68,26 @@ def outline(triangles):
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     sides, times = np.unique(sides, axis=0, return_counts=True)
     return sides[times == 1]
+
+
+def cells_of(mesh):
+    """The triangles of every super-element. A file has one block of quadrilaterals and one of triangles for each."""
+    cells, before = [], "triangle"
+    for block in mesh.cells:
+        triangles = [block.data[:, :3]] + ([block.data[:, [0, 2, 3]]] if block.data.shape[1] == 4 else [])
+        if block.type == "triangle" and before == "quad":
+            cells[-1] += triangles
+        else:
+            cells.append(triangles)
+        before = block.type
+    return [np.concatenate(triangles) for triangles in cells]
+
+
+def draw_cells(axis, mesh, magnification=0.0, **style):
+    """The sides of all super-elements."""
+    moved = moved_points(mesh, magnification)
+    sides = [moved[outline(triangles)] for triangles in cells_of(mesh)]
+    axis.add_collection(LineCollection(np.concatenate(sides), **{"colors": "black", "linewidths": 0.35, "alpha": 0.6, **style}))
 
 
 def moved_points(mesh, magnification):

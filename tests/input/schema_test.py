@@ -25,11 +25,12 @@ BEYOND_SCHEMA = re.compile(
     r"|bodies_all_rigid|body_(unsupported|rigid_without_contact)"
     r"|polygon_(?!two_vertices|vertex_of_three)|outline_(not_|full_circle|arc_radii|arc_crosses|arc_swallows"
     r"|name_twice|without_area)"
-    r"|shape_too_|centre_|mesh_(1e9|too_many|fem_polygon)"
+    r"|shape_too_|centre_|mesh_(1e9|too_many|min_size_(of|above)|refine_(of|on_un)|tolerance_of_(poly|a_body)|quadtree_centre)"
+    r"|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named)|regions?_(of_unknown|crosses|outside|touch)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
     r"|support_(conflict|name_)|load_(on_unknown|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
     r"|contact_(with_itself|unknown_edge|twice|of_two_rigid|at_a_corner)"
-    r"|crack_(and_centre|face_|in_finite|mouth_(inside|on_a|unknown)|named_like|tip_)|face_(points_(twice|xi)|power_|powers_on)|notch_"
+    r"|crack_(and_centre|path_(in_one|outside|point_twice)|two|face_|in_finite|mouth_(inside|on_a|unknown)|named_like|tip_)|face_(points_(twice|xi)|power_|powers_on)|notch_"
     r"|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
     r"|temperature_(on_an|without)|body_force_on_a|law_(dynamic_above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names)|later_")
 

@@ -211,12 +211,16 @@ class Pulled {
  public:
   explicit Pulled(std::string file) : file_(std::move(file)) {
     const auto mesh = files::read_mesh_file(file_);
-    cells_ = mesh.cells.size();
     auto made = model::imported_body(mesh, -1);
     if (std::holds_alternative<std::string>(made)) {
       region_ = mesh.regions.front();
       made = model::imported_body(mesh, 0);
     }
+    for (std::size_t set = 0; std::holds_alternative<std::string>(made) && set < mesh.cell_sets.size(); ++set) {
+      region_ = mesh.cell_sets[set].name;
+      made = model::imported_body_of_set(mesh, static_cast<int>(set));
+    }
+    cells_ = std::get<model::ImportedBody>(made).mesh->cells.size();
     const auto& outline = std::get<model::ImportedBody>(made).outline;
     double left = 1e300, right = -1e300;
     for (const auto& edge : outline.edges) {

@@ -130,6 +130,49 @@ loads: {{weight: {{gravity: [0, -10]}}}}
   EXPECT_NEAR(increment.reactions[0].x() + increment.reactions[1].x(), 0.0, 1e-6);
 }
 
+// Cells as large as the hole see all of its curved sides; the weight is that of 4 x 2 less a circle.
+TEST_P(ManyCells, AreCoarseAroundARoundHole) {
+  for (const double size : {1.0, 0.5, 0.4, 0.3, 0.2}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{type: static, plane: strain, thickness: 1}}
+materials: {{rock: {{young: 3e9, poisson: 0.3, density: 100}}}}
+bodies:
+  plate:
+    material: rock
+    shape: {{rectangle: {{corner: [0, 0], size: [4, 2]}}}}
+    holes: {{bore: {{circle: {{centre: [1, 1], radius: 0.3}}}}}}
+    mesh: {{kind: {}, size: {}, order: 4}}
+supports: [{{on: plate.bottom, fix: [x, y]}}]
+loads: {{weight: {{gravity: [0, -10]}}}}
+)",
+                                          kind(), size));
+    const double weight = 1000.0 * (8.0 - std::numbers::pi * 0.09);
+    EXPECT_NEAR(last(solution).reactions[0].y(), weight, 1e-6 * weight) << size;
+  }
+}
+
+// A pipe that no point sees becomes a few super-elements by itself, also if its wall is thin.
+TEST(Parts, OfAThinPipe) {
+  for (const double inner : {0.3, 0.7, 0.85, 0.95}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{type: static, plane: strain, thickness: 1}}
+materials: {{rock: {{young: 3e9, poisson: 0.3, density: 100}}}}
+bodies:
+  pipe:
+    material: rock
+    shape: {{circle: {{centre: [0, 0], radius: 1}}}}
+    holes: {{inside: {{circle: {{centre: [0, 0], radius: {}}}}}}}
+    mesh: {{size: 0.15, order: 4}}
+supports: [{{on: pipe.rim, fix: [x, y]}}]
+loads: {{weight: {{gravity: [0, -10]}}}}
+)",
+                                          inner));
+    const double weight = 1000.0 * std::numbers::pi * (1.0 - inner * inner);
+    EXPECT_NEAR(last(solution).reactions[0].y(), weight, 1e-6 * weight) << inner;
+    EXPECT_LE(solution.cells[0].size(), 40u) << inner;
+  }
+}
+
 // Free thermal expansion moves every point and causes no stress; a bar held at both ends is under -E alpha T.
 TEST_P(ManyCells, ThermalExpansion) {
   const std::string text = R"(scabo: 1

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "run.hpp"
 
@@ -241,6 +242,61 @@ contacts:
   EXPECT_NEAR(half_width, 6.2146, 0.5);
   EXPECT_LT(2 * solution.mesh.nodes(), 12000);
 }
+
+// Persson: a pin, loaded at its centre (here at a small bore), in a hole of an infinite plate of the same material,
+// without friction. For half angles e of contact: E* dR / Q and R p_max / Q.
+class Persson : public testing::TestWithParam<std::array<double, 3>> {};
+
+TEST_P(Persson, QuadtreeInUnboundedPlate) {
+  const auto [half_angle, clearance, pressure] = GetParam();
+  const double dR = 1e-5, Q = 1e3 * dR / clearance;  // E* = 1e3, R = 1
+  const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{m: {{young: 910, poisson: 0.3}}}}
+bodies:
+  pin:
+    material: m
+    shape:
+      outline:
+        - {{arc: {{from: [1, 0], to: [-1, 0], centre: [0, 0]}}, name: crown}}
+        - {{arc: {{to: [1, 0], centre: [0, 0]}}, name: rim}}
+    holes: {{bore: {{circle: {{centre: [0, 0], radius: 0.02}}}}}}
+    mesh: {{size: 0.2, kind: quadtree, refine: [{{on: rim, size: 0.05}}, {{near: [0, 0], size: 0.01}}]}}
+  plate:
+    material: m
+    outside: true
+    reference: [0, -1000]
+    shape:
+      outline:
+        - {{arc: {{from: [{0}, {1}], to: [-{0}, {1}], centre: [0, {1}]}}, name: crown}}
+        - {{arc: {{to: [{0}, {1}], centre: [0, {1}]}}, name: rim}}
+    mesh: {{size: 0.06}}
+supports:
+  - {{on: pin.vertex_1, fix: [x]}}
+  - {{on: {{body: pin, near: [0, 1]}}, fix: [x]}}
+loads:
+  press: {{on: pin.bore, force: [0, -{2}]}}
+contacts:
+  joint: {{between: [pin.rim, plate.rim], friction: 0}}
+)",
+                                        1.0 + dR, dR, Q));
+  const analysis::ContactResult& joint = last(solution).contacts[0];
+  double largest = 0.0, edge = 0.0, vertical = 0.0;
+  for (const analysis::PairResult& pair : joint.pairs) {
+    const double angle = std::atan2(std::abs(pair.position.x()), -pair.position.y()) * 180 / std::numbers::pi;
+    largest = std::max(largest, pair.pressure);
+    if (pair.pressure > 0.0) edge = std::max(edge, angle);
+    vertical += pair.normal_force * std::cos(angle * std::numbers::pi / 180);
+  }
+  EXPECT_NEAR(vertical, Q, 1e-4 * Q);
+  EXPECT_NEAR(largest / Q, pressure, 2e-3 * pressure);
+  EXPECT_NEAR(edge, half_angle, 2.0);  // an element of the plate is 3.4 degrees long
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, Persson,
+                         testing::Values(std::array{30.0, 7.943540, 1.260289}, std::array{45.0, 2.823121, 0.882111},
+                                         std::array{60.0, 1.067202, 0.711721}, std::array{75.0, 0.287077, 0.628103}));
 
 }  // namespace
 }  // namespace scabo::verification

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/geometry/box.hpp"
+
 namespace scabo::analysis {
 
 namespace {
@@ -130,7 +132,8 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<std::stri
   }
 }
 
-/// Smallest gap of a contact that is open at every pair in every increment; nothing for other contacts.
+/// Smallest gap of a contact that is open at every pair in every increment; nothing for other contacts, and where the two
+/// sides touch without a force.
 std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t contact) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const IncrementResult& increment : solution.increments) {
@@ -139,7 +142,10 @@ std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t c
     if (of.first_in_contact) return {};
     for (const PairResult& pair : of.pairs) smallest = std::min(smallest, pair.gap);
   }
-  return std::isfinite(smallest) ? std::optional(smallest) : std::nullopt;
+  constexpr double rounding = 1e-9;  // of the size of a body
+  const auto body = static_cast<std::size_t>(solution.model.contacts[contact].a.body);
+  const bool touching = smallest <= rounding * geometry::outline_size(solution.model.bodies[body].outline);
+  return std::isfinite(smallest) && !touching ? std::optional(smallest) : std::nullopt;
 }
 
 void warn_of_open_contacts(const StaticSolution& solution, std::vector<std::string>& warnings) {

@@ -100,7 +100,8 @@ std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double
     if (b_follows && (point - a.end).norm() <= near_corner) continue;
     if (a_follows && (point - b.end).norm() <= near_corner) continue;
     const double tolerance = 1e-9 * size;
-    if ((closest_point(a, point) - point).norm() <= tolerance && (closest_point(b, point) - point).norm() <= tolerance) {
+    if ((closest_point(a, point) - point).norm() <= tolerance &&
+        (closest_point(b, point) - point).norm() <= tolerance) {
       return Crossing{Crossing::Kind::cross, i, j, point};
     }
   }

@@ -1,9 +1,9 @@
 // Geometry of outlines: points, lengths, area and centroid, arcs and chains included exactly.
+#include "scabo/geometry/outline.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "scabo/geometry/outline.hpp"
 
 namespace scabo::geometry {
 

@@ -47,8 +47,8 @@ struct Corner {
   Vec2 position = Vec2::Zero();
 };
 
-/// A closed boundary: one outer chain of edges, in which edges[i] ends where edges[i + 1] starts and the last one where the
-/// first one starts, then one such chain for every hole.
+/// A closed boundary: one outer chain of edges, in which edges[i] ends where edges[i + 1] starts and the last one where
+/// the first one starts, then one such chain for every hole.
 struct Outline {
   std::vector<Edge> edges;
   std::vector<Corner> corners;

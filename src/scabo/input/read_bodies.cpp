@@ -60,7 +60,7 @@ std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const O
 
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
-  const MapReader map(report, value, {"size", "order", "kind", "centre", "tolerance", "refine"},
+  const MapReader map(report, value, {"size", "min_size", "order", "kind", "centre", "tolerance", "refine"},
                       "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
@@ -77,6 +77,7 @@ MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outli
   if (const auto tolerance = map.get("tolerance")) mesh.tolerance = number_or_unread(reading, tolerance);
   const auto size = map.has("tolerance") && !fem && !many ? map.get("size") : map.need("size");
   mesh.size = number_or_unread(reading, size);
+  if (const auto least = map.get("min_size")) mesh.min_size = number_or_unread(reading, least);
   if (!size && mesh.tolerance && outline != nullptr) {
     mesh.size = 0.0;
     for (const Edge& edge : outline->edges) mesh.size = std::max(mesh.size, 0.25 * edge.length());
@@ -140,11 +141,94 @@ void choose_centre(Body& body) {
     body.mesh.kind = MeshKind::parts;
 }
 
+void add_body(Reading& reading, Body body, const BodyState& state) {
+  if (!reading.index_of_body.emplace(body.name, static_cast<int>(reading.model.bodies.size())).second) {
+    reading.report.error(body.source, fmt::format("there is already a body named '{}': choose another name", body.name));
+    return;
+  }
+  reading.model.bodies.push_back(std::move(body));
+  reading.bodies.push_back(state);
+}
+
+void move(Outline& outline, const Vec2& by) {
+  for (Edge& edge : outline.edges) {
+    edge.start += by;
+    edge.end += by;
+    if (edge.arc) edge.arc->centre += by;
+    for (Vec2& point : edge.points) point += by;
+  }
+  for (Corner& corner : outline.corners) corner.position += by;
+}
+
+Body moved(Body body, const Vec2& by) {
+  move(body.outline, by);
+  for (Region& region : body.regions) move(region.outline, by);
+  for (Crack& crack : body.cracks) {
+    crack.tip += by;
+    crack.mouth += by;
+    for (Vec2& point : crack.path) point += by;
+  }
+  body.mesh.centre += by;
+  if (body.imported) {
+    auto mesh = std::make_shared<files::ImportedMesh>(*body.imported);
+    for (Vec2& node : mesh->nodes) node += by;
+    body.imported = std::move(mesh);
+  }
+  for (LocalSize& local : body.mesh.refine)
+    if (local.near) *local.near += by;
+  return body;
+}
+
+/// `repeat: {count: 3, step: [1, 0]}` gives `block_1`, `block_2`, `block_3`; `{count: [2, 3], step: [[1, 0], [0, 1]]}`
+/// gives `block_1_1` to `block_2_3`. Nothing if it is broken.
+std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& body) {
+  Report& report = reading.report;
+  const std::size_t before = report.count();
+  const MapReader map(report, value, {"count", "step"}, "{count: 3, step: [1, 0]}");
+  const auto count_value = map.need("count"), step_value = map.need("step");
+  std::vector<long> counts;
+  std::vector<Vec2> steps;
+  if (count_value && count_value->node->kind == Node::Kind::sequence) {
+    const auto items = read_list(report, *count_value, "[2, 3]");
+    for (const Value& item : items.value_or(std::vector<Value>{}))
+      counts.push_back(read_integer(report, item, limits::copies).value_or(1));
+  } else if (count_value) {
+    counts.push_back(read_integer(report, *count_value, limits::copies).value_or(1));
+  }
+  if (counts.size() == 2 && step_value) {
+    const auto items = read_list(report, *step_value, "[[1, 0], [0, 1]]");
+    for (const Value& item : items.value_or(std::vector<Value>{}))
+      steps.push_back(read_vector(report, item).value_or(Vec2::Zero()));
+  } else if (step_value) {
+    steps.push_back(read_vector(report, *step_value).value_or(Vec2::Zero()));
+  }
+  if (report.count() == before && (counts.empty() || counts.size() > 2 || steps.size() != counts.size()))
+    report.error(value, "needs one count and one step, as in {count: 3, step: [1, 0]}, or two of each, as in {count: [2, "
+                        "3], step: [[1, 0], [0, 1]]}");
+  if (report.count() == before && counts.size() == 2 && counts[0] * counts[1] > limits::copies.most)
+    report.error(*count_value, fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1],
+                                           limits::copies.most));
+  std::vector<Body> copies;
+  if (report.count() > before) {
+    reading.bodies_known = false;
+    return copies;
+  }
+  const bool plane = counts.size() == 2;
+  for (long j = 0; j < (plane ? counts[1] : 1); ++j)
+    for (long i = 0; i < counts[0]; ++i) {
+      Body copy = moved(body, static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0)));
+      copy.name += plane ? fmt::format("_{}_{}", i + 1, j + 1) : fmt::format("_{}", i + 1);
+      copies.push_back(std::move(copy));
+    }
+  return copies;
+}
+
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
       report, entry.value,
-      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference"},
+      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference",
+       "repeat"},
       body_example, {{"file", "write mesh: {file: part.msh} instead of shape"}});
   Body body;
   BodyState state;
@@ -157,7 +241,12 @@ void read_body(Reading& reading, const Entry& entry) {
   const bool from_file = rigid && !body.rigid && is_from_file(map.get("mesh"));
   const auto shape = from_file ? std::nullopt : map.need("shape");
   if (shape) {
-    if (auto outline = read_shape(reading, *shape)) {
+    const MapEntry* image = shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
+    auto outline = image != nullptr ? read_image(reading, {image->value, shape->path + ".image"}, body)
+                                    : read_shape(reading, *shape);
+    if (image != nullptr && shape->node->entries.size() > 1)
+      report.error(*shape, "an image is the whole shape: leave the other keys out");
+    if (outline) {
       body.outline = std::move(*outline);
       state.shape = true;
     }
@@ -174,7 +263,9 @@ void read_body(Reading& reading, const Entry& entry) {
   } else if (from_file) {
     read_imported_body(reading, map, *map.get("mesh"), body, state);
   } else {
-    if (const auto material = map.need("material")) body.material = read_material_name(reading, *material).value_or(-1);
+    if (body.image) map.refuse("material", "the image names the materials: leave 'material' out");
+    const auto material = body.image ? std::nullopt : map.need("material");
+    if (material) body.material = read_material_name(reading, *material).value_or(-1);
     if (const auto regions = map.get("regions")) read_regions(reading, *regions, body);
     const std::size_t before = report.count();
     const auto cracks = map.get("cracks");
@@ -183,7 +274,10 @@ void read_body(Reading& reading, const Entry& entry) {
     body.mesh.size = unread;
     if (mesh)
       body.mesh = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
-                            body.cracks.empty() ? nullptr : &body.cracks.front());
+                            body.cracks.empty() || !body.cracks.front().path.empty() ? nullptr : &body.cracks.front());
+    if (body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree)
+      for (Crack& crack : body.cracks)
+        if (crack.path.empty()) crack.path = {crack.mouth, crack.tip}, crack.edge = -1;
     const bool has_centre = mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre");
     const bool one = body.mesh.kind == MeshKind::superelement && !cracks && !map.has("outside") && !map.has("sectors");
     if (one && !has_centre && state.shape && !body.mesh.tolerance) choose_centre(body);
@@ -196,9 +290,11 @@ void read_body(Reading& reading, const Entry& entry) {
     read_outside(reading, map, body);
     if (body.outside && !body.outline.edges.empty() && body.outline.holes.empty()) turn_outside(body);
   }
-  reading.index_of_body.emplace(body.name, static_cast<int>(reading.model.bodies.size()));
-  reading.model.bodies.push_back(std::move(body));
-  reading.bodies.push_back(state);
+  if (const auto repeat = map.get("repeat")) {
+    for (Body& copy : copies_of(reading, *repeat, body)) add_body(reading, std::move(copy), state);
+    return;
+  }
+  add_body(reading, std::move(body), state);
 }
 
 }  // namespace

@@ -81,12 +81,21 @@ Crack unread_crack(const Value& value) {
 }
 
 Crack read_crack(Reading& reading, const Value& value, const Body& body) {
-  const MapReader map(reading.report, value, {"tip", "mouth", "name"}, crack_example,
-                      {{"kink", "cracks are straight; divide the body at the kink"}});
+  const MapReader map(reading.report, value, {"tip", "mouth", "path", "name"}, crack_example,
+                      {{"kink", "give the crack as a path: [[0, 0], [1, 0.2], [2, 0]]"}});
   Crack crack = unread_crack(value);
   if (const auto name = map.get("name")) {
     const auto text = read_text(reading.report, *name);
     if (text && check_name(reading.report, name->source(), *text)) crack.name = *text;
+  }
+  if (const auto path = map.get("path")) {
+    for (const char* key : {"tip", "mouth"})
+      if (map.has(key)) map.refuse(key, "does not go with 'path', which has both ends: leave it out");
+    const auto points = read_list(reading.report, *path, "[[0, 0], [1, 0.2]]");
+    for (const Value& point : points.value_or(std::vector<Value>{}))
+      crack.path.push_back(read_vector(reading.report, point).value_or(Vec2::Constant(unread)));
+    if (points && crack.path.size() < 2) reading.report.error(*path, "needs two points or more: the ends of the crack");
+    return crack;
   }
   if (const auto tip = map.need("tip")) crack.tip = read_vector(reading.report, *tip).value_or(crack.tip);
   if (const auto mouth = map.need("mouth")) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <variant>
 
 #include "scabo/files/read_mesh_file.hpp"
 #include "scabo/input/reading.hpp"
@@ -45,13 +46,18 @@ int index_of_region(const std::vector<std::string>& regions, const std::string& 
   return -1;
 }
 
-std::optional<int> read_region(Reading& reading, const Value& value, const files::ImportedMesh& mesh) {
+/// The cells of the region, or of the set of cells, of a name; nothing if there is none.
+std::optional<std::variant<ImportedBody, std::string>> read_region(Reading& reading, const Value& value,
+                                                                   const files::ImportedMesh& mesh) {
   const auto name = read_text(reading.report, value);
   if (!name) return {};
-  const int region = index_of_region(mesh.regions, *name);
-  if (region >= 0) return region;
-  reading.report.error(value, fmt::format("the file has no region named {}{}", quoted_name(*name),
-                                          suggestion(*name, mesh.regions)));
+  if (const int region = index_of_region(mesh.regions, *name); region >= 0) return imported_body(mesh, region);
+  std::vector<std::string> names, known = mesh.regions;
+  for (const files::CellSet& set : mesh.cell_sets) names.push_back(set.name);
+  if (const int set = index_of_region(names, *name); set >= 0) return imported_body_of_set(mesh, set);
+  for (std::string& set : names)
+    if (std::find(known.begin(), known.end(), set) == known.end()) known.push_back(std::move(set));
+  reading.report.error(value, fmt::format("the file has no region named {}{}", quoted_name(*name), suggestion(*name, known)));
   return {};
 }
 
@@ -92,18 +98,14 @@ bool read_cells(Reading& reading, const MapReader& map, Body& body, BodyState& s
   const Mesh mesh = name ? mesh_of_file(reading, *file, *name) : nullptr;
   if (!mesh) return false;
   body.mesh.file = *name;
-  int region = -1;
-  if (const auto value = map.get("region")) {
-    const auto index = read_region(reading, *value, *mesh);
-    if (!index) return false;
-    region = *index;
-  }
-  auto made = imported_body(*mesh, region);
-  if (const std::string* why = std::get_if<std::string>(&made)) {
-    reading.report.error(map.get("region").value_or(*file), *why);
+  const auto region = map.get("region");
+  auto made = region ? read_region(reading, *region, *mesh) : imported_body(*mesh, -1);
+  if (!made) return false;
+  if (const std::string* why = std::get_if<std::string>(&*made)) {
+    reading.report.error(region.value_or(*file), *why);
     return false;
   }
-  ImportedBody& imported = std::get<ImportedBody>(made);
+  ImportedBody& imported = std::get<ImportedBody>(*made);
   body.imported = std::move(imported.mesh);
   body.outline = std::move(imported.outline);
   for (Edge& edge : body.outline.edges) edge.source = file->source();

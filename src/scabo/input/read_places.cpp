@@ -66,6 +66,7 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
   const Outline& outline = reading.body(body).outline;
   std::vector<std::string> known;
   for (const Crack& crack : reading.body(body).cracks) {
+    if (!crack.path.empty()) continue;  // its faces are not places
     std::vector<std::pair<std::string, Place>> places;
     add_crack_places(crack, places);
     for (auto& [name, place] : places) {

@@ -84,23 +84,7 @@ std::optional<Outline> read_rectangle(Reading& reading, const Value& value) {
     return {};
   }
   if (!corner || !size) return {};
-  const Vec2& a = *corner;
-  const Vec2 b = a + *size;
-  const std::array<Vec2, 4> points{a, Vec2(b.x(), a.y()), b, Vec2(a.x(), b.y())};
-  const std::array<const char*, 4> edge_names{"bottom", "right", "top", "left"};
-  const std::array<const char*, 4> corner_names{"bottom_left", "bottom_right", "top_right", "top_left"};
-  Outline outline;
-  outline.rectangle = true;
-  for (std::size_t i = 0; i < 4; ++i) {
-    Edge edge;
-    edge.names = {edge_names[i]};
-    edge.start = points[i];
-    edge.end = points[(i + 1) % 4];
-    edge.source = value.source();
-    outline.edges.push_back(edge);
-    outline.corners.push_back({{corner_names[i]}, points[i]});
-  }
-  return outline;
+  return rectangle_outline(*corner, *size, value.source());
 }
 
 /// A full circle: one edge that ends where it starts.
@@ -110,6 +94,10 @@ std::optional<Outline> read_circle(Reading& reading, const Value& value) {
   const auto radius_value = map.need("radius");
   const auto centre = centre_value ? read_vector(reading.report, *centre_value) : std::nullopt;
   const auto radius = radius_value ? read_number(reading.report, *radius_value) : std::nullopt;
+  if (radius && !(*radius > 0.0)) {
+    reading.report.error(*radius_value, fmt::format("must be greater than 0, not {}", number_text(*radius)));
+    return {};
+  }
   if (!centre || !radius) return {};
   Edge edge;
   edge.names = {"rim"};
@@ -246,12 +234,32 @@ std::optional<Outline> read_outline(Reading& reading, const Value& value, const 
 
 }  // namespace
 
+Outline rectangle_outline(const Vec2& a, const Vec2& size, const Source& source) {
+  const Vec2 b = a + size;
+  const std::array<Vec2, 4> points{a, Vec2(b.x(), a.y()), b, Vec2(a.x(), b.y())};
+  const std::array<const char*, 4> edge_names{"bottom", "right", "top", "left"};
+  const std::array<const char*, 4> corner_names{"bottom_left", "bottom_right", "top_right", "top_left"};
+  Outline outline;
+  outline.rectangle = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Edge edge;
+    edge.names = {edge_names[i]};
+    edge.start = points[i];
+    edge.end = points[(i + 1) % 4];
+    edge.source = source;
+    outline.edges.push_back(edge);
+    outline.corners.push_back({{corner_names[i]}, points[i]});
+  }
+  return outline;
+}
+
 std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const std::size_t before = reading.report.count();
-  const MapReader map(
-      reading.report, value, {"rectangle", "circle", "polygon", "outline", "names"}, shape_example,
-      {{"holes", "'holes' is a key of the body, beside 'shape'"}});
+  const MapReader map(reading.report, value, {"rectangle", "circle", "polygon", "outline", "names", "holes"},
+                      shape_example);
   if (!map.is_map()) return {};
+  map.refuse("holes", "is a key of the body: write holes: {bore: {circle: {centre: [1, 1], radius: 0.2}}} beside "
+                      "'shape'");
   const int kinds =
       int(map.has("rectangle")) + int(map.has("circle")) + int(map.has("polygon")) + int(map.has("outline"));
   if (kinds != 1) {

@@ -40,9 +40,9 @@ Value Value::item(std::size_t index) const { return {node->items[index], join_pa
 
 void Report::error(const Source& at, std::string message) {
   ++count_;
+  paths_.insert(at.path.starts_with(of_command_line) ? at.path.substr(of_command_line.size()) : at.path);
   if (full()) return;
   Source place = at;
-  paths_.insert(at.path.starts_with(of_command_line) ? at.path.substr(of_command_line.size()) : at.path);
   place.path = one_line(at.path);  // keys may be any text
   if (place.path.size() > longest_path) place.path = shortened(place.path, longest_path);
   diagnostics_.push_back({place, std::move(message)});
@@ -263,10 +263,18 @@ void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes)
     const auto below = told.lower_bound(path + ".");
     return below != told.end() && below->starts_with(path + ".");
   };
+  const auto is_within_told = [&](std::string path) {
+    if (is_told(path, true)) return true;
+    for (auto dot = path.rfind('.'); dot != std::string::npos; dot = path.rfind('.')) {
+      path.resize(dot);
+      if (told.contains(path)) return true;
+    }
+    return false;
+  };
   for (const model::Mistake& mistake : mistakes) {
     if (mistake.given == "nan") continue;  // stands for a number that could not be read
-    if (full()) {
-      ++count_;
+    if (full()) {  // without looking them up
+      if (!is_within_told(mistake.at.path)) ++count_;
       continue;
     }
     const Located at = locate(root, mistake.at.path);

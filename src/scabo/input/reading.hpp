@@ -76,6 +76,10 @@ void read_output(Reading& reading, const Value& value);
 /// Contact law: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
 void read_law(Reading& reading, const MapReader& map, Contact& contact);
 
+/// A rectangle whose lower left corner is `a`, with its named edges and corners.
+Outline rectangle_outline(const Vec2& a, const Vec2& size, const Source& source);
+/// `image` as the shape of a body, which gets its materials from it; nothing if it is broken.
+std::optional<Outline> read_image(Reading& reading, const Value& value, Body& body);
 /// `shape` of a body; nothing if it is broken.
 std::optional<Outline> read_shape(Reading& reading, const Value& value);
 /// `holes` of a body with an outline, appended to it; false if they are broken.

@@ -47,7 +47,7 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
     const auto b = static_cast<std::size_t>(place.body);
     const model::Body& body = model.bodies[b];
     const std::vector<Vec2>& nodes = mesh.bodies[b].nodes;
-    if (body.cracks.empty() || nodes.empty()) return;
+    if (body.cracks.empty() || !body.cracks.front().path.empty() || nodes.empty()) return;
     const int node = nodes_of(place, mesh).nodes.front();
     if (node != 0 && node + 1 != static_cast<int>(nodes.size())) return;
     mistakes.push_back({source, fmt::format("the nearest node is the mouth of crack '{1}', where there are two nodes: "

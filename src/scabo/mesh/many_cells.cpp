@@ -7,10 +7,13 @@
 #include <map>
 #include <numbers>
 
+#include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
+#include "scabo/mesh/image.hpp"
+#include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
 #include "scabo/mesh/star_cells.hpp"
@@ -20,22 +23,23 @@ namespace scabo::mesh {
 namespace {
 
 /// A side on an arc turns by at most this, so that its chord is near it and cells beside it stay valid.
-constexpr double largest_turn_of_side = std::numbers::pi / 8;
+constexpr double largest_turn_of_side = std::numbers::pi / 12;
 
-/// Fractions of the length of an edge at which it is divided, 0 and 1 included.
-std::vector<double> breaks_of(const model::Body& body, const geometry::Edge& edge) {
-  const double length = edge.length();
-  const double by_turn = edge.arc ? std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
-  std::vector<double> breaks{0.0};
+/// Fractions of the length of an edge at which its part from `from` to `to` is divided, both included.
+std::vector<double> breaks_of(const model::Body& body, const geometry::Edge& edge, double from, double to) {
+  const double length = (to - from) * edge.length();
+  const double by_turn = edge.arc ? (to - from) * std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
+  std::vector<double> breaks{from};
   if (body.mesh.refine.empty()) {
     const double count = std::max(elements_along(length, body.mesh.size), std::ceil(by_turn - 1e-9));
-    for (int k = 1; k < count; ++k) breaks.push_back(k / count);
+    for (int k = 1; k < count; ++k) breaks.push_back(std::lerp(from, to, k / count));
   } else {
     // As many elements as the integral of 1 / size, each with an equal part of it.
     constexpr int samples = 1000;
     std::vector<double> sum{0.0};
     for (int i = 0; i < samples; ++i) {
-      const double size = std::min(wanted_size(body, edge.at((i + 0.5) / samples)), length / by_turn);
+      const Vec2 at = edge.at(std::lerp(from, to, (i + 0.5) / samples));
+      const double size = std::min(wanted_size(body, at), length / by_turn);
       sum.push_back(sum.back() + length / samples / size);
     }
     const double count = std::max(1.0, std::ceil(sum.back() - 1e-9));
@@ -44,10 +48,10 @@ std::vector<double> breaks_of(const model::Body& body, const geometry::Edge& edg
       const double part = k / count * sum.back();
       while (sum[static_cast<std::size_t>(i) + 1] < part) ++i;
       const double low = sum[static_cast<std::size_t>(i)], high = sum[static_cast<std::size_t>(i) + 1];
-      breaks.push_back((i + (part - low) / (high - low)) / samples);
+      breaks.push_back(std::lerp(from, to, (i + (part - low) / (high - low)) / samples));
     }
   }
-  breaks.push_back(1.0);
+  breaks.push_back(to);
   return breaks;
 }
 
@@ -63,16 +67,99 @@ DomainLine part_of(const geometry::Edge& edge, const std::vector<double>& breaks
   return line;
 }
 
-/// Lines of one edge: one, or two halves of a long arc.
-std::vector<DomainLine> lines_of(const model::Body& body, const geometry::Edge& edge) {
-  std::vector<double> breaks = breaks_of(body, edge);
-  if (!edge.arc || std::abs(edge.arc->sweep) < std::numbers::pi) return {part_of(edge, breaks, 0, breaks.size() - 1)};
-  const std::size_t middle = breaks.size() / 2;
-  return {part_of(edge, breaks, 0, middle), part_of(edge, breaks, middle, breaks.size() - 1)};
+/// Lines of an edge between the given positions on it, `cuts`, which include 0 and 1: one, or two halves of a long arc.
+std::vector<DomainLine> lines_of(const model::Body& body, const geometry::Edge& edge, const std::vector<double>& cuts) {
+  std::vector<DomainLine> lines;
+  for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+    const std::vector<double> breaks = breaks_of(body, edge, cuts[c], cuts[c + 1]);
+    const std::size_t last = breaks.size() - 1;
+    if (!edge.arc || (cuts[c + 1] - cuts[c]) * std::abs(edge.arc->sweep) < std::numbers::pi) {
+      lines.push_back(part_of(edge, breaks, 0, last));
+      continue;
+    }
+    lines.push_back(part_of(edge, breaks, 0, last / 2));
+    lines.push_back(part_of(edge, breaks, last / 2, last));
+  }
+  return lines;
 }
 
-std::size_t lines_in(const geometry::Edge& edge) {
-  return edge.arc && std::abs(edge.arc->sweep) >= std::numbers::pi ? 2 : 1;
+/// Cracks as chains of segments that end where others begin; ends on the outline are moved exactly onto it.
+class CrackNet {
+ public:
+  explicit CrackNet(const model::Body& body) : tolerance_(1e-9 * geometry::outline_size(body.outline)) {
+    cuts_.assign(body.outline.edges.size(), {0.0, 1.0});
+    for (const model::Crack& crack : body.cracks) paths_.push_back(crack.path);
+    for (std::size_t p = 0; p < paths_.size(); ++p)
+      for (const bool last : {false, true}) {
+        Vec2& end = last ? paths_[p].back() : paths_[p].front();
+        if (!put_on_outline(body, end) && !put_on_crack(p, end)) tips.push_back(end);
+      }
+    for (std::vector<double>& cut : cuts_) std::sort(cut.begin(), cut.end());
+  }
+
+  std::vector<Vec2> tips;
+  const std::vector<std::vector<Vec2>>& paths() const { return paths_; }
+  /// Positions at which cracks end on an edge, with 0 and 1.
+  const std::vector<double>& cuts(std::size_t edge) const { return cuts_[edge]; }
+
+ private:
+  bool put_on_outline(const model::Body& body, Vec2& end) {
+    for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
+      const geometry::Edge& edge = body.outline.edges[e];
+      const double at = geometry::closest_position(edge, end);
+      if ((edge.at(at) - end).norm() > tolerance_) continue;
+      end = edge.at(at);
+      const double slack = tolerance_ / edge.length();
+      if (at <= slack) {
+        end = edge.start;
+      } else if (at >= 1.0 - slack) {
+        end = edge.end;
+      } else {
+        cuts_[e].push_back(at);
+        end = edge.at(at);
+      }
+      return true;
+    }
+    return false;
+  }
+
+  /// An end on another crack becomes a point of it.
+  bool put_on_crack(std::size_t own, Vec2& end) {
+    for (std::size_t p = 0; p < paths_.size(); ++p) {
+      if (p == own) continue;
+      std::vector<Vec2>& path = paths_[p];
+      for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+        const Vec2 along = path[k + 1] - path[k];
+        const double t = (end - path[k]).dot(along) / along.squaredNorm();
+        if (t < -1e-9 || t > 1.0 + 1e-9 || (path[k] + t * along - end).norm() > tolerance_) continue;
+        if ((path[k] - end).norm() <= tolerance_)
+          end = path[k];
+        else if ((path[k + 1] - end).norm() <= tolerance_)
+          end = path[k + 1];
+        else
+          path.insert(path.begin() + static_cast<std::ptrdiff_t>(k) + 1, end);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  double tolerance_;
+  std::vector<std::vector<Vec2>> paths_;
+  std::vector<std::vector<double>> cuts_;
+};
+
+/// Region that holds a point, as in BodyDomain.
+int region_at(const model::Body& body, const Vec2& point) {
+  int at = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < body.regions.size(); ++k) {
+    const geometry::Outline& outline = body.regions[k].outline;
+    if (outline.area() >= least || !geometry::encloses(outline, point)) continue;
+    at = static_cast<int>(k) + 1;
+    least = outline.area();
+  }
+  return at;
 }
 
 /// Index of the innermost region that holds region `inner`, plus one; 0 if there is none.
@@ -157,24 +244,40 @@ double wanted_size(const model::Body& body, const Vec2& x) {
   return size;
 }
 
-Domain domain_of(const model::Body& body) {
-  Domain domain;
-  const auto add = [&](const geometry::Outline& outline, int left, int right) {
-    for (const geometry::Edge& edge : outline.edges)
-      for (DomainLine& line : lines_of(body, edge)) {
-        line.left = left;
-        line.right = right;
-        domain.lines.push_back(std::move(line));
-      }
-  };
-  add(body.outline, 0, -1);
+BodyDomain domain_of(const model::Body& body) {
+  BodyDomain made;
+  const CrackNet cracks(body);
+  for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
+    made.lines_of_edge.emplace_back();
+    for (DomainLine& line : lines_of(body, body.outline.edges[e], cracks.cuts(e))) {
+      made.lines_of_edge.back().push_back(made.domain.lines.size());
+      made.domain.lines.push_back(std::move(line));
+    }
+  }
   for (std::size_t k = 0; k < body.regions.size(); ++k)
-    add(body.regions[k].outline, static_cast<int>(k) + 1, region_around(body, k));
-  domain.size = [&body](const Vec2& x) { return wanted_size(body, x); };
-  return domain;
+    for (const geometry::Edge& edge : body.regions[k].outline.edges)
+      for (DomainLine& line : lines_of(body, edge, {0.0, 1.0})) {
+        line.left = static_cast<int>(k) + 1;
+        line.right = region_around(body, k);
+        made.domain.lines.push_back(std::move(line));
+      }
+  for (const std::vector<Vec2>& path : cracks.paths())
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      geometry::Edge edge;
+      edge.start = path[k];
+      edge.end = path[k + 1];
+      DomainLine line = part_of(edge, breaks_of(body, edge, 0.0, 1.0), 0, breaks_of(body, edge, 0.0, 1.0).size() - 1);
+      line.crack = true;
+      line.left = line.right = region_at(body, edge.at(0.5));
+      made.domain.lines.push_back(std::move(line));
+    }
+  made.domain.centres = cracks.tips;
+  made.domain.size = [&body](const Vec2& x) { return wanted_size(body, x); };
+  return made;
 }
 
-BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const model::Body& body) {
+BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const model::Body& body) {
+  const Domain& domain = of.domain;
   const int order = body.mesh.order;
   BodyMesh mesh;
   mesh.nodes = polygons.nodes;
@@ -208,11 +311,36 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
     element.nodes.push_back(b);
     return element;
   };
+  // A side on a hollow arc is seen from where its end tangents are seen: the corner where they meet stands for it.
+  const auto seeing_centre = [&](const PolygonCell& polygon) {
+    std::vector<Vec2> points;
+    bool hollow = false;
+    const std::size_t count = polygon.nodes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const int a = polygon.nodes[i], b = polygon.nodes[(i + 1) % count];
+      const Vec2 &from = mesh.nodes[static_cast<std::size_t>(a)], &to = mesh.nodes[static_cast<std::size_t>(b)];
+      points.push_back(from);
+      const auto arc = on_arc.find(std::minmax(a, b));
+      if (arc == on_arc.end() || (polygon.open && i + 1 == count)) continue;
+      const Vec2 &centre = domain.lines[arc->second].arc->centre, middle = 0.5 * (from + to) - centre;
+      if (cross(from - centre, to - centre) >= 0.0) continue;  // bulges outwards
+      hollow = true;
+      points.push_back(centre + (from - centre).squaredNorm() / middle.squaredNorm() * middle);
+    }
+    constexpr double well_seen = 0.1;
+    if (!hollow || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
+    const KernelCentre better = kernel_centre(points, well_seen);
+    if (better.visibility > 0.0) return better.centre;
+    if (order == 1 || body.mesh.kind == model::MeshKind::fem) return polygon.centre;
+    throw InputError("", {Diagnostic{{}, fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
+                                                     polygon.centre.x(), polygon.centre.y())}});
+  };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
     if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
-    cell.centre = polygon.centre;
+    cell.centre = seeing_centre(polygon);
     const auto material_of = [&](int region) {
+      if (body.image) return std::next(body.image->materials.begin(), region)->second;
       return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
     };
     cell.materials = {material_of(polygon.region)};
@@ -223,29 +351,57 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const Domain& domain, const m
       cell.boundary.push_back(side(polygon.nodes[i], polygon.nodes[(i + 1) % count]));
     mesh.cells.push_back(std::move(cell));
   }
-  std::size_t line = 0;
-  for (const geometry::Edge& edge : body.outline.edges) {
+  for (const std::vector<std::size_t>& lines : of.lines_of_edge) {
     std::vector<LineElement>& elements = mesh.edges.emplace_back();
-    mesh.corners.push_back(polygons.left[line].empty() ? -1 : polygons.left[line].front());
-    for (std::size_t part = 0; part < lines_in(edge); ++part, ++line)
+    mesh.corners.push_back(polygons.left[lines.front()].empty() ? -1 : polygons.left[lines.front()].front());
+    for (const std::size_t line : lines)
       for (std::size_t k = 0; k + 1 < polygons.left[line].size(); ++k)
         elements.push_back(side(polygons.left[line][k], polygons.left[line][k + 1]));
   }
   return mesh;
 }
 
+namespace {
+
+/// A body that an image shows. Region k is that of label number k with a material.
+BodyMesh divide_image(const model::Body& body) {
+  const model::ImageShape& shape = *body.image;
+  ImageOptions options;
+  options.pixel = shape.pixel;
+  options.size = body.mesh.size;
+  for (const auto& [label, material] : shape.materials)
+    options.regions.emplace(label, static_cast<int>(options.regions.size()));
+  PolygonMesh polygons = image_mesh(*shape.image, options);
+  const Vec2 corner = body.outline.edges.front().start;
+  for (Vec2& node : polygons.nodes) node += corner;
+  for (PolygonCell& cell : polygons.cells) cell.centre += corner;
+  BodyDomain of;
+  of.domain.lines.resize(4);
+  of.lines_of_edge = {{0}, {1}, {2}, {3}};
+  return body_mesh_of(polygons, of, body);
+}
+
+}  // namespace
+
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, double most_nodes) {
+  if (body.image) {
+    try {
+      return divide_image(body);
+    } catch (const InputError& error) {
+      return Diagnostic{body.source, error.diagnostics().front().message};
+    }
+  }
   const double nodes = body.mesh.kind == model::MeshKind::parts ? 0.0 : approximate_nodes(body);
   if (!(nodes <= most_nodes))
     return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
                                                     "allowed: use a larger 'size'",
                                                     body.mesh.size, nodes, most_nodes)};
-  const Domain domain = domain_of(body);
+  const BodyDomain of = domain_of(body);
   try {
-    return body_mesh_of(polygons_of(domain, body.mesh), domain, body);
+    return body_mesh_of(polygons_of(of.domain, body.mesh), of, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
-                      fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};
+                      fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind", error.diagnostics().front().message)};
   }
 }
 

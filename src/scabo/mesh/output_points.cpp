@@ -157,7 +157,23 @@ void add_grid(const model::Model& model, const std::vector<Box>& boxes, const mo
 
 }  // namespace
 
+namespace {
+
+/// Whether the pixel at a point has a material.
+bool shows_material(const model::Body& body, const Vec2& point) {
+  const files::Image& image = *body.image->image;
+  const Vec2 at = (point - body.outline.edges.front().start) / body.image->pixel;
+  const int column = std::clamp(static_cast<int>(at.x()), 0, image.width - 1);
+  const int row = image.height - 1 - std::clamp(static_cast<int>(at.y()), 0, image.height - 1);
+  return body.image->materials.contains(
+      image.labels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                   static_cast<std::size_t>(column)]);
+}
+
+}  // namespace
+
 bool holds(const model::Body& body, const Vec2& point) {
+  if (body.image && geometry::encloses(body.outline, point) && !shows_material(body, point)) return false;
   const double slack = on_outline * outline_size(body.outline);
   if (before_side_faces(body, point, slack)) return false;
   if (distance_to(body.outline, point) <= slack) return true;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "scabo/base/error.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
 #include "scabo/mesh/polygon_kernel.hpp"
 
@@ -13,17 +14,18 @@ namespace scabo::mesh {
 
 namespace {
 
-/// Arcs count as chords that turn by at most this.
-constexpr double coarse_turn = std::numbers::pi / 4;
+/// Arcs count as chords that turn by at most this at first; in thin curved shapes by less, as far down as this.
+constexpr double coarse_turn = std::numbers::pi / 4, least_turn = std::numbers::pi / 128;
 /// Least height over length of a side as seen from the centre of a joined part (polygon_kernel.hpp).
 constexpr double well_seen = 0.12;
+/// The same of any part; if less, arcs are divided into more chords.
+constexpr double hardly_seen = 0.02;
 
 using Ends = std::pair<int, int>;
 
 class Division {
  public:
-  explicit Division(const Domain& domain)
-      : domain_(domain), coarse_(coarse_points_of_lines(domain, coarse_turn)) {
+  Division(const Domain& domain, double turn) : domain_(domain), coarse_(coarse_points_of_lines(domain, turn)) {
     const RegionTriangles triangles = triangles_of(coarse_.points, coarse_, domain);
     for (std::size_t t = 0; t < triangles.triangles.size(); ++t) {
       const auto& vertices = triangles.triangles[t].vertices;
@@ -34,6 +36,14 @@ class Division {
       }
     }
     join_parts();
+  }
+
+  /// Least measure of the centres of all parts.
+  double seen() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Part& part : parts_)
+      if (!part.corners.empty()) least = std::min(least, centre_of(part).visibility);
+    return least;
   }
 
   PolygonMesh mesh() {
@@ -230,6 +240,14 @@ class Division {
 
 }  // namespace
 
-PolygonMesh star_cells(const Domain& domain) { return Division(domain).mesh(); }
+PolygonMesh star_cells(const Domain& domain) {
+  for (double turn = coarse_turn;; turn *= 0.5) {
+    Division division(domain, turn);
+    const double seen = division.seen();
+    if (seen > hardly_seen || (seen > 0.0 && turn <= least_turn)) return division.mesh();
+    if (turn <= least_turn)
+      throw InputError("", {Diagnostic{{}, "a part between two arcs is too thin for its sides"}});
+  }
+}
 
 }  // namespace scabo::mesh

@@ -50,8 +50,8 @@ bool check_material(Checking& checking, const std::string& path, std::string_vie
   const std::size_t count = checking.model.materials.size();
   if (index >= 0 && static_cast<std::size_t>(index) < count) return true;
   if (!checking.gaps.materials)
-    checking.error(path, key, fmt::format("there is no material number {}: the model has {}, counted from 0", index,
-                                          count));
+    checking.error(path, key,
+                   fmt::format("there is no material number {}: the model has {}, counted from 0", index, count));
   return false;
 }
 
@@ -61,9 +61,10 @@ bool check_crack(const BodyCheck& of) {
   const std::string path = of.path + ".cracks.0";
   const std::string& body = of.body.name;
   if (!is_name(crack.name)) {
-    checking.error(path, "name", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with a "
-                                             "letter or _",
-                                             crack.name));
+    checking.error(path, "name",
+                   fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with a "
+                               "letter or _",
+                               crack.name));
     return false;
   }
   bool good = true;
@@ -98,9 +99,41 @@ bool check_crack(const BodyCheck& of) {
   const auto& corners = of.outline.corners;
   const bool edge = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return taken(e.names); });
   if (edge || std::any_of(corners.begin(), corners.end(), [&](const Corner& c) { return taken(c.names); })) {
-    checking.error(path, "", fmt::format("{} of '{}' is also named '{}': give the crack another name",
-                                         edge ? "an edge" : "a corner", body, crack.name));
+    checking.error(path, "",
+                   fmt::format("{} of '{}' is also named '{}': give the crack another name",
+                               edge ? "an edge" : "a corner", body, crack.name));
     good = false;
+  }
+  return good;
+}
+
+/// Cracks in a body of many cells.
+bool check_paths(const BodyCheck& of) {
+  const double size = outline_size(of.outline);
+  bool good = true;
+  for (std::size_t c = 0; c < of.body.cracks.size(); ++c) {
+    const Crack& crack = of.body.cracks[c];
+    const std::string path = fmt::format("{}.cracks.{}", of.path, c);
+    if (crack.path.size() < 2) {
+      of.checking.error(path, "path", "needs two points or more: the ends of the crack");
+      good = false;
+      continue;
+    }
+    for (std::size_t k = 0; k < crack.path.size(); ++k) {
+      const Vec2& point = crack.path[k];
+      if (!of.checking.vector(path, fmt::format("path.{}", k), point)) {
+        good = false;
+      } else if (!encloses(of.outline, point) && distance_to(of.outline, point) > 1e-9 * size) {
+        of.checking.error(path, "path", fmt::format("{} lies outside of body '{}': cracks lie inside or end on the "
+                                                    "boundary",
+                                                    point_text(point), of.body.name));
+        good = false;
+      } else if (k > 0 && (point - crack.path[k - 1]).norm() <= 1e-9 * size) {
+        of.checking.error(path, "path", fmt::format("{} stands there twice: leave one out", point_text(point)));
+        good = false;
+      }
+      if (!good) break;
+    }
   }
   return good;
 }
@@ -113,9 +146,17 @@ bool check_cracks(const BodyCheck& of) {
                              "cracks in a body with outside: true are not available in this version: leave them out");
     return false;
   }
+  const bool many = of.body.mesh.kind == MeshKind::polygons || of.body.mesh.kind == MeshKind::quadtree;
+  if (many) return check_paths(of);
+  if (!cracks.front().path.empty()) {
+    of.checking.error(of.path, "cracks.0",
+                      "a crack with a 'path' needs many cells: write kind: polygons or kind: quadtree, or give 'tip' and "
+                      "'mouth' of a straight crack");
+    return false;
+  }
   if (cracks.size() > 1) {
     of.checking.error(of.path, "cracks.1",
-                      "a body may have only one crack in this version: divide it into several bodies");
+                      "a body that is one super-element has at most one crack: write kind: polygons or kind: quadtree");
     return false;
   }
   return check_crack(of);
@@ -126,6 +167,14 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
   names.reserve(indices.size());
   for (const int i : indices) names.push_back(shown_name(outline.edges[static_cast<std::size_t>(i)]));
   return name_list(names);
+}
+
+/// What to do about a body that is no single super-element: it becomes several, unless some key requires one.
+const char* remedy_for_unseen(const Body& body, bool centre_given) {
+  if (body.outside || !body.sector_materials.empty()) return "divide the body into several bodies";
+  if (body.mesh.tolerance) return "leave 'tolerance' out, and the body is divided into several super-elements";
+  return centre_given ? "leave 'centre' out, and the body is divided into several super-elements"
+                      : "use kind: polygons, which divides the body into many super-elements";
 }
 
 /// The whole boundary is visible from the scaling centre; otherwise a better one is suggested if there is one.
@@ -146,15 +195,16 @@ void check_visibility(const BodyCheck& of) {
   const std::string remedy =
       better ? fmt::format("{} mesh.centre: [{:.9g}, {:.9g}], from where the whole boundary is visible",
                            given ? "use" : "give", better->x(), better->y())
-             : "the whole boundary is visible from no point: divide the body into several bodies";
+             : fmt::format("the whole boundary is visible from no point: {}", remedy_for_unseen(of.body, given));
   const std::string who = fmt::format("the scaling centre {}{}", point_text(centre), given ? "" : " (the centroid)");
   // Without mesh.centre the remedy is to give one; the mistake is then one of the mesh.
   const char* key = given ? "mesh.centre" : "mesh";
   if (of.centre_corner < 0 && !encloses(of.outline, centre))
     of.checking.error(of.path, key, fmt::format("{} is not inside the body: {}", who, remedy));
   else
-    of.checking.error(of.path, key, fmt::format("not every point of {} is visible from {}: {}",
-                                                edge_names(of.outline, unseen), who, remedy));
+    of.checking.error(
+        of.path, key,
+        fmt::format("not every point of {} is visible from {}: {}", edge_names(of.outline, unseen), who, remedy));
 }
 
 /// The two edges at a scaling centre on a corner are its side faces, which must be straight.
@@ -162,9 +212,10 @@ bool check_side_faces(const BodyCheck& of) {
   const int corner = of.centre_corner;
   if (of.body.mesh.centre_corner == -1) return true;
   if (corner < 0 || corner >= of.edges()) {
-    of.checking.error(of.path, "mesh.centre", fmt::format("there is no corner number {}: the outline has {}, counted "
-                                                          "from 0",
-                                                          of.body.mesh.centre_corner, of.edges()));
+    of.checking.error(of.path, "mesh.centre",
+                      fmt::format("there is no corner number {}: the outline has {}, counted "
+                                  "from 0",
+                                  of.body.mesh.centre_corner, of.edges()));
     return false;
   }
   if (!of.body.cracks.empty()) {
@@ -174,11 +225,10 @@ bool check_side_faces(const BodyCheck& of) {
   }
   const Vec2& position = of.outline.corners[static_cast<std::size_t>(corner)].position;
   if (!((position - of.body.mesh.centre).norm() <= 1e-9 * outline_size(of.outline))) {
-    of.checking.error(of.path, "mesh.centre",
-                      fmt::format("the scaling centre {} is not at corner {}, which is at {}",
-                                  point_text(of.body.mesh.centre),
-                                  of.outline.corners[static_cast<std::size_t>(corner)].names.front(),
-                                  point_text(position)));
+    of.checking.error(
+        of.path, "mesh.centre",
+        fmt::format("the scaling centre {} is not at corner {}, which is at {}", point_text(of.body.mesh.centre),
+                    of.outline.corners[static_cast<std::size_t>(corner)].names.front(), point_text(position)));
     return false;
   }
   bool good = true;
@@ -204,13 +254,18 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
          "kind: polygons or kind: quadtree");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
-  if (!body.cracks.empty() && body.mesh.kind != MeshKind::fem)
-    checking.error(path, "cracks.0", "cracks are available only in a body that is one super-element in this version"),
+  if (!body.cracks.empty() && body.mesh.kind == MeshKind::parts)
+    checking.error(path, "cracks.0", "a crack in a body of several parts needs kind: polygons or kind: quadtree"),
         good = false;
   refuse(body.imported && !body.mesh.refine.empty(), "mesh.refine",
          "is not available for a mesh of a file, which has its cells already: leave it out");
   refuse(body.imported && !body.regions.empty(), "regions",
          "the regions of a mesh of a file are those of its cells: give them materials with 'materials'");
+  refuse(body.image && body.mesh.kind != MeshKind::quadtree, "mesh.kind",
+         "a body that an image shows is divided by a quadtree: write kind: quadtree");
+  refuse(body.image && !(body.cracks.empty() && body.regions.empty() && body.outline.holes.empty() &&
+                         body.mesh.refine.empty()),
+         "shape", "a body that an image shows has no holes, regions, cracks or 'refine' besides: leave them out");
   for (std::size_t i = 0; i < body.mesh.refine.size(); ++i) {
     const LocalSize& local = body.mesh.refine[i];
     const std::string at = fmt::format("mesh.refine.{}", i);
@@ -218,12 +273,30 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
     if (local.near) {
       good = checking.vector(path, at + ".near", *local.near) && good;
     } else if (local.edge < 0 || static_cast<std::size_t>(local.edge) >= body.outline.edges.size()) {
-      checking.error(path, at + ".on", fmt::format("body '{}' has no edge number {}: it has {}, counted from 0",
-                                                   body.name, local.edge, body.outline.edges.size()));
+      checking.error(path, at + ".on",
+                     fmt::format("body '{}' has no edge number {}: it has {}, counted from 0", body.name, local.edge,
+                                 body.outline.edges.size()));
       good = false;
     }
   }
   return good;
+}
+
+/// `min_size`, of a quadtree; 0 is the default.
+bool check_min_size(Checking& checking, const std::string& path, const MeshOptions& mesh) {
+  if (mesh.min_size == 0.0) return true;
+  if (mesh.kind != MeshKind::quadtree) {
+    checking.error_of_key(path, "mesh.min_size",
+                          "only a quadtree has a least size of its cells: leave 'min_size' out, or use kind: quadtree");
+    return false;
+  }
+  if (!checking.positive(path, "mesh.min_size", mesh.min_size)) return false;
+  if (!(mesh.min_size > mesh.size)) return true;
+  checking.error(path, "mesh.min_size",
+                 fmt::format("{} is larger than 'size', {}: it is the least size of a cell", number_text(mesh.min_size),
+                             number_text(mesh.size)),
+                 number_text(mesh.min_size));
+  return false;
 }
 
 /// Values of the mesh that do not depend on the shape.
@@ -233,13 +306,21 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
   if ((mesh.kind == MeshKind::imported) != (body.imported && mesh.kind != MeshKind::fem))
     checking.error(path, "mesh", "cells of a file are super-elements (kind: imported) or finite elements (kind: fem)"),
         good = false;
+  good = (body.imported || check_min_size(checking, path, mesh)) && good;
   if (mesh.kind == MeshKind::superelement && !mesh.refine.empty())
-    checking.error_of_key(path, "mesh.refine", "is not available for kind: superelement: use polygons, quadtree or fem"),
+    checking.error_of_key(path, "mesh.refine",
+                          "is not available for kind: superelement: use polygons, quadtree or fem"),
         good = false;
-  if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty()))
-    checking.error(path, "mesh",
-                   "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree"),
-        good = false;
+  if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty())) {
+    if (mesh.tolerance)
+      checking.error_of_key(path, "mesh.tolerance",
+                            "is available only for a body that is one super-element, without holes and regions: leave "
+                            "it out");
+    else
+      checking.error(path, "mesh",
+                     "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree");
+    good = false;
+  }
   good = checking.whole(path, "mesh.order", mesh.order, limits::order) && good;
   if (mesh.kind == MeshKind::fem) {
     if (good && mesh.order > 2)
@@ -247,8 +328,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
                      fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", mesh.order)),
           good = false;
     if (mesh.tolerance)
-      checking.error_of_key(path, "mesh.tolerance",
-                            "only super-elements are refined: leave 'tolerance' out for fem"),
+      checking.error_of_key(path, "mesh.tolerance", "only super-elements are refined: leave 'tolerance' out for fem"),
           good = false;
     if (!body.cracks.empty())
       checking.error(path, "cracks.0",
@@ -264,8 +344,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
     good = checking.within(path, "mesh.tolerance", *mesh.tolerance, "1e-5", "0.5") && good;
   }
   if (mesh.kind != MeshKind::superelement && !body.sector_materials.empty())
-    checking.error_of_key(path, "sectors",
-                          "only a body that is one super-element has sectors: use 'regions' instead");
+    checking.error_of_key(path, "sectors", "only a body that is one super-element has sectors: use 'regions' instead");
   return good;
 }
 
@@ -277,7 +356,7 @@ bool check_dofs(const BodyCheck& of) {
   of.checking.error(of.path, "mesh.size",
                     fmt::format("gives {:.6g} degrees of freedom, but {} at most {:.6g}: use a larger size{}", dofs,
                                 fem ? "finite elements may have" : "one super-element may have", most,
-                                fem ? "" : " or divide the body"));
+                                fem ? "" : ", or kind: polygons or quadtree"));
   return false;
 }
 
@@ -298,8 +377,9 @@ void check_sectors(const BodyCheck& of) {
   const auto& materials = of.body.sector_materials;
   if (materials.empty() || of.body.mesh.kind != MeshKind::superelement) return;
   if (materials.size() != of.body.outline.edges.size()) {
-    of.checking.error(of.path, "sectors", fmt::format("gives {} materials for {} edges: one for each edge is needed",
-                                                      materials.size(), of.body.outline.edges.size()));
+    of.checking.error(of.path, "sectors",
+                      fmt::format("gives {} materials for {} edges: one for each edge is needed", materials.size(),
+                                  of.body.outline.edges.size()));
     return;
   }
   for (std::size_t i = 0; i < materials.size(); ++i)
@@ -313,11 +393,11 @@ void check_reference(const BodyCheck& of) {
   if (!of.body.outside) {
     of.checking.error_of_key(of.path, "reference",
                              "only a body with outside: true has a reference point: leave it out");
-  } else if (of.checking.vector(of.path, "reference", *of.body.reference) &&
-             encloses(of.outline, *of.body.reference)) {
-    of.checking.error(of.path, "reference", fmt::format("{} lies in the hole, not in the body: choose a point of the "
-                                                        "body",
-                                                        point_text(*of.body.reference)));
+  } else if (of.checking.vector(of.path, "reference", *of.body.reference) && encloses(of.outline, *of.body.reference)) {
+    of.checking.error(of.path, "reference",
+                      fmt::format("{} lies in the hole, not in the body: choose a point of the "
+                                  "body",
+                                  point_text(*of.body.reference)));
   }
 }
 
@@ -337,8 +417,9 @@ void check_regions(const BodyCheck& of) {
     const auto touches = [&](const Region* other) { return crossing_between(other->outline, region.outline); };
     const auto other = std::find_if(sound.begin(), sound.end(), touches);
     if (other != sound.end())
-      of.checking.error(path, "shape", fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart",
-                                                   (*other)->name, region.name));
+      of.checking.error(
+          path, "shape",
+          fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart", (*other)->name, region.name));
     else
       sound.push_back(&region);
   }
@@ -394,7 +475,8 @@ void check_body(Checking& checking, std::size_t index) {
   if (!turned.edges.empty() && of.centre_corner > 0) of.centre_corner = of.edges() - of.centre_corner;
   check_regions(of);
   const bool whole = body.mesh.kind != MeshKind::superelement;  // without side faces
-  checking.faces[index] = whole || (check_cracks(of) && check_side_faces(of));
+  const bool many = body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree;
+  checking.faces[index] = whole ? !many || check_cracks(of) : check_cracks(of) && check_side_faces(of);
   if (checking.faces[index]) check_mesh(of, good);
   check_sectors(of);
   check_reference(of);

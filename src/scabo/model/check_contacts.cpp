@@ -18,22 +18,25 @@ bool check_side(Checking& checking, const std::string& path, const Place& place)
   if (!check_place(checking, path, place)) return false;
   const std::string text = text_of(checking.model, place);
   if (place.kind == Place::Kind::face) {
-    checking.error(path, "", fmt::format("'{}' is a side face, which has no nodes between its ends: for contact "
-                                         "between the faces of a crack, divide the body along the crack",
-                                         text));
+    checking.error(path, "",
+                   fmt::format("'{}' is a side face, which has no nodes between its ends: for contact "
+                               "between the faces of a crack, divide the body along the crack",
+                               text));
     return false;
   }
   if (place.kind != Place::Kind::edge) {
-    checking.error(path, "", fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is not "
-                                         "an edge",
-                                         text));
+    checking.error(path, "",
+                   fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is not "
+                               "an edge",
+                               text));
     return false;
   }
   for (const Crack& crack : checking.body(place.body).cracks)
     if (crack.edge == place.index) {
-      checking.error(path, "", fmt::format("the mouth of crack '{}' lies on '{}', but a contact needs an edge without a "
-                                           "crack mouth: divide the edge, or name another one",
-                                           crack.name, text));
+      checking.error(path, "",
+                     fmt::format("the mouth of crack '{}' lies on '{}', but a contact needs an edge without a "
+                                 "crack mouth: divide the edge, or name another one",
+                                 crack.name, text));
       return false;
     }
   return true;
@@ -51,8 +54,8 @@ bool check_sides(Checking& checking, const std::string& path, const Contact& con
     return false;
   }
   if (body_a.rigid && body_b.rigid) {
-    checking.error(path, "between", fmt::format("'{}' and '{}' are both rigid: one of them must be elastic",
-                                                body_a.name, body_b.name));
+    checking.error(path, "between",
+                   fmt::format("'{}' and '{}' are both rigid: one of them must be elastic", body_a.name, body_b.name));
     return false;
   }
   return a && b;
@@ -61,9 +64,10 @@ bool check_sides(Checking& checking, const std::string& path, const Contact& con
 bool check_coefficient(Checking& checking, const std::string& path, std::string_view key, double friction) {
   if (!checking.not_negative(path, key, friction)) return false;
   if (friction <= largest_coefficient) return true;
-  checking.error(path, key, fmt::format("a coefficient of friction must be at most 1e6, not {}: 1e6 already prevents "
-                                        "slip, and 'bond: true' prevents both slip and opening",
-                                        number_text(friction)));
+  checking.error(path, key,
+                 fmt::format("a coefficient of friction must be at most 1e6, not {}: 1e6 already prevents "
+                             "slip, and 'bond: true' prevents both slip and opening",
+                             number_text(friction)));
   return false;
 }
 
@@ -81,8 +85,7 @@ bool check_along(Checking& checking, const std::string& path, const Contact& con
     else if (point.friction > largest_coefficient)
       refuse(fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(point.friction)));
     else if (point.position < 0.0 || point.position > 1.0)
-      refuse(
-          fmt::format("a position along the contact must be from 0 to 1, not {}", number_text(point.position)));
+      refuse(fmt::format("a position along the contact must be from 0 to 1, not {}", number_text(point.position)));
     else if (point.friction < 0.0)
       refuse(fmt::format("a coefficient of friction must be 0 or more, not {}", number_text(point.friction)));
     else if (before != nullptr && point.position <= before->position)

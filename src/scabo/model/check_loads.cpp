@@ -21,12 +21,12 @@ Cases(Functions...) -> Cases<Functions...>;
 
 /// The key of a load in a model file.
 const char* key_of(const Load& load) {
-  return std::visit(Cases{[](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
-                          [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
-                          [](const BodyForce&) { return "body_force"; },
-                          [](const Temperature&) { return "temperature"; },
-                          [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; }},
-                    load.kind);
+  return std::visit(
+      Cases{[](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
+            [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
+            [](const BodyForce&) { return "body_force"; }, [](const Temperature&) { return "temperature"; },
+            [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; }},
+      load.kind);
 }
 
 const char* kind_text(Place::Kind kind) {
@@ -52,9 +52,9 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
   if (kind == "gravity" || kind == "body_force" || kind == "temperature") {
     if (place.kind != Place::Kind::body) return fmt::format("{} acts on a whole body: write on: {}", kind, body);
     if (of.rigid)
-      return fmt::format("'{}' is rigid: {}", body,
-                         kind == "temperature" ? "temperature has no effect on it"
-                                               : "it has no weight; apply a force to it instead");
+      return fmt::format(
+          "'{}' is rigid: {}", body,
+          kind == "temperature" ? "temperature has no effect on it" : "it has no weight; apply a force to it instead");
     if (of.outside) return fmt::format("'{}' is unbounded: loads can act only on its boundary", body);
     return "";
   }
@@ -80,9 +80,9 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
 
 bool check_terms(Checking& checking, const std::string& path, const std::string& kind, const FaceTraction& face) {
   if (face.terms.empty()) {
-    checking.error(path, kind,
-                   fmt::format("must be powers of xi, as in {{0: {0}, 1: {0}}}, not none",
-                               face.pressure ? "1e3" : "[0, -1e3]"));
+    checking.error(
+        path, kind,
+        fmt::format("must be powers of xi, as in {{0: {0}, 1: {0}}}, not none", face.pressure ? "1e3" : "[0, -1e3]"));
     return false;
   }
   for (std::size_t i = 0; i < face.terms.size(); ++i) {
@@ -98,8 +98,8 @@ bool check_terms(Checking& checking, const std::string& path, const std::string&
     }
     const auto same = [&](const FaceTraction::Term& other) { return other.power == term.power; };
     if (std::any_of(face.terms.begin(), face.terms.begin() + static_cast<std::ptrdiff_t>(i), same)) {
-      checking.error_of_key(path, key, fmt::format("the power {} is given twice: remove one of the two",
-                                                   number_text(term.power)));
+      checking.error_of_key(path, key,
+                            fmt::format("the power {} is given twice: remove one of the two", number_text(term.power)));
       return false;
     }
     if (!checking.vector(path, key, term.value)) return false;
@@ -108,8 +108,8 @@ bool check_terms(Checking& checking, const std::string& path, const std::string&
 }
 
 bool check_linear(Checking& checking, const std::string& path, const std::string& kind, const Linear& linear) {
-  return checking.number(path, kind + ".constant", linear.constant) && checking.number(path, kind + ".x", linear.per_x) &&
-         checking.number(path, kind + ".y", linear.per_y);
+  return checking.number(path, kind + ".constant", linear.constant) &&
+         checking.number(path, kind + ".x", linear.per_x) && checking.number(path, kind + ".y", linear.per_y);
 }
 
 bool check_values(Checking& checking, const std::string& path, const Load& load) {
@@ -171,8 +171,7 @@ void check_loads(Checking& checking) {
     const std::string path = path_of("loads", load.name, i);
     checking.enter(load.source);
     check_name(checking, path, load.name, "load", names);
-    if (supports.contains(load.name))
-      checking.error_of_key(path, "", named_like_a_support(load.name));
+    if (supports.contains(load.name)) checking.error_of_key(path, "", named_like_a_support(load.name));
     const bool on = check_on(checking, path, load);
     checking.load[i] = check_values(checking, path, load) && on;
     if (!checking.load[i]) checking.gaps.conditions = true;

@@ -74,6 +74,8 @@ std::set<int> materials_of(const Model& model, const Body& body) {
   materials.insert(body.region_materials.begin(), body.region_materials.end());
   if (materials.empty()) materials.insert(body.material);
   for (const Region& region : body.regions) materials.insert(region.material);
+  if (body.image)
+    for (const auto& [label, material] : body.image->materials) materials.insert(material);
   std::erase_if(materials, [&](int i) { return i < 0 || static_cast<std::size_t>(i) >= model.materials.size(); });
   return materials;
 }
@@ -173,8 +175,9 @@ void check_expansion(Checking& checking) {
       if (body.rigid || body.outside) continue;
       for (const int index : materials_of(model, body)) {
         if (model.materials[static_cast<std::size_t>(index)].expansion || !told.insert(index).second) continue;
-        report_lack(checking, index, fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'",
-                                                 load.name, body.name));
+        report_lack(
+            checking, index,
+            fmt::format("'expansion' is missing: temperature of load '{}' acts on body '{}'", load.name, body.name));
       }
     }
   }

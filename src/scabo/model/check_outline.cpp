@@ -90,8 +90,7 @@ bool check_names(const Shape& shape) {
   const auto add = [&](std::size_t i, const std::vector<std::string>& names, std::size_t k) {
     const auto [owner, is_new] = owners.emplace(names[k], names.front());
     if (is_new) return true;
-    shape.error_of_edge(
-        i, "name", fmt::format("'{}' already names {}: choose another name", names[k], owner->second));
+    shape.error_of_edge(i, "name", fmt::format("'{}' already names {}: choose another name", names[k], owner->second));
     return false;
   };
   // First the own names, which may not be taken by others.
@@ -113,9 +112,9 @@ bool check_arc(const Shape& shape, std::size_t i) {
   const double rb = (edge.end - arc.centre).norm();
   const double larger = std::max(ra, rb);
   if ((edge.end - edge.start).norm() <= rounding * larger && !is_circle(shape.outline)) {
-    shape.error_of_edge(i, "",
-                        fmt::format("{} is an arc that ends where it starts: write a full circle as two arcs",
-                                    edge.names.front()));
+    shape.error_of_edge(
+        i, "",
+        fmt::format("{} is an arc that ends where it starts: write a full circle as two arcs", edge.names.front()));
     return false;
   }
   if (std::abs(ra - rb) > 1e-6 * larger) {
@@ -130,10 +129,10 @@ bool check_arc(const Shape& shape, std::size_t i) {
   };
   if (!(arc.radius > 0.0) || !(std::abs(arc.sweep) <= 2.0 * std::numbers::pi * (1.0 + rounding)) ||
       !(std::max(off(edge.start, arc.start_angle), off(edge.end, arc.start_angle + arc.sweep)) <= 1e-5 * larger)) {
-    shape.error_of_edge(i, "arc",
-                        fmt::format("radius {:.9g}, start angle {:.9g} and sweep {:.9g} do not lead from {} to {}",
-                                    arc.radius, arc.start_angle, arc.sweep, point_text(edge.start),
-                                    point_text(edge.end)));
+    shape.error_of_edge(
+        i, "arc",
+        fmt::format("radius {:.9g}, start angle {:.9g} and sweep {:.9g} do not lead from {} to {}", arc.radius,
+                    arc.start_angle, arc.sweep, point_text(edge.start), point_text(edge.end)));
     return false;
   }
   return true;
@@ -146,16 +145,16 @@ bool check_closed(const Shape& shape) {
     const Vec2& before = shape.outline.edges[(i + count - 1) % count].end;
     if ((edge.start - before).norm() > rounding * shape.size) {
       shape.error_of_edge(i, "",
-                          fmt::format("{} starts at {}, but {} ends at {}{}", edge.names.front(), point_text(edge.start),
-                                      i == 0 ? "the last piece" : "the piece before", point_text(before),
-                                      i == 0 ? ": the outline is not closed" : ""));
+                          fmt::format("{} starts at {}, but {} ends at {}{}", edge.names.front(),
+                                      point_text(edge.start), i == 0 ? "the last piece" : "the piece before",
+                                      point_text(before), i == 0 ? ": the outline is not closed" : ""));
       return false;
     }
     if ((edge.start - shape.outline.corners[i].position).norm() > rounding * shape.size) {
-      shape.error_of_edge(i, "",
-                          fmt::format("{} starts at {}, but corner {} is at {}", shape.name(i), point_text(edge.start),
-                                      shape.outline.corners[i].names.front(),
-                                      point_text(shape.outline.corners[i].position)));
+      shape.error_of_edge(
+          i, "",
+          fmt::format("{} starts at {}, but corner {} is at {}", shape.name(i), point_text(edge.start),
+                      shape.outline.corners[i].names.front(), point_text(shape.outline.corners[i].position)));
       return false;
     }
   }
@@ -176,9 +175,10 @@ bool check_extent(const Shape& shape) {
     return false;
   }
   if (farthest > 1e10 * size) {
-    shape.error(fmt::format("lies {:.1e} times its own size away from the origin, so that its coordinates lose "
-                            "precision: move the origin closer",
-                            farthest / size));
+    shape.error(
+        fmt::format("lies {:.1e} times its own size away from the origin, so that its coordinates lose "
+                    "precision: move the origin closer",
+                    farthest / size));
     return false;
   }
   return true;
@@ -205,11 +205,10 @@ bool check_simple(const Shape& shape) {
   }
   if (const auto crossing = find_crossing(shape.outline)) {
     const bool folds = crossing->kind == geometry::Crossing::Kind::fold_back;
-    shape.error(fmt::format("{} and {} {} {}: the outline must not {}",
-                            shape.name(static_cast<std::size_t>(crossing->first)),
-                            shape.name(static_cast<std::size_t>(crossing->second)),
-                            folds ? "overlap, beginning at" : "meet at", point_text(crossing->point),
-                            folds ? "fold back on itself" : "cross or touch itself"));
+    shape.error(
+        fmt::format("{} and {} {} {}: the outline must not {}", shape.name(static_cast<std::size_t>(crossing->first)),
+                    shape.name(static_cast<std::size_t>(crossing->second)), folds ? "overlap, beginning at" : "meet at",
+                    point_text(crossing->point), folds ? "fold back on itself" : "cross or touch itself"));
     return false;
   }
   if (std::abs(area) <= least) {
@@ -217,8 +216,9 @@ bool check_simple(const Shape& shape) {
     return false;
   }
   if (area < 0.0) {
-    shape.error("runs the wrong way round: the material must lie on the left of its edges, in a body counter-clockwise "
-                "and around the hole of an unbounded body clockwise");
+    shape.error(
+        "runs the wrong way round: the material must lie on the left of its edges, in a body counter-clockwise "
+        "and around the hole of an unbounded body clockwise");
     return false;
   }
   return true;
@@ -297,7 +297,7 @@ bool check_holes(Checking& checking, const std::string& path, const Outline& out
     with.edges.insert(with.edges.end(), hole.edges.begin(), hole.edges.end());
     with.corners.insert(with.corners.end(), hole.corners.begin(), hole.corners.end());
   }
-  return check_names({checking, path, outline});
+  return check_names({checking, body, outline});
 }
 
 }  // namespace
@@ -316,10 +316,10 @@ bool check_inside(Checking& checking, const std::string& path, const std::string
       const auto i = static_cast<std::size_t>(edge), count = outer.edges.size();
       return shown_name(i < count ? outer.edges[i] : outline.edges[i - count]);
     };
-    checking.error(path, "", fmt::format("{} and {} meet at {}: {} must lie inside the body, apart from its boundary "
-                                         "and other holes and regions",
-                                         name(crossing->first), name(crossing->second), point_text(crossing->point),
-                                         what));
+    checking.error(path, "",
+                   fmt::format("{} and {} meet at {}: {} must lie inside the body, apart from its boundary "
+                               "and other holes and regions",
+                               name(crossing->first), name(crossing->second), point_text(crossing->point), what));
     return false;
   }
   if (!encloses(outer, outline.edges.front().at(0.5))) {

@@ -10,16 +10,18 @@ namespace {
 /// -1 stands for every body.
 void check_body_of(Checking& checking, const std::string& path, int body) {
   if (body != -1 && !checking.is_body(body))
-    checking.error(path, "body", fmt::format("there is no body number {}: the model has {}, counted from 0", body,
-                                             checking.model.bodies.size()));
+    checking.error(path, "body",
+                   fmt::format("there is no body number {}: the model has {}, counted from 0", body,
+                               checking.model.bodies.size()));
 }
 
 void check_output_name(Checking& checking, const std::string& path, const std::string& name, const char* what,
                        std::unordered_set<std::string>& names) {
   if (!is_name(name))
-    checking.error(path, "name", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with a "
-                                             "letter or _",
-                                             name));
+    checking.error(path, "name",
+                   fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with a "
+                               "letter or _",
+                               name));
   else if (!names.insert(name).second)
     checking.error(path, "name", fmt::format("another {} is already named '{}': rename one of them", what, name));
 }
@@ -69,14 +71,16 @@ void check_grid(Checking& checking) {
     const int count = grid->counts[static_cast<std::size_t>(k)];
     good = checking.whole(path, std::string(key) + ".2", count, limits::grid_points) && good;
     if (count > 1 && grid->low[k] == grid->high[k])
-      checking.error(path, key, fmt::format("the {} points coincide: give different first and last coordinates", count));
+      checking.error(path, key,
+                     fmt::format("the {} points coincide: give different first and last coordinates", count));
     if (count == 1 && grid->low[k] != grid->high[k])
       checking.error(path, std::string(key) + ".2",
                      "a single point cannot have different first and last coordinates: give 2 points or more");
   }
   if (good && static_cast<double>(grid->counts[0]) * grid->counts[1] > static_cast<double>(limits::grid_points.most))
-    checking.error(path, "", fmt::format("has {} x {} points, more than the {} allowed", grid->counts[0],
-                                         grid->counts[1], limits::grid_points.most));
+    checking.error(path, "",
+                   fmt::format("has {} x {} points, more than the {} allowed", grid->counts[0], grid->counts[1],
+                               limits::grid_points.most));
 }
 
 }  // namespace

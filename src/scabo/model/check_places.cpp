@@ -18,8 +18,9 @@ bool is_side_face(const Body& body, int edge) {
 
 bool check_index(Checking& checking, const std::string& path, const Place& place, const char* what, std::size_t count) {
   if (place.index >= 0 && static_cast<std::size_t>(place.index) < count) return true;
-  checking.error(path, "", fmt::format("body '{}' has no {} number {}: it has {}, counted from 0",
-                                       checking.body(place.body).name, what, place.index, count));
+  checking.error(path, "",
+                 fmt::format("body '{}' has no {} number {}: it has {}, counted from 0", checking.body(place.body).name,
+                             what, place.index, count));
   return false;
 }
 
@@ -27,9 +28,10 @@ bool check_corner(Checking& checking, const std::string& path, const Place& plac
   const Body& body = checking.body(place.body);
   if (!check_index(checking, path, place, "corner", body.outline.corners.size())) return false;
   if (place.index == body.mesh.centre_corner) {
-    checking.error(path, "", fmt::format("'{}' is the scaling centre, which has no node: no load or support can act "
-                                         "there",
-                                         text_of(checking.model, place)));
+    checking.error(path, "",
+                   fmt::format("'{}' is the scaling centre, which has no node: no load or support can act "
+                               "there",
+                               text_of(checking.model, place)));
     return false;
   }
   for (const Crack& crack : body.cracks)
@@ -47,8 +49,7 @@ bool check_near(Checking& checking, const std::string& path, const Place& place)
   const Body& body = checking.body(place.body);
   if (!checking.vector(path, "near", place.near)) return false;
   if (body.rigid) {
-    checking.error(path, "near",
-                   "a rigid body has no nodes, so that 'near' does not apply: name a corner or the body");
+    checking.error(path, "near", "a rigid body has no nodes, so that 'near' does not apply: name a corner or the body");
     return false;
   }
   double distance = (body.outline.edges.front().start - place.near).norm();
@@ -65,9 +66,10 @@ bool check_face(Checking& checking, const std::string& path, const Place& place)
   const Body& body = checking.body(place.body);
   const bool mouth = place.kind == Place::Kind::mouth;
   if (mouth ? body.cracks.empty() : !body.open()) {
-    checking.error(path, "", fmt::format("body '{}' has no {}", body.name,
-                                         mouth ? "crack, and so no crack mouth"
-                                               : "side faces: it has no crack, and its scaling centre is on no corner"));
+    checking.error(path, "",
+                   fmt::format("body '{}' has no {}", body.name,
+                               mouth ? "crack, and so no crack mouth"
+                                     : "side faces: it has no crack, and its scaling centre is on no corner"));
     return false;
   }
   return check_index(checking, path, place, mouth ? "crack mouth" : "side face", 2);
@@ -78,8 +80,9 @@ bool check_face(Checking& checking, const std::string& path, const Place& place)
 bool check_place(Checking& checking, const std::string& path, const Place& place) {
   if (!checking.is_body(place.body)) {
     checking.gaps.places = true;
-    checking.error(path, "", fmt::format("there is no body number {}: the model has {}, counted from 0", place.body,
-                                         checking.model.bodies.size()));
+    checking.error(path, "",
+                   fmt::format("there is no body number {}: the model has {}, counted from 0", place.body,
+                               checking.model.bodies.size()));
     return false;
   }
   if (!checking.sound_shape(place.body) || !checking.sound_faces(place.body)) return false;
@@ -90,9 +93,10 @@ bool check_place(Checking& checking, const std::string& path, const Place& place
     case Place::Kind::edge:
       if (!check_index(checking, path, place, "edge", body.outline.edges.size())) return false;
       if (!is_side_face(body, place.index)) return true;
-      checking.error(path, "", fmt::format("'{}' is a side face, which has no boundary elements: use a place of kind "
-                                           "face",
-                                           text_of(checking.model, place)));
+      checking.error(path, "",
+                     fmt::format("'{}' is a side face, which has no boundary elements: use a place of kind "
+                                 "face",
+                                 text_of(checking.model, place)));
       return false;
     case Place::Kind::corner:
       return check_corner(checking, path, place);

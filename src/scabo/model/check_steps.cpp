@@ -9,11 +9,11 @@ namespace scabo::model {
 
 namespace {
 
-bool check_factors(Checking& checking, const std::string& path, const std::vector<double>& factors,
-                   std::size_t count, const char* of) {
+bool check_factors(Checking& checking, const std::string& path, const std::vector<double>& factors, std::size_t count,
+                   const char* of) {
   if (factors.size() != count) {
-    checking.error(path, "", fmt::format("gives {} factors for {} {}: one for each is needed", factors.size(), count,
-                                         of));
+    checking.error(path, "",
+                   fmt::format("gives {} factors for {} {}: one for each is needed", factors.size(), count, of));
     return false;
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -37,9 +37,10 @@ void check_steps(Checking& checking) {
     const std::string path = path_of("steps", step.source, i);
     checking.enter(step.source);
     if (!is_name(step.name))
-      checking.error(path, "name", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with "
-                                               "a letter or _",
-                                               step.name));
+      checking.error(path, "name",
+                     fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin with "
+                                 "a letter or _",
+                                 step.name));
     else if (!names.insert(step.name).second)
       checking.error(path, "", fmt::format("another step is already named '{}': rename one of them", step.name));
     checking.whole(path, "increments", step.increments, limits::increments);

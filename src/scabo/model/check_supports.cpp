@@ -21,14 +21,15 @@ void check_supports(Checking& checking) {
     if (support.name.empty())
       checking.error(path, "name", "has no value: give one");
     else if (!names.insert(support.name).second)
-      checking.error(path, "name", fmt::format("another support is already named '{}': rename one of them",
-                                               support.name));
+      checking.error(path, "name",
+                     fmt::format("another support is already named '{}': rename one of them", support.name));
     if (checking.is_body(support.on.body)) checking.held[static_cast<std::size_t>(support.on.body)] = 1;
     bool good = check_place(checking, path + ".on", support.on);
     if (good && support.on.kind == Place::Kind::face) {
-      checking.error(path, "on", fmt::format("'{}' is a side face, which has no nodes between its ends: support an "
-                                             "edge, a corner or a point instead",
-                                             text_of(model, support.on)));
+      checking.error(path, "on",
+                     fmt::format("'{}' is a side face, which has no nodes between its ends: support an "
+                                 "edge, a corner or a point instead",
+                                 text_of(model, support.on)));
       good = false;
     }
     for (std::size_t c = 0; c < 2; ++c)

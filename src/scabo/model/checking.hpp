@@ -80,7 +80,8 @@ void check_something_loads(Checking& checking);
 void check_never_applied(Checking& checking);
 void check_conflicting_supports(Checking& checking);
 
-/// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes inside.
+/// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes
+/// inside.
 bool check_outline(Checking& checking, const std::string& path, const Outline& outline);
 /// Whether the mesh of a body and its outline belong together. The outline is closed, and named; it may touch itself, as at
 /// a crack between cells.

@@ -32,13 +32,17 @@ constexpr double on_line = 1e-10;
 
 const Vec2& at(const ImportedMesh& mesh, int node) { return mesh.nodes[static_cast<std::size_t>(node)]; }
 
-/// The cells of one region, with nodes and regions of their own; `original`: number of each node in `whole`.
-ImportedMesh part_of(const ImportedMesh& whole, int region, std::vector<int>& original) {
+/// Whether each cell is one of the part.
+using Chosen = std::vector<bool>;
+
+/// The chosen cells, with nodes and regions of their own; `original`: number of each node in `whole`.
+ImportedMesh part_of(const ImportedMesh& whole, const Chosen& chosen, std::vector<int>& original) {
   ImportedMesh part;
   std::vector<int> number(whole.nodes.size(), -1);
   std::vector<int> region_number(whole.regions.size(), -1);
-  for (const ImportedCell& cell : whole.cells) {
-    if (region >= 0 && cell.region != region) continue;
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    const ImportedCell& cell = whole.cells[c];
+    if (!chosen[c]) continue;
     ImportedCell& copy = part.cells.emplace_back(cell);
     int& of_region = region_number[static_cast<std::size_t>(cell.region)];
     if (of_region < 0) {
@@ -111,13 +115,13 @@ bool on_one_line(const std::vector<Vec2>& points) {
 /// Makes the outline of a part.
 class OutlineMaker {
  public:
-  OutlineMaker(const ImportedMesh& whole, int region, const ImportedMesh& part, const std::vector<int>& original)
+  OutlineMaker(const ImportedMesh& whole, const Chosen& chosen, const ImportedMesh& part, const std::vector<int>& original)
       : part_(part), original_(original) {
     for (BoundaryLoop& loop : files::boundary_facets(part)) {
       const bool outer = loop.area > 0.0;
       loops_.insert(outer ? loops_.begin() + outer_loops_++ : loops_.end(), std::move(loop));
     }
-    collect_names(whole, region);
+    collect_names(whole, chosen);
     for (const auto& set : whole.node_sets)
       if (set.nodes.size() == 1) points_.emplace(set.nodes.front(), name_from(set.name));
   }
@@ -147,7 +151,7 @@ class OutlineMaker {
   }
 
   /// The names of every side of the boundary: neighbouring regions first, then sets.
-  void collect_names(const ImportedMesh& whole, int region) {
+  void collect_names(const ImportedMesh& whole, const Chosen& chosen) {
     std::unordered_set<std::uint64_t> boundary;
     for (const BoundaryLoop& loop : loops_)
       for (const Facet& facet : loop.facets) boundary.insert(whole_key(facet));
@@ -159,16 +163,14 @@ class OutlineMaker {
       std::vector<int>& label = labels_[key];
       if (std::find(label.begin(), label.end(), found->second) == label.end()) label.push_back(found->second);
     };
-    if (region >= 0)
-      for (const ImportedCell& cell : whole.cells) {
-        if (cell.region == region) continue;
-        for (int i = 0; i < cell.corners(); ++i) {
-          const Facet side = files::side_of(cell, i);
-          const std::uint64_t key = key_of(side.start, side.end);
-          if (boundary.contains(key))
-            add(key, "to_" + name_from(whole.regions[static_cast<std::size_t>(cell.region)]));
-        }
+    for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+      const ImportedCell& cell = whole.cells[c];
+      for (int i = 0; !chosen[c] && i < cell.corners(); ++i) {
+        const Facet side = files::side_of(cell, i);
+        const std::uint64_t key = key_of(side.start, side.end);
+        if (boundary.contains(key)) add(key, "to_" + name_from(whole.regions[static_cast<std::size_t>(cell.region)]));
       }
+    }
     for (const auto& set : whole.facet_sets)
       for (const Facet& facet : set.facets) add(key_of(facet.start, facet.end), name_from(set.name));
     for (auto& entry : labels_) std::sort(entry.second.begin(), entry.second.end());
@@ -288,6 +290,28 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return name_list(quoted);
 }
 
+/// `what`: the chosen cells, as in `the file`.
+std::variant<ImportedBody, std::string> body_of(const ImportedMesh& mesh, const Chosen& chosen, const std::string& what) {
+  std::vector<int> original;
+  ImportedMesh part = part_of(mesh, chosen, original);
+  OutlineMaker maker(mesh, chosen, part, original);
+  if (maker.outer_loops() != 1) {
+    const std::string parts = fmt::format("{} has {} parts that have no side in common, but a body is connected", what,
+                                          maker.outer_loops());
+    if (part.cells.size() == mesh.cells.size() && mesh.regions.size() > 1)
+      return fmt::format("{}: give one of the regions with 'region': {}", parts, quoted_list(mesh.regions));
+    std::vector<std::string> sets;
+    for (const files::CellSet& set : mesh.cell_sets)
+      if (set.cells.size() < part.cells.size()) sets.push_back(set.name);
+    return fmt::format("{}: join equal nodes when meshing, or give each part a region of its own{}", parts,
+                       sets.empty() ? "" : "; 'region' may also be one of the sets " + quoted_list(sets));
+  }
+  ImportedBody body = maker.make();
+  part.facet_sets = maker.take_sides();
+  body.mesh = std::make_shared<const ImportedMesh>(std::move(part));
+  return body;
+}
+
 }  // namespace
 
 std::string name_from(std::string_view text) {
@@ -302,25 +326,17 @@ std::string name_from(std::string_view text) {
 }
 
 std::variant<ImportedBody, std::string> imported_body(const files::ImportedMesh& mesh, int region) {
-  std::vector<int> original;
-  ImportedMesh part = part_of(mesh, region, original);
-  OutlineMaker maker(mesh, region, part, original);
-  if (maker.outer_loops() != 1) {
-    const std::string parts =
-        fmt::format("{} {} parts that have no side in common",
-                    region >= 0 ? fmt::format("region '{}' has", mesh.regions[static_cast<std::size_t>(region)])
-                                : "the file has",
-                    maker.outer_loops());
-    if (region < 0 && mesh.regions.size() > 1)
-      return fmt::format("{}, but a body is connected: give one of the regions with 'region': {}", parts,
-                         quoted_list(mesh.regions));
-    return fmt::format("{}, but a body is connected: join equal nodes when meshing, or give each part a region of its own",
-                       parts);
-  }
-  ImportedBody body = maker.make();
-  part.facet_sets = maker.take_sides();
-  body.mesh = std::make_shared<const ImportedMesh>(std::move(part));
-  return body;
+  Chosen chosen(mesh.cells.size(), true);
+  for (std::size_t c = 0; region >= 0 && c < chosen.size(); ++c) chosen[c] = mesh.cells[c].region == region;
+  return body_of(mesh, chosen,
+                 region < 0 ? "the file" : fmt::format("region '{}'", mesh.regions[static_cast<std::size_t>(region)]));
+}
+
+std::variant<ImportedBody, std::string> imported_body_of_set(const files::ImportedMesh& mesh, int set) {
+  const files::CellSet& cells = mesh.cell_sets[static_cast<std::size_t>(set)];
+  Chosen chosen(mesh.cells.size(), false);
+  for (const int cell : cells.cells) chosen[static_cast<std::size_t>(cell)] = true;
+  return body_of(mesh, chosen, fmt::format("set '{}'", cells.name));
 }
 
 }  // namespace scabo::model

@@ -3,7 +3,7 @@
 // Sides that belong to one cell of the part only are its boundary. It is cut into edges:
 //     sides of a facet set                   an edge with the name of the set; where a set has several pieces, or begins
 //                                            within another one, the pieces are NAME, NAME_2, ...
-//     sides at which another region begins   likewise, `to_NAME` with the name of that region
+//     sides with a cell of another part      likewise, `to_NAME` with the name of the region of that cell
 //     all other sides                        edge_1, edge_2, ... from corner to corner
 // Corners are the starts of edges, vertex_1, vertex_2, ...: the boundary of every loop begins at its lowest corner, the
 // one furthest to the left if there are several. Sides without a set are cut where the boundary turns by more than 30
@@ -36,6 +36,8 @@ struct ImportedBody {
 
 /// The cells of region number `region`, or all if it is -1; or, as a sentence, why these are no body.
 std::variant<ImportedBody, std::string> imported_body(const files::ImportedMesh& mesh, int region);
+/// The same for the cells of cell set number `set`.
+std::variant<ImportedBody, std::string> imported_body_of_set(const files::ImportedMesh& mesh, int set);
 
 /// `text` with every character that a name cannot have replaced by `_`.
 std::string name_from(std::string_view text);

@@ -16,6 +16,7 @@ constexpr Range increments{1, 100'000};     ///< of a step
 constexpr Range line_points{2, 1'000'000};  ///< of an output line
 constexpr Range grid_points{1, 1'000'000};  ///< of a grid along one axis, and in all
 constexpr Range every{1, 100'000};          ///< .vtu files of every so many increments
+constexpr Range copies{1, 100'000};         ///< of a body that is repeated
 constexpr long edges = 20'000;              ///< of an outline, at most
 
 }  // namespace scabo::model::limits

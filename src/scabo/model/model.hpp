@@ -95,13 +95,13 @@ struct MeshOptions {
 /// A straight crack from its mouth, a point of an edge, to its tip, the scaling centre. Its two faces are side faces.
 struct Crack {
   std::string name;
-  /// In a body of many cells: its points from one end to the other, two or more; then `tip` and `mouth` are not used. An
-  /// end on the boundary or on another crack is open, any other end is a tip.
-  std::vector<Vec2> path;
   Vec2 tip = Vec2::Zero(), mouth = Vec2::Zero();
   int edge = -1;    ///< edge with the mouth
   double at = 0.0;  ///< mouth = edge.at(at), 0 <= at < 1; 0 is the corner at the start of the edge
   Source source;
+  /// In a body of many cells: its points from one end to the other, two or more; then `tip` and `mouth` are not used. An
+  /// end on the boundary or on another crack is open, any other end is a tip.
+  std::vector<Vec2> path;
 };
 
 /// A part of a body with a material of its own, inside its outline.
@@ -138,14 +138,14 @@ struct Body {
   Source source;
 
   /// Whether two side faces meet at the scaling centre.
-  bool open() const { return !cracks.empty() || mesh.centre_corner >= 0; }
+  bool open() const { return (!cracks.empty() && cracks.front().path.empty()) || mesh.centre_corner >= 0; }
 };
 
 /// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
 /// of finite elements in a rectangle.
 inline bool is_divided_inside(const Body& body) {
-  return body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
-                                                       body.regions.empty() && body.mesh.refine.empty());
+  return body.image || (body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
+                                                       body.regions.empty() && body.mesh.refine.empty()));
 }
 
 /// Where a support, load or contact acts.

@@ -103,9 +103,10 @@ std::string path_of(std::string_view section, const Source& source, std::size_t 
 void check_name(Checking& checking, const std::string& path, const std::string& name, const char* what,
                 std::unordered_set<std::string>& before) {
   if (!is_name(name))
-    checking.error_of_key(path, "", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin "
-                                                "with a letter or _",
-                                                name));
+    checking.error_of_key(path, "",
+                          fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin "
+                                      "with a letter or _",
+                                      name));
   else if (!before.insert(name).second)
     checking.error_of_key(path, "", fmt::format("another {} is already named '{}': rename one of them", what, name));
 }
@@ -210,8 +211,7 @@ void require_valid(const Model& model) {
   std::vector<Diagnostic> diagnostics;
   for (std::size_t i = 0; i < std::min(most, mistakes.size()); ++i)
     diagnostics.push_back({std::move(mistakes[i].at), std::move(mistakes[i].message)});
-  if (mistakes.size() > most)
-    diagnostics.push_back({{}, fmt::format("and {} more mistakes", mistakes.size() - most)});
+  if (mistakes.size() > most) diagnostics.push_back({{}, fmt::format("and {} more mistakes", mistakes.size() - most)});
   throw InputError(model.file.empty() ? "model" : model.file, std::move(diagnostics));
 }
 

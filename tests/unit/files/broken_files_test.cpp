@@ -242,7 +242,7 @@ void check(const std::vector<Broken>& files) {
     const Broken& broken = files[i];
     SCOPED_TRACE("file " + std::to_string(i) + ", expected: " + broken.message);
     try {
-      scabo::mesh::parse_mesh(broken.bytes, broken.name);
+      scabo::files::parse_mesh(broken.bytes, broken.name);
       ADD_FAILURE() << "is read";
     } catch (const scabo::InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(broken.message));
@@ -257,8 +257,8 @@ TEST(BrokenMeshFiles, Abaqus) { check(abaqus_files()); }
 TEST(BrokenMeshFiles, Vtu) { check(vtu_files()); }
 
 TEST(BrokenMeshFiles, AFileThatIsMissing) {
-  EXPECT_THROW(scabo::mesh::read_mesh_file("no_such_file.msh"), scabo::InputError);
-  EXPECT_THROW(scabo::mesh::read_mesh_file("/"), scabo::InputError);
+  EXPECT_THROW(scabo::files::read_mesh_file("no_such_file.msh"), scabo::InputError);
+  EXPECT_THROW(scabo::files::read_mesh_file("/"), scabo::InputError);
 }
 
 /// Wherever a file ends, it is an error or, in the last few characters, the mesh: never a crash.
@@ -268,7 +268,7 @@ TEST(BrokenMeshFiles, EveryTruncation) {
        {sample::msh22(mesh, false), sample::msh22(mesh, true), sample::msh41(mesh, false), sample::msh41(mesh, true),
         sample::vtu(mesh, Vtu::text), sample::vtu(mesh, Vtu::raw_zlib), sample::vtu(mesh, Vtu::base64)}) {
     for (std::size_t size = 0; size + 20 < bytes.size(); ++size) {
-      EXPECT_THROW(scabo::mesh::parse_mesh(bytes.substr(0, size), "a.msh"), scabo::InputError) << size;
+      EXPECT_THROW(scabo::files::parse_mesh(bytes.substr(0, size), "a.msh"), scabo::InputError) << size;
     }
   }
 }

@@ -77,7 +77,7 @@ TEST(Encloses, CountsLoopsSoThatHolesAreOutside) {
     return x.x() > x0 && x.x() < x1 && x.y() > y0 && x.y() < y1;
   };
   for (double x = -0.1013; x < 4.2; x += 0.0337) {
-    for (double y = -0.1017; y < 3.2; y += 0.0339) {
+    for (double y = -0.1021; y < 3.2; y += 0.0339) {
       const Vec2 at(x, y);
       const bool island = within(at, 1, 1.5, 1, 1.5) && x > y;
       const bool hole = within(at, 0.5, 2, 0.5, 2) || (at - Vec2(3, 1)).norm() < 0.5;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "scabo/geometry/foot_points.hpp"
 #include "unit/input/models.hpp"
 
 namespace scabo::geometry {
@@ -151,8 +152,11 @@ TEST(Visibility, NoPointSeesAU) {
 
 TEST(Visibility, SuggestedCentreIsAccepted) {
   const std::string shape = "{polygon: {vertices: [[0, 0], [6, 0], [6, 1], [3, 1], [3, 3], [0, 3]]}}";
-  EXPECT_THAT(mistakes_in(shaped(shape)), HasSubstr("give mesh.centre: [1.5, 0.5]"));
+  EXPECT_THAT(mistakes_in(shaped(shape, "{size: 0.5, centre: [4, 0.5]}")), HasSubstr("use mesh.centre: [1.5, 0.5]"));
   EXPECT_THAT(mistakes_in(shaped(shape, "{size: 0.5, centre: [1.5, 0.5]}")), IsEmpty());
+  const auto body = parse(shaped(shape)).bodies.front();  // taken without being told
+  EXPECT_EQ(body.mesh.kind, model::MeshKind::superelement);
+  EXPECT_LT((body.mesh.centre - Vec2(1.5, 0.5)).norm(), 1e-9);
 }
 
 TEST(Inside, ConcaveOutline) {

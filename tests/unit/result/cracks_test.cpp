@@ -50,7 +50,7 @@ TEST(CrackResults, OfACrackByItsName) {
   const Kolosov m(1.0, 0.3, model::Plane::stress);
   auto solution = solution_of(ring, {elasticity(1.0, 0.3)},
                               around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
-  solution.model.bodies[0].cracks.push_back({"flaw", {0, 0}, {-1, 0}, {}});
+  solution.model.bodies[0].cracks.push_back({"flaw", {0, 0}, {-1, 0}, 0, 0.0, {}, {}});
   solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
   const nlohmann::json flaw = cracks_in_summary(solution)["plate.flaw"];
   EXPECT_EQ(flaw["kind"], "crack");
@@ -148,7 +148,7 @@ TEST(InterfaceCrack, HasItsTStressOnEitherSide) {
       return test::interface_crack(above, below, {1.0, 0.5}, 1.0, e, r, t);
     });
     analysis::StaticSolution solution = solution_of(ring, laws, u);
-    solution.model.bodies.front().cracks.push_back({"flaw", {0, 0}, {-1, 0}, {}, {}});
+    solution.model.bodies.front().cracks.push_back({"flaw", {0, 0}, {-1, 0}, 0, 0.0, {}, {}});
     analysis::IncrementResult& increment = solution.increments.front();
     increment.cracks = analysis::crack_results(solution, increment);
 

@@ -1,0 +1,74 @@
+#include "scabo/geometry/touching.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
+
+namespace scabo::geometry {
+
+namespace {
+
+constexpr double rounding = 1e-6;         // of the length of an edge
+constexpr double facing_cosine = -0.95;  // of the two outward normals
+/// Points at which an edge is looked at; a shared part shorter than their distance is seen from the shorter edge.
+constexpr int samples = 16;
+
+/// Whether some point of `a` lies opposite a point of `b`, not at its ends.
+bool lies_on(const Edge& a, const Edge& b, double reach) {
+  for (int k = 0; k < samples; ++k) {
+    const Vec2 point = a.at((k + 0.5) / samples);
+    const auto foot = foot_on(b, point), own = foot_on(a, point);
+    if (!foot || !own || foot->t <= rounding || foot->t >= 1.0 - rounding) continue;
+    if ((foot->point - point).norm() <= reach && own->normal.dot(foot->normal) < facing_cosine) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<TouchingEdges> touching_edges(const std::vector<const Outline*>& outlines, double reach) {
+  struct Entry {
+    Box box;
+    int body = 0, edge = 0;
+    double slack = 0.0;
+    const Edge* of = nullptr;
+  };
+  std::vector<Entry> entries;
+  for (std::size_t b = 0; b < outlines.size(); ++b) {
+    if (outlines[b] == nullptr) continue;
+    for (std::size_t e = 0; e < outlines[b]->edges.size(); ++e) {
+      const Edge& edge = outlines[b]->edges[e];
+      entries.push_back({box_of(edge), static_cast<int>(b), static_cast<int>(e),
+                         std::max(reach, rounding * edge.length()), &edge});
+    }
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.box.low.x() != b.box.low.x() ? a.box.low.x() < b.box.low.x()
+                                          : std::pair(a.body, a.edge) < std::pair(b.body, b.edge);
+  });
+  std::vector<TouchingEdges> found;
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& a = entries[i];
+    std::erase_if(open, [&](std::size_t j) {
+      return entries[j].box.high.x() + std::max(entries[j].slack, a.slack) < a.box.low.x();
+    });
+    for (const std::size_t j : open) {
+      const Entry& b = entries[j];
+      const double slack = std::max(a.slack, b.slack);
+      if (a.body == b.body || b.box.high.y() + slack < a.box.low.y() || a.box.high.y() + slack < b.box.low.y()) continue;
+      if (!lies_on(*a.of, *b.of, slack) && !lies_on(*b.of, *a.of, slack)) continue;
+      const Entry &first = a.body < b.body ? a : b, &second = a.body < b.body ? b : a;
+      found.push_back({first.body, first.edge, second.body, second.edge});
+    }
+    open.push_back(i);
+  }
+  std::sort(found.begin(), found.end(), [](const TouchingEdges& a, const TouchingEdges& b) {
+    return std::tuple(a.body_a, a.body_b, a.edge_a, a.edge_b) < std::tuple(b.body_a, b.body_b, b.edge_a, b.edge_b);
+  });
+  return found;
+}
+
+}  // namespace scabo::geometry

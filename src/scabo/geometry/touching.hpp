@@ -1,0 +1,20 @@
+// Which edges of different outlines lie on each other.
+#pragma once
+
+#include <vector>
+
+#include "scabo/geometry/outline.hpp"
+
+namespace scabo::geometry {
+
+/// Two edges of different bodies that face each other.
+struct TouchingEdges {
+  int body_a = -1, edge_a = -1, body_b = -1, edge_b = -1;  ///< body_a < body_b
+};
+
+/// All pairs of edges of different outlines that face each other along a part of their length at a distance of at most
+/// `reach` (length, >= 0; distances of up to 1e-6 of an edge's length are rounding). Ordered by bodies, then edges.
+/// Edges that touch in a point only are left out. `outlines`: null for a body that takes no part.
+std::vector<TouchingEdges> touching_edges(const std::vector<const Outline*>& outlines, double reach);
+
+}  // namespace scabo::geometry
