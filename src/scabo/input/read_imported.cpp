@@ -147,7 +147,7 @@ void read_imported_body(Reading& reading, const MapReader& of_body, const Value&
   for (std::size_t i = 0; i < body.region_materials.size(); ++i) {
     int& of_region = body.region_materials[i];
     if (of_region >= 0) continue;
-    if (!material && report.count() == before)
+    if (!material && materials && report.count() == before)
       report.error(*materials, fmt::format("region '{}' has no material: add it here, or give the body a 'material' for "
                                            "all regions that are not named here",
                                            body.imported->regions[i]));

@@ -254,6 +254,7 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
          "kind: polygons or kind: quadtree");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
+  refuse(body.imported && !body.cracks.empty(), "cracks", "is not available for a body from a mesh file: leave it out");
   if (!body.cracks.empty() && body.mesh.kind == MeshKind::parts)
     checking.error(path, "cracks.0", "a crack in a body of several parts needs kind: polygons or kind: quadtree"),
         good = false;
