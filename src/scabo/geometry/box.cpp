@@ -8,6 +8,7 @@ namespace scabo::geometry {
 
 Box box_of(const Edge& edge) {
   Box box{edge.start.cwiseMin(edge.end), edge.start.cwiseMax(edge.end)};
+  for (const Vec2& point : edge.points) box.add(point);
   if (!edge.arc) return box;
   const Arc& arc = *edge.arc;
   const double first = std::min(arc.start_angle, arc.start_angle + arc.sweep);

@@ -129,6 +129,7 @@ std::optional<Crossing> find_crossing(const Outline& outline) {
   std::sort(order.begin(), order.end(), [&](int i, int j) { return box(i).low[axis] < box(j).low[axis]; });
   std::vector<int> open;
   for (const int i : order) {
+    if (outline.edges[static_cast<std::size_t>(i)].is_chain()) continue;
     std::erase_if(open, [&](int j) { return box(j).high[axis] < box(i).low[axis] - margin; });
     std::optional<Crossing> first;
     for (const int j : open) {

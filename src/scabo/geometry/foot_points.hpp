@@ -9,7 +9,9 @@
 
 namespace scabo::geometry {
 
-/// The foot of the perpendicular from a point to the line or circle that contains an edge.
+/// The foot of the perpendicular from a point to the line or circle that contains an edge. Of a chain it is the closest
+/// point, or beyond its ends a point of the line that contains its first or last segment; where two segments meet, the
+/// normal is halfway between theirs.
 struct Foot {
   double t = 0.0;  ///< position along the edge: 0 at its start, 1 at its end, outside [0, 1] beyond an end
   Vec2 point = Vec2::Zero();

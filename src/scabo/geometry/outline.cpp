@@ -1,4 +1,4 @@
-// Geometry of outlines: points, lengths, area and centroid, arcs included exactly.
+// Geometry of outlines: points, lengths, area and centroid, arcs and chains included exactly.
 #include "scabo/geometry/outline.hpp"
 
 #include <algorithm>
@@ -7,9 +7,25 @@
 
 namespace scabo::geometry {
 
+namespace {
+
+Vec2 on_chain(const Edge& edge, double t) {
+  double rest = t * edge.length();
+  for (int i = 0; i < edge.segments(); ++i) {
+    const Vec2 along = edge.chain_point(i + 1) - edge.chain_point(i);
+    const double length = along.norm();
+    if (rest < length) return edge.chain_point(i) + rest / length * along;
+    rest -= length;
+  }
+  return edge.end;
+}
+
+}  // namespace
+
 Vec2 Edge::at(double t) const {
   if (t <= 0.0) return start;
   if (t >= 1.0) return end;
+  if (is_chain()) return on_chain(*this, t);
   if (!arc) return start + t * (end - start);
   // Radii at both ends may differ by the rounding of the given coordinates; in between they are interpolated.
   const double radius = (1.0 - t) * (start - arc->centre).norm() + t * (end - arc->centre).norm();
@@ -38,7 +54,12 @@ int Outline::previous(int edge) const {
   return edge == first ? end - 1 : edge - 1;
 }
 
-double Edge::length() const { return arc ? arc->radius * std::abs(arc->sweep) : (end - start).norm(); }
+double Edge::length() const {
+  if (arc) return arc->radius * std::abs(arc->sweep);
+  double sum = 0.0;
+  for (int i = 0; i < segments(); ++i) sum += (chain_point(i + 1) - chain_point(i)).norm();
+  return sum;
+}
 
 namespace {
 
@@ -64,7 +85,8 @@ double Outline::area() const {
   const Vec2 origin = edges.front().start;  // near the body, because large coordinates would lose digits
   double twice = 0.0;
   for (const Edge& edge : edges) {
-    twice += cross(edge.start - origin, edge.end - origin);
+    for (int i = 0; i < edge.segments(); ++i)
+      twice += cross(edge.chain_point(i) - origin, edge.chain_point(i + 1) - origin);
     if (edge.arc) twice += segment_of(*edge.arc).twice_area;
   }
   return 0.5 * twice;
@@ -76,11 +98,13 @@ Vec2 Outline::centroid() const {
   double twice = 0.0;
   Vec2 sixfold = Vec2::Zero();  // six times the first moment about the origin
   for (const Edge& edge : edges) {
-    const Vec2 a = edge.start - origin;
-    const Vec2 b = edge.end - origin;
-    const double c = cross(a, b);
-    twice += c;
-    sixfold += c * (a + b);
+    for (int i = 0; i < edge.segments(); ++i) {
+      const Vec2 a = edge.chain_point(i) - origin;
+      const Vec2 b = edge.chain_point(i + 1) - origin;
+      const double c = cross(a, b);
+      twice += c;
+      sixfold += c * (a + b);
+    }
     if (edge.arc) {
       const Segment segment = segment_of(*edge.arc);
       twice += segment.twice_area;
@@ -97,6 +121,7 @@ void turn_round(Outline& outline) {
   for (std::size_t k = 0; k < n; ++k) {
     Edge edge = outline.edges[n - 1 - k];
     std::swap(edge.start, edge.end);
+    std::reverse(edge.points.begin(), edge.points.end());
     if (edge.arc) {
       edge.arc->start_angle += edge.arc->sweep;
       edge.arc->sweep = -edge.arc->sweep;

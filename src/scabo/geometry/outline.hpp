@@ -1,4 +1,4 @@
-// Closed boundaries of straight lines and circular arcs, with the names that a model file gives them.
+// Closed boundaries of straight lines, chains of straight lines and circular arcs, with the names that a model file gives them.
 #pragma once
 
 #include <optional>
@@ -18,18 +18,27 @@ struct Arc {
   double sweep = 0.0;
 };
 
-/// One edge of the boundary of a body, a straight line or an arc, directed counter-clockwise around the body (material
-/// on the left).
+/// One edge of the boundary of a body, a straight line, a chain of straight lines or an arc, directed counter-clockwise
+/// around the body (material on the left). A chain comes from a mesh file, and only one, or a full circle, ends where it
+/// starts.
 struct Edge {
   std::vector<std::string> names;  ///< its own name first (`edge_3`), then those given by the user
   Vec2 start = Vec2::Zero();
   Vec2 end = Vec2::Zero();
-  std::optional<Arc> arc;  ///< empty for a straight line
+  std::optional<Arc> arc;    ///< empty for a straight line and a chain
   std::vector<Vec2> points;  ///< between start and end, of a chain of straight lines; empty otherwise
   Source source;
 
   Vec2 at(double t) const;  ///< point at 0 <= t <= 1 of the edge's length
   double length() const;
+
+  bool is_chain() const { return !points.empty(); }
+  /// A chain has one straight segment more than it has inner points; any other edge counts as one.
+  int segments() const { return static_cast<int>(points.size()) + 1; }
+  /// Segment i extends from chain_point(i) to chain_point(i + 1).
+  const Vec2& chain_point(int i) const {
+    return i == 0 ? start : i == segments() ? end : points[static_cast<std::size_t>(i - 1)];
+  }
 };
 
 /// A corner is the start of the edge with the same index.

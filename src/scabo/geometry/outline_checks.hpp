@@ -21,11 +21,11 @@ struct Crossing {
   Vec2 point = Vec2::Zero();
 };
 
-/// The first crossing of the closed outline with itself, if there is one. A sweep along x or y compares the bounding
+/// The first crossing of the closed outline with itself, if there is one; chains, which come from meshes, are passed over. A sweep along x or y compares the bounding
 /// box of an edge only with those that it overlaps in that direction.
 std::optional<Crossing> find_crossing(const Outline& outline);
 
-/// Edges that are not entirely visible from `centre`. An edge is visible when the tangent at each of its points passes
+/// Edges, none of them a chain, that are not entirely visible from `centre`. An edge is visible when the tangent at each of its points passes
 /// the centre on its left at a distance of more than 1e-6 of the size of the body. For a straight edge this is the
 /// distance of its line. For an arc with centre m and radius r it is the minimum over its angles of r + (m - c).(cos,
 /// sin) if it runs counter-clockwise, and of -r - (m - c).(cos, sin) if it runs clockwise.

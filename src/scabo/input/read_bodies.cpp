@@ -169,6 +169,11 @@ Body moved(Body body, const Vec2& by) {
     for (Vec2& point : crack.path) point += by;
   }
   body.mesh.centre += by;
+  if (body.imported) {
+    auto mesh = std::make_shared<files::ImportedMesh>(*body.imported);
+    for (Vec2& node : mesh->nodes) node += by;
+    body.imported = std::move(mesh);
+  }
   for (LocalSize& local : body.mesh.refine)
     if (local.near) *local.near += by;
   return body;
@@ -222,9 +227,9 @@ void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(
       report, entry.value,
-      {"material", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference",
+      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference",
        "repeat"},
-      body_example, {{"file", "describe the body with shape"}});
+      body_example, {{"file", "write mesh: {file: part.msh} instead of shape"}});
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -233,7 +238,8 @@ void read_body(Reading& reading, const Entry& entry) {
   const auto rigid_value = map.get("rigid");
   const auto rigid = rigid_value ? read_flag(report, *rigid_value) : std::optional(false);
   body.rigid = rigid.value_or(false);
-  const auto shape = map.need("shape");
+  const bool from_file = rigid && !body.rigid && is_from_file(map.get("mesh"));
+  const auto shape = from_file ? std::nullopt : map.need("shape");
   if (shape) {
     const MapEntry* image = shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
     auto outline = image != nullptr ? read_image(reading, {image->value, shape->path + ".image"}, body)
@@ -245,6 +251,7 @@ void read_body(Reading& reading, const Entry& entry) {
       state.shape = true;
     }
   }
+  if (!from_file) map.refuse("materials", "only a body from a mesh file has materials of its regions: use 'material'");
   if (const auto holes = map.get("holes"); holes && state.shape) state.shape = read_holes(reading, *holes, body.outline);
   if (body.rigid) {
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"})
@@ -253,6 +260,8 @@ void read_body(Reading& reading, const Entry& entry) {
     body.rigid = true;
     reading.rigid_known = false;
     state.touched = true;
+  } else if (from_file) {
+    read_imported_body(reading, map, *map.get("mesh"), body, state);
   } else {
     if (body.image) map.refuse("material", "the image names the materials: leave 'material' out");
     const auto material = body.image ? std::nullopt : map.need("material");

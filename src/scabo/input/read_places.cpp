@@ -49,6 +49,17 @@ void add_crack_places(const Crack& crack, std::vector<std::pair<std::string, Pla
   add(".mouth_right", Place::Kind::mouth, 0);
 }
 
+/// Warns once that an edge is only one of the pieces of its set.
+void tell_of_pieces(Reading& reading, int body, const std::string& part) {
+  std::vector<std::string>& pieces = reading.state(body).pieces;
+  if (const auto found = std::find(pieces.begin(), pieces.end(), part); found != pieces.end()) {
+    pieces.erase(found);
+    reading.model.warnings.push_back(fmt::format(
+        "the set '{0}' of the mesh file is not one edge of body '{1}': {1}.{0} is its first piece, and {1}.{0}_2 the next",
+        part, reading.body(body).name));
+  }
+}
+
 ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_view part, const std::string& text) {
   ReadPlace result{{}, body};
   if (!reading.state(body).shape) return result;
@@ -70,6 +81,7 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
   }
   for (std::size_t i = 0; i < outline.edges.size(); ++i) {
     if (has_name(outline.edges[i].names, part)) {
+      tell_of_pieces(reading, body, std::string(part));
       const int face = face_of_edge(reading.body(body), static_cast<int>(i));
       result.place = Place{face >= 0 ? Place::Kind::face : Place::Kind::edge,
                            body,
@@ -87,6 +99,14 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
       return result;
     }
     known.insert(known.end(), outline.corners[i].names.rbegin(), outline.corners[i].names.rend());
+  }
+  if (const auto lost = reading.state(body).lost_points.find(std::string(part));
+      lost != reading.state(body).lost_points.end()) {
+    const Vec2& x = lost->second;
+    reading.report.error(value, fmt::format("'{0}' is a node within an edge of body '{1}' that has a name, and so no "
+                                            "corner: write {{body: {1}, near: [{2:.9g}, {3:.9g}]}}",
+                                            part, reading.body(body).name, x.x(), x.y()));
+    return result;
   }
   reading.report.error(value, fmt::format("body '{}' has no edge or corner named {}{}", reading.body(body).name,
                                           quoted_name(part), reading.report.full() ? "" : suggestion(part, known)));

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -24,6 +26,9 @@ struct BodyState {
   bool shape = false;     ///< the outline has been read, so that names can be looked up in it
   bool held = false;      ///< it has a support
   bool touched = false;   ///< it has a contact
+  // Of a body from a mesh file (model/imported_body.hpp):
+  std::vector<std::string> pieces;          ///< edges that are the first of several pieces
+  std::map<std::string, Vec2> lost_points;  ///< named nodes that are no corners
 };
 
 /// Position of a name in a list; models may have thousands of bodies.
@@ -46,6 +51,9 @@ struct Reading {
   bool rigid_known = true;                  ///< false: it is not known whether a body is rigid
 
   bool steps_known = false;  ///< true: all steps have been read
+
+  /// Mesh files by their paths; null for a broken one, which has been reported.
+  std::map<std::string, std::shared_ptr<const files::ImportedMesh>> mesh_files;
 
   int body_index(std::string_view name) const;
   BodyState& state(int body) { return bodies[static_cast<std::size_t>(body)]; }
@@ -81,6 +89,10 @@ void read_regions(Reading& reading, const Value& value, Body& body);
 /// `mesh` of an elastic body. `outline`: null if it is not known. `crack`: null if there is none; its tip is the
 /// scaling centre.
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack);
+/// Whether the `mesh` of a body names a file.
+bool is_from_file(const std::optional<Value>& mesh);
+/// Shape, mesh and materials of an elastic body from a mesh file. `of_body`: the map of the body; `value`: its `mesh`.
+void read_imported_body(Reading& reading, const MapReader& of_body, const Value& value, Body& body, BodyState& state);
 /// `cracks` of a body with an outline. What could not be read is `unread`.
 std::vector<Crack> read_cracks(Reading& reading, const Value& value, const Body& body);
 /// `sectors`: the material of each edge; nothing if the section is broken.

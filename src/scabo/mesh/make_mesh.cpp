@@ -5,6 +5,7 @@
 
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/grid.hpp"
+#include "scabo/mesh/imported_cells.hpp"
 #include "scabo/mesh/interface.hpp"
 #include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/match.hpp"
@@ -98,7 +99,7 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
     const model::Body& body = model.bodies[b];
     if (body.rigid) continue;
     if (model::is_divided_inside(body)) {
-      auto divided = divide_into_cells(body, most_nodes - nodes);
+      auto divided = body.imported ? cells_of_file(body, most_nodes - nodes) : divide_into_cells(body, most_nodes - nodes);
       if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
         mistakes.push_back(*wrong);
         continue;

@@ -225,9 +225,10 @@ PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
     case model::MeshKind::fem:
       return triangle_mesh(domain);
     case model::MeshKind::superelement:
+    case model::MeshKind::imported:
       break;
   }
-  throw BrokenInvariant("one super-element is not made of polygons");
+  throw BrokenInvariant("one super-element, or a mesh of a file, is not made of polygons");
 }
 
 }  // namespace

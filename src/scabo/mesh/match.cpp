@@ -83,7 +83,7 @@ Side side_of(const model::Model& model, const model::Place& place, const std::ve
     at.after = k < elements.size() ? elements[k].nodes.front() : -1;
     at.point = mesh.nodes[static_cast<std::size_t>(k > 0 ? at.before : at.after)];
     const bool end = k == 0 || k == elements.size();
-    at.fixed = end || at.before != at.after || stay.contains(at.before);
+    at.fixed = end || at.before != at.after || stay.contains(at.before) || side.edge->is_chain();  // at its points
     const std::optional<geometry::Foot> foot = geometry::foot_on(*side.edge, at.point);
     at.t = foot ? foot->t : 0.0;
     if (side.closed && end) at.t = k == 0 ? 0.0 : 1.0;

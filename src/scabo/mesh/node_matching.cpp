@@ -43,7 +43,8 @@ bool nodes_match(const ContactSide& a, int i, const ContactSide& b, int j) {
   const auto [least, most] = std::minmax({low * gap, high * gap});
   if (least - tolerance <= along && along <= most + tolerance) return true;
 
-  const bool curved = a.edge->arc || b.edge->arc;
+  const auto is_curved = [](const model::Edge& edge) { return edge.arc || edge.is_chain(); };
+  const bool curved = is_curved(*a.edge) || is_curved(*b.edge);
   return curved &&
          std::abs(along) <= std::min(curved_tolerance * std::min(a.spacing, b.spacing), curved_slope * std::abs(gap));
 }

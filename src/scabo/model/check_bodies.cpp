@@ -256,9 +256,14 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
          "kind: polygons or kind: quadtree");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
+  refuse(body.imported && !body.cracks.empty(), "cracks", "is not available for a body from a mesh file: leave it out");
   if (!body.cracks.empty() && body.mesh.kind == MeshKind::parts)
     checking.error(path, "cracks.0", "a crack in a body of several parts needs kind: polygons or kind: quadtree"),
         good = false;
+  refuse(body.imported && !body.mesh.refine.empty(), "mesh.refine",
+         "is not available for a mesh of a file, which has its cells already: leave it out");
+  refuse(body.imported && !body.regions.empty(), "regions",
+         "the regions of a mesh of a file are those of its cells: give them materials with 'materials'");
   refuse(body.image && body.mesh.kind != MeshKind::quadtree, "mesh.kind",
          "a body that an image shows is divided by a quadtree: write kind: quadtree");
   refuse(body.image &&
@@ -300,8 +305,11 @@ bool check_min_size(Checking& checking, const std::string& path, const MeshOptio
 /// Values of the mesh that do not depend on the shape.
 bool check_mesh_options(Checking& checking, const std::string& path, const Body& body) {
   const MeshOptions& mesh = body.mesh;
-  bool good = checking.positive(path, "mesh.size", mesh.size);
-  good = check_min_size(checking, path, mesh) && good;
+  bool good = body.imported || checking.positive(path, "mesh.size", mesh.size);
+  if ((mesh.kind == MeshKind::imported) != (body.imported && mesh.kind != MeshKind::fem))
+    checking.error(path, "mesh", "cells of a file are super-elements (kind: imported) or finite elements (kind: fem)"),
+        good = false;
+  good = (body.imported || check_min_size(checking, path, mesh)) && good;
   if (mesh.kind == MeshKind::superelement && !mesh.refine.empty())
     checking.error_of_key(path, "mesh.refine",
                           "is not available for kind: superelement: use polygons, quadtree or fem"),
@@ -420,6 +428,20 @@ void check_regions(const BodyCheck& of) {
   }
 }
 
+bool check_region_materials(Checking& checking, const std::string& path, const Body& body) {
+  const auto& regions = body.imported->regions;
+  if (body.region_materials.size() != regions.size()) {
+    checking.error(path, "materials", fmt::format("gives {} materials for {} regions of the mesh: one for each is needed",
+                                                  body.region_materials.size(), regions.size()));
+    return false;
+  }
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    if (body.region_materials[i] != body.material &&
+        !check_material(checking, path, "materials." + regions[i], body.region_materials[i]))
+      return false;
+  return true;
+}
+
 void check_rigid(Checking& checking, const std::string& path, const Body& body) {
   const auto refuse = [&](const char* key, bool given) {
     if (given) checking.error_of_key(path, key, not_for_rigid);
@@ -441,13 +463,15 @@ void check_body(Checking& checking, std::size_t index) {
     turn_round(turned);
   }
   const Outline& outline = turned.edges.empty() ? body.outline : turned;
-  checking.shape[index] = check_outline(checking, path + ".shape", outline);
+  checking.shape[index] = body.imported ? check_imported(checking, path + ".mesh", body)
+                                        : check_outline(checking, path + ".shape", outline);
   if (body.rigid) {
     check_rigid(checking, path, body);
     checking.faces[index] = checking.shape[index];
     return;
   }
   check_material(checking, path, "material", body.material);
+  if (body.imported && !check_region_materials(checking, path, body)) checking.shape[index] = false;
   const bool good = check_mesh_options(checking, path, body);
   if (!checking.shape[index]) return;
   BodyCheck of{checking, body, path, outline, body.mesh.centre_corner};

@@ -71,6 +71,7 @@ void check_law(Checking& checking, const std::string& path, const Anisotropic& a
 /// Indices of the materials of a body, without those that do not exist.
 std::set<int> materials_of(const Model& model, const Body& body) {
   std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
+  materials.insert(body.region_materials.begin(), body.region_materials.end());
   if (materials.empty()) materials.insert(body.material);
   for (const Region& region : body.regions) materials.insert(region.material);
   if (body.image)

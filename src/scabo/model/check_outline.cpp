@@ -36,8 +36,9 @@ struct Shape {
   }
 };
 
-/// A full circle may be one edge that ends where it starts.
+/// A full circle may be one edge that ends where it starts, and so may the boundary of a mesh.
 bool is_circle(const Outline& chain) {
+  if (chain.edges.size() == 1 && chain.edges[0].is_chain()) return chain.edges[0].start == chain.edges[0].end;
   return chain.edges.size() == 1 && chain.edges[0].arc && std::abs(chain.edges[0].arc->sweep) > 6.0 &&
          chain.edges[0].start == chain.edges[0].end;
 }
@@ -60,6 +61,7 @@ bool check_numbers(const Shape& shape) {
   const auto good = [&](const Edge& edge) {
     const auto all_finite = [](const Vec2& x) { return x.allFinite() && x.cwiseAbs().maxCoeff() <= 1e100; };
     if (!all_finite(edge.start) || !all_finite(edge.end)) return false;
+    if (!std::all_of(edge.points.begin(), edge.points.end(), all_finite)) return false;
     return !edge.arc || (all_finite(edge.arc->centre) && std::isfinite(edge.arc->radius) &&
                          std::isfinite(edge.arc->start_angle) && std::isfinite(edge.arc->sweep));
   };
@@ -325,6 +327,31 @@ bool check_inside(Checking& checking, const std::string& path, const std::string
     return false;
   }
   return true;
+}
+
+bool check_imported(Checking& checking, const std::string& path, const Body& body) {
+  const Outline& outline = body.outline;
+  const auto& sides = body.imported->facet_sets;
+  const Shape whole{checking, path, outline, geometry::outline_size(outline)};
+  if (outline.edges.empty() || body.imported->cells.empty()) {
+    whole.error("has no cells, or no edges");
+    return false;
+  }
+  for (const Outline& chain : chains_of(outline)) {
+    Shape shape{checking, path, chain, whole.size};
+    if (!check_counts(shape) || !check_numbers(shape) || !check_closed(shape)) return false;
+  }
+  if (!check_names(whole) || !check_extent(whole)) return false;
+  const auto lies = [&](int node, const Vec2& point) {
+    return node >= 0 && static_cast<std::size_t>(node) < body.imported->nodes.size() &&
+           (body.imported->nodes[static_cast<std::size_t>(node)] - point).norm() <= rounding * whole.size;
+  };
+  bool same = sides.size() == outline.edges.size();
+  for (std::size_t i = 0; same && i < sides.size(); ++i)
+    same = !sides[i].facets.empty() && lies(sides[i].facets.front().start, outline.edges[i].start) &&
+           lies(sides[i].facets.back().end, outline.edges[i].end);
+  if (!same) whole.error("the edges are not those of the mesh: make them with imported_body");
+  return same;
 }
 
 bool check_outline(Checking& checking, const std::string& path, const Outline& outline) {

@@ -64,8 +64,9 @@ using geometry::Edge;
 using geometry::Outline;
 
 /// One super-element; finite elements; many super-elements: polygons, or the squares of a quadtree; few super-elements,
-/// for a shape that no point sees as a whole.
-enum class MeshKind { superelement, fem, polygons, quadtree, parts };
+/// for a shape that no point sees as a whole; a super-element for every cell of a file. Cells of a file may also be
+/// finite elements.
+enum class MeshKind { superelement, fem, polygons, quadtree, parts, imported };
 
 /// Smaller cells near a point, or on an edge of the outline. Away from it sizes grow by `mesh_growth` of the distance.
 struct LocalSize {
@@ -81,12 +82,13 @@ struct MeshOptions {
   double size = 0.0;           ///< longest boundary element; largest side of a cell, > 0
   double min_size = 0.0;       ///< quadtree: cells are not halved below it on account of lines; 0: 1/32 of their size
   std::vector<LocalSize> refine;
-  int order = 2;               ///< polynomial order of a boundary element, 1 to 16
+  int order = 2;               ///< polynomial order of a boundary element, 1 to 16; of cells of a file: at least
   Vec2 centre = Vec2::Zero();  ///< scaling centre: given by the user, a crack's tip, or the centroid
   int centre_corner = -1;      ///< corner of the outline at the scaling centre, or -1: its two edges are side faces
   /// Tolerance of the estimated error in the energy norm, relative to that of the whole model. `size` and `order` are
   /// then those of the first mesh.
   std::optional<double> tolerance;
+  std::string file;  ///< that `Body::imported` comes from, for messages
   Source source;
 };
 
@@ -126,7 +128,10 @@ struct Body {
   std::vector<Crack> cracks;          ///< at most one
   std::vector<Region> regions;        ///< apart from each other, or one inside another, the outer one first
   std::vector<int> sector_materials;  ///< per edge: its sector's index into Model::materials; empty: `material`
-  std::shared_ptr<const files::ImportedMesh> imported;  ///< the mesh of the body; its outline is made from it
+  /// The mesh of the body, from a file (imported_body.hpp): facet_sets[i] has the sides along edge i of the outline, in
+  /// their order.
+  std::shared_ptr<const files::ImportedMesh> imported;
+  std::vector<int> region_materials;  ///< of imported->regions, index into Model::materials
   std::optional<ImageShape> image;    ///< divided by a quadtree; the outline is its rectangle
   bool outside = false;               ///< unbounded: the material lies outside the shape; the outline runs clockwise
   std::optional<Vec2> reference;      ///< outside body: displacements are relative to this point

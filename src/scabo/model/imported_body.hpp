@@ -1,0 +1,45 @@
+// The part of a mesh file that is one body, with an outline made from the sides of its cells.
+//
+// Sides that belong to one cell of the part only are its boundary. It is cut into edges:
+//     sides of a facet set                   an edge with the name of the set; where a set has several pieces, or begins
+//                                            within another one, the pieces are NAME, NAME_2, ...
+//     sides with a cell of another part      likewise, `to_NAME` with the name of the region of that cell
+//     all other sides                        edge_1, edge_2, ... from corner to corner
+// Corners are the starts of edges, vertex_1, vertex_2, ...: the boundary of every loop begins at its lowest corner, the
+// one furthest to the left if there are several. Sides without a set are cut where the boundary turns by more than 30
+// degrees, and at nodes that are alone in a node set, whose names are further names of corners.
+//
+// Names of the file are made names of Scabo: other characters become `_`. A chain of sides on one line becomes a
+// straight edge; sides with a middle node that are curved become eight straight segments each.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scabo/files/imported_mesh.hpp"
+#include "scabo/geometry/outline.hpp"
+
+namespace scabo::model {
+
+struct ImportedBody {
+  /// The cells of the part and their nodes. facet_sets[i]: the sides along edge i of the outline, in their order; other
+  /// sets are left out.
+  std::shared_ptr<const files::ImportedMesh> mesh;
+  geometry::Outline outline;                ///< the outer boundary, then the holes
+  std::vector<std::string> pieces;          ///< names of edges that are the first of several pieces
+  std::map<std::string, Vec2> lost_points;  ///< names of nodes that are no corners because they lie within a named edge
+};
+
+/// The cells of region number `region`, or all if it is -1; or, as a sentence, why these are no body.
+std::variant<ImportedBody, std::string> imported_body(const files::ImportedMesh& mesh, int region);
+/// The same for the cells of cell set number `set`.
+std::variant<ImportedBody, std::string> imported_body_of_set(const files::ImportedMesh& mesh, int set);
+
+/// `text` with every character that a name cannot have replaced by `_`.
+std::string name_from(std::string_view text);
+
+}  // namespace scabo::model

@@ -1,0 +1,188 @@
+// Outlines made of mesh files, and the keys around `mesh: {file: ...}`.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "scabo/files/read_mesh_file.hpp"
+#include "scabo/geometry/foot_points.hpp"
+#include "scabo/input/read_model.hpp"
+#include "scabo/model/imported_body.hpp"
+#include "support/mesh_text.hpp"
+
+namespace scabo::input {
+namespace {
+
+using model::imported_body;
+using model::ImportedBody;
+using test::mesh_of_rectangle;
+using test::MeshText;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+files::ImportedMesh parsed(const MeshText& mesh) { return files::parse_mesh(mesh.vtu(), "mesh.vtu"); }
+
+ImportedBody body_of(const MeshText& mesh, int region = -1) {
+  return std::get<ImportedBody>(imported_body(parsed(mesh), region));
+}
+
+std::vector<std::string> edge_names(const geometry::Outline& outline) {
+  std::vector<std::string> names;
+  for (const geometry::Edge& edge : outline.edges)
+    for (const std::string& name : edge.names) names.push_back(name);
+  return names;
+}
+
+TEST(ImportedBody, OfARectangleHasFourStraightEdges) {
+  for (const int type : {5, 7, 9, 22, 23, 36}) {
+    const ImportedBody body = body_of(mesh_of_rectangle(type, 3.0, 2.0, 6, 4));
+    const geometry::Outline& outline = body.outline;
+    EXPECT_THAT(edge_names(outline), ElementsAre("edge_1", "edge_2", "edge_3", "edge_4"));
+    EXPECT_EQ(outline.edges[0].start, Vec2(0, 0));
+    EXPECT_EQ(outline.edges[1].start, Vec2(3, 0));
+    EXPECT_EQ(outline.edges[2].end, Vec2(0, 2));
+    for (const geometry::Edge& edge : outline.edges) EXPECT_FALSE(edge.is_chain());
+    EXPECT_EQ(outline.corners[2].names.front(), "vertex_3");
+    EXPECT_EQ(body.mesh->facet_sets.size(), 4u);
+    EXPECT_EQ(body.mesh->facet_sets[1].facets.size(), 4u);
+    EXPECT_DOUBLE_EQ(outline.area(), 6.0);
+  }
+}
+
+TEST(ImportedBody, NamesEdgesAndCornersBySets) {
+  MeshText mesh = mesh_of_rectangle(9, 4.0, 1.0, 4, 1);  // nodes 0 to 4 at the bottom, 5 to 9 at the top
+  mesh.cells.push_back({3, {1, 2}, 7});
+  mesh.cells.push_back({3, {2, 3}, 7});   // x from 1 to 3 of the bottom
+  mesh.cells.push_back({3, {9, 8}, 8});
+  mesh.cells.push_back({3, {6, 5}, 8});   // the two ends of the top
+  mesh.cells.push_back({3, {8, 3}, 9});   // between two cells: no edge
+  mesh.cells.push_back({1, {7}, 3});      // cuts the middle of the top
+  mesh.cells.push_back({1, {2}, 4});      // within a named edge
+  const ImportedBody body = body_of(mesh);
+  EXPECT_THAT(edge_names(body.outline), ElementsAre("edge_1", "boundary_7", "edge_2", "edge_3", "boundary_8", "edge_4",
+                                                    "edge_5", "boundary_8_2", "edge_6"));
+  EXPECT_EQ(body.outline.edges[1].start, Vec2(1, 0));
+  EXPECT_EQ(body.outline.edges[1].end, Vec2(3, 0));
+  EXPECT_THAT(body.outline.corners[6].names, ElementsAre("vertex_7", "points_3"));
+  EXPECT_EQ(body.outline.corners[6].position, Vec2(2, 1));
+  EXPECT_THAT(body.pieces, ElementsAre("boundary_8"));
+  ASSERT_EQ(body.lost_points.size(), 1u);
+  EXPECT_EQ(body.lost_points.at("points_4"), Vec2(2, 0));
+}
+
+TEST(ImportedBody, CutsEdgesWhereSetsOverlap) {
+  MeshText mesh = mesh_of_rectangle(9, 4.0, 1.0, 4, 1);
+  for (int i = 0; i < 4; ++i) mesh.cells.push_back({3, {i, i + 1}, 1});
+  mesh.cells.push_back({3, {1, 2}, 2});
+  const ImportedBody body = body_of(mesh);
+  // boundary_2 is also the second piece of boundary_1.
+  EXPECT_THAT(edge_names(body.outline), ElementsAre("boundary_1", "boundary_1_2", "boundary_2", "boundary_1_3", "edge_1",
+                                                    "edge_2", "edge_3"));
+}
+
+TEST(ImportedBody, OfARegionNamesItsBorders) {
+  const MeshText mesh = mesh_of_rectangle(9, 4.0, 2.0, 4, 2, [](int i, int) { return i < 1 ? 1 : i < 3 ? 2 : 3; });
+  const files::ImportedMesh file = parsed(mesh);
+  const ImportedBody middle = std::get<ImportedBody>(imported_body(file, 1));
+  EXPECT_THAT(edge_names(middle.outline), ElementsAre("edge_1", "to_region_3", "edge_2", "to_region_1"));
+  EXPECT_EQ(middle.outline.edges[1].start, Vec2(3, 0));
+  EXPECT_EQ(middle.mesh->cells.size(), 4u);
+  EXPECT_EQ(middle.mesh->nodes.size(), 9u);
+  EXPECT_THAT(middle.mesh->regions, ElementsAre("region_2"));
+}
+
+TEST(ImportedBody, HasHolesAndClosedEdges) {
+  const int sides = 24;
+  const files::ImportedMesh file = parsed(test::mesh_of_disc_in_ring(sides, true));
+  const ImportedBody ring = std::get<ImportedBody>(imported_body(file, 1));
+  EXPECT_THAT(edge_names(ring.outline), ElementsAre("edge_1", "to_region_1"));
+  EXPECT_THAT(ring.outline.holes, ElementsAre(1));
+  EXPECT_TRUE(ring.outline.edges[0].is_chain());
+  EXPECT_EQ(ring.outline.edges[1].start, ring.outline.edges[1].end);
+  // Eight chords of each parabola, which turn by 2 pi / 192 each: sin(x) / x of the area less than 1 with x = 2 pi / 192.
+  const double chords = std::numbers::pi * 2.0 / 192.0;
+  EXPECT_NEAR(ring.outline.area() / (3.0 * std::numbers::pi), 1.0 - chords * chords / 6.0, 2e-5);
+  EXPECT_NEAR(ring.outline.edges[0].length() / (4.0 * std::numbers::pi), 1.0 - chords * chords / 24.0, 1e-5);
+  EXPECT_FALSE(geometry::encloses(ring.outline, {0.99, 0.0}));
+  EXPECT_TRUE(geometry::encloses(ring.outline, {1.01, 0.0}));
+  // Of the lowest nodes the first edge starts at the one furthest to the left.
+  EXPECT_LT((ring.outline.edges[0].start - Vec2(0, -2)).norm(), 1e-15);
+}
+
+TEST(ImportedBody, IsConnected) {
+  MeshText mesh = mesh_of_rectangle(9, 1.0, 1.0, 1, 1);
+  mesh.nodes.insert(mesh.nodes.end(), {{2, 0}, {3, 0}, {3, 1}, {2, 1}});
+  mesh.cells.push_back({9, {4, 5, 6, 7}, 2});
+  const std::string why = std::get<std::string>(imported_body(parsed(mesh), -1));
+  EXPECT_THAT(why, HasSubstr("2 parts"));
+  EXPECT_THAT(why, HasSubstr("'region': 'region_1', 'region_2'"));
+  EXPECT_EQ(body_of(mesh, 1).outline.edges[0].start, Vec2(2, 0));
+  mesh.cells.back().region = 1;
+  EXPECT_THAT(std::get<std::string>(imported_body(parsed(mesh), -1)), HasSubstr("join equal nodes"));
+}
+
+TEST(ImportedBody, MayTouchItselfAtACrack) {
+  // 2 x 2 cells with a crack from the left to the middle: nodes 3 and 9 lie at (0, 1).
+  MeshText mesh;
+  for (int j = 0; j <= 2; ++j)
+    for (int i = 0; i <= 2; ++i) mesh.nodes.push_back({i, j});
+  mesh.nodes.push_back({0, 1});
+  mesh.cells = {{9, {0, 1, 4, 3}, 1}, {9, {1, 2, 5, 4}, 1}, {9, {9, 4, 7, 6}, 1}, {9, {4, 5, 8, 7}, 1}};
+  const ImportedBody body = body_of(mesh);
+  EXPECT_EQ(body.outline.edges.size(), 7u);  // the left side in two, and the two faces of the crack
+  EXPECT_DOUBLE_EQ(body.outline.area(), 4.0);
+  EXPECT_NO_THROW(parse_model(fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 1, poisson: 0.3}}}}
+bodies: {{plate: {{material: steel, mesh: {{file: {}}}}}}}
+supports: [{{on: plate.edge_1, fix: [x, y]}}]
+loads: {{pull: {{on: plate.edge_3, force: [0, 1]}}}}
+)",
+                                          mesh.file()),
+                              "model.yaml"));
+}
+
+TEST(ImportedBody, NamesAreMadeValid) {
+  EXPECT_EQ(model::name_from("My surface"), "My_surface");
+  EXPECT_EQ(model::name_from("5"), "_5");
+  EXPECT_EQ(model::name_from("crest-1"), "crest-1");
+  EXPECT_EQ(model::name_from("-a.b"), "_-a_b");
+  EXPECT_EQ(model::name_from(""), "_");
+}
+
+std::string model_of(const std::string& body, const std::string& rest = "") {
+  return "scabo: 1\nmaterials: {rock: {young: 1, poisson: 0.3}, steel: {young: 2, poisson: 0.3}}\nbodies: {part: {" + body +
+         "}}\nsupports: [{on: part.edge_1, fix: [x, y]}]\nloads: {pull: {on: part.edge_3, force: [0, 1]}}\n" + rest;
+}
+
+TEST(ImportedBody, MaterialsOfRegions) {
+  const std::string file = mesh_of_rectangle(9, 4.0, 2.0, 4, 2, [](int i, int) { return i < 2 ? 1 : 2; }).file();
+  const auto materials = [&](const std::string& keys) {
+    return parse_model(model_of(keys + ", mesh: {file: " + file + "}"), "model.yaml").bodies[0].region_materials;
+  };
+  EXPECT_THAT(materials("material: rock"), ElementsAre(0, 0));
+  EXPECT_THAT(materials("material: rock, materials: {region_2: steel}"), ElementsAre(0, 1));
+  EXPECT_THAT(materials("materials: {region_2: rock, region_1: steel}"), ElementsAre(1, 0));
+}
+
+TEST(ImportedBody, IsReadBesideTheModelFile) {
+  const std::filesystem::path file = mesh_of_rectangle(9, 1.0, 1.0, 1, 1).file();
+  const std::string model = model_of("material: rock, mesh: {file: " + file.filename().string() + "}");
+  EXPECT_NO_THROW(parse_model(model, (file.parent_path() / "model.yaml").string()));
+  EXPECT_THROW(parse_model(model, "/nowhere/model.yaml"), InputError);
+}
+
+TEST(ImportedBody, WarnsOfPieces) {
+  MeshText mesh = mesh_of_rectangle(9, 4.0, 1.0, 4, 1);
+  mesh.cells.push_back({3, {0, 1}, 1});
+  mesh.cells.push_back({3, {3, 4}, 1});
+  const auto read = parse_model(model_of("material: rock, mesh: {file: " + mesh.file() + "}",
+                                         "contacts: {}\noutput: {}\n# boundary_1 is used twice below\n"),
+                                "model.yaml", {parse_override("supports.0.on=part.boundary_1")});
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_THAT(read.warnings[0], HasSubstr("part.boundary_1 is its first piece, and part.boundary_1_2 the next"));
+}
+
+}  // namespace
+}  // namespace scabo::input
