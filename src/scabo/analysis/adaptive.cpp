@@ -198,13 +198,6 @@ void replay(StaticSolution& solution, const Options& options) {
   }
 }
 
-int largest_body(const mesh::Mesh& mesh) {
-  std::size_t nodes = 0;
-  for (const mesh::BodyMesh& body : mesh.bodies)
-    if (body.cells.size() == 1) nodes = std::max(nodes, body.nodes.size());
-  return 2 * static_cast<int>(nodes);
-}
-
 /// Error measures that control refinement.
 struct Judgement {
   double sum = 0.0;    ///< eq. (1) of the worst increment
@@ -226,17 +219,36 @@ Judgement judge(const StaticSolution& solution) {
   return judgement;
 }
 
-/// Contribution of every element to the sum in the worst increment.
-std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const StaticSolution& wider,
-                                           std::size_t worst) {
-  std::vector<std::vector<double>> shares(solution.model.bodies.size());
-  for (std::size_t b = 0; b < shares.size(); ++b) {
-    const auto& tolerance = solution.model.bodies[b].mesh.tolerance;
-    if (!tolerance || !has_estimate(solution, b)) continue;
-    for (const double error : element_errors(solution, solution.increments[worst], wider, wider.increments[worst], b))
-      shares[b].push_back(std::pow(error / *tolerance, 2));
+/// Squared errors of the cells of a body, force times length.
+std::vector<double> squared_errors(const StaticSolution& solution, const IncrementResult& increment,
+                                   const StaticSolution& wider, const IncrementResult& wider_increment,
+                                   std::size_t b) {
+  std::vector<double> squared;
+  for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
+    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *wider.cells[b][c];
+    const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
+    // Loads inside a cell are not among the forces on its boundary.
+    const bool relaxed = element::loads_in(increment.interior[b], c).loads.empty();
+    squared.push_back(element::squared_difference(
+        {narrow.ring.elements, narrow.solution.K, u, wide.ring.elements, wide.solution.K, U, relaxed}));
   }
-  return shares;
+  return squared;
+}
+
+/// Parts that boundary elements, or cells, have in the sum in the worst increment.
+MeshErrors errors_of(const StaticSolution& solution, const StaticSolution& wider, std::size_t worst) {
+  MeshErrors errors{solution.mesh, {}, frozen_elements(solution)};
+  errors.shares.resize(solution.model.bodies.size());
+  const IncrementResult &increment = solution.increments[worst], &wider_increment = wider.increments[worst];
+  for (std::size_t b = 0; b < errors.shares.size(); ++b) {
+    const model::Body& body = solution.model.bodies[b];
+    if (!body.mesh.tolerance || !has_estimate(solution, b)) continue;
+    const std::vector<double> of_parts = model::is_divided_inside(body)
+                                             ? cell_errors(solution, increment, wider, wider_increment, b)
+                                             : element_errors(solution, increment, wider, wider_increment, b);
+    for (const double error : of_parts) errors.shares[b].push_back(std::pow(error / *body.mesh.tolerance, 2));
+  }
+  return errors;
 }
 
 StaticSolution not_reached(StaticSolution solution, const std::string& why) {
@@ -297,14 +309,10 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
   double energy = 0.0;
   for (std::size_t b = 0; b < error.bodies.size(); ++b) {
     if (!has_estimate(solution, b)) continue;
+    for (const double of_cell : squared_errors(solution, increment, wider, wider_increment, b)) squared[b] += of_cell;
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
-      const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *wider.cells[b][c];
-      const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
-      // Loads inside a cell are not among the forces on its boundary.
-      const bool relaxed = element::loads_in(increment.interior[b], c).loads.empty();
-      squared[b] += element::squared_difference(
-          {narrow.ring.elements, narrow.solution.K, u, wide.ring.elements, wide.solution.K, U, relaxed});
-      energy += U.dot(wide.solution.K * U);
+      const Vector U = displacement_of(wider, wider_increment, b, c);
+      energy += U.dot(wider.cells[b][c]->solution.K * U);
     }
   }
   // Finite element bodies have energy too, although no error estimate.
@@ -334,6 +342,14 @@ std::vector<double> element_errors(const StaticSolution& solution, const Increme
   return errors;
 }
 
+std::vector<double> cell_errors(const StaticSolution& solution, const IncrementResult& increment,
+                                const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t body) {
+  const BodyError& whole = *increment.error->bodies[body];
+  std::vector<double> errors = squared_errors(solution, increment, wider, wider_increment, body);
+  for (double& error : errors) error = error > 0.0 ? std::sqrt(error) * whole.relative / whole.absolute : 0.0;
+  return errors;
+}
+
 StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options) {
   hold_near_places(model, mesh);
   StaticSolution solution = solve_on_mesh(std::move(model), std::move(mesh), quiet(options, "mesh"));
@@ -349,12 +365,67 @@ StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Optio
   return solution;
 }
 
+namespace {
+
+/// Solution and estimate of one pass; without `wider` the loop ends with `solution`.
+struct SolvedPass {
+  StaticSolution solution;
+  std::optional<StaticSolution> wider;
+};
+
+/// Solve and estimate.
+SolvedPass solve_pass(const model::Model& model, mesh::Mesh mesh, const Options& options, const std::string& name) {
+  SolvedPass pass{solve_on_mesh(model, std::move(mesh), quiet(options, name)), {}};
+  if (pass.solution.outcome != Outcome::solved) return pass;
+  std::string why;
+  pass.wider = solve_wider(pass.solution, options, name + ", error", why);
+  if (pass.wider) {
+    estimate_all(pass.solution, *pass.wider);
+  } else if (options.stop && *options.stop) {
+    pass.solution.outcome = Outcome::interrupted;
+    pass.solution.reason = "interrupted: the results are those of a mesh whose error is not known";
+  } else {
+    pass.solution = not_reached(std::move(pass.solution), "no error was estimated: on the mesh of higher order, " + why);
+  }
+  return pass;
+}
+
+/// Why no further pass is made after those of which `sums` are those of eq. (1); empty if one is.
+std::string obstacle_after(const std::vector<double>& sums, const RefinementLimits& limits, const std::string& at) {
+  const auto back = static_cast<std::size_t>(limits.without_progress);
+  if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
+    return at + ", and further refinement does not reduce it";
+  if (static_cast<int>(sums.size()) == limits.passes) return fmt::format("after {} passes {}", limits.passes, at);
+  return {};
+}
+
+/// Why the next mesh is not made; empty if it is.
+std::string too_fine(const ModelRefinement& next, const mesh::Mesh& mesh, const RefinementLimits& limits,
+                     const std::string& at) {
+  int present = 0;
+  for (const mesh::BodyMesh& body : mesh.bodies)
+    if (body.cells.size() == 1) present = std::max(present, 2 * static_cast<int>(body.nodes.size()));
+  const int dofs = next.boundaries.largest_body(), of_cells = next.cells.largest_body();
+  const auto text = [&](const char* about, int would, int most) {
+    return fmt::format("{}; a finer mesh would have {}{} in one body, more than {}", at, about, would, most);
+  };
+  if (dofs > std::max(limits.dofs, present)) return text("", dofs, limits.dofs);
+  if (of_cells > limits.dofs_of_cells) return text("about ", of_cells, limits.dofs_of_cells);
+  return {};
+}
+
+}  // namespace
+
 StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits) {
-  Refinement refinement(model);
+  ModelRefinement refinement(model);
+  mesh::Mesh mesh = refinement.mesh();
+  hold_near_places(model, mesh);
+  if (const auto at_forces = elements_at_forces(model, refinement.boundaries.division()); !at_forces.empty()) {
+    refinement.boundaries.divide_at_corners(mesh, at_forces);
+    mesh = refinement.mesh();
+  }
   std::vector<RefinementPass> passes;
   std::vector<double> sums;
-  std::optional<StaticSolution> last;
-  bool begun = false;
   const auto end = [&](StaticSolution solution) {
     solution.passes = passes;
     if (solution.outcome != Outcome::interrupted) warn_of_frozen(solution);
@@ -362,69 +433,32 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     return solution;
   };
   while (true) {
-    const std::string name = fmt::format("pass {}", passes.size() + 1);
-    mesh::Mesh mesh;
-    try {
-      mesh = mesh::make_mesh(model, refinement.division());
-    } catch (const InputError& error) {
-      if (!last) throw;
-      return end(not_reached(std::move(*last), error.diagnostics().front().message));
-    }
-    if (passes.empty() && !begun) {
-      hold_near_places(model, mesh);
-      refinement.divide_at_corners(mesh, elements_at_forces(model, refinement.division()));
-      begun = true;
-      continue;
-    }
-    StaticSolution solution = solve_on_mesh(model, std::move(mesh), quiet(options, name));
-    if (solution.outcome != Outcome::solved) return end(std::move(solution));
-    std::string why;
-    const auto wider = solve_wider(solution, options, name + ", error", why);
-    if (!wider) {
-      if (options.stop && *options.stop) {
-        solution.outcome = Outcome::interrupted;
-        solution.reason = "interrupted: the results are those of a mesh whose error is not known";
-        return end(std::move(solution));
-      }
-      return end(not_reached(std::move(solution), "no error was estimated: on the mesh of higher order, " + why));
-    }
-    estimate_all(solution, *wider);
+    auto [solution, wider] = solve_pass(model, std::move(mesh), options, fmt::format("pass {}", passes.size() + 1));
+    if (!wider) return end(std::move(solution));
     const Judgement judgement = judge(solution);
     passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});
     sums.push_back(judgement.sum);
     if (judgement.sum <= aim * aim) return end(std::move(solution));
-    // If refinement cannot continue, an estimate between the aim and the tolerance is accepted.
-    const bool below = judgement.sum <= 1.0;
-    const auto stuck = [&](const std::string& why_not) {
-      return end(below ? std::move(solution) : not_reached(std::move(solution), why_not));
-    };
 
-    const auto at = [&] {
-      return fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error,
-                         passes.back().dofs);
-    };
-    const auto back = static_cast<std::size_t>(limits.without_progress);
-    if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
-      return stuck(at() + ", and further refinement does not reduce it");
-    if (static_cast<int>(passes.size()) == limits.passes)
-      return stuck(fmt::format("after {} passes {}", limits.passes, at()));
-    const RefinementPass refined =
-        refinement.refine(solution.mesh, shares_of(solution, *wider, judgement.worst), frozen_elements(solution));
-    passes.back().raised = refined.raised;
-    passes.back().divided = refined.divided;
-    if (refined.raised + refined.divided == 0) return stuck(at() + ", and no element can be refined further");
-    const mesh::Division& division = refinement.division();
-    int nodes = 0;
-    for (const mesh::BodyDivision& body : division) {
-      int of_body = 0;
-      for (const mesh::EdgeDivision& edge : body)
-        for (const int order : edge.orders) of_body += order;
-      nodes = std::max(nodes, of_body);
+    const std::string at = fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error,
+                                       passes.back().dofs);
+    std::string obstacle = obstacle_after(sums, limits, at);
+    if (obstacle.empty()) {
+      const MeshErrors errors = errors_of(solution, *wider, judgement.worst);
+      const RefinementPass refined = refinement.refine(errors, mark(refinement.parts(errors)));
+      passes.back().raised = refined.raised;
+      passes.back().divided = refined.divided;
+      obstacle = refined.raised + refined.divided == 0 ? at + ", and no element can be refined further"
+                                                       : too_fine(refinement, solution.mesh, limits, at);
     }
-    if (2 * nodes > std::max(limits.dofs, largest_body(solution.mesh)))
-      return stuck(
-          fmt::format("{}; a finer mesh would have {} in one body, more than {}", at(), 2 * nodes, limits.dofs));
-    last = std::move(solution);
+    // Where refinement cannot continue, an estimate between the aim and the tolerance is accepted.
+    if (!obstacle.empty())
+      return end(judgement.sum <= 1.0 ? std::move(solution) : not_reached(std::move(solution), obstacle));
+    try {
+      mesh = refinement.mesh();
+    } catch (const InputError& error) {
+      return end(not_reached(std::move(solution), error.diagnostics().front().message));
+    }
   }
 }
 

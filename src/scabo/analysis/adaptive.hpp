@@ -34,7 +34,8 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh);
 StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options);
 
 struct RefinementLimits {
-  int dofs = 5000;  ///< in one body
+  int dofs = 5000;              ///< in a body that is one super-element
+  int dofs_of_cells = 100'000;  ///< in a body of many cells
   int passes = 40;
   int without_progress = 4;  ///< number of passes that together reduce eq. (1) by less than a fifth
 };
@@ -52,5 +53,9 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
 std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment,
                                    const StaticSolution& wider, const IncrementResult& wider_increment,
                                    std::size_t body);
+
+/// Errors of the cells of a body with an estimated error, in the same way.
+std::vector<double> cell_errors(const StaticSolution& solution, const IncrementResult& increment,
+                                const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t body);
 
 }  // namespace scabo::analysis

@@ -5,6 +5,9 @@
 #include <limits>
 #include <map>
 
+#include "scabo/geometry/box.hpp"
+#include "scabo/mesh/many_cells.hpp"
+
 namespace scabo::analysis {
 
 namespace {
@@ -20,6 +23,72 @@ constexpr double grading = 0.15;
 /// of the lengths of its elements (5e-10 measured for 1e-5), and energies lose as many digits.
 constexpr double shortest = 1e-4;
 
+/// Cells whose share differs by less than this from one that is refined are refined as well.
+constexpr double nearly_equal = 0.99;
+/// Change of the size of a marked polygon in one pass.
+constexpr double least_factor = 0.35, largest_factor = 0.7;
+/// What all cells together should reach, as the sum of eq. (1) of adaptive.hpp; a little less than demanded there.
+constexpr double aim_of_cells = 0.4;
+/// Growth of sizes away from refined cells. Squares are halved without their neighbours (size_field.hpp); the
+/// quadtree itself sees to it that sizes change gradually.
+constexpr double growth_of_squares = 0.75;
+/// Cells smaller than this part of their body are not divided: coordinates of their nodes relative to their centre
+/// would lose too many digits.
+constexpr double smallest = 1e-8;
+
+/// Whether the cells of a body are refined.
+bool is_refined(const model::Body& body) {
+  return !body.rigid && body.mesh.tolerance && model::is_divided_inside(body);
+}
+
+double growth_of(const model::Body& body) {
+  return body.mesh.kind == model::MeshKind::quadtree ? growth_of_squares : model::mesh_growth;
+}
+
+double outline_size(const model::Body& body) { return geometry::outline_size(body.outline); }
+
+struct CellBox {
+  Vec2 middle;
+  double side = 0.0;  ///< the longer one
+};
+CellBox box_of(const mesh::BodyMesh& mesh, const mesh::Cell& cell) {
+  Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (const mesh::LineElement& element : cell.boundary)
+    for (const int node : {element.nodes.front(), element.nodes.back()}) {
+      lower = lower.cwiseMin(mesh.nodes[static_cast<std::size_t>(node)]);
+      upper = upper.cwiseMax(mesh.nodes[static_cast<std::size_t>(node)]);
+    }
+  return {0.5 * (lower + upper), (upper - lower).maxCoeff()};
+}
+
+/// Whether cells have an element that must not be changed.
+std::vector<bool> frozen_cells(const MeshErrors& errors, std::size_t body) {
+  std::vector<bool> frozen;
+  std::size_t place = 0;
+  for (const mesh::Cell& cell : errors.mesh.bodies[body].cells) {
+    frozen.push_back(false);
+    for (std::size_t e = 0; e < cell.boundary.size(); ++e, ++place)
+      if (errors.frozen[body][place]) frozen.back() = true;
+  }
+  return frozen;
+}
+
+/// Sides of frozen cells, and the least size that leaves a frozen cell as it is: sizes of squares change by halves, so
+/// that those within one side of it cannot be of any size.
+std::vector<CellBox> frozen_boxes(const MeshErrors& errors, std::size_t body) {
+  std::vector<CellBox> boxes;
+  const std::vector<bool> frozen = frozen_cells(errors, body);
+  for (std::size_t c = 0; c < frozen.size(); ++c)
+    if (frozen[c]) boxes.push_back(box_of(errors.mesh.bodies[body], errors.mesh.bodies[body].cells[c]));
+  return boxes;
+}
+double least_size_beside(const std::vector<CellBox>& frozen, const Vec2& x) {
+  double least = 0.0;
+  for (const CellBox& box : frozen)
+    least = std::max(least, box.side * std::clamp(0.5 * (1.75 - (x - box.middle).norm() / box.side), 0.0, 0.5));
+  return least;
+}
+
 using Partners = std::map<mesh::EdgeElement, mesh::EdgeElement>;
 Partners partners_of(const model::Model& model, const mesh::Mesh& mesh) {
   Partners partner;
@@ -29,7 +98,7 @@ Partners partners_of(const model::Model& model, const mesh::Mesh& mesh) {
 
 }  // namespace
 
-Refinement::Refinement(const model::Model& model) : model_(model), division_(mesh::uniform_division(model)) {
+BoundaryRefinement::BoundaryRefinement(const model::Model& model) : model_(model), division_(mesh::uniform_division(model)) {
   for (const mesh::BodyDivision& body : division_) {
     auto& of_body = predicted_.emplace_back();
     for (const mesh::EdgeDivision& edge : body)
@@ -37,7 +106,7 @@ Refinement::Refinement(const model::Model& model) : model_(model), division_(mes
   }
 }
 
-Refinement::Change Refinement::change_for(const mesh::EdgeElement& at, double share) const {
+BoundaryRefinement::Change BoundaryRefinement::change_for(const mesh::EdgeElement& at, double share) const {
   const mesh::EdgeDivision& edge = division_[static_cast<std::size_t>(at.body)][static_cast<std::size_t>(at.edge)];
   const auto k = static_cast<std::size_t>(at.element);
   const bool as_predicted =
@@ -48,18 +117,18 @@ Refinement::Change Refinement::change_for(const mesh::EdgeElement& at, double sh
   return can_divide ? Change::divide : Change::none;
 }
 
-bool Refinement::at_corner(const mesh::EdgeElement& at, bool start) const {
+bool BoundaryRefinement::at_corner(const mesh::EdgeElement& at, bool start) const {
   const mesh::EdgeDivision& edge = division_[static_cast<std::size_t>(at.body)][static_cast<std::size_t>(at.edge)];
   return start ? at.element == 0 : at.element + 1 == static_cast<int>(edge.orders.size());
 }
 
 /// Where an element is divided, 0 at its start and 1 at its end.
-double Refinement::cut_of(const mesh::EdgeElement& at) const {
+double BoundaryRefinement::cut_of(const mesh::EdgeElement& at) const {
   const bool start = at_corner(at, true), end = at_corner(at, false);
   return start == end ? 0.5 : start ? grading : 1.0 - grading;
 }
 
-void Refinement::divide_at_corners(const mesh::Mesh& mesh, const std::vector<mesh::EdgeElement>& elements) {
+void BoundaryRefinement::divide_at_corners(const mesh::Mesh& mesh, const std::vector<mesh::EdgeElement>& elements) {
   const Partners partner = partners_of(model_, mesh);
   std::map<mesh::EdgeElement, double> cuts;
   for (const mesh::EdgeElement& at : elements) {
@@ -70,7 +139,7 @@ void Refinement::divide_at_corners(const mesh::Mesh& mesh, const std::vector<mes
     apply(at->first, Change::divide, at->second, std::numeric_limits<double>::infinity());
 }
 
-void Refinement::apply(const mesh::EdgeElement& at, Change change, double cut, double share) {
+void BoundaryRefinement::apply(const mesh::EdgeElement& at, Change change, double cut, double share) {
   mesh::EdgeDivision& edge = division_[static_cast<std::size_t>(at.body)][static_cast<std::size_t>(at.edge)];
   std::vector<double>& predicted = predicted_[static_cast<std::size_t>(at.body)][static_cast<std::size_t>(at.edge)];
   const auto k = static_cast<std::size_t>(at.element);
@@ -88,41 +157,33 @@ void Refinement::apply(const mesh::EdgeElement& at, Change change, double cut, d
   predicted.insert(predicted.begin() + place + 1, left_over(1.0 - cut));
 }
 
-RefinementPass Refinement::refine(const mesh::Mesh& mesh, const std::vector<std::vector<double>>& shares,
-                                  const std::vector<std::vector<bool>>& frozen) {
-  struct Element {
-    mesh::EdgeElement at;
-    double share = 0.0;
-  };
-  std::vector<Element> elements;
-  double sum = 0.0;
+std::vector<Part> BoundaryRefinement::parts(const MeshErrors& errors) const {
+  std::vector<Part> parts;
   for (int b = 0; b < static_cast<int>(division_.size()); ++b) {
     const auto body = static_cast<std::size_t>(b);
     if (!model_.bodies[body].mesh.tolerance) continue;
     for (int e = 0; e < static_cast<int>(division_[body].size()); ++e)
       for (int k = 0; k < static_cast<int>(division_[body][static_cast<std::size_t>(e)].orders.size()); ++k) {
-        const int place = mesh::boundary_element(mesh.bodies[body], e, k);
-        if (place < 0 || frozen[body][static_cast<std::size_t>(place)]) continue;
-        const double share = shares[body][static_cast<std::size_t>(place)];
-        elements.push_back({{b, e, k}, share});
-        sum += share;
+        const int place = mesh::boundary_element(errors.mesh.bodies[body], e, k);
+        if (place < 0 || errors.frozen[body][static_cast<std::size_t>(place)]) continue;
+        parts.push_back({{b, e, k}, errors.shares[body][static_cast<std::size_t>(place)]});
       }
   }
-  std::stable_sort(elements.begin(), elements.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+  return parts;
+}
 
+RefinementPass BoundaryRefinement::refine(const MeshErrors& errors, const std::vector<Part>& marked) {
   // The requested changes, with equal changes for facing elements: division takes precedence over a higher order.
-  const Partners partner = partners_of(model_, mesh);
+  const Partners partner = partners_of(model_, errors.mesh);
   struct Wanted {
     Change change = Change::none;
     double share = 0.0, cut = 0.5;
   };
   std::map<mesh::EdgeElement, Wanted> wanted;
   std::map<mesh::EdgeElement, double> share_of;
-  for (const Element& element : elements) share_of[element.at] = element.share;
-  double held = 0.0;
-  for (const Element& element : elements) {
-    if (held >= bulk * sum || element.share <= 0.0) break;
-    held += element.share;
+  for (const Part& part : parts(errors)) share_of[part.at] = part.share;
+  for (const Part& element : marked) {
+    if (element.at.edge < 0) continue;
     const Change change = change_for(element.at, element.share);
     if (change == Change::none) continue;
     const double cut = cut_of(element.at);
@@ -144,6 +205,102 @@ RefinementPass Refinement::refine(const mesh::Mesh& mesh, const std::vector<std:
     ++(at->second.change == Change::raise ? pass.raised : pass.divided);
   }
   return pass;
+}
+
+int BoundaryRefinement::largest_body() const {
+  int nodes = 0;
+  for (const mesh::BodyDivision& body : division_) {
+    int of_body = 0;
+    for (const mesh::EdgeDivision& edge : body)
+      for (const int order : edge.orders) of_body += order;
+    nodes = std::max(nodes, of_body);
+  }
+  return 2 * nodes;
+}
+
+CellRefinement::CellRefinement(const model::Model& model) : model_(model), sizes_(model.bodies.size()) {}
+
+std::vector<Part> CellRefinement::parts(const MeshErrors& errors) const {
+  std::vector<Part> parts;
+  for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
+    const auto body = static_cast<std::size_t>(b);
+    if (!is_refined(model_.bodies[body])) continue;
+    const std::vector<bool> frozen = frozen_cells(errors, body);
+    for (std::size_t c = 0; c < frozen.size(); ++c)
+      if (!frozen[c]) parts.push_back({{b, -1, static_cast<int>(c)}, errors.shares[body][c]});
+  }
+  return parts;
+}
+
+RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vector<Part>& marked) {
+  RefinementPass pass;
+  std::vector<std::vector<mesh::SizeField::Sample>> samples(model_.bodies.size());
+  std::vector<double> cells(model_.bodies.size(), 0.0);  // expected
+  std::vector<std::vector<CellBox>> frozen(model_.bodies.size());
+  std::size_t all = 0;
+  for (std::size_t b = 0; b < samples.size(); ++b) {
+    if (!is_refined(model_.bodies[b])) continue;
+    samples[b] = sizes_[b].samples();
+    frozen[b] = frozen_boxes(errors, b);
+    cells[b] = static_cast<double>(errors.mesh.bodies[b].cells.size());
+    all += errors.mesh.bodies[b].cells.size();
+  }
+  for (const Part& part : marked) {
+    if (part.at.edge >= 0) continue;
+    const auto b = static_cast<std::size_t>(part.at.body);
+    const model::Body& body = model_.bodies[b];
+    const mesh::BodyMesh& mesh = errors.mesh.bodies[b];
+    const mesh::Cell& cell = mesh.cells[static_cast<std::size_t>(part.at.element)];
+    const CellBox box = box_of(mesh, cell);
+    const double size = std::min(box.side, mesh::wanted_size(body, sizes_[b], box.middle));
+    const bool square = body.mesh.kind == model::MeshKind::quadtree;
+    const double target = aim_of_cells / static_cast<double>(all);
+    const double factor =
+        square ? 0.5 : std::clamp(std::pow(target / part.share, 0.5 / (body.mesh.order + 1)), least_factor, largest_factor);
+    const double least = std::max(smallest * outline_size(body), least_size_beside(frozen[b], box.middle));
+    const double next = std::max(factor * size, least);
+    if (next > 0.99 * size) continue;
+    samples[b].push_back({box.middle, next});
+    cells[b] += size * size / (next * next) - 1.0;
+    ++pass.divided;
+  }
+  largest_body_ = 0;
+  for (std::size_t b = 0; b < samples.size(); ++b) {
+    if (!is_refined(model_.bodies[b])) continue;
+    sizes_[b] = mesh::SizeField(samples[b], growth_of(model_.bodies[b]));
+    const mesh::BodyMesh& mesh = errors.mesh.bodies[b];
+    const double nodes = static_cast<double>(mesh.nodes.size()) * cells[b] / static_cast<double>(mesh.cells.size());
+    largest_body_ = std::max(largest_body_, static_cast<int>(std::min(2.0 * nodes, 1e9)));
+  }
+  return pass;
+}
+
+std::vector<Part> ModelRefinement::parts(const MeshErrors& errors) const {
+  std::vector<Part> parts = boundaries.parts(errors);
+  for (const Part& cell : cells.parts(errors)) parts.push_back(cell);
+  return parts;
+}
+
+RefinementPass ModelRefinement::refine(const MeshErrors& errors, const std::vector<Part>& marked) {
+  RefinementPass pass = boundaries.refine(errors, marked);
+  const RefinementPass of_cells = cells.refine(errors, marked);
+  pass.raised += of_cells.raised;
+  pass.divided += of_cells.divided;
+  return pass;
+}
+
+std::vector<Part> mark(std::vector<Part> parts) {
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.share > b.share; });
+  double sum = 0.0, held = 0.0;
+  for (const Part& part : parts) sum += part.share;
+  std::size_t count = 0;
+  for (; count < parts.size() && parts[count].share > 0.0; ++count) {
+    const bool as_the_last = count > 0 && parts[count].at.edge < 0 && parts[count].share > nearly_equal * parts[count - 1].share;
+    if (held >= bulk * sum && !as_the_last) break;
+    held += parts[count].share;
+  }
+  parts.resize(count);
+  return parts;
 }
 
 }  // namespace scabo::analysis
