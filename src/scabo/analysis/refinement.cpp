@@ -294,11 +294,10 @@ std::vector<Part> mark(std::vector<Part> parts) {
   double sum = 0.0, held = 0.0;
   for (const Part& part : parts) sum += part.share;
   std::size_t count = 0;
-  for (; count < parts.size() && parts[count].share > 0.0; ++count) {
-    const bool as_the_last = count > 0 && parts[count].at.edge < 0 && parts[count].share > nearly_equal * parts[count - 1].share;
-    if (held >= bulk * sum && !as_the_last) break;
-    held += parts[count].share;
-  }
+  for (; count < parts.size() && held < bulk * sum && parts[count].share > 0.0; ++count) held += parts[count].share;
+  const double last = count > 0 ? parts[count - 1].share : 0.0;
+  const auto as_the_last = [&](const Part& part) { return part.at.edge < 0 && part.share > nearly_equal * last; };
+  while (count > 0 && count < parts.size() && as_the_last(parts[count])) ++count;
   parts.resize(count);
   return parts;
 }
