@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/mesh/many_cells.hpp"
 
 namespace scabo::analysis {
@@ -45,8 +46,6 @@ double growth_of(const model::Body& body) {
   return body.mesh.kind == model::MeshKind::quadtree ? growth_of_squares : model::mesh_growth;
 }
 
-double outline_size(const model::Body& body) { return geometry::outline_size(body.outline); }
-
 struct CellBox {
   Vec2 middle;
   double side = 0.0;  ///< the longer one
@@ -61,39 +60,28 @@ CellBox box_of(const mesh::BodyMesh& mesh, const mesh::Cell& cell) {
   return {0.5 * (lower + upper), (upper - lower).maxCoeff()};
 }
 
-/// Whether cells have an element that must not be changed.
-std::vector<bool> frozen_cells(const MeshErrors& errors, std::size_t body) {
-  std::vector<bool> frozen;
-  std::size_t place = 0;
-  for (const mesh::Cell& cell : errors.mesh.bodies[body].cells) {
-    frozen.push_back(false);
-    for (std::size_t e = 0; e < cell.boundary.size(); ++e, ++place)
-      if (errors.frozen[body][place]) frozen.back() = true;
-  }
-  return frozen;
-}
-
-/// Sides of frozen cells, and the least size that leaves a frozen cell as it is: sizes of squares change by halves, so
-/// that those within one side of it cannot be of any size.
-std::vector<CellBox> frozen_boxes(const MeshErrors& errors, std::size_t body) {
-  std::vector<CellBox> boxes;
-  const std::vector<bool> frozen = frozen_cells(errors, body);
-  for (std::size_t c = 0; c < frozen.size(); ++c)
-    if (frozen[c]) boxes.push_back(box_of(errors.mesh.bodies[body], errors.mesh.bodies[body].cells[c]));
-  return boxes;
-}
-double least_size_beside(const std::vector<CellBox>& frozen, const Vec2& x) {
-  double least = 0.0;
-  for (const CellBox& box : frozen)
-    least = std::max(least, box.side * std::clamp(0.5 * (1.75 - (x - box.middle).norm() / box.side), 0.0, 0.5));
-  return least;
-}
-
+/// Elements that face each other, of edges that are divided as `division` says.
 using Partners = std::map<mesh::EdgeElement, mesh::EdgeElement>;
-Partners partners_of(const model::Model& model, const mesh::Mesh& mesh) {
+Partners partners_of(const model::Model& model, const mesh::Mesh& mesh, const mesh::Division& division) {
+  const auto as_divided = [&](const mesh::EdgeElement& at) {
+    const auto b = static_cast<std::size_t>(at.body), e = static_cast<std::size_t>(at.edge);
+    return !division[b].empty() && mesh.bodies[b].edges[e].size() == division[b][e].orders.size();
+  };
   Partners partner;
-  for (const auto& [a, b] : mesh::paired_elements(model, mesh).alike) partner[a] = b, partner[b] = a;
+  for (const auto& [a, b] : mesh::paired_elements(model, mesh).alike)
+    if (as_divided(a) && as_divided(b)) partner[a] = b, partner[b] = a;
   return partner;
+}
+
+/// The element of the division of an edge with the middle of an element of the mesh, in which a contact may have
+/// inserted nodes (mesh/match.hpp).
+int divided_element(const geometry::Edge& edge, const mesh::EdgeDivision& division, const mesh::BodyMesh& mesh,
+                    const mesh::LineElement& element) {
+  double middle = 0.0;
+  for (const int node : {element.nodes.front(), element.nodes.back()})
+    middle += 0.5 * geometry::closest_position(edge, mesh.nodes[static_cast<std::size_t>(node)]);
+  const auto after = std::upper_bound(division.breaks.begin() + 1, division.breaks.end() - 1, middle);
+  return static_cast<int>(after - division.breaks.begin()) - 1;
 }
 
 }  // namespace
@@ -129,7 +117,7 @@ double BoundaryRefinement::cut_of(const mesh::EdgeElement& at) const {
 }
 
 void BoundaryRefinement::divide_at_corners(const mesh::Mesh& mesh, const std::vector<mesh::EdgeElement>& elements) {
-  const Partners partner = partners_of(model_, mesh);
+  const Partners partner = partners_of(model_, mesh, division_);
   std::map<mesh::EdgeElement, double> cuts;
   for (const mesh::EdgeElement& at : elements) {
     if (!cuts.emplace(at, cut_of(at)).second) continue;
@@ -162,19 +150,31 @@ std::vector<Part> BoundaryRefinement::parts(const MeshErrors& errors) const {
   for (int b = 0; b < static_cast<int>(division_.size()); ++b) {
     const auto body = static_cast<std::size_t>(b);
     if (!model_.bodies[body].mesh.tolerance) continue;
-    for (int e = 0; e < static_cast<int>(division_[body].size()); ++e)
-      for (int k = 0; k < static_cast<int>(division_[body][static_cast<std::size_t>(e)].orders.size()); ++k) {
-        const int place = mesh::boundary_element(errors.mesh.bodies[body], e, k);
-        if (place < 0 || errors.frozen[body][static_cast<std::size_t>(place)]) continue;
-        parts.push_back({{b, e, k}, errors.shares[body][static_cast<std::size_t>(place)]});
+    const mesh::BodyMesh& mesh = errors.mesh.bodies[body];
+    for (int e = 0; e < static_cast<int>(division_[body].size()); ++e) {
+      const mesh::EdgeDivision& division = division_[body][static_cast<std::size_t>(e)];
+      const auto& elements = mesh.edges[static_cast<std::size_t>(e)];
+      const bool as_divided = elements.size() == division.orders.size();
+      std::vector<double> shares(division.orders.size(), 0.0);
+      std::vector<bool> frozen(shares.size(), elements.empty());
+      for (std::size_t k = 0; k < elements.size(); ++k) {
+        const auto place = static_cast<std::size_t>(mesh::boundary_element(mesh, e, static_cast<int>(k)));
+        const geometry::Edge& edge = model_.bodies[body].outline.edges[static_cast<std::size_t>(e)];
+        const std::size_t of =
+            as_divided ? k : static_cast<std::size_t>(divided_element(edge, division, mesh, elements[k]));
+        shares[of] += errors.shares[body][place];
+        if (errors.frozen[body][place]) frozen[of] = true;
       }
+      for (std::size_t k = 0; k < shares.size(); ++k)
+        if (!frozen[k]) parts.push_back({{b, e, static_cast<int>(k)}, shares[k]});
+    }
   }
   return parts;
 }
 
 RefinementPass BoundaryRefinement::refine(const MeshErrors& errors, const std::vector<Part>& marked) {
   // The requested changes, with equal changes for facing elements: division takes precedence over a higher order.
-  const Partners partner = partners_of(model_, errors.mesh);
+  const Partners partner = partners_of(model_, errors.mesh, division_);
   struct Wanted {
     Change change = Change::none;
     double share = 0.0, cut = 0.5;
@@ -225,23 +225,30 @@ std::vector<Part> CellRefinement::parts(const MeshErrors& errors) const {
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     const auto body = static_cast<std::size_t>(b);
     if (!is_refined(model_.bodies[body])) continue;
-    const std::vector<bool> frozen = frozen_cells(errors, body);
-    for (std::size_t c = 0; c < frozen.size(); ++c)
-      if (!frozen[c]) parts.push_back({{b, -1, static_cast<int>(c)}, errors.shares[body][c]});
+    for (std::size_t c = 0; c < errors.shares[body].size(); ++c)
+      parts.push_back({{b, -1, static_cast<int>(c)}, errors.shares[body][c]});
   }
   return parts;
+}
+
+void CellRefinement::divide_at(const mesh::Mesh& mesh, const model::Place& point, double part) {
+  const auto b = static_cast<std::size_t>(point.body);
+  const model::Body& body = model_.bodies[b];
+  if (!is_refined(body)) return;
+  std::vector<mesh::SizeField::Sample> samples = sizes_[b].samples();
+  for (const int node : mesh::nodes_of(point, mesh).nodes)
+    samples.push_back({mesh.bodies[b].nodes[static_cast<std::size_t>(node)], part * body.mesh.size});
+  sizes_[b] = mesh::SizeField(samples, growth_of(body));
 }
 
 RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vector<Part>& marked) {
   RefinementPass pass;
   std::vector<std::vector<mesh::SizeField::Sample>> samples(model_.bodies.size());
   std::vector<double> cells(model_.bodies.size(), 0.0);  // expected
-  std::vector<std::vector<CellBox>> frozen(model_.bodies.size());
   std::size_t all = 0;
   for (std::size_t b = 0; b < samples.size(); ++b) {
     if (!is_refined(model_.bodies[b])) continue;
     samples[b] = sizes_[b].samples();
-    frozen[b] = frozen_boxes(errors, b);
     cells[b] = static_cast<double>(errors.mesh.bodies[b].cells.size());
     all += errors.mesh.bodies[b].cells.size();
   }
@@ -257,9 +264,8 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
     const double target = aim_of_cells / static_cast<double>(all);
     const double factor =
         square ? 0.5 : std::clamp(std::pow(target / part.share, 0.5 / (body.mesh.order + 1)), least_factor, largest_factor);
-    const double least = std::max(smallest * outline_size(body), least_size_beside(frozen[b], box.middle));
-    const double next = std::max(factor * size, least);
-    if (next > 0.99 * size) continue;
+    const double next = factor * size;
+    if (next < smallest * geometry::outline_size(body.outline)) continue;
     samples[b].push_back({box.middle, next});
     cells[b] += size * size / (next * next) - 1.0;
     ++pass.divided;

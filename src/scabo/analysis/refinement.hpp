@@ -24,6 +24,7 @@ struct MeshErrors {
   /// [body][boundary element] of a body of one cell, [body][cell] of others: shares; empty without a tolerance.
   std::vector<std::vector<double>> shares;
   std::vector<std::vector<bool>> frozen;  ///< [body][boundary element of all cells, in their order]: not to be changed
+                                          ///< in bodies of one cell
 };
 
 /// The parts with the largest shares, which together have 80 % of the sum, largest first; cells with nearly the same
@@ -78,6 +79,9 @@ class CellRefinement : public Refinement {
   explicit CellRefinement(const model::Model& model);
 
   const mesh::Sizes& sizes() const { return sizes_; }
+
+  /// Cells at a point of a refined body become `part` of the size of the first mesh.
+  void divide_at(const mesh::Mesh& mesh, const model::Place& point, double part);
 
   std::vector<Part> parts(const MeshErrors& errors) const override;
   RefinementPass refine(const MeshErrors& errors, const std::vector<Part>& marked) override;
