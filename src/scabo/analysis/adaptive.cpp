@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <set>
 
 #include "scabo/analysis/refinement.hpp"
 #include "scabo/element/two_orders.hpp"
+#include "scabo/mesh/match.hpp"
 
 namespace scabo::analysis {
 
@@ -20,7 +21,7 @@ constexpr double aim = 0.7;
 /// Fraction of the largest nodal force below which a reaction is rounding.
 constexpr double some_reaction = 1e-6;
 
-using Frozen = std::vector<std::vector<bool>>;  // [body][boundary element of all cells, in their order]
+using Flags = std::vector<std::vector<bool>>;  // [body][cell], or [body][boundary element of all cells, in their order]
 
 /// Whether the body consists of super-elements, whose error can be estimated.
 bool has_estimate(const StaticSolution& solution, std::size_t body) {
@@ -67,16 +68,56 @@ Reactions reactions_of(const StaticSolution& solution) {
   return reactions;
 }
 
-/// Elements beside point forces and similar places (adaptive.hpp), and those that cannot be changed without separating
-/// pairs of nodes.
-Frozen frozen_elements(const StaticSolution& solution) {
+/// Point forces, and similar places with infinite stress (adaptive.hpp).
+std::vector<model::Place> singular_places(const StaticSolution& solution) {
+  std::vector<model::Place> places;
+  for (const model::Load& load : solution.model.loads)
+    if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) places.push_back(*load.on);
+  const Reactions reactions = reactions_of(solution);
+  for (std::size_t i = 0; i < solution.model.supports.size(); ++i) {
+    const model::Place& place = solution.model.supports[i].on;
+    if (place.kind == model::Place::Kind::near ||
+        (place.kind == model::Place::Kind::corner && reactions.largest[i] > some_reaction * reactions.scale))
+      places.push_back(place);
+  }
+  return places;
+}
+
+/// Length around a point force in which cells are left out, relative to the size of the first mesh.
+constexpr double spread_of_force = 0.15;
+
+/// Cells beside singular places, in bodies of many cells.
+Flags left_out_cells(const StaticSolution& solution) {
   const mesh::Mesh& mesh = solution.mesh;
-  Frozen frozen(mesh.bodies.size());
+  Flags left_out(mesh.bodies.size());
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) left_out[b].assign(mesh.bodies[b].cells.size(), false);
+  for (const model::Place& place : singular_places(solution)) {
+    const auto b = static_cast<std::size_t>(place.body);
+    const model::Body& body = solution.model.bodies[b];
+    if (!has_estimate(solution, b) || !model::is_divided_inside(body)) continue;
+    const double radius = body.mesh.tolerance ? spread_of_force * body.mesh.size : 0.0;
+    for (const int node : mesh::nodes_of(place, mesh).nodes) {
+      const Vec2 at = mesh.bodies[b].nodes[static_cast<std::size_t>(node)];
+      for (std::size_t c = 0; c < left_out[b].size(); ++c)
+        for (const mesh::LineElement& element : mesh.bodies[b].cells[c].boundary) {
+          const int first = element.nodes.front();
+          if (first == node || (mesh.bodies[b].nodes[static_cast<std::size_t>(first)] - at).norm() < radius)
+            left_out[b][c] = true;
+        }
+    }
+  }
+  return left_out;
+}
+
+/// Elements beside singular places, and those that cannot be changed without separating pairs of nodes.
+Flags frozen_elements(const StaticSolution& solution) {
+  const mesh::Mesh& mesh = solution.mesh;
+  Flags frozen(mesh.bodies.size());
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
     if (has_estimate(solution, b)) frozen[b].assign(boundary_elements(mesh.bodies[b]), false);
-  const auto freeze = [&](const model::Place& place) {
+  for (const model::Place& place : singular_places(solution)) {
     const auto b = static_cast<std::size_t>(place.body);
-    if (frozen[b].empty()) return;
+    if (frozen[b].empty()) continue;
     const std::vector<int> nodes = mesh::nodes_of(place, mesh).nodes;
     std::size_t place_in_body = 0;
     for (const mesh::Cell& cell : mesh.bodies[b].cells)
@@ -85,15 +126,6 @@ Frozen frozen_elements(const StaticSolution& solution) {
           if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) frozen[b][place_in_body] = true;
         ++place_in_body;
       }
-  };
-  for (const model::Load& load : solution.model.loads)
-    if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) freeze(*load.on);
-  const Reactions reactions = reactions_of(solution);
-  for (std::size_t i = 0; i < solution.model.supports.size(); ++i) {
-    const model::Place& place = solution.model.supports[i].on;
-    if (place.kind == model::Place::Kind::near ||
-        (place.kind == model::Place::Kind::corner && reactions.largest[i] > some_reaction * reactions.scale))
-      freeze(place);
   }
   const mesh::PairedElements paired = mesh::paired_elements(solution.model, mesh);
   const auto flag = [&](const mesh::EdgeElement& at) -> std::vector<bool>::reference {
@@ -113,15 +145,15 @@ Frozen frozen_elements(const StaticSolution& solution) {
   return frozen;
 }
 
-/// Elements of refined bodies that end at the corner of a point force.
+/// Elements of refined bodies of one super-element that end at the corner of a point force.
 std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, const mesh::Division& division) {
   std::vector<mesh::EdgeElement> elements;
   for (const model::Load& load : model.loads) {
     if (!load.on || load.on->kind != model::Place::Kind::corner || !std::holds_alternative<model::Force>(load.kind))
       continue;
     const int b = load.on->body, corner = load.on->index;
-    if (!model.bodies[static_cast<std::size_t>(b)].mesh.tolerance) continue;
     const mesh::BodyDivision& body = division[static_cast<std::size_t>(b)];
+    if (!model.bodies[static_cast<std::size_t>(b)].mesh.tolerance || body.empty()) continue;
     const int count = static_cast<int>(body.size()), before = (corner + count - 1) % count;
     elements.push_back({b, corner, 0});
     elements.push_back({b, before, static_cast<int>(body[static_cast<std::size_t>(before)].orders.size()) - 1});
@@ -167,24 +199,19 @@ std::optional<StaticSolution> solve_wider(const StaticSolution& solution, const 
   return std::nullopt;
 }
 
-void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
-  for (std::size_t i = 0; i < std::min(solution.increments.size(), wider.increments.size()); ++i)
-    if (solution.increments[i].converged && wider.increments[i].converged)
-      solution.increments[i].error = estimate(solution, solution.increments[i], wider, wider.increments[i]);
-}
-
-void warn_of_frozen(StaticSolution& solution) {
-  std::set<std::string> places;
+void warn_of_point_forces(StaticSolution& solution) {
+  std::map<std::string, bool> places;  // whether in a body of many cells
   const auto add = [&](const model::Place& place) {
-    if (has_estimate(solution, static_cast<std::size_t>(place.body))) places.insert(place.text);
+    const auto b = static_cast<std::size_t>(place.body);
+    if (has_estimate(solution, b)) places[place.text] = model::is_divided_inside(solution.model.bodies[b]);
   };
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
-  for (const std::string& place : places)
+  for (const auto& [place, in_cells] : places)
     solution.warnings.push_back(
-        fmt::format("stress under the point force at {} is infinite: for the estimated error the force is distributed "
-                    "over the adjacent elements, which are not refined",
-                    place));
+        fmt::format("stress under the point force at {} is infinite: for the estimated error {}", place,
+                    in_cells ? "the adjacent cells are left out"
+                             : "the force is distributed over the adjacent elements, which are not refined"));
 }
 
 /// Reports a complete solution as if its increments were computed one by one.
@@ -196,13 +223,6 @@ void replay(StaticSolution& solution, const Options& options) {
     solution.increments.push_back(std::move(increment));
     if (options.on_increment) options.on_increment(solution, solution.increments.back());
   }
-}
-
-int largest_body(const mesh::Mesh& mesh) {
-  std::size_t nodes = 0;
-  for (const mesh::BodyMesh& body : mesh.bodies)
-    if (body.cells.size() == 1) nodes = std::max(nodes, body.nodes.size());
-  return 2 * static_cast<int>(nodes);
 }
 
 /// Error measures that control refinement.
@@ -226,17 +246,40 @@ Judgement judge(const StaticSolution& solution) {
   return judgement;
 }
 
-/// Contribution of every element to the sum in the worst increment.
-std::vector<std::vector<double>> shares_of(const StaticSolution& solution, const StaticSolution& wider,
-                                           std::size_t worst) {
-  std::vector<std::vector<double>> shares(solution.model.bodies.size());
-  for (std::size_t b = 0; b < shares.size(); ++b) {
-    const auto& tolerance = solution.model.bodies[b].mesh.tolerance;
-    if (!tolerance || !has_estimate(solution, b)) continue;
-    for (const double error : element_errors(solution, solution.increments[worst], wider, wider.increments[worst], b))
-      shares[b].push_back(std::pow(error / *tolerance, 2));
+/// Squared errors of the cells of a body, force times length; 0 for those left out.
+std::vector<double> squared_errors(const StaticSolution& solution, const IncrementResult& increment,
+                                   const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t b,
+                                   const std::vector<bool>& left_out) {
+  std::vector<double> squared;
+  for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
+    if (left_out[c]) {
+      squared.push_back(0.0);
+      continue;
+    }
+    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *wider.cells[b][c];
+    const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
+    // Loads inside a cell are not among the forces on its boundary.
+    const bool relaxed = element::loads_in(increment.interior[b], c).loads.empty();
+    squared.push_back(element::squared_difference(
+        {narrow.ring.elements, narrow.solution.K, u, wide.ring.elements, wide.solution.K, U, relaxed}));
   }
-  return shares;
+  return squared;
+}
+
+/// Parts that boundary elements, or cells, have in the sum in the worst increment.
+MeshErrors errors_of(const StaticSolution& solution, const StaticSolution& wider, std::size_t worst) {
+  MeshErrors errors{solution.mesh, {}, frozen_elements(solution)};
+  errors.shares.resize(solution.model.bodies.size());
+  const IncrementResult &increment = solution.increments[worst], &wider_increment = wider.increments[worst];
+  for (std::size_t b = 0; b < errors.shares.size(); ++b) {
+    const model::Body& body = solution.model.bodies[b];
+    if (!body.mesh.tolerance || !has_estimate(solution, b)) continue;
+    const std::vector<double> of_parts = model::is_divided_inside(body)
+                                             ? cell_errors(solution, increment, wider, wider_increment, b)
+                                             : element_errors(solution, increment, wider, wider_increment, b);
+    for (const double error : of_parts) errors.shares[b].push_back(std::pow(error / *body.mesh.tolerance, 2));
+  }
+  return errors;
 }
 
 StaticSolution not_reached(StaticSolution solution, const std::string& why) {
@@ -256,28 +299,15 @@ bool wants_refinement(const model::Model& model) {
 void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
   if (!wants_refinement(model)) return;
   std::vector<Diagnostic> mistakes;
-  const auto refined = [&](const model::Place& place) {
-    return model.bodies[static_cast<std::size_t>(place.body)].mesh.tolerance.has_value();
+  const auto is_refined_alike = [&](const mesh::EdgeElement& at) {
+    const auto is_side = [&](const model::Place& place) { return place.body == at.body && place.index == at.edge; };
+    return std::any_of(model.contacts.begin(), model.contacts.end(), [&](const model::Contact& contact) {
+      return (is_side(contact.a) || is_side(contact.b)) && mesh::is_refined_alike(model, contact);
+    });
   };
-  for (const mesh::Interface& interface : mesh.interfaces) {
-    const model::Contact& contact = model.contacts[static_cast<std::size_t>(interface.contact)];
-    const bool a = refined(contact.a), b = refined(contact.b);
-    const auto name = [&](const model::Place& place) {
-      return model.bodies[static_cast<std::size_t>(place.body)].name;
-    };
-    const auto elastic = [&](const model::Place& place) {
-      return !model.bodies[static_cast<std::size_t>(place.body)].rigid;
-    };
-    if (a != b && elastic(contact.a) && elastic(contact.b))
-      mistakes.push_back(
-          {contact.source,
-           fmt::format("body '{}' is refined for its tolerance and body '{}' is not, so that their nodes would "
-                       "no longer match: give both a mesh.tolerance, or neither",
-                       name(a ? contact.a : contact.b), name(a ? contact.b : contact.a))});
-  }
   for (const mesh::EdgeElement& at : mesh::paired_elements(model, mesh).alone) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(at.body)];
-    if (!body.mesh.tolerance || !mistakes.empty()) continue;
+    if (!is_refined_alike(at) || !mistakes.empty()) continue;
     const std::string edge = body.name + "." + body.outline.edges[static_cast<std::size_t>(at.edge)].names.back();
     mistakes.push_back(
         {body.mesh.source,
@@ -289,22 +319,20 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
 }
 
+namespace {
+
 ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
-                       const IncrementResult& wider_increment) {
+                       const IncrementResult& wider_increment, const Flags& left_out) {
   ErrorEstimate error;
   error.bodies.resize(solution.model.bodies.size());
   std::vector<double> squared(error.bodies.size(), 0.0);
   double energy = 0.0;
   for (std::size_t b = 0; b < error.bodies.size(); ++b) {
     if (!has_estimate(solution, b)) continue;
+    for (const double of_cell : squared_errors(solution, increment, wider, wider_increment, b, left_out[b])) squared[b] += of_cell;
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
-      const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *wider.cells[b][c];
-      const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
-      // Loads inside a cell are not among the forces on its boundary.
-      const bool relaxed = element::loads_in(increment.interior[b], c).loads.empty();
-      squared[b] += element::squared_difference(
-          {narrow.ring.elements, narrow.solution.K, u, wide.ring.elements, wide.solution.K, U, relaxed});
-      energy += U.dot(wide.solution.K * U);
+      const Vector U = displacement_of(wider, wider_increment, b, c);
+      energy += U.dot(wider.cells[b][c]->solution.K * U);
     }
   }
   // Finite element bodies have energy too, although no error estimate.
@@ -315,6 +343,20 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
   for (std::size_t b = 0; b < error.bodies.size(); ++b)
     if (has_estimate(solution, b)) error.bodies[b] = BodyError{std::sqrt(squared[b]), relative(squared[b])};
   return error;
+}
+
+void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
+  const Flags left_out = left_out_cells(solution);
+  for (std::size_t i = 0; i < std::min(solution.increments.size(), wider.increments.size()); ++i)
+    if (solution.increments[i].converged && wider.increments[i].converged)
+      solution.increments[i].error = estimate(solution, solution.increments[i], wider, wider.increments[i], left_out);
+}
+
+}  // namespace
+
+ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
+                       const IncrementResult& wider_increment) {
+  return estimate(solution, increment, wider, wider_increment, left_out_cells(solution));
 }
 
 std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment,
@@ -334,6 +376,15 @@ std::vector<double> element_errors(const StaticSolution& solution, const Increme
   return errors;
 }
 
+std::vector<double> cell_errors(const StaticSolution& solution, const IncrementResult& increment,
+                                const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t body) {
+  const BodyError& whole = *increment.error->bodies[body];
+  std::vector<double> errors = squared_errors(solution, increment, wider, wider_increment, body,
+                                              left_out_cells(solution)[body]);
+  for (double& error : errors) error = error > 0.0 ? std::sqrt(error) * whole.relative / whole.absolute : 0.0;
+  return errors;
+}
+
 StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options) {
   hold_near_places(model, mesh);
   StaticSolution solution = solve_on_mesh(std::move(model), std::move(mesh), quiet(options, "mesh"));
@@ -343,88 +394,107 @@ StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Optio
       estimate_all(solution, *wider);
     else
       solution.warnings.push_back(fmt::format("no error was estimated: on the mesh of higher order, {}", why));
-    warn_of_frozen(solution);
+    warn_of_point_forces(solution);
   }
   replay(solution, options);
   return solution;
 }
 
+namespace {
+
+/// Solution and estimate of one pass; without `wider` the loop ends with `solution`.
+struct SolvedPass {
+  StaticSolution solution;
+  std::optional<StaticSolution> wider;
+};
+
+/// Solve and estimate.
+SolvedPass solve_pass(const model::Model& model, mesh::Mesh mesh, const Options& options, const std::string& name) {
+  SolvedPass pass{solve_on_mesh(model, std::move(mesh), quiet(options, name)), {}};
+  if (pass.solution.outcome != Outcome::solved) return pass;
+  std::string why;
+  pass.wider = solve_wider(pass.solution, options, name + ", error", why);
+  if (pass.wider) {
+    estimate_all(pass.solution, *pass.wider);
+  } else if (options.stop && *options.stop) {
+    pass.solution.outcome = Outcome::interrupted;
+    pass.solution.reason = "interrupted: the results are those of a mesh whose error is not known";
+  } else {
+    pass.solution = not_reached(std::move(pass.solution), "no error was estimated: on the mesh of higher order, " + why);
+  }
+  return pass;
+}
+
+/// Why no further pass is made after those of which `sums` are those of eq. (1); empty if one is.
+std::string obstacle_after(const std::vector<double>& sums, const RefinementLimits& limits, const std::string& at) {
+  const auto back = static_cast<std::size_t>(limits.without_progress);
+  if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
+    return at + ", and further refinement does not reduce it";
+  if (static_cast<int>(sums.size()) == limits.passes) return fmt::format("after {} passes {}", limits.passes, at);
+  return {};
+}
+
+/// Why the next mesh is not made; empty if it is.
+std::string too_fine(const ModelRefinement& next, const mesh::Mesh& mesh, const RefinementLimits& limits,
+                     const std::string& at) {
+  int present = 0;
+  for (const mesh::BodyMesh& body : mesh.bodies)
+    if (body.cells.size() == 1) present = std::max(present, 2 * static_cast<int>(body.nodes.size()));
+  const int dofs = next.boundaries.largest_body(), of_cells = next.cells.largest_body();
+  const auto text = [&](const char* about, int would, int most) {
+    return fmt::format("{}; a finer mesh would have {}{} in one body, more than {}", at, about, would, most);
+  };
+  if (dofs > std::max(limits.dofs, present)) return text("", dofs, limits.dofs);
+  if (of_cells > limits.dofs_of_cells) return text("about ", of_cells, limits.dofs_of_cells);
+  return {};
+}
+
+}  // namespace
+
 StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits) {
-  Refinement refinement(model);
+  ModelRefinement refinement(model);
+  mesh::Mesh mesh = refinement.mesh();
+  hold_near_places(model, mesh);
+  refinement.boundaries.divide_at_corners(mesh, elements_at_forces(model, refinement.boundaries.division()));
+  for (const model::Load& load : model.loads)
+    if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind))
+      refinement.cells.divide_at(mesh, *load.on, spread_of_force);
+  mesh = refinement.mesh();
   std::vector<RefinementPass> passes;
   std::vector<double> sums;
-  std::optional<StaticSolution> last;
-  bool begun = false;
   const auto end = [&](StaticSolution solution) {
     solution.passes = passes;
-    if (solution.outcome != Outcome::interrupted) warn_of_frozen(solution);
+    if (solution.outcome != Outcome::interrupted) warn_of_point_forces(solution);
     replay(solution, options);
     return solution;
   };
   while (true) {
-    const std::string name = fmt::format("pass {}", passes.size() + 1);
-    mesh::Mesh mesh;
-    try {
-      mesh = mesh::make_mesh(model, refinement.division());
-    } catch (const InputError& error) {
-      if (!last) throw;
-      return end(not_reached(std::move(*last), error.diagnostics().front().message));
-    }
-    if (passes.empty() && !begun) {
-      hold_near_places(model, mesh);
-      refinement.divide_at_corners(mesh, elements_at_forces(model, refinement.division()));
-      begun = true;
-      continue;
-    }
-    StaticSolution solution = solve_on_mesh(model, std::move(mesh), quiet(options, name));
-    if (solution.outcome != Outcome::solved) return end(std::move(solution));
-    std::string why;
-    const auto wider = solve_wider(solution, options, name + ", error", why);
-    if (!wider) {
-      if (options.stop && *options.stop) {
-        solution.outcome = Outcome::interrupted;
-        solution.reason = "interrupted: the results are those of a mesh whose error is not known";
-        return end(std::move(solution));
-      }
-      return end(not_reached(std::move(solution), "no error was estimated: on the mesh of higher order, " + why));
-    }
-    estimate_all(solution, *wider);
+    auto [solution, wider] = solve_pass(model, std::move(mesh), options, fmt::format("pass {}", passes.size() + 1));
+    if (!wider) return end(std::move(solution));
     const Judgement judgement = judge(solution);
     passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});
     sums.push_back(judgement.sum);
     if (judgement.sum <= aim * aim) return end(std::move(solution));
-    // If refinement cannot continue, an estimate between the aim and the tolerance is accepted.
-    const bool below = judgement.sum <= 1.0;
-    const auto stuck = [&](const std::string& why_not) {
-      return end(below ? std::move(solution) : not_reached(std::move(solution), why_not));
-    };
 
-    const auto at = [&] {
-      return fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error,
-                         passes.back().dofs);
-    };
-    const auto back = static_cast<std::size_t>(limits.without_progress);
-    if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
-      return stuck(at() + ", and further refinement does not reduce it");
-    if (static_cast<int>(passes.size()) == limits.passes)
-      return stuck(fmt::format("after {} passes {}", limits.passes, at()));
-    const RefinementPass refined =
-        refinement.refine(solution.mesh, shares_of(solution, *wider, judgement.worst), frozen_elements(solution));
-    passes.back().raised = refined.raised;
-    passes.back().divided = refined.divided;
-    if (refined.raised + refined.divided == 0) return stuck(at() + ", and no element can be refined further");
-    const mesh::Division& division = refinement.division();
-    int nodes = 0;
-    for (const mesh::BodyDivision& body : division) {
-      int of_body = 0;
-      for (const mesh::EdgeDivision& edge : body)
-        for (const int order : edge.orders) of_body += order;
-      nodes = std::max(nodes, of_body);
+    const std::string at = fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error,
+                                       passes.back().dofs);
+    std::string obstacle = obstacle_after(sums, limits, at);
+    if (obstacle.empty()) {
+      const MeshErrors errors = errors_of(solution, *wider, judgement.worst);
+      const RefinementPass refined = refinement.refine(errors, mark(refinement.parts(errors)));
+      passes.back().raised = refined.raised;
+      passes.back().divided = refined.divided;
+      obstacle = refined.raised + refined.divided == 0 ? at + ", and no element can be refined further"
+                                                       : too_fine(refinement, solution.mesh, limits, at);
     }
-    if (2 * nodes > std::max(limits.dofs, largest_body(solution.mesh)))
-      return stuck(
-          fmt::format("{}; a finer mesh would have {} in one body, more than {}", at(), 2 * nodes, limits.dofs));
-    last = std::move(solution);
+    // Where refinement cannot continue, an estimate between the aim and the tolerance is accepted.
+    if (!obstacle.empty())
+      return end(judgement.sum <= 1.0 ? std::move(solution) : not_reached(std::move(solution), obstacle));
+    try {
+      mesh = refinement.mesh();
+    } catch (const InputError& error) {
+      return end(not_reached(std::move(solution), error.diagnostics().front().message));
+    }
   }
 }
 

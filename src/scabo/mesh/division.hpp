@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/size_field.hpp"
 
 namespace scabo::mesh {
 
@@ -24,8 +25,12 @@ using Division = std::vector<BodyDivision>;      ///< one for each body; an empt
 /// The division that follows from the mesh options, for every super-element.
 Division uniform_division(const model::Model& model);
 
-/// make_mesh() (mesh.hpp) with the given division of super-elements.
-Mesh make_mesh(const model::Model& model, const Division& division);
+/// Upper limits of the sizes of cells, one for each body; those of bodies without many cells are not used.
+using Sizes = std::vector<SizeField>;
+
+/// make_mesh() (mesh.hpp) with the given division of bodies of one super-element, and cells no larger than `sizes` in
+/// the others; `sizes` may be empty.
+Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes = {});
 
 /// The same boundaries with all elements raised by one order, except those `frozen` ([body][boundary element],
 /// those of all cells in their order; empty: none). The geometry does not change: every displacement field of the old elements is also one of the new elements.

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/division.hpp"
 #include "scabo/mesh/grid.hpp"
 #include "scabo/mesh/imported_cells.hpp"
 #include "scabo/mesh/interface.hpp"
@@ -85,7 +86,7 @@ std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
 
 Mesh make_mesh(const model::Model& model) { return make_mesh(model, Division(model.bodies.size())); }
 
-Mesh make_mesh(const model::Model& model, const Division& division) {
+Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes) {
   Mesh mesh;
   std::vector<Diagnostic> mistakes;
   const auto add = [&](std::vector<Diagnostic> more) {
@@ -93,13 +94,15 @@ Mesh make_mesh(const model::Model& model, const Division& division) {
     return !more.empty();
   };
 
+  const SizeField no_limit;
   mesh.bodies.resize(model.bodies.size());
   double nodes = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     if (body.rigid) continue;
     if (model::is_divided_inside(body)) {
-      auto divided = body.imported ? cells_of_file(body, most_nodes - nodes) : divide_into_cells(body, most_nodes - nodes);
+      auto divided = body.imported ? cells_of_file(body, most_nodes - nodes)
+                                   : divide_into_cells(body, sizes.empty() ? no_limit : sizes[b], most_nodes - nodes);
       if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
         mistakes.push_back(*wrong);
         continue;

@@ -26,29 +26,39 @@ namespace {
 constexpr double largest_turn_of_side = std::numbers::pi / 12;
 
 /// Fractions of the length of an edge at which its part from `from` to `to` is divided, both included.
-std::vector<double> breaks_of(const model::Body& body, const geometry::Edge& edge, double from, double to) {
+std::vector<double> breaks_of(const model::Body& body, const SizeField& sizes, const geometry::Edge& edge, double from,
+                              double to) {
   const double length = (to - from) * edge.length();
   const double by_turn = edge.arc ? (to - from) * std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
   std::vector<double> breaks{from};
-  if (body.mesh.refine.empty()) {
+  if (body.mesh.refine.empty() && sizes.empty()) {
     const double count = std::max(elements_along(length, body.mesh.size), std::ceil(by_turn - 1e-9));
     for (int k = 1; k < count; ++k) breaks.push_back(std::lerp(from, to, k / count));
   } else {
-    // As many elements as the integral of 1 / size, each with an equal part of it.
+    // As many elements as the integral of 1 / size, each with an equal part of it. Steps are short compared with the
+    // size, which changes by less than the distance.
     constexpr int samples = 1000;
-    std::vector<double> sum{0.0};
-    for (int i = 0; i < samples; ++i) {
-      const Vec2 at = edge.at(std::lerp(from, to, (i + 0.5) / samples));
-      const double size = std::min(wanted_size(body, at), length / by_turn);
-      sum.push_back(sum.back() + length / samples / size);
-    }
+    constexpr double longest_step = 0.25;
+    std::vector<double> ends{from}, sum{0.0};
+    const auto add = [&](const auto& self, double low, double high) -> void {
+      const double step = (high - low) * edge.length();
+      const double size = std::min(wanted_size(body, sizes, edge.at(0.5 * (low + high))), length / by_turn);
+      if (step > longest_step * size && step > 1e-9 * length) {
+        self(self, low, 0.5 * (low + high));
+        self(self, 0.5 * (low + high), high);
+        return;
+      }
+      ends.push_back(high);
+      sum.push_back(sum.back() + step / size);
+    };
+    for (int i = 0; i < samples; ++i)
+      add(add, std::lerp(from, to, double(i) / samples), std::lerp(from, to, (i + 1.0) / samples));
     const double count = std::max(1.0, std::ceil(sum.back() - 1e-9));
-    int i = 0;
+    std::size_t i = 0;
     for (int k = 1; k < count; ++k) {
       const double part = k / count * sum.back();
-      while (sum[static_cast<std::size_t>(i) + 1] < part) ++i;
-      const double low = sum[static_cast<std::size_t>(i)], high = sum[static_cast<std::size_t>(i) + 1];
-      breaks.push_back(std::lerp(from, to, (i + (part - low) / (high - low)) / samples));
+      while (sum[i + 1] < part) ++i;
+      breaks.push_back(std::lerp(ends[i], ends[i + 1], (part - sum[i]) / (sum[i + 1] - sum[i])));
     }
   }
   breaks.push_back(to);
@@ -68,10 +78,11 @@ DomainLine part_of(const geometry::Edge& edge, const std::vector<double>& breaks
 }
 
 /// Lines of an edge between the given positions on it, `cuts`, which include 0 and 1: one, or two halves of a long arc.
-std::vector<DomainLine> lines_of(const model::Body& body, const geometry::Edge& edge, const std::vector<double>& cuts) {
+std::vector<DomainLine> lines_of(const model::Body& body, const SizeField& sizes, const geometry::Edge& edge,
+                                 const std::vector<double>& cuts) {
   std::vector<DomainLine> lines;
   for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-    const std::vector<double> breaks = breaks_of(body, edge, cuts[c], cuts[c + 1]);
+    const std::vector<double> breaks = breaks_of(body, sizes, edge, cuts[c], cuts[c + 1]);
     const std::size_t last = breaks.size() - 1;
     if (!edge.arc || (cuts[c + 1] - cuts[c]) * std::abs(edge.arc->sweep) < std::numbers::pi) {
       lines.push_back(part_of(edge, breaks, 0, last));
@@ -233,8 +244,8 @@ PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
 
 }  // namespace
 
-double wanted_size(const model::Body& body, const Vec2& x) {
-  double size = body.mesh.size;
+double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x) {
+  double size = std::min(body.mesh.size, sizes.at(x));
   for (const model::LocalSize& local : body.mesh.refine) {
     const double distance = local.near
                                 ? (*local.near - x).norm()
@@ -244,19 +255,19 @@ double wanted_size(const model::Body& body, const Vec2& x) {
   return size;
 }
 
-BodyDomain domain_of(const model::Body& body) {
+BodyDomain domain_of(const model::Body& body, const SizeField& sizes) {
   BodyDomain made;
   const CrackNet cracks(body);
   for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
     made.lines_of_edge.emplace_back();
-    for (DomainLine& line : lines_of(body, body.outline.edges[e], cracks.cuts(e))) {
+    for (DomainLine& line : lines_of(body, sizes, body.outline.edges[e], cracks.cuts(e))) {
       made.lines_of_edge.back().push_back(made.domain.lines.size());
       made.domain.lines.push_back(std::move(line));
     }
   }
   for (std::size_t k = 0; k < body.regions.size(); ++k)
     for (const geometry::Edge& edge : body.regions[k].outline.edges)
-      for (DomainLine& line : lines_of(body, edge, {0.0, 1.0})) {
+      for (DomainLine& line : lines_of(body, sizes, edge, {0.0, 1.0})) {
         line.left = static_cast<int>(k) + 1;
         line.right = region_around(body, k);
         made.domain.lines.push_back(std::move(line));
@@ -266,13 +277,14 @@ BodyDomain domain_of(const model::Body& body) {
       geometry::Edge edge;
       edge.start = path[k];
       edge.end = path[k + 1];
-      DomainLine line = part_of(edge, breaks_of(body, edge, 0.0, 1.0), 0, breaks_of(body, edge, 0.0, 1.0).size() - 1);
+      const std::vector<double> breaks = breaks_of(body, sizes, edge, 0.0, 1.0);
+      DomainLine line = part_of(edge, breaks, 0, breaks.size() - 1);
       line.crack = true;
       line.left = line.right = region_at(body, edge.at(0.5));
       made.domain.lines.push_back(std::move(line));
     }
   made.domain.centres = cracks.tips;
-  made.domain.size = [&body](const Vec2& x) { return wanted_size(body, x); };
+  made.domain.size = [&body, &sizes](const Vec2& x) { return wanted_size(body, sizes, x); };
   return made;
 }
 
@@ -384,7 +396,8 @@ BodyMesh divide_image(const model::Body& body) {
 
 }  // namespace
 
-std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, double most_nodes) {
+std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes,
+                                                     double most_nodes) {
   if (body.image) {
     try {
       return divide_image(body);
@@ -397,7 +410,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, do
     return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
                                                     "allowed: use a larger 'size'",
                                                     body.mesh.size, nodes, most_nodes)};
-  const BodyDomain of = domain_of(body);
+  const BodyDomain of = domain_of(body, sizes);
   try {
     return body_mesh_of(polygons_of(of.domain, body.mesh), of, body);
   } catch (const InputError& error) {

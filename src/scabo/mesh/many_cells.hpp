@@ -5,22 +5,26 @@
 
 #include "scabo/mesh/domain.hpp"
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/size_field.hpp"
 
 namespace scabo::mesh {
 
-/// Wanted length of the sides of cells at a point of the body: mesh.size, and less near places of mesh.refine.
-double wanted_size(const model::Body& body, const Vec2& x);
+/// Wanted length of the sides of cells at a point of the body: mesh.size, less near places of mesh.refine, and no more
+/// than `sizes`.
+double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x);
 
-/// The outline, the regions and the cracks of a body as lines, divided by wanted_size.
+/// The outline, the regions and the cracks of a body as lines, divided by wanted_size. It holds on to `body` and to
+/// `sizes`.
 struct BodyDomain {
   Domain domain;  ///< region 0 is the body outside of its regions, and region k + 1 is body.regions[k]
   std::vector<std::vector<std::size_t>> lines_of_edge;  ///< the lines of each edge of the outline, in its direction
 };
-BodyDomain domain_of(const model::Body& body);
+BodyDomain domain_of(const model::Body& body, const SizeField& sizes);
 
 /// Divides a body into cells, of polynomial order mesh.order; or says why this is not possible. `most_nodes`: at most
 /// about as many nodes.
-std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, double most_nodes);
+std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes,
+                                                     double most_nodes);
 
 /// Line elements of the given order on the sides of polygons; sides on arcs are curved. `of`: the domain of the body, in
 /// which polygons were made.

@@ -411,9 +411,10 @@ struct Sides {
 
 std::optional<Sides> sides_to_match(const model::Model& model, const model::Contact& contact,
                                     const std::vector<BodyMesh>& bodies) {
+  if (is_refined_alike(model, contact)) return std::nullopt;
   for (const model::Place& place : {contact.a, contact.b}) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
-    if (body.rigid || body.mesh.tolerance) return std::nullopt;
+    if (body.rigid) return std::nullopt;
     const std::vector<std::vector<LineElement>>& edges = bodies[static_cast<std::size_t>(place.body)].edges;
     if (edges.empty() || edges[static_cast<std::size_t>(place.index)].empty()) return std::nullopt;
   }
@@ -440,6 +441,14 @@ bool matches(const model::Model& model, const Sides& sides, const std::vector<Bo
 }
 
 }  // namespace
+
+bool is_refined_alike(const model::Model& model, const model::Contact& contact) {
+  const auto is_refined = [&](const model::Place& place) {
+    const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
+    return !body.rigid && body.mesh.tolerance && body.mesh.kind == model::MeshKind::superelement;
+  };
+  return is_refined(contact.a) && is_refined(contact.b);
+}
 
 std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies) {
   std::vector<BodyMesh> matched = bodies;

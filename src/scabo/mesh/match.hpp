@@ -26,8 +26,12 @@
 namespace scabo::mesh {
 
 /// The bodies (those of a Mesh) with sides that match, as far as this is possible; nothing if no body changes.
-/// match_interface (interface.hpp) says what does not match, if anything does not. Contacts of a body with a
-/// mesh.tolerance are left alone, because refinement changes the two sides of a contact alike.
+/// match_interface (interface.hpp) says what does not match, if anything does not. Contacts whose sides are refined
+/// alike are left alone.
 std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies);
+
+/// Whether refinement changes the elements of both sides of a contact alike, so that they must match from the beginning:
+/// both bodies are one super-element with a mesh.tolerance.
+bool is_refined_alike(const model::Model& model, const model::Contact& contact);
 
 }  // namespace scabo::mesh

@@ -251,9 +251,10 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
   const auto refuse = [&](bool given, const char* key, const char* why) {
     if (given) checking.error_of_key(path, key, why), good = false;
   };
-  refuse(body.mesh.tolerance.has_value() && body.mesh.kind != MeshKind::fem, "mesh.tolerance",
-         "is available only for a body that is one super-element in this version: leave it out, and use 'refine' with "
-         "kind: polygons or kind: quadtree");
+  refuse(body.mesh.tolerance.has_value() && (body.mesh.kind == MeshKind::parts || body.imported || body.image),
+         "mesh.tolerance",
+         "is available only for a body that is one super-element, and with kind: polygons or kind: quadtree of a shape: "
+         "leave it out");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
   refuse(body.imported && !body.cracks.empty(), "cracks", "is not available for a body from a mesh file: leave it out");
@@ -341,9 +342,8 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
       checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
           good = false;
   }
-  if (is_divided_inside(body)) {
-    good = check_many_cells(checking, path, body) && good;
-  } else if (mesh.tolerance && mesh.kind != MeshKind::fem) {
+  if (is_divided_inside(body)) good = check_many_cells(checking, path, body) && good;
+  if (mesh.tolerance && mesh.kind != MeshKind::fem) {
     good = checking.within(path, "mesh.tolerance", *mesh.tolerance, "1e-5", "0.5") && good;
   }
   if (mesh.kind != MeshKind::superelement && !body.sector_materials.empty())
