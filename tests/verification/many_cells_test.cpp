@@ -108,6 +108,27 @@ loads: {{pull: {{on: plate.right, traction: [1, 0]}}}}
   EXPECT_FALSE(probe.at({3.0, 1.0}).has_value());  // in the hole
 }
 
+// Large cells beside a small hole become smaller until each sees its curved side, in every pass of refinement.
+TEST(Quadtree, IsRefinedForAToleranceFromCellsLargerThanAHole) {
+  const auto solution = run(R"(scabo: 1
+analysis: {type: static, plane: stress, thickness: 1}
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  plate:
+    material: steel
+    shape: {rectangle: {corner: [0, 0], size: [4, 2]}}
+    holes: {bore: {circle: {centre: [2, 1], radius: 0.3}}}
+    mesh: {kind: quadtree, size: 0.4, tolerance: 0.005}
+supports: [{on: plate.left, fix: [x]}, {on: plate.bottom_left, fix: [y]}]
+loads: {pull: {on: plate.right, traction: [1, 0]}}
+)");
+  ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+  ASSERT_TRUE(last(solution).error.has_value());
+  EXPECT_LE(last(solution).error->relative, 0.005);
+  const result::Probe probe(solution, last(solution), 0);
+  EXPECT_NEAR(probe.at({2.0, 1.3 + 1e-9})->stress[0], 3.37, 0.05);  // Howland
+}
+
 // A heavy body on rollers: its reaction is its weight, with a heavier region in it and a hole.
 TEST_P(ManyCells, WeightOfRegionsAndHoles) {
   const auto solution = run(fmt::format(R"(scabo: 1

@@ -225,12 +225,13 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
   return points;
 }
 
-PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
+/// `turn`: of a quadtree (QuadtreeOptions).
+PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh, double turn) {
   switch (mesh.kind) {
     case model::MeshKind::polygons:
       return polygon_mesh(domain);
     case model::MeshKind::quadtree:
-      return quadtree_mesh(domain, {.min_size = mesh.min_size});
+      return quadtree_mesh(domain, {.min_size = mesh.min_size, .turn = turn});
     case model::MeshKind::parts:
       return star_cells(domain);
     case model::MeshKind::fem:
@@ -411,12 +412,17 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                                     "allowed: use a larger 'size'",
                                                     body.mesh.size, nodes, most_nodes)};
   const BodyDomain of = domain_of(body, sizes);
-  try {
-    return body_mesh_of(polygons_of(of.domain, body.mesh), of, body);
-  } catch (const InputError& error) {
-    return Diagnostic{body.mesh.source,
-                      fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind",
-                                  error.diagnostics().front().message)};
+  constexpr double turn = 0.5, least_turn = 0.1;
+  for (double now = turn;; now *= 0.5) {
+    try {
+      return body_mesh_of(polygons_of(of.domain, body.mesh, now), of, body);
+    } catch (const InputError& error) {
+      // Cells of a quadtree that are too large beside an arc become smaller.
+      if (body.mesh.kind == model::MeshKind::quadtree && now > least_turn) continue;
+      return Diagnostic{body.mesh.source,
+                        fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind",
+                                    error.diagnostics().front().message)};
+    }
   }
 }
 
