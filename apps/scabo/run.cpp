@@ -125,6 +125,7 @@ ExitStatus run(const RunOptions& options) {
   Progress progress(options.quiet);
   analysis::Options analysis_options;
   analysis_options.threads = threads_that_fit(options.threads);
+  analysis_options.keep_fields = false;  // they are written as they come
   analysis_options.stop = &interrupt.requested();
   analysis_options.on_stage = [&](const std::string& stage) { progress.stage(stage); };
   analysis_options.on_mesh = [&](const auto& solution) { progress.meshed(solution); };

@@ -157,6 +157,9 @@ struct StaticSolution {
 };
 
 struct Options {
+  /// false: displacements and loads inside cells are kept of the last converged increment only, so that memory does not
+  /// grow with the number of increments; `on_increment` sees those of every increment.
+  bool keep_fields = true;
   int threads = 1;                          ///< upper limit, for BLAS and for distinct super-elements
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment

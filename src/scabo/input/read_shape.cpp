@@ -258,8 +258,9 @@ std::optional<Outline> read_shape(Reading& reading, const Value& value) {
   const MapReader map(reading.report, value, {"rectangle", "circle", "polygon", "outline", "names", "holes"},
                       shape_example);
   if (!map.is_map()) return {};
-  map.refuse("holes", "is a key of the body: write holes: {bore: {circle: {centre: [1, 1], radius: 0.2}}} beside "
-                      "'shape'");
+  map.refuse("holes",
+             "is a key of the body: write holes: {bore: {circle: {centre: [1, 1], radius: 0.2}}} beside "
+             "'shape'");
   const int kinds =
       int(map.has("rectangle")) + int(map.has("circle")) + int(map.has("polygon")) + int(map.has("outline"));
   if (kinds != 1) {

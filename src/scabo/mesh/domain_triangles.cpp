@@ -11,12 +11,25 @@ namespace {
 
 class Collector {
  public:
+  explicit Collector(const Domain& domain) {
+    Vec2 low = domain.lines.front().points.front(), high = low;
+    for (const DomainLine& line : domain.lines)
+      for (const Vec2& x : line.points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    step_ = 1e-10 * (high - low).maxCoeff();
+  }
+
   LinePoints result;
 
+  /// Ends of lines may differ by rounding.
   int index_of(const Vec2& x) {
-    const auto [found, is_new] = known_.emplace(std::pair(x.x(), x.y()), static_cast<int>(result.points.size()));
-    if (is_new) result.points.push_back(x);
-    return found->second;
+    const auto cell = [&](double coordinate) { return std::llround(coordinate / step_); };
+    for (long long i = cell(x.x()) - 1; i <= cell(x.x()) + 1; ++i)
+      for (long long j = cell(x.y()) - 1; j <= cell(x.y()) + 1; ++j)
+        if (const auto found = known_.find({i, j}); found != known_.end()) return found->second;
+    const int index = static_cast<int>(result.points.size());
+    known_.emplace(std::pair(cell(x.x()), cell(x.y())), index);
+    result.points.push_back(x);
+    return index;
   }
 
   /// `chosen`: indices of the points of the line that are taken, the first and the last included.
@@ -29,13 +42,14 @@ class Collector {
   }
 
  private:
-  std::map<std::pair<double, double>, int> known_;
+  double step_ = 1.0;
+  std::map<std::pair<long long, long long>, int> known_;
 };
 
 }  // namespace
 
 LinePoints points_of_lines(const Domain& domain) {
-  Collector collector;
+  Collector collector(domain);
   for (const DomainLine& line : domain.lines) {
     std::vector<int> all;
     for (std::size_t k = 0; k < line.points.size(); ++k) all.push_back(static_cast<int>(k));
@@ -45,7 +59,7 @@ LinePoints points_of_lines(const Domain& domain) {
 }
 
 LinePoints coarse_points_of_lines(const Domain& domain, double turn) {
-  Collector collector;
+  Collector collector(domain);
   for (const DomainLine& line : domain.lines) {
     const int facets = static_cast<int>(line.points.size()) - 1;
     const int pieces =

@@ -332,8 +332,9 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     const KernelCentre better = kernel_centre(points, well_seen);
     if (better.visibility > 0.0) return better.centre;
     if (order == 1 || body.mesh.kind == model::MeshKind::fem) return polygon.centre;
-    throw InputError("", {Diagnostic{{}, fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
-                                                     polygon.centre.x(), polygon.centre.y())}});
+    throw InputError("", {Diagnostic{{},
+                                     fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
+                                                 polygon.centre.x(), polygon.centre.y())}});
   };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
@@ -401,7 +402,8 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, do
     return body_mesh_of(polygons_of(of.domain, body.mesh), of, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
-                      fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind", error.diagnostics().front().message)};
+                      fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind",
+                                  error.diagnostics().front().message)};
   }
 }
 

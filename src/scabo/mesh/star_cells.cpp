@@ -18,6 +18,8 @@ namespace {
 constexpr double coarse_turn = std::numbers::pi / 4, least_turn = std::numbers::pi / 128;
 /// Least height over length of a side as seen from the centre of a joined part (polygon_kernel.hpp).
 constexpr double well_seen = 0.12;
+/// A part with less than this is joined to any neighbour with which it is seen better.
+constexpr double poorly_seen = 0.05;
 /// The same of any part; if less, arcs are divided into more chords.
 constexpr double hardly_seen = 0.02;
 
@@ -103,7 +105,8 @@ class Division {
     return points;
   }
 
-  /// The point from which the part is seen best; its measure is that of the coarse sides, 0 if not all of an arc is seen.
+  /// The point from which the part is seen best; its measure is that of the coarse sides, 0 if not all of an arc is
+  /// seen.
   KernelCentre centre_of(const Part& part) const {
     const std::vector<Vec2> fine = fine_points_of(part.corners);
     KernelCentre centre = kernel_centre(fine, std::numeric_limits<double>::infinity());
@@ -124,8 +127,7 @@ class Division {
     if (i == na || j == nb) return std::nullopt;
     // The common chain runs forwards in a and backwards in b: find its ends.
     std::size_t before = 0, after = 0;
-    while (before + 2 < std::min(na, nb) &&
-           a.corners[(i + na - before - 1) % na] == b.corners[(j + 2 + before) % nb])
+    while (before + 2 < std::min(na, nb) && a.corners[(i + na - before - 1) % na] == b.corners[(j + 2 + before) % nb])
       ++before;
     while (before + after + 2 < std::min(na, nb) &&
            a.corners[(i + 2 + after) % na] == b.corners[(j + nb - after - 1) % nb])
@@ -151,6 +153,15 @@ class Division {
     return made;
   }
 
+  /// Whether joining the two parts at a side is worth it.
+  bool is_better(const Ends& side, const Candidate& candidate) const {
+    if (candidate.seen > well_seen) return true;
+    if (candidate.corners.empty()) return false;
+    double worse = poorly_seen;
+    for (const std::size_t part : at_side_.at(side)) worse = std::min(worse, centre_of(parts_[part]).visibility);
+    return worse < poorly_seen && candidate.seen > worse;
+  }
+
   void join_parts() {
     std::map<Ends, Candidate> candidates;
     for (const auto& [side, sides] : at_side_)
@@ -158,7 +169,8 @@ class Division {
     while (true) {
       auto best = candidates.end();
       for (auto at = candidates.begin(); at != candidates.end(); ++at)
-        if (at->second.seen > well_seen && (best == candidates.end() || at->second.seen > best->second.seen)) best = at;
+        if ((best == candidates.end() || at->second.seen > best->second.seen) && is_better(at->first, at->second))
+          best = at;
       if (best == candidates.end()) return;
       const std::size_t kept = at_side_[best->first][0], gone = at_side_[best->first][1];
       parts_[kept].corners = best->second.corners;
@@ -245,8 +257,7 @@ PolygonMesh star_cells(const Domain& domain) {
     Division division(domain, turn);
     const double seen = division.seen();
     if (seen > hardly_seen || (seen > 0.0 && turn <= least_turn)) return division.mesh();
-    if (turn <= least_turn)
-      throw InputError("", {Diagnostic{{}, "a part between two arcs is too thin for its sides"}});
+    if (turn <= least_turn) throw InputError("", {Diagnostic{{}, "a part between two arcs is too thin for its sides"}});
   }
 }
 

@@ -124,9 +124,10 @@ bool check_paths(const BodyCheck& of) {
       if (!of.checking.vector(path, fmt::format("path.{}", k), point)) {
         good = false;
       } else if (!encloses(of.outline, point) && distance_to(of.outline, point) > 1e-9 * size) {
-        of.checking.error(path, "path", fmt::format("{} lies outside of body '{}': cracks lie inside or end on the "
-                                                    "boundary",
-                                                    point_text(point), of.body.name));
+        of.checking.error(path, "path",
+                          fmt::format("{} lies outside of body '{}': cracks lie inside or end on the "
+                                      "boundary",
+                                      point_text(point), of.body.name));
         good = false;
       } else if (k > 0 && (point - crack.path[k - 1]).norm() <= 1e-9 * size) {
         of.checking.error(path, "path", fmt::format("{} stands there twice: leave one out", point_text(point)));
@@ -149,9 +150,10 @@ bool check_cracks(const BodyCheck& of) {
   const bool many = of.body.mesh.kind == MeshKind::polygons || of.body.mesh.kind == MeshKind::quadtree;
   if (many) return check_paths(of);
   if (!cracks.front().path.empty()) {
-    of.checking.error(of.path, "cracks.0",
-                      "a crack with a 'path' needs many cells: write kind: polygons or kind: quadtree, or give 'tip' and "
-                      "'mouth' of a straight crack");
+    of.checking.error(
+        of.path, "cracks.0",
+        "a crack with a 'path' needs many cells: write kind: polygons or kind: quadtree, or give 'tip' and "
+        "'mouth' of a straight crack");
     return false;
   }
   if (cracks.size() > 1) {
@@ -264,8 +266,8 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
          "the regions of a mesh of a file are those of its cells: give them materials with 'materials'");
   refuse(body.image && body.mesh.kind != MeshKind::quadtree, "mesh.kind",
          "a body that an image shows is divided by a quadtree: write kind: quadtree");
-  refuse(body.image && !(body.cracks.empty() && body.regions.empty() && body.outline.holes.empty() &&
-                         body.mesh.refine.empty()),
+  refuse(body.image &&
+             !(body.cracks.empty() && body.regions.empty() && body.outline.holes.empty() && body.mesh.refine.empty()),
          "shape", "a body that an image shows has no holes, regions, cracks or 'refine' besides: leave them out");
   for (std::size_t i = 0; i < body.mesh.refine.size(); ++i) {
     const LocalSize& local = body.mesh.refine[i];
