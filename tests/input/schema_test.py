@@ -28,6 +28,7 @@ BEYOND_SCHEMA = re.compile(
     r"|shape_too_|centre_|mesh_(1e9|too_many|min_size_(of|above)|refine_(of|on_un)|tolerance_of_(poly|a_body)|quadtree_centre)"
     r"|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named)|regions?_(of_unknown|crosses|outside|touch)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
+    r"|imported_(no_|folded|cut_off|empty|apart|unknown_(region|material|edge)|material_of|region_without|polygon_as|cell_without)"
     r"|support_(conflict|name_)|load_(on_unknown|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
     r"|contact_(with_itself|unknown_edge|twice|of_two_rigid|at_a_corner)"
     r"|crack_(and_centre|path_(in_one|outside|point_twice)|two|face_|in_finite|mouth_(inside|on_a|unknown)|named_like|tip_)|face_(points_(twice|xi)|power_|powers_on)|notch_"

@@ -34,10 +34,25 @@ std::string MeshText::vtu() const {
       array("Int32", "region", regions));
 }
 
+namespace {
+
+/// Files that are removed when the program ends.
+struct TemporaryFiles {
+  std::vector<std::filesystem::path> paths;
+  ~TemporaryFiles() {
+    std::error_code ignored;
+    for (const auto& path : paths) std::filesystem::remove(path, ignored);
+  }
+};
+
+}  // namespace
+
 std::string MeshText::file() const {
+  static TemporaryFiles files;
   static int number = 0;
   const auto path = std::filesystem::temp_directory_path() / fmt::format("scabo_mesh_{}_{}.vtu", ::getpid(), number++);
   std::ofstream(path) << vtu();
+  files.paths.push_back(path);
   return path.string();
 }
 

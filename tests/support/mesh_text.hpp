@@ -22,7 +22,8 @@ struct MeshText {
   std::vector<Cell> cells;
 
   std::string vtu() const;
-  /// Writes it into a new file in the folder for temporary files and gives its path.
+  /// Writes it into a new file in the folder for temporary files, which is removed when the program ends, and gives its
+  /// path.
   std::string file() const;
 };
 

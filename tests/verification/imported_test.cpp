@@ -133,6 +133,36 @@ contacts: {{joint: {{between: [disc.to_region_2, ring.to_region_1], friction: 0.
     }
 }
 
+// The same disc in a ring with a circular hole that is divided differently: nodes are inserted on both sides. Those of the
+// disc lie on its parabolas, so that the pressure is uniform up to their distance from the circle.
+TEST(Imported, ContactOfACurvedBoundaryWithAnotherMesh) {
+  for (const double size : {0.19, 0.13}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+materials: {{m: {{young: 30, poisson: 0.2}}}}
+bodies:
+  disc: {{material: m, mesh: {{file: {}, region: region_1}}}}
+  ring:
+    material: m
+    shape: {{circle: {{centre: [0, 0], radius: 2}}}}
+    holes: {{bore: {{circle: {{centre: [0, 0], radius: 1}}}}}}
+    mesh: {{kind: polygons, size: {}}}
+supports:
+  - {{on: {{body: disc, near: [1, 0]}}, fix: [y]}}
+  - {{on: {{body: disc, near: [-1, 0]}}, fix: [y]}}
+  - {{on: {{body: disc, near: [0, 1]}}, fix: [x]}}
+loads: {{water: {{on: ring.rim, pressure: 1}}}}
+contacts: {{joint: {{between: [disc.to_region_2, ring.bore], friction: 0.3}}}}
+)",
+                                          mesh_of_disc_in_ring(32, true).file(), size));
+    const auto& contact = contact_of(last(solution));
+    EXPECT_EQ(contact.open, 0);
+    double worst = 0.0;
+    for (const auto& pair : contact.pairs) worst = std::max(worst, std::abs(pair.pressure - 1.0));
+    std::printf("ring of %g: %zu pairs, worst deviation of the pressure %.2g\n", size, contact.pairs.size(), worst);
+    EXPECT_LT(worst, 0.01);
+  }
+}
+
 // One rectangle of four nodes: its symmetry blocks have rows that only translations move.
 TEST(Imported, OneRectangleOfOrderOne) {
   const auto solution = run(fmt::format(R"(scabo: 1

@@ -228,8 +228,8 @@ void read_body(Reading& reading, const Entry& entry) {
   const MapReader map(
       report, entry.value,
       {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference",
-       "repeat"},
-      body_example, {{"file", "write mesh: {file: part.msh} instead of shape"}});
+       "repeat", "file"},
+      body_example);
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -239,7 +239,8 @@ void read_body(Reading& reading, const Entry& entry) {
   const auto rigid = rigid_value ? read_flag(report, *rigid_value) : std::optional(false);
   body.rigid = rigid.value_or(false);
   const bool from_file = rigid && !body.rigid && is_from_file(map.get("mesh"));
-  const auto shape = from_file ? std::nullopt : map.need("shape");
+  map.refuse("file", "is a key of 'mesh': write mesh: {file: part.msh} instead of shape");
+  const auto shape = from_file || map.has("file") ? std::nullopt : map.need("shape");
   if (shape) {
     const MapEntry* image = shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
     auto outline = image != nullptr ? read_image(reading, {image->value, shape->path + ".image"}, body)

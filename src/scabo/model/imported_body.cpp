@@ -25,8 +25,9 @@ using files::ImportedMesh;
 
 /// A boundary without a set is cut where it turns by more than this.
 constexpr double corner_turn = std::numbers::pi / 6;
-/// Straight segments for a curved side.
-constexpr int segments_of_side = 8;
+/// Straight segments for a curved side. Nodes that a contact inserts lie on them: with 8, the pressure of a disc in a ring of
+/// another division deviates by 12 % from a uniform one, with 32 by 0.7 %.
+constexpr int segments_of_side = 32;
 /// Distance from a line, relative to its length, of points that lie on it.
 constexpr double on_line = 1e-10;
 

@@ -10,7 +10,7 @@
 // degrees, and at nodes that are alone in a node set, whose names are further names of corners.
 //
 // Names of the file are made names of Scabo: other characters become `_`. A chain of sides on one line becomes a
-// straight edge; sides with a middle node that are curved become eight straight segments each.
+// straight edge; sides with a middle node that are curved become 32 straight segments each.
 #pragma once
 
 #include <map>

@@ -101,8 +101,8 @@ TEST(ImportedBody, HasHolesAndClosedEdges) {
   EXPECT_THAT(ring.outline.holes, ElementsAre(1));
   EXPECT_TRUE(ring.outline.edges[0].is_chain());
   EXPECT_EQ(ring.outline.edges[1].start, ring.outline.edges[1].end);
-  // Eight chords of each parabola, which turn by 2 pi / 192 each: sin(x) / x of the area less than 1 with x = 2 pi / 192.
-  const double chords = std::numbers::pi * 2.0 / 192.0;
+  // 32 chords of each parabola, which turn by x = 2 pi / 768 each: the area is that of a circle times sin(x) / x.
+  const double chords = std::numbers::pi * 2.0 / 768.0;
   EXPECT_NEAR(ring.outline.area() / (3.0 * std::numbers::pi), 1.0 - chords * chords / 6.0, 2e-5);
   EXPECT_NEAR(ring.outline.edges[0].length() / (4.0 * std::numbers::pi), 1.0 - chords * chords / 24.0, 1e-5);
   EXPECT_FALSE(geometry::encloses(ring.outline, {0.99, 0.0}));
