@@ -147,16 +147,19 @@ bool check_points_of_path(const BodyCheck& of, const std::string& path, const Cr
 /// A crack meets the boundary with its ends only.
 bool check_boundary_of_path(const BodyCheck& of, const std::string& path, const Crack& crack, double tolerance) {
   for (const Edge& segment : segments_of(crack.path))
-    for (const Edge& edge : of.outline.edges)
-      for (const Vec2& point : shared_points(segment, edge, tolerance)) {
+    for (const Edge& edge : of.outline.edges) {
+      const std::vector<Vec2> shared = shared_points(segment, edge, tolerance);
+      const bool along = !edge.arc && shared.size() > 1;
+      for (const Vec2& point : shared) {
         const double to_ends = std::min((point - crack.path.front()).norm(), (point - crack.path.back()).norm());
-        if (to_ends <= 3.0 * tolerance) continue;
+        if (!along && to_ends <= 3.0 * tolerance) continue;
         of.checking.error(path, "path",
                           fmt::format("meets {} at {}, between its ends: cracks lie inside the body, and only their "
                                       "ends may lie on the boundary",
                                       shown_name(edge), point_text(point)));
         return false;
       }
+    }
   return true;
 }
 
