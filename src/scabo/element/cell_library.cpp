@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include "scabo/element/finite_element.hpp"
@@ -15,7 +16,8 @@ namespace scabo::element {
 
 namespace {
 
-bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
+/// `rounding`: of the coordinates from which both were made.
+bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b, double rounding) {
   if (a.thickness != b.thickness || a.domain != b.domain || a.sectors.materials != b.sectors.materials ||
       a.sectors.D != b.sectors.D || a.ring.nodes.size() != b.ring.nodes.size() ||
       a.ring.elements.size() != b.ring.elements.size())
@@ -25,8 +27,9 @@ bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b) {
   double size = 0.0;
   for (const Vec2& x : a.ring.nodes) size = std::max(size, x.squaredNorm());
   // Coordinates relative to their centres differ only by rounding.
+  const double most = std::max(1e-26 * size, rounding * rounding);
   for (std::size_t i = 0; i < a.ring.nodes.size(); ++i)
-    if ((a.ring.nodes[i] - b.ring.nodes[i]).squaredNorm() > 1e-26 * size) return false;
+    if ((a.ring.nodes[i] - b.ring.nodes[i]).squaredNorm() > most) return false;
   return true;
 }
 
@@ -134,6 +137,9 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
   std::vector<Diagnostic> folded;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (auto mistake = folded_elements(model.bodies[b], mesh.bodies[b])) folded.push_back(std::move(*mistake));
+    double farthest = 0.0;
+    for (const Vec2& x : mesh.bodies[b].nodes) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
+    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
     for (const mesh::Cell& cell : mesh.bodies[b].cells) {
       if (cell.kind != mesh::CellKind::superelement) {
         solved[b].emplace_back();
@@ -147,7 +153,7 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
       const std::size_t hash = hash_of(*wanted);
       const auto [first, last] = known.equal_range(hash);
       const auto same =
-          std::find_if(first, last, [&](const auto& entry) { return are_alike(*wanted, *distinct[entry.second]); });
+          std::find_if(first, last, [&](const auto& entry) { return are_alike(*wanted, *distinct[entry.second], rounding); });
       if (same != last) {
         solved[b].push_back(distinct[same->second]);
         continue;

@@ -54,7 +54,7 @@ void add_arc_arc(const Arc& a, const Arc& b, Candidates& candidates) {
   candidates.add(a.centre + x * along - h * across);
 }
 
-Candidates shared_points(const Edge& a, const Edge& b) {
+Candidates candidates_of(const Edge& a, const Edge& b) {
   Candidates candidates;
   if (!a.arc && !b.arc) add_line_line(a, b, candidates);
   if (!a.arc && b.arc) add_line_arc(a, *b.arc, candidates);
@@ -94,7 +94,7 @@ std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double
   const bool a_follows = outline.next(j) == i;
   if (b_follows && folds_back(a, b)) return Crossing{Crossing::Kind::fold_back, i, j, a.end};
   if (a_follows && folds_back(b, a)) return Crossing{Crossing::Kind::fold_back, i, j, b.end};
-  const Candidates candidates = shared_points(a, b);
+  const Candidates candidates = candidates_of(a, b);
   for (int k = 0; k < candidates.count; ++k) {
     const Vec2& point = candidates.points[static_cast<std::size_t>(k)];
     if (b_follows && (point - a.end).norm() <= near_corner) continue;
@@ -109,6 +109,18 @@ std::optional<Crossing> crossing_of(const Outline& outline, int i, int j, double
 }
 
 }  // namespace
+
+std::vector<Vec2> shared_points(const Edge& a, const Edge& b, double tolerance) {
+  std::vector<Vec2> shared;
+  const Candidates candidates = candidates_of(a, b);
+  for (int k = 0; k < candidates.count; ++k) {
+    const Vec2& point = candidates.points[static_cast<std::size_t>(k)];
+    if (distance_to(a, point) > tolerance || distance_to(b, point) > tolerance) continue;
+    const auto near = [&](const Vec2& other) { return (other - point).norm() <= 2.0 * tolerance; };
+    if (std::none_of(shared.begin(), shared.end(), near)) shared.push_back(point);
+  }
+  return shared;
+}
 
 std::optional<Crossing> find_crossing(const Outline& outline) {
   const double size = outline_size(outline);

@@ -25,7 +25,12 @@ struct Crossing {
 /// box of an edge only with those that it overlaps in that direction.
 std::optional<Crossing> find_crossing(const Outline& outline);
 
-/// Edges, none of them a chain, that are not entirely visible from `centre`. An edge is visible when the tangent at each of its points passes
+/// The points that two edges share, up to `tolerance` apart from either, each once. Of edges that lie on each other: the
+/// ends of what they share.
+std::vector<Vec2> shared_points(const Edge& a, const Edge& b, double tolerance);
+
+/// Edges, none of them a chain, that are not entirely visible from `centre`. An edge is visible when the tangent at each
+/// of its points passes
 /// the centre on its left at a distance of more than 1e-6 of the size of the body. For a straight edge this is the
 /// distance of its line. For an arc with centre m and radius r it is the minimum over its angles of r + (m - c).(cos,
 /// sin) if it runs counter-clockwise, and of -r - (m - c).(cos, sin) if it runs clockwise.

@@ -99,6 +99,10 @@ std::optional<Outline> read_circle(Reading& reading, const Value& value) {
     return {};
   }
   if (!centre || !radius) return {};
+  if (!(*radius > 0.0)) {
+    reading.report.error(*radius_value, fmt::format("must be greater than 0, not {}", number_text(*radius)));
+    return {};
+  }
   Edge edge;
   edge.names = {"rim"};
   edge.start = edge.end = *centre + Vec2(*radius, 0.0);

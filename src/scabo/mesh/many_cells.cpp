@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
@@ -100,20 +101,92 @@ class CrackNet {
   explicit CrackNet(const model::Body& body) : tolerance_(1e-9 * geometry::outline_size(body.outline)) {
     cuts_.assign(body.outline.edges.size(), {0.0, 1.0});
     for (const model::Crack& crack : body.cracks) paths_.push_back(crack.path);
+    std::vector<std::pair<std::size_t, bool>> open_ends;
     for (std::size_t p = 0; p < paths_.size(); ++p)
       for (const bool last : {false, true}) {
         Vec2& end = last ? paths_[p].back() : paths_[p].front();
-        if (!put_on_outline(body, end) && !put_on_crack(p, end)) tips.push_back(end);
+        if (!put_on_outline(body, end) && !put_on_crack(p, end)) open_ends.emplace_back(p, last);
       }
+    for (std::size_t p = 0; p < paths_.size(); ++p)
+      for (std::size_t q = 0; q <= p; ++q) divide_at_crossings(p, q);
+    for (const model::Region& region : body.regions) {
+      region_cuts_.emplace_back();
+      for (const geometry::Edge& edge : region.outline.edges) region_cuts_.back().push_back(cuts_by_cracks(edge));
+    }
     for (std::vector<double>& cut : cuts_) std::sort(cut.begin(), cut.end());
+    for (const auto& [p, last] : open_ends) tips.push_back(last ? paths_[p].back() : paths_[p].front());
   }
 
   std::vector<Vec2> tips;
   const std::vector<std::vector<Vec2>>& paths() const { return paths_; }
   /// Positions at which cracks end on an edge, with 0 and 1.
   const std::vector<double>& cuts(std::size_t edge) const { return cuts_[edge]; }
+  /// Positions at which cracks cross an edge of a region, with 0 and 1.
+  const std::vector<double>& region_cuts(std::size_t region, std::size_t edge) const {
+    return region_cuts_[region][edge];
+  }
 
  private:
+  static geometry::Edge segment(const std::vector<Vec2>& path, std::size_t k) {
+    geometry::Edge edge;
+    edge.start = path[k];
+    edge.end = path[k + 1];
+    return edge;
+  }
+
+  /// A point on segment k becomes a point of the path; whether one was added (not if it is an end of the segment).
+  bool divide(std::vector<Vec2>& path, std::size_t k, const Vec2& point) const {
+    for (Vec2* end : {&path[k], &path[k + 1]})
+      if ((*end - point).norm() <= 3.0 * tolerance_) {
+        *end = point;
+        return false;
+      }
+    path.insert(path.begin() + static_cast<std::ptrdiff_t>(k) + 1, point);
+    return true;
+  }
+
+  /// Where two cracks, or parts of one, cross, both get a point.
+  void divide_at_crossings(std::size_t p, std::size_t q) {
+    for (std::size_t k = 0; k + 1 < paths_[p].size(); ++k)
+      for (std::size_t l = 0; l + 1 < (p == q ? k : paths_[q].size()); ++l) {
+        const auto shared = geometry::shared_points(segment(paths_[p], k), segment(paths_[q], l), tolerance_);
+        if (shared.size() != 1) continue;
+        Vec2 point = shared.front();
+        for (const Vec2& end : {paths_[q][l], paths_[q][l + 1], paths_[p][k], paths_[p][k + 1]})
+          if ((end - point).norm() <= 3.0 * tolerance_) point = end;
+        if (p == q) {  // the later one first, because its number changes
+          divide(paths_[p], k, point);
+          if (divide(paths_[q], l, point)) ++k;
+        } else {
+          divide(paths_[p], k, point);
+          divide(paths_[q], l, point);
+        }
+      }
+  }
+
+  /// Divides cracks where they cross an edge of a region, and gives the positions on the edge.
+  std::vector<double> cuts_by_cracks(const geometry::Edge& edge) {
+    std::vector<double> cuts{0.0, 1.0};
+    const double slack = 3.0 * tolerance_ / edge.length();
+    const auto point_of = [&](const Vec2& shared) {
+      const double at = geometry::closest_position(edge, shared);
+      if (at <= slack) return edge.start;
+      if (at >= 1.0 - slack) return edge.end;
+      const auto same = std::find_if(cuts.begin(), cuts.end(), [&](double c) { return std::abs(c - at) <= slack; });
+      if (same != cuts.end()) return edge.at(*same);
+      cuts.push_back(at);
+      return edge.at(at);
+    };
+    for (std::vector<Vec2>& path : paths_)
+      for (std::size_t k = 0; k + 1 < path.size();) {
+        const auto shared = geometry::shared_points(segment(path, k), edge, tolerance_);
+        const auto divides = [&](const Vec2& point) { return divide(path, k, point_of(point)); };
+        if (std::none_of(shared.begin(), shared.end(), divides)) ++k;
+      }
+    std::sort(cuts.begin(), cuts.end());
+    return cuts;
+  }
+
   bool put_on_outline(const model::Body& body, Vec2& end) {
     for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
       const geometry::Edge& edge = body.outline.edges[e];
@@ -158,6 +231,7 @@ class CrackNet {
   double tolerance_;
   std::vector<std::vector<Vec2>> paths_;
   std::vector<std::vector<double>> cuts_;
+  std::vector<std::vector<std::vector<double>>> region_cuts_;
 };
 
 /// Region that holds a point, as in BodyDomain.
@@ -207,12 +281,11 @@ double approximate_nodes(const model::Body& body) {
   return cells * (1.0 + 2.0 * (body.mesh.order - 1));
 }
 
-/// Points between the ends of a side, in the direction from `a` to `b`.
-std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::optional<geometry::Arc>& arc) {
-  const std::vector<double> lobatto = lobatto_points(order);
+/// Points of a side at fractions of it, in the direction from `a` to `b`.
+std::vector<Vec2> points_at(const std::vector<double>& fractions, const Vec2& a, const Vec2& b,
+                            const std::optional<geometry::Arc>& arc) {
   std::vector<Vec2> points;
-  for (int i = 1; i < order; ++i) {
-    const double t = 0.5 * (1.0 + lobatto[static_cast<std::size_t>(i)]);
+  for (const double t : fractions) {
     if (!arc) {
       points.push_back(a + t * (b - a));
       continue;
@@ -224,6 +297,18 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
   }
   return points;
 }
+
+/// Points between the ends of a side, in the direction from `a` to `b`.
+std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::optional<geometry::Arc>& arc) {
+  const std::vector<double> lobatto = lobatto_points(order);
+  std::vector<double> fractions;
+  for (int i = 1; i < order; ++i) fractions.push_back(0.5 * (1.0 + lobatto[static_cast<std::size_t>(i)]));
+  return points_at(fractions, a, b, arc);
+}
+
+/// An element of the cell around a crack tip is seen from the tip under at most this angle: the singular stress is as
+/// exact as the elements there resolve it, however small the cell is.
+constexpr double largest_angle_at_tip = std::numbers::pi / 8;
 
 /// `turn`: of a quadtree (QuadtreeOptions).
 PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh, double turn) {
@@ -261,14 +346,17 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes) {
   const CrackNet cracks(body);
   for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
     made.lines_of_edge.emplace_back();
-    for (DomainLine& line : lines_of(body, sizes, body.outline.edges[e], cracks.cuts(e))) {
+    const geometry::Edge& edge = body.outline.edges[e];
+    const bool of_hole = !body.outline.holes.empty() && static_cast<int>(e) >= body.outline.holes.front();
+    for (DomainLine& line : lines_of(body, sizes, edge, cracks.cuts(e))) {
+      if (of_hole) line.left = region_at(body, edge.at(0.5));
       made.lines_of_edge.back().push_back(made.domain.lines.size());
       made.domain.lines.push_back(std::move(line));
     }
   }
   for (std::size_t k = 0; k < body.regions.size(); ++k)
-    for (const geometry::Edge& edge : body.regions[k].outline.edges)
-      for (DomainLine& line : lines_of(body, sizes, edge, {0.0, 1.0})) {
+    for (std::size_t e = 0; e < body.regions[k].outline.edges.size(); ++e)
+      for (DomainLine& line : lines_of(body, sizes, body.regions[k].outline.edges[e], cracks.region_cuts(k, e))) {
         line.left = static_cast<int>(k) + 1;
         line.right = region_around(body, k);
         made.domain.lines.push_back(std::move(line));
@@ -300,6 +388,30 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     for (const auto* chain : {&polygons.left[l], &polygons.right[l]})
       for (std::size_t k = 0; domain.lines[l].arc && k + 1 < chain->size(); ++k)
         on_arc.emplace(std::minmax((*chain)[k], (*chain)[k + 1]), l);
+  std::map<Ends, std::vector<int>> parts;  // of sides of cells at crack tips: nodes that divide them, as in `inner`
+  for (const PolygonCell& polygon : polygons.cells)
+    for (std::size_t i = 0; polygon.open && i + 1 < polygon.nodes.size(); ++i) {
+      const Ends ends = std::minmax(polygon.nodes[i], polygon.nodes[i + 1]);
+      const Vec2 from = mesh.nodes[static_cast<std::size_t>(ends.first)],
+                 to = mesh.nodes[static_cast<std::size_t>(ends.second)];
+      const Vec2 a = from - polygon.centre, b = to - polygon.centre;
+      const double angle = std::abs(std::atan2(cross(a, b), a.dot(b)));
+      const int count = std::max(1, static_cast<int>(std::ceil(angle / largest_angle_at_tip - 1e-6)));
+      if (count == 1 || parts.contains(ends)) continue;
+      std::vector<double> fractions;
+      for (int k = 1; k < count; ++k) fractions.push_back(static_cast<double>(k) / count);
+      const auto arc = on_arc.find(ends);
+      const std::size_t line = arc == on_arc.end() ? 0 : arc->second;
+      std::vector<int>& nodes = parts[ends];
+      int before = ends.first;
+      for (const Vec2& x : points_at(fractions, from, to, arc == on_arc.end() ? std::nullopt : domain.lines[line].arc)) {
+        nodes.push_back(static_cast<int>(mesh.nodes.size()));
+        mesh.nodes.push_back(x);
+        if (arc != on_arc.end()) on_arc.emplace(std::minmax(before, nodes.back()), line);
+        before = nodes.back();
+      }
+      if (arc != on_arc.end()) on_arc.emplace(std::minmax(before, ends.second), line);
+    }
   std::map<Ends, std::vector<int>> inner;  // nodes between the ends, from the lower number on
   const auto side = [&](int a, int b) {
     const Ends ends = std::minmax(a, b);
@@ -323,6 +435,19 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     }
     element.nodes.push_back(b);
     return element;
+  };
+  const auto sides = [&](int a, int b) {
+    std::vector<LineElement> elements;
+    const auto divided = parts.find(std::minmax(a, b));
+    if (divided == parts.end()) return std::vector<LineElement>{side(a, b)};
+    std::vector<int> nodes = divided->second;
+    if (a > b) std::reverse(nodes.begin(), nodes.end());
+    nodes.push_back(b);
+    for (const int node : nodes) {
+      elements.push_back(side(a, node));
+      a = node;
+    }
+    return elements;
   };
   // A side on a hollow arc is seen from where its end tangents are seen: the corner where they meet stands for it.
   const auto seeing_centre = [&](const PolygonCell& polygon) {
@@ -359,10 +484,12 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     };
     cell.materials = {material_of(polygon.region)};
     if (!polygon.side_regions.empty()) cell.materials.clear();
-    for (const int region : polygon.side_regions) cell.materials.push_back(material_of(region));
     const std::size_t count = polygon.nodes.size();
     for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i)
-      cell.boundary.push_back(side(polygon.nodes[i], polygon.nodes[(i + 1) % count]));
+      for (LineElement& element : sides(polygon.nodes[i], polygon.nodes[(i + 1) % count])) {
+        cell.boundary.push_back(std::move(element));
+        if (!polygon.side_regions.empty()) cell.materials.push_back(material_of(polygon.side_regions[i]));
+      }
     mesh.cells.push_back(std::move(cell));
   }
   for (const std::vector<std::size_t>& lines : of.lines_of_edge) {
@@ -370,7 +497,8 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     mesh.corners.push_back(polygons.left[lines.front()].empty() ? -1 : polygons.left[lines.front()].front());
     for (const std::size_t line : lines)
       for (std::size_t k = 0; k + 1 < polygons.left[line].size(); ++k)
-        elements.push_back(side(polygons.left[line][k], polygons.left[line][k + 1]));
+        for (LineElement& element : sides(polygons.left[line][k], polygons.left[line][k + 1]))
+          elements.push_back(std::move(element));
   }
   return mesh;
 }
@@ -395,6 +523,27 @@ BodyMesh divide_image(const model::Body& body) {
   return body_mesh_of(polygons, of, body);
 }
 
+/// Number of pieces that share no side with each other.
+std::size_t pieces_of(const BodyMesh& mesh) {
+  std::vector<std::size_t> piece(mesh.cells.size());
+  std::iota(piece.begin(), piece.end(), std::size_t{0});
+  const auto root = [&](std::size_t c) {
+    while (piece[c] != c) c = piece[c] = piece[piece[c]];
+    return c;
+  };
+  std::map<std::pair<int, int>, std::size_t> of_side;
+  std::size_t count = mesh.cells.size();
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const LineElement& element : mesh.cells[c].boundary) {
+      const auto [other, is_new] = of_side.emplace(std::minmax(element.nodes.front(), element.nodes.back()), c);
+      const std::size_t a = root(c), b = root(other->second);
+      if (a == b) continue;
+      piece[a] = b;
+      --count;
+    }
+  return count;
+}
+
 }  // namespace
 
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes,
@@ -415,7 +564,14 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
   constexpr double turn = 0.5, least_turn = 0.1;
   for (double now = turn;; now *= 0.5) {
     try {
-      return body_mesh_of(polygons_of(of.domain, body.mesh, now), of, body);
+      BodyMesh mesh = body_mesh_of(polygons_of(of.domain, body.mesh, now), of, body);
+      const std::size_t pieces = body.cracks.empty() ? 1 : pieces_of(mesh);
+      if (pieces > 1)
+        return Diagnostic{body.cracks.front().source,
+                          fmt::format("the cracks divide body '{}' into {} pieces: let them end inside, or make the "
+                                      "pieces bodies of their own, with a contact between them",
+                                      body.name, pieces)};
+      return mesh;
     } catch (const InputError& error) {
       // Cells of a quadtree that are too large beside an arc become smaller.
       if (body.mesh.kind == model::MeshKind::quadtree && now > least_turn) continue;

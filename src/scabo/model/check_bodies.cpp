@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
@@ -107,33 +108,103 @@ bool check_crack(const BodyCheck& of) {
   return good;
 }
 
+/// The segments of a path as edges.
+std::vector<Edge> segments_of(const std::vector<Vec2>& path) {
+  std::vector<Edge> segments;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    segments.emplace_back();
+    segments.back().start = path[k];
+    segments.back().end = path[k + 1];
+  }
+  return segments;
+}
+
+/// The points of a path: inside, and none twice in a row.
+bool check_points_of_path(const BodyCheck& of, const std::string& path, const Crack& crack, double tolerance) {
+  if (crack.path.size() < 2) {
+    of.checking.error(path, "path", "needs two points or more: the ends of the crack");
+    return false;
+  }
+  for (std::size_t k = 0; k < crack.path.size(); ++k) {
+    const Vec2& point = crack.path[k];
+    if (!of.checking.vector(path, fmt::format("path.{}", k), point)) return false;
+    if (!encloses(of.outline, point) && distance_to(of.outline, point) > tolerance) {
+      of.checking.error(path, "path",
+                        fmt::format("{} lies outside of body '{}': cracks lie inside or end on the boundary",
+                                    point_text(point), of.body.name));
+      return false;
+    }
+    if (k > 0 && (point - crack.path[k - 1]).norm() <= 10.0 * tolerance) {
+      of.checking.error(path, "path",
+                        fmt::format("{} and {} are too close to each other: leave one out",
+                                    point_text(crack.path[k - 1]), point_text(point)));
+      return false;
+    }
+  }
+  return true;
+}
+
+/// A crack meets the boundary with its ends only.
+bool check_boundary_of_path(const BodyCheck& of, const std::string& path, const Crack& crack, double tolerance) {
+  for (const Edge& segment : segments_of(crack.path))
+    for (const Edge& edge : of.outline.edges) {
+      const std::vector<Vec2> shared = shared_points(segment, edge, tolerance);
+      const bool along = !edge.arc && shared.size() > 1;
+      for (const Vec2& point : shared) {
+        const double to_ends = std::min((point - crack.path.front()).norm(), (point - crack.path.back()).norm());
+        if (!along && to_ends <= 3.0 * tolerance) continue;
+        of.checking.error(path, "path",
+                          fmt::format("meets {} at {}, between its ends: cracks lie inside the body, and only their "
+                                      "ends may lie on the boundary",
+                                      shown_name(edge), point_text(point)));
+        return false;
+      }
+    }
+  return true;
+}
+
 /// Cracks in a body of many cells.
 bool check_paths(const BodyCheck& of) {
-  const double size = outline_size(of.outline);
+  const double tolerance = 1e-9 * outline_size(of.outline);
+  std::unordered_set<std::string> names;
+  std::vector<std::pair<Edge, std::string>> before;  // segments, and the names of their cracks
   bool good = true;
   for (std::size_t c = 0; c < of.body.cracks.size(); ++c) {
     const Crack& crack = of.body.cracks[c];
     const std::string path = fmt::format("{}.cracks.{}", of.path, c);
-    if (crack.path.size() < 2) {
-      of.checking.error(path, "path", "needs two points or more: the ends of the crack");
+    if (!is_name(crack.name)) {
+      of.checking.error(path, "name", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin "
+                                                  "with a letter or _",
+                                                  crack.name));
+      good = false;
+    } else if (!names.insert(crack.name).second) {
+      of.checking.error(path, "name", fmt::format("there is already a crack named '{}': give every crack a name of its "
+                                                  "own",
+                                                  crack.name));
+      good = false;
+    }
+    if (!check_points_of_path(of, path, crack, tolerance) || !check_boundary_of_path(of, path, crack, tolerance)) {
       good = false;
       continue;
     }
-    for (std::size_t k = 0; k < crack.path.size(); ++k) {
-      const Vec2& point = crack.path[k];
-      if (!of.checking.vector(path, fmt::format("path.{}", k), point)) {
-        good = false;
-      } else if (!encloses(of.outline, point) && distance_to(of.outline, point) > 1e-9 * size) {
-        of.checking.error(path, "path",
-                          fmt::format("{} lies outside of body '{}': cracks lie inside or end on the "
-                                      "boundary",
-                                      point_text(point), of.body.name));
-        good = false;
-      } else if (k > 0 && (point - crack.path[k - 1]).norm() <= 1e-9 * size) {
-        of.checking.error(path, "path", fmt::format("{} stands there twice: leave one out", point_text(point)));
+    for (const Edge& segment : segments_of(crack.path)) {
+      const auto lies_on = [&](const Edge& other) { return shared_points(segment, other, tolerance).size() > 1; };
+      const auto other = std::find_if(before.begin(), before.end(), [&](const auto& b) { return lies_on(b.first); });
+      if (other != before.end() && good) {
+        of.checking.error(path, "path", fmt::format("lies on {} near {}: cracks may cross, but not lie on each other",
+                                                    other->second == crack.name ? "itself" : "crack '" + other->second + "'",
+                                                    point_text(segment.start)));
         good = false;
       }
-      if (!good) break;
+      before.emplace_back(segment, crack.name);
+      for (const Region& region : of.body.regions)
+        for (const Edge& edge : region.outline.edges)
+          if (good && !edge.arc && lies_on(edge)) {
+            of.checking.error(path, "path", fmt::format("lies on the border of region '{}' near {}: cracks may cross "
+                                                        "borders of regions, but not lie on them",
+                                                        region.name, point_text(segment.start)));
+            good = false;
+          }
     }
   }
   return good;
@@ -336,7 +407,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
           good = false;
     if (!body.cracks.empty())
       checking.error(path, "cracks.0",
-                     "only a super-element can have a crack: leave the crack out, or use superelement"),
+                     "finite elements cannot have a crack: use polygons, quadtree or superelement, or leave the crack out"),
           good = false;
     if (body.outside)
       checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
