@@ -468,8 +468,17 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     replay(solution, options);
     return solution;
   };
+  std::optional<StaticSolution> last;
   while (true) {
-    auto [solution, wider] = solve_pass(model, std::move(mesh), options, fmt::format("pass {}", passes.size() + 1));
+    SolvedPass pass;
+    try {
+      if (last) mesh = refinement.mesh();
+      pass = solve_pass(model, std::move(mesh), options, fmt::format("pass {}", passes.size() + 1));
+    } catch (const InputError& error) {
+      if (!last) throw;
+      return end(not_reached(std::move(*last), error.diagnostics().front().message));
+    }
+    auto& [solution, wider] = pass;
     if (!wider) return end(std::move(solution));
     const Judgement judgement = judge(solution);
     passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});
@@ -490,11 +499,7 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     // Where refinement cannot continue, an estimate between the aim and the tolerance is accepted.
     if (!obstacle.empty())
       return end(judgement.sum <= 1.0 ? std::move(solution) : not_reached(std::move(solution), obstacle));
-    try {
-      mesh = refinement.mesh();
-    } catch (const InputError& error) {
-      return end(not_reached(std::move(solution), error.diagnostics().front().message));
-    }
+    last = std::move(solution);
   }
 }
 

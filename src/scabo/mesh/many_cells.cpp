@@ -224,12 +224,13 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
   return points;
 }
 
-PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh) {
-  switch (mesh.kind) {
+PolygonMesh polygons_of(const Domain& domain, const model::Body& body) {
+  const auto size_of_options = [&body](const Vec2& x) { return wanted_size(body, {}, x); };
+  switch (body.mesh.kind) {
     case model::MeshKind::polygons:
       return polygon_mesh(domain);
     case model::MeshKind::quadtree:
-      return quadtree_mesh(domain, {.min_size = mesh.min_size});
+      return quadtree_mesh(domain, {.min_size = body.mesh.min_size, .size_of_roots = size_of_options});
     case model::MeshKind::parts:
       return star_cells(domain);
     case model::MeshKind::fem:
@@ -376,7 +377,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                                     body.mesh.size, nodes, most_nodes)};
   const BodyDomain of = domain_of(body, sizes);
   try {
-    return body_mesh_of(polygons_of(of.domain, body.mesh), of, body);
+    return body_mesh_of(polygons_of(of.domain, body), of, body);
   } catch (const InputError& error) {
     return Diagnostic{body.mesh.source,
                       fmt::format("this shape could not be divided ({}): use another 'size' or kind", error.diagnostics().front().message)};
