@@ -4,7 +4,7 @@
     benchmarks/adaptive/run.py --scabo build/bin/scabo -o benchmarks/adaptive
 
 prints a table and draws adaptive.png. The error is that in the energy norm, from the energy: at the corner against one
-super-element with its scaling centre there (order 12), under the cylinder against cubic polygons refined to 5e-4."""
+super-element with its scaling centre there (order 12), under the cylinder against cubic polygons refined to 3e-4."""
 import argparse
 import json
 import math
@@ -37,15 +37,15 @@ bodies:
   part:
     material: steel
     shape: {rectangle: {corner: [-1, -1], size: [2, 1]}}
-    mesh: {kind: polygons, size: 0.25, order: 3, tolerance: 5e-4}
+    mesh: {kind: polygons, size: 0.25, order: 3, tolerance: 3e-4}
   cylinder:
     rigid: true
     shape: {outline: [{arc: {from: [-1, 1], to: [1, 1], centre: [0, 1]}, name: tread}, {line: {to: [-1, 1]}}]}
 supports: [{on: part.bottom, fix: [x, y]}, {on: cylinder, displacement: [0, -0.003]}]
 contacts: {joint: {between: [part.top, cylinder.tread], friction: 0}}
 """
-TOLERANCES = {1: (0.1, 0.05, 0.025, 0.0125, 0.006), 2: (0.1, 0.03, 0.01, 3e-3, 1e-3)}
-SIZES = {1: (0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625), 2: (0.5, 0.25, 0.125, 0.0625, 0.03125)}
+TOLERANCES = {1: (0.1, 0.05, 0.025, 0.0125), 2: (0.1, 0.03, 0.01, 3e-3, 1e-3)}
+SIZES = {1: (0.5, 0.25, 0.125, 0.0625, 0.03125), 2: (0.5, 0.25, 0.125, 0.0625, 0.03125)}
 
 
 def main():
@@ -62,7 +62,7 @@ def main():
         for order in (1, 2):
             for kind, cells, values in (("quadtree", "equal squares", SIZES), ("quadtree", "quadtree, refined", TOLERANCES),
                                         ("polygons", "polygons, refined", TOLERANCES)):
-                for value in values[order]:
+                for value in values[order][:3 if values is TOLERANCES and (name, order) == ("Hertz", 1) else None]:
                     key = f"size: {value}" if values is SIZES else f"size: 0.5, tolerance: {value}"
                     found = solve(options.scabo, model, f"bodies.part.mesh={{kind: {kind}, order: {order}, {key}}}")
                     error = math.sqrt(abs(found["energy"] / exact - 1.0))
