@@ -65,12 +65,13 @@ CellBox box_of(const mesh::BodyMesh& mesh, const mesh::Cell& cell) {
   return {0.5 * (lower + upper), extent.maxCoeff(), area > (1.0 - 1e-6) * extent.prod()};
 }
 
-/// Size of a cell for the purpose of refining it. Of a square that a line cuts, only the size that was wanted there is
-/// known, which is less than twice that of the square.
-double size_of(const CellBox& box, const model::Body& body, const mesh::SizeField& sizes) {
+/// Size of a cell for the purpose of refining it. The cell at a crack tip is two squares wide. Of a square that a line
+/// cuts, only the size that was wanted there is known, which is less than twice that of the square.
+double size_of(const mesh::Cell& cell, const CellBox& box, const model::Body& body, const mesh::SizeField& sizes) {
   const double wanted = mesh::wanted_size(body, sizes, box.middle);
   if (body.mesh.kind != model::MeshKind::quadtree) return std::min(box.side, wanted);
-  return box.filled ? box.side : std::max(box.side, 0.5 * wanted);
+  if (cell.is_open()) return 0.5 * box.side;
+  return box.filled ? box.side : std::clamp(box.side, 0.5 * wanted, wanted);
 }
 
 /// Elements that face each other, of edges that are divided as `division` says.
@@ -99,7 +100,8 @@ int divided_element(const geometry::Edge& edge, const mesh::EdgeDivision& divisi
 
 }  // namespace
 
-BoundaryRefinement::BoundaryRefinement(const model::Model& model) : model_(model), division_(mesh::uniform_division(model)) {
+BoundaryRefinement::BoundaryRefinement(const model::Model& model)
+    : model_(model), division_(mesh::uniform_division(model)) {
   for (const mesh::BodyDivision& body : division_) {
     auto& of_body = predicted_.emplace_back();
     for (const mesh::EdgeDivision& edge : body)
@@ -272,11 +274,12 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
     const mesh::BodyMesh& mesh = errors.mesh.bodies[b];
     const mesh::Cell& cell = mesh.cells[static_cast<std::size_t>(part.at.element)];
     const CellBox box = box_of(mesh, cell);
-    const double size = size_of(box, body, sizes_[b]);
+    const double size = size_of(cell, box, body, sizes_[b]);
     const bool square = body.mesh.kind == model::MeshKind::quadtree;
     const double target = aim_of_cells / static_cast<double>(all);
     const double factor =
-        square ? 0.5 : std::clamp(std::pow(target / part.share, 0.5 / (body.mesh.order + 1)), least_factor, largest_factor);
+        square ? 0.5
+               : std::clamp(std::pow(target / part.share, 0.5 / (body.mesh.order + 1)), least_factor, largest_factor);
     const double next = factor * size;
     if (next < smallest * geometry::outline_size(body.outline)) continue;
     samples[b].push_back({box.middle, next});
