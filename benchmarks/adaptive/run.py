@@ -4,7 +4,7 @@
     benchmarks/adaptive/run.py --scabo build/bin/scabo -o benchmarks/adaptive
 
 prints a table and draws adaptive.png. The error is that in the energy norm, from the energy: at the corner against one
-super-element with its scaling centre there (order 12), under the cylinder against cubic polygons refined to 2e-4."""
+super-element with its scaling centre there (order 12), under the cylinder against cubic polygons refined to 3e-4."""
 import argparse
 import json
 import math
@@ -37,15 +37,15 @@ bodies:
   part:
     material: steel
     shape: {rectangle: {corner: [-1, -1], size: [2, 1]}}
-    mesh: {kind: polygons, size: 0.25, order: 3, tolerance: 2e-4}
+    mesh: {kind: polygons, size: 0.25, order: 3, tolerance: 3e-4}
   cylinder:
     rigid: true
     shape: {outline: [{arc: {from: [-1, 1], to: [1, 1], centre: [0, 1]}, name: tread}, {line: {to: [-1, 1]}}]}
 supports: [{on: part.bottom, fix: [x, y]}, {on: cylinder, displacement: [0, -0.003]}]
 contacts: {joint: {between: [part.top, cylinder.tread], friction: 0}}
 """
-TOLERANCES = {1: (0.1, 0.05, 0.025, 0.0125, 0.006), 2: (0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4)}
-SIZES = {1: (0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625), 2: (0.5, 0.25, 0.125, 0.0625, 0.03125)}
+TOLERANCES = {1: (0.1, 0.05, 0.025, 0.0125), 2: (0.1, 0.03, 0.01, 3e-3, 1e-3)}
+SIZES = {1: (0.5, 0.25, 0.125, 0.0625, 0.03125), 2: (0.5, 0.25, 0.125, 0.0625, 0.03125)}
 
 
 def main():
@@ -62,7 +62,7 @@ def main():
         for order in (1, 2):
             for kind, cells, values in (("quadtree", "equal squares", SIZES), ("quadtree", "quadtree, refined", TOLERANCES),
                                         ("polygons", "polygons, refined", TOLERANCES)):
-                for value in values[order]:
+                for value in values[order][:3 if values is TOLERANCES and (name, order) == ("Hertz", 1) else None]:
                     key = f"size: {value}" if values is SIZES else f"size: 0.5, tolerance: {value}"
                     found = solve(options.scabo, model, f"bodies.part.mesh={{kind: {kind}, order: {order}, {key}}}")
                     error = math.sqrt(abs(found["energy"] / exact - 1.0))
@@ -91,7 +91,7 @@ def solve(scabo, model, *settings):
 def draw(rows, path):
     from pictures import BLUE, GREEN, RED, plt
     styles = {"equal squares": (RED, "s"), "quadtree, refined": (BLUE, "o"), "polygons, refined": (GREEN, "^")}
-    figure, all_axes = plt.subplots(1, 2, figsize=(8.4, 3.9), sharey=True, layout="constrained")
+    figure, all_axes = plt.subplots(1, 2, figsize=(8.4, 4.4), sharey=True, layout="constrained")
     titles = {"corner": "Re-entrant corner, exponent 0.5445", "Hertz": "Rigid cylinder on a block"}
     for axes, (name, title) in zip(all_axes, titles.items()):
         for (problem, order, cells), points in rows.items():
@@ -100,15 +100,16 @@ def draw(rows, path):
             colour, marker = styles[cells]
             axes.loglog([p[0] for p in points], [p[1] for p in points], marker=marker, ms=4, color=colour,
                         ls="-" if order == 2 else "--", label=f"{cells}, order {order}")
-        for order, start in ((1, (1500, 1.1e-2)), (2, (2500, 9e-4))):
-            ends = (start[0], 8 * start[0])
-            axes.loglog(ends, (start[1], start[1] * 8 ** (-order / 2)), color="0.4", lw=0.8)
-            axes.annotate(f"slope {order}/2", (ends[1], start[1] * 8 ** (-order / 2)), fontsize=7.5, color="0.3",
-                          xytext=(3, 0), textcoords="offset points", va="center")
-        axes.set(xlabel="degrees of freedom", title=title)
+        for order, start in ((1, (130, 6e-3)), (2, (130, 2e-3))):
+            ends = (start[0], 4 * start[0])
+            axes.loglog(ends, (start[1], start[1] * 4 ** (-order / 2)), color="0.4", lw=0.9)
+            axes.annotate(f"{'−1/2' if order == 1 else '−1'}", (ends[1], start[1] * 4 ** (-order / 2)), fontsize=8,
+                          color="0.3", xytext=(3, 0), textcoords="offset points", va="center")
+        axes.set(xlabel="degrees of freedom", title=title, xlim=(20, 6e4), ylim=(2e-4, 1.5))
         axes.grid(True)
     all_axes[0].set_ylabel("error in the energy norm, relative")
-    all_axes[1].legend(loc="lower left", fontsize=7)
+    figure.legend(*all_axes[0].get_legend_handles_labels(), loc="lower center", ncol=3)
+    figure.get_layout_engine().set(rect=(0, 0.13, 1, 0.87))
     figure.savefig(path)
 
 

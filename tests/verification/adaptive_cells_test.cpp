@@ -136,6 +136,35 @@ TEST_P(RefinedCells, ConvergeWithTheirOrderAtAReEntrantCorner) {
   }
 }
 
+// The cell at the tip becomes smaller with those around it. Energy by one super-element with its scaling centre there.
+TEST_P(RefinedCells, MeetTheToleranceOfACrackedPlate) {
+  const auto with = [](const std::string& mesh) {
+    return run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 1.0, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{rectangle: {{corner: [0, 0], size: [1, 2]}}}}
+    mesh: {}
+    cracks: [{{tip: [0.5, 1], mouth: [0, 1], name: flaw}}]
+supports: [{{on: plate.bottom_right, fix: [x, y]}}, {{on: plate.top_right, fix: x}}]
+loads: {{pull: {{on: plate.top, traction: [0, 1e-3]}}, hold: {{on: plate.bottom, traction: [0, -1e-3]}}}}
+)",
+                           mesh));
+  };
+  const double exact = last(with("{size: 0.5, order: 12}")).energy.elastic;
+  for (const int order : {2, 3}) {
+    const auto solution = with(fmt::format("{{kind: {}, size: 0.25, order: {}, tolerance: 4e-3}}", kind(), order));
+    const double truth = error_against(exact, solution);
+    std::cout << kind() << " crack, order " << order << ": " << solution.passes.size() << " passes, "
+              << 2 * solution.mesh.nodes() << " dofs, estimated " << estimate_of(solution) << ", true " << truth << "\n";
+    EXPECT_GT(solution.passes.size(), 1u);
+    EXPECT_LE(truth, 4e-3);
+    EXPECT_GT(estimate_of(solution) / truth, 0.5);
+  }
+}
+
 TEST(RefinedQuadtree, DoesNotDependOnUnits) {
   const char* const mesh = "{{kind: quadtree, size: {}, order: 2, tolerance: 3e-3}}";
   const auto metres = run(corner(fmt::format(fmt::runtime(mesh), 0.5)));

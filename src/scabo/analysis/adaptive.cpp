@@ -329,7 +329,8 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
   double energy = 0.0;
   for (std::size_t b = 0; b < error.bodies.size(); ++b) {
     if (!has_estimate(solution, b)) continue;
-    for (const double of_cell : squared_errors(solution, increment, wider, wider_increment, b, left_out[b])) squared[b] += of_cell;
+    for (const double of_cell : squared_errors(solution, increment, wider, wider_increment, b, left_out[b]))
+      squared[b] += of_cell;
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
       const Vector U = displacement_of(wider, wider_increment, b, c);
       energy += U.dot(wider.cells[b][c]->solution.K * U);
@@ -365,7 +366,8 @@ std::vector<double> element_errors(const StaticSolution& solution, const Increme
   std::vector<double> errors;
   for (std::size_t c = 0; c < solution.cells[body].size(); ++c) {
     const element::SolvedSuperElement &narrow = *solution.cells[body][c], &wide = *wider.cells[body][c];
-    const Vector u = displacement_of(solution, increment, body, c), U = displacement_of(wider, wider_increment, body, c);
+    const Vector u = displacement_of(solution, increment, body, c),
+                 U = displacement_of(wider, wider_increment, body, c);
     for (const double error : element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), u},
                                                           {wide.ring, wide.solution, wide.modes(), U}, wide.sectors.D))
       errors.push_back(error);
@@ -379,8 +381,8 @@ std::vector<double> element_errors(const StaticSolution& solution, const Increme
 std::vector<double> cell_errors(const StaticSolution& solution, const IncrementResult& increment,
                                 const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t body) {
   const BodyError& whole = *increment.error->bodies[body];
-  std::vector<double> errors = squared_errors(solution, increment, wider, wider_increment, body,
-                                              left_out_cells(solution)[body]);
+  std::vector<double> errors =
+      squared_errors(solution, increment, wider, wider_increment, body, left_out_cells(solution)[body]);
   for (double& error : errors) error = error > 0.0 ? std::sqrt(error) * whole.relative / whole.absolute : 0.0;
   return errors;
 }
@@ -420,7 +422,8 @@ SolvedPass solve_pass(const model::Model& model, mesh::Mesh mesh, const Options&
     pass.solution.outcome = Outcome::interrupted;
     pass.solution.reason = "interrupted: the results are those of a mesh whose error is not known";
   } else {
-    pass.solution = not_reached(std::move(pass.solution), "no error was estimated: on the mesh of higher order, " + why);
+    pass.solution =
+        not_reached(std::move(pass.solution), "no error was estimated: on the mesh of higher order, " + why);
   }
   return pass;
 }
@@ -468,16 +471,25 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     replay(solution, options);
     return solution;
   };
+  std::optional<StaticSolution> last;
   while (true) {
-    auto [solution, wider] = solve_pass(model, std::move(mesh), options, fmt::format("pass {}", passes.size() + 1));
+    SolvedPass pass;
+    try {
+      if (last) mesh = refinement.mesh();
+      pass = solve_pass(model, std::move(mesh), options, fmt::format("pass {}", passes.size() + 1));
+    } catch (const InputError& error) {
+      if (!last) throw;
+      return end(not_reached(std::move(*last), error.diagnostics().front().message));
+    }
+    auto& [solution, wider] = pass;
     if (!wider) return end(std::move(solution));
     const Judgement judgement = judge(solution);
     passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});
     sums.push_back(judgement.sum);
     if (judgement.sum <= aim * aim) return end(std::move(solution));
 
-    const std::string at = fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error,
-                                       passes.back().dofs);
+    const std::string at =
+        fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error, passes.back().dofs);
     std::string obstacle = obstacle_after(sums, limits, at);
     if (obstacle.empty()) {
       const MeshErrors errors = errors_of(solution, *wider, judgement.worst);
@@ -490,11 +502,7 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     // Where refinement cannot continue, an estimate between the aim and the tolerance is accepted.
     if (!obstacle.empty())
       return end(judgement.sum <= 1.0 ? std::move(solution) : not_reached(std::move(solution), obstacle));
-    try {
-      mesh = refinement.mesh();
-    } catch (const InputError& error) {
-      return end(not_reached(std::move(solution), error.diagnostics().front().message));
-    }
+    last = std::move(solution);
   }
 }
 

@@ -11,18 +11,18 @@
 // (the estimate is smaller than the error; if no mesh reaches this bound, 1 is accepted). A pass solves, estimates,
 // marks the parts with the largest share of that sum and refines them (refinement.hpp):
 //  - Elements of a body that is one super-element are raised by one order if their error decreased as for smooth
-//    solutions; otherwise they are divided: next to a corner of the outline in the ratio 0.15 : 0.85 with the small part
-//    at the corner, elsewhere in the middle (Melenk and Wohlmuth 2001: every element carries a predicted error).
+//    solutions; otherwise they are divided: next to a corner of the outline in the ratio 0.15 : 0.85 with the small
+//    part at the corner, elsewhere in the middle (Melenk and Wohlmuth 2001: every element carries a predicted error).
 //    Elements of two such bodies that face each other in a contact are changed alike.
 //  - Cells of polygon and quadtree meshes get smaller; their order stays. The sides of their contacts, and of those
 //    between a body with and one without a tolerance, are matched in every mesh (mesh/match.hpp).
 //
 // Stress under a point force is infinite, and so is its energy. Of a body of one super-element, elements beside point
 // forces, beside point supports with a reaction and beside `near` places keep their length and order in all meshes,
-// including the finer one of the estimate: the force is treated as distributed over them. Before the first pass, elements
-// at a corner with a force are divided once, in the ratio 0.15 : 0.85. Of a body of many cells, cells with such a place
-// are left out of the estimate and of the refinement, with those within 0.15 of the size of the first mesh; cells at a
-// force have this size from the beginning.
+// including the finer one of the estimate: the force is treated as distributed over them. Before the first pass,
+// elements at a corner with a force are divided once, in the ratio 0.15 : 0.85. Of a body of many cells, cells with
+// such a place are left out of the estimate and of the refinement, with those within 0.15 of the size of the first
+// mesh; cells at a force have this size from the beginning.
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"

@@ -32,7 +32,7 @@ constexpr double least_factor = 0.35, largest_factor = 0.7;
 constexpr double aim_of_cells = 0.4;
 /// Growth of sizes away from refined cells. Squares are halved without their neighbours (size_field.hpp); the
 /// quadtree itself sees to it that sizes change gradually.
-constexpr double growth_of_squares = 0.75;
+constexpr double growth_of_squares = 1.0;
 /// Cells smaller than this part of their body are not divided: coordinates of their nodes relative to their centre
 /// would lose too many digits.
 constexpr double smallest = 1e-8;
@@ -48,16 +48,30 @@ double growth_of(const model::Body& body) {
 
 struct CellBox {
   Vec2 middle;
-  double side = 0.0;  ///< the longer one
+  double side = 0.0;   ///< the longer one
+  bool filled = true;  ///< the cell is a rectangle
 };
 CellBox box_of(const mesh::BodyMesh& mesh, const mesh::Cell& cell) {
   Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  for (const mesh::LineElement& element : cell.boundary)
-    for (const int node : {element.nodes.front(), element.nodes.back()}) {
-      lower = lower.cwiseMin(mesh.nodes[static_cast<std::size_t>(node)]);
-      upper = upper.cwiseMax(mesh.nodes[static_cast<std::size_t>(node)]);
-    }
-  return {0.5 * (lower + upper), (upper - lower).maxCoeff()};
+  double area = 0.0;
+  const auto at = [&](int node) -> const Vec2& { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  for (const mesh::LineElement& element : cell.boundary) {
+    const Vec2 &from = at(element.nodes.front()), &to = at(element.nodes.back());
+    area += 0.5 * cross(from - cell.centre, to - cell.centre);
+    lower = lower.cwiseMin(from).cwiseMin(to);
+    upper = upper.cwiseMax(from).cwiseMax(to);
+  }
+  const Vec2 extent = upper - lower;
+  return {0.5 * (lower + upper), extent.maxCoeff(), area > (1.0 - 1e-6) * extent.prod()};
+}
+
+/// Size of a cell for the purpose of refining it. The cell at a crack tip is two squares wide. Of a square that a line
+/// cuts, only the size that was wanted there is known, which is less than twice that of the square.
+double size_of(const mesh::Cell& cell, const CellBox& box, const model::Body& body, const mesh::SizeField& sizes) {
+  const double wanted = mesh::wanted_size(body, sizes, box.middle);
+  if (body.mesh.kind != model::MeshKind::quadtree) return std::min(box.side, wanted);
+  if (cell.is_open()) return 0.5 * box.side;
+  return box.filled ? box.side : std::clamp(box.side, 0.5 * wanted, wanted);
 }
 
 /// Elements that face each other, of edges that are divided as `division` says.
@@ -86,7 +100,8 @@ int divided_element(const geometry::Edge& edge, const mesh::EdgeDivision& divisi
 
 }  // namespace
 
-BoundaryRefinement::BoundaryRefinement(const model::Model& model) : model_(model), division_(mesh::uniform_division(model)) {
+BoundaryRefinement::BoundaryRefinement(const model::Model& model)
+    : model_(model), division_(mesh::uniform_division(model)) {
   for (const mesh::BodyDivision& body : division_) {
     auto& of_body = predicted_.emplace_back();
     for (const mesh::EdgeDivision& edge : body)
@@ -259,11 +274,12 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
     const mesh::BodyMesh& mesh = errors.mesh.bodies[b];
     const mesh::Cell& cell = mesh.cells[static_cast<std::size_t>(part.at.element)];
     const CellBox box = box_of(mesh, cell);
-    const double size = std::min(box.side, mesh::wanted_size(body, sizes_[b], box.middle));
+    const double size = size_of(cell, box, body, sizes_[b]);
     const bool square = body.mesh.kind == model::MeshKind::quadtree;
     const double target = aim_of_cells / static_cast<double>(all);
     const double factor =
-        square ? 0.5 : std::clamp(std::pow(target / part.share, 0.5 / (body.mesh.order + 1)), least_factor, largest_factor);
+        square ? 0.5
+               : std::clamp(std::pow(target / part.share, 0.5 / (body.mesh.order + 1)), least_factor, largest_factor);
     const double next = factor * size;
     if (next < smallest * geometry::outline_size(body.outline)) continue;
     samples[b].push_back({box.middle, next});

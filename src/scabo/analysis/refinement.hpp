@@ -72,8 +72,8 @@ class BoundaryRefinement : public Refinement {
 };
 
 /// Cells of polygon and quadtree meshes: sizes that become smaller from pass to pass. A marked square is halved; a
-/// polygon of order p with the squared error e gets the size h (e' / e)^(1 / (2 p + 2)), between 0.35 h and 0.7 h, with e'
-/// the squared error that each of the present cells may have.
+/// polygon of order p with the squared error e gets the size h (e' / e)^(1 / (2 p + 2)), between 0.35 h and 0.7 h, with
+/// e' the squared error that each of the present cells may have.
 class CellRefinement : public Refinement {
  public:
   explicit CellRefinement(const model::Model& model);

@@ -311,12 +311,14 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
 constexpr double largest_angle_at_tip = std::numbers::pi / 8;
 
 /// `turn`: of a quadtree (QuadtreeOptions).
-PolygonMesh polygons_of(const Domain& domain, const model::MeshOptions& mesh, double turn) {
-  switch (mesh.kind) {
+PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double turn) {
+  const auto size_of_options = [&body](const Vec2& x) { return wanted_size(body, {}, x); };
+  switch (body.mesh.kind) {
     case model::MeshKind::polygons:
       return polygon_mesh(domain);
     case model::MeshKind::quadtree:
-      return quadtree_mesh(domain, {.min_size = mesh.min_size, .turn = turn});
+      return quadtree_mesh(domain,
+                           {.min_size = body.mesh.min_size, .turn = turn, .size_of_roots = size_of_options});
     case model::MeshKind::parts:
       return star_cells(domain);
     case model::MeshKind::fem:
@@ -564,7 +566,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
   constexpr double turn = 0.5, least_turn = 0.1;
   for (double now = turn;; now *= 0.5) {
     try {
-      BodyMesh mesh = body_mesh_of(polygons_of(of.domain, body.mesh, now), of, body);
+      BodyMesh mesh = body_mesh_of(polygons_of(of.domain, body, now), of, body);
       const std::size_t pieces = body.cracks.empty() ? 1 : pieces_of(mesh);
       if (pieces > 1)
         return Diagnostic{body.cracks.front().source,

@@ -70,11 +70,12 @@ class Grower {
 
   Forest make_forest() {
     const Vec2 extent = curves_.box.upper - curves_.box.lower;
+    const auto& size = options_.size_of_roots ? options_.size_of_roots : domain_.size;
     double largest = 0.0;
     constexpr int samples = 48;
     for (int j = 0; j <= samples; ++j) {
       for (int i = 0; i <= samples; ++i) {
-        largest = std::max(largest, domain_.size(curves_.box.lower + extent.cwiseProduct(Vec2(i, j) / samples)));
+        largest = std::max(largest, size(curves_.box.lower + extent.cwiseProduct(Vec2(i, j) / samples)));
       }
     }
     const auto [nx, ny] = root_numbers(extent, largest);

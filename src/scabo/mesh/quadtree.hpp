@@ -6,6 +6,8 @@
 // centre, up to rounding. Cells that share a side or a corner differ by one halving at most, except across the outside.
 #pragma once
 
+#include <functional>
+
 #include "scabo/mesh/domain.hpp"
 
 namespace scabo::mesh {
@@ -19,6 +21,9 @@ struct QuadtreeOptions {
   /// In parts of the size of a cell, 0 to 0.3: sides that cutting makes shorter than this are collapsed where the cells
   /// around remain well shaped.
   double shortest_side = 0.15;
+  /// Wanted size from which the roots are made; empty: that of the domain. Meshes of the same roots are nested where no
+  /// line cuts them.
+  std::function<double(const Vec2&)> size_of_roots = {};
 };
 
 /// The mesh. Nodes on a line are on it to rounding; a side on an arc is the chord between two of them. Of the points of

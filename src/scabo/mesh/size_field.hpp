@@ -4,9 +4,10 @@
 //
 //     s(x) = min over i of (s_i + growth |x - x_i|)                                                          (1)
 //
-// so that the field is as smooth as meshers need it, and small samples are noticed by large cells around them. Squares of
-// a quadtree are halved without their neighbours: with s_i = h / 2 at the middle of a square of side h and a growth of
-// 0.75, eq. (1) gives 0.875 h at the middle of its sides, and more than h at its corners and in its neighbours.
+// so that the field is as smooth as meshers need it, and small samples are noticed by large cells around them. Squares
+// of a quadtree are halved without their neighbours: with s_i = h / 2 at the middle of a square of side h and a growth
+// of 1, eq. (1) gives 1.2 h at its corners, which its neighbours share, and 0.86 H or less at a corner or the middle of
+// every larger square, of side H, that holds it.
 #pragma once
 
 #include <vector>
