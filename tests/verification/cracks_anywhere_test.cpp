@@ -1,11 +1,13 @@
 // Cracks in bodies of polygons and of quadtrees, and other published numbers on meshes of many cells.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "scabo/base/error.hpp"
 #include "verification/run.hpp"
 
 namespace scabo::verification {
@@ -162,6 +164,20 @@ loads: {{right: {{on: body.edge_3, traction: [1, 0]}}, up: {{on: body.edge_4, tr
   };
   EXPECT_LT(error(1e-4), 1.5e-3);
   EXPECT_LT(error(1e-8), 2e-5);
+}
+
+// A crack from side to side leaves two bodies.
+TEST_P(CracksAnywhere, ThatDivideTheirBodyAreRefused) {
+  const auto message_of = [&](const char* path) {
+    try {
+      run(wide_plate(kind(), fmt::format("{{name: flaw, path: {}}}", path), "", 0.0));
+    } catch (const InputError& error) {
+      return error.diagnostics().front().message;
+    }
+    return std::string("no error");
+  };
+  for (const char* path : {"[[-100, 0], [100, 0]]", "[[-50, 0], [50, 0], [0, 50], [-50, 0]]"})
+    EXPECT_THAT(message_of(path), testing::HasSubstr("divide body 'plate' into 2 pieces")) << path;
 }
 
 // NAFEMS CGS-4: a block drawn over a wedge of tan(alpha) = 0.1 with mu = 0.3 needs (tan a + mu) / (1 - mu tan a) of its
