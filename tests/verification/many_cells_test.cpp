@@ -129,6 +129,23 @@ loads: {pull: {on: plate.right, traction: [1, 0]}}
   EXPECT_NEAR(probe.at({2.0, 1.3 + 1e-9})->stress[0], 3.37, 0.05);  // Howland
 }
 
+// A thin cell beside a round hole, with straight sides: its centre must not move onto one of them.
+TEST(Quadtree, OfOrderOneBesideAHoleIsDefinite) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: strain, thickness: 1.0}
+materials: {rock: {young: 2e11, poisson: 0.3}}
+bodies:
+  low:
+    material: rock
+    shape: {rectangle: {corner: [0, 0], size: [3, 1]}}
+    holes: {bore: {circle: {centre: [2.3, 0.5], radius: 0.2}}}
+    mesh: {kind: quadtree, size: 0.21, order: 1, refine: [{near: [1, 1], size: 0.05}]}
+supports: [{on: low.bottom, fix: [x, y]}]
+loads: {press: {on: low.top, traction: [0, -1e6]}}
+)");
+  EXPECT_NEAR(last(solution).reactions[0].y(), 3e6, 1.0);
+}
+
 // A heavy body on rollers: its reaction is its weight, with a heavier region in it and a hole.
 TEST_P(ManyCells, WeightOfRegionsAndHoles) {
   const auto solution = run(fmt::format(R"(scabo: 1

@@ -467,11 +467,11 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
       hollow = true;
       points.push_back(centre + (from - centre).squaredNorm() / middle.squaredNorm() * middle);
     }
-    constexpr double well_seen = 0.1;
-    if (!hollow || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
+    constexpr double well_seen = 0.1, hardly_seen = 1e-3;
+    const bool straight = order == 1 || body.mesh.kind == model::MeshKind::fem;  // sides are the chords
+    if (!hollow || straight || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
     const KernelCentre better = kernel_centre(points, well_seen);
-    if (better.visibility > 0.0) return better.centre;
-    if (order == 1 || body.mesh.kind == model::MeshKind::fem) return polygon.centre;
+    if (better.visibility > hardly_seen) return better.centre;
     throw InputError("", {Diagnostic{{},
                                      fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
                                                  polygon.centre.x(), polygon.centre.y())}});
