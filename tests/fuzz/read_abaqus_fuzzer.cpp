@@ -3,7 +3,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   check_mesh_reader(data, size, [](std::string_view bytes, const std::string& file) {
-    return scabo::mesh::parse_abaqus(bytes, file);
+    return scabo::files::parse_abaqus(bytes, file);
   });
   return 0;
 }

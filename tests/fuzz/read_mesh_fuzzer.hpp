@@ -12,7 +12,7 @@
 
 template <class Read>
 void check_mesh_reader(const std::uint8_t* data, std::size_t size, Read read) {
-  using namespace scabo::mesh;
+  using namespace scabo::files;
   const auto require = [](bool holds) {
     if (!holds) __builtin_trap();
   };

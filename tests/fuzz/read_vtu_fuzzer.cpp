@@ -3,6 +3,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   check_mesh_reader(
-      data, size, [](std::string_view bytes, const std::string& file) { return scabo::mesh::parse_vtu(bytes, file); });
+      data, size, [](std::string_view bytes, const std::string& file) { return scabo::files::parse_vtu(bytes, file); });
   return 0;
 }
