@@ -265,7 +265,12 @@ double approximate_nodes(const model::Body& body) {
   // A cell of side h has an area of about h^2 as a square and 2.6 h^2 as a hexagon; each has about two inner sides.
   const double area = std::abs(body.outline.area());
   constexpr int samples = 200;  // the finest size counts in its own surroundings only
-  double cells = area / (body.mesh.size * body.mesh.size);
+  const geometry::Box box = geometry::box_of(body.outline);
+  // The squares of a quadtree are no larger than a thin body is wide.
+  const double largest = body.mesh.kind == model::MeshKind::quadtree
+                             ? std::min(body.mesh.size, 2.0 * (box.high - box.low).minCoeff())
+                             : body.mesh.size;
+  double cells = area / (largest * largest);
   for (const model::LocalSize& local : body.mesh.refine) {
     const double around = local.near ? 1.0 : body.outline.edges[static_cast<std::size_t>(local.edge)].length();
     for (int i = 0; i < samples; ++i) {  // rings around the place

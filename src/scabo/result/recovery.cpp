@@ -99,7 +99,8 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const mesh::Cell& cell = body.cells[c];
     if (!cells[c]) {
-      for (const int node : element::finite_element_of(cell, body.nodes).nodes())
+      const element::FiniteElement element = element::finite_element_of(cell, body.nodes);
+      for (const int node : element.nodes())
         made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
       continue;
     }
