@@ -60,9 +60,10 @@ void TextCursor::fail_number(const char* what) {
   fail(fmt::format("'{}' is not {}", printable(text), what));
 }
 
-std::int64_t TextCursor::integer(const char* what) {
+template <typename Number>
+Number TextCursor::read_number(const char* what) {
   skip_white();
-  std::int64_t value = 0;
+  Number value{};
   const auto result = std::from_chars(at_, end_, value);
   if (result.ec == std::errc() && (result.ptr == end_ || static_cast<unsigned char>(*result.ptr) <= ' ')) {
     at_ = result.ptr;
@@ -76,21 +77,9 @@ std::int64_t TextCursor::integer(const char* what) {
   return value;
 }
 
-double TextCursor::number(const char* what) {
-  skip_white();
-  double value = 0.0;
-  const auto result = std::from_chars(at_, end_, value);
-  if (result.ec == std::errc() && (result.ptr == end_ || static_cast<unsigned char>(*result.ptr) <= ' ')) {
-    at_ = result.ptr;
-    return value;
-  }
-  const std::string_view text = word();
-  if (!parse_number(text, value)) {
-    at_ -= text.size();
-    fail_number(what);
-  }
-  return value;
-}
+std::int64_t TextCursor::integer(const char* what) { return read_number<std::int64_t>(what); }
+
+double TextCursor::number(const char* what) { return read_number<double>(what); }
 
 void TextCursor::advance_to(std::size_t position) {
   const char* target = begin_ + position;

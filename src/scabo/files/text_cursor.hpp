@@ -68,6 +68,8 @@ class TextCursor {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
+  template <typename Number>
+  Number read_number(const char* what);
   [[noreturn]] void fail_number(const char* what);
 
   const char* begin_;

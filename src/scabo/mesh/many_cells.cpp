@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/mesh/crack_net.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
 #include "scabo/mesh/image.hpp"
@@ -95,170 +96,18 @@ std::vector<DomainLine> lines_of(const model::Body& body, const SizeField& sizes
   return lines;
 }
 
-/// Cracks as chains of segments that end where others begin; ends on the outline are moved exactly onto it.
-class CrackNet {
- public:
-  explicit CrackNet(const model::Body& body) : tolerance_(1e-9 * geometry::outline_size(body.outline)) {
-    cuts_.assign(body.outline.edges.size(), {0.0, 1.0});
-    for (const model::Crack& crack : body.cracks) paths_.push_back(crack.path);
-    std::vector<std::pair<std::size_t, bool>> open_ends;
-    for (std::size_t p = 0; p < paths_.size(); ++p)
-      for (const bool last : {false, true}) {
-        Vec2& end = last ? paths_[p].back() : paths_[p].front();
-        if (!put_on_outline(body, end) && !put_on_crack(p, end)) open_ends.emplace_back(p, last);
-      }
-    for (std::size_t p = 0; p < paths_.size(); ++p)
-      for (std::size_t q = 0; q <= p; ++q) divide_at_crossings(p, q);
-    for (const model::Region& region : body.regions) {
-      region_cuts_.emplace_back();
-      for (const geometry::Edge& edge : region.outline.edges) region_cuts_.back().push_back(cuts_by_cracks(edge));
-    }
-    for (std::vector<double>& cut : cuts_) std::sort(cut.begin(), cut.end());
-    for (const auto& [p, last] : open_ends) tips.push_back(last ? paths_[p].back() : paths_[p].front());
-  }
-
-  std::vector<Vec2> tips;
-  const std::vector<std::vector<Vec2>>& paths() const { return paths_; }
-  /// Positions at which cracks end on an edge, with 0 and 1.
-  const std::vector<double>& cuts(std::size_t edge) const { return cuts_[edge]; }
-  /// Positions at which cracks cross an edge of a region, with 0 and 1.
-  const std::vector<double>& region_cuts(std::size_t region, std::size_t edge) const {
-    return region_cuts_[region][edge];
-  }
-
- private:
-  static geometry::Edge segment(const std::vector<Vec2>& path, std::size_t k) {
-    geometry::Edge edge;
-    edge.start = path[k];
-    edge.end = path[k + 1];
-    return edge;
-  }
-
-  /// A point on segment k becomes a point of the path; whether one was added (not if it is an end of the segment).
-  bool divide(std::vector<Vec2>& path, std::size_t k, const Vec2& point) const {
-    for (Vec2* end : {&path[k], &path[k + 1]})
-      if ((*end - point).norm() <= 3.0 * tolerance_) {
-        *end = point;
-        return false;
-      }
-    path.insert(path.begin() + static_cast<std::ptrdiff_t>(k) + 1, point);
-    return true;
-  }
-
-  /// Where two cracks, or parts of one, cross, both get a point.
-  void divide_at_crossings(std::size_t p, std::size_t q) {
-    for (std::size_t k = 0; k + 1 < paths_[p].size(); ++k)
-      for (std::size_t l = 0; l + 1 < (p == q ? k : paths_[q].size()); ++l) {
-        const auto shared = geometry::shared_points(segment(paths_[p], k), segment(paths_[q], l), tolerance_);
-        if (shared.size() != 1) continue;
-        Vec2 point = shared.front();
-        for (const Vec2& end : {paths_[q][l], paths_[q][l + 1], paths_[p][k], paths_[p][k + 1]})
-          if ((end - point).norm() <= 3.0 * tolerance_) point = end;
-        if (p == q) {  // the later one first, because its number changes
-          divide(paths_[p], k, point);
-          if (divide(paths_[q], l, point)) ++k;
-        } else {
-          divide(paths_[p], k, point);
-          divide(paths_[q], l, point);
-        }
-      }
-  }
-
-  /// Divides cracks where they cross an edge of a region, and gives the positions on the edge.
-  std::vector<double> cuts_by_cracks(const geometry::Edge& edge) {
-    std::vector<double> cuts{0.0, 1.0};
-    const double slack = 3.0 * tolerance_ / edge.length();
-    const auto point_of = [&](const Vec2& shared) {
-      const double at = geometry::closest_position(edge, shared);
-      if (at <= slack) return edge.start;
-      if (at >= 1.0 - slack) return edge.end;
-      const auto same = std::find_if(cuts.begin(), cuts.end(), [&](double c) { return std::abs(c - at) <= slack; });
-      if (same != cuts.end()) return edge.at(*same);
-      cuts.push_back(at);
-      return edge.at(at);
-    };
-    for (std::vector<Vec2>& path : paths_)
-      for (std::size_t k = 0; k + 1 < path.size();) {
-        const auto shared = geometry::shared_points(segment(path, k), edge, tolerance_);
-        const auto divides = [&](const Vec2& point) { return divide(path, k, point_of(point)); };
-        if (std::none_of(shared.begin(), shared.end(), divides)) ++k;
-      }
-    std::sort(cuts.begin(), cuts.end());
-    return cuts;
-  }
-
-  bool put_on_outline(const model::Body& body, Vec2& end) {
-    for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
-      const geometry::Edge& edge = body.outline.edges[e];
-      const double at = geometry::closest_position(edge, end);
-      if ((edge.at(at) - end).norm() > tolerance_) continue;
-      end = edge.at(at);
-      const double slack = tolerance_ / edge.length();
-      if (at <= slack) {
-        end = edge.start;
-      } else if (at >= 1.0 - slack) {
-        end = edge.end;
-      } else {
-        cuts_[e].push_back(at);
-        end = edge.at(at);
-      }
-      return true;
-    }
-    return false;
-  }
-
-  /// An end on another crack becomes a point of it.
-  bool put_on_crack(std::size_t own, Vec2& end) {
-    for (std::size_t p = 0; p < paths_.size(); ++p) {
-      if (p == own) continue;
-      std::vector<Vec2>& path = paths_[p];
-      for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-        const Vec2 along = path[k + 1] - path[k];
-        const double t = (end - path[k]).dot(along) / along.squaredNorm();
-        if (t < -1e-9 || t > 1.0 + 1e-9 || (path[k] + t * along - end).norm() > tolerance_) continue;
-        if ((path[k] - end).norm() <= tolerance_)
-          end = path[k];
-        else if ((path[k + 1] - end).norm() <= tolerance_)
-          end = path[k + 1];
-        else
-          path.insert(path.begin() + static_cast<std::ptrdiff_t>(k) + 1, end);
-        return true;
-      }
-    }
-    return false;
-  }
-
-  double tolerance_;
-  std::vector<std::vector<Vec2>> paths_;
-  std::vector<std::vector<double>> cuts_;
-  std::vector<std::vector<std::vector<double>>> region_cuts_;
-};
-
-/// Region that holds a point, as in BodyDomain.
-int region_at(const model::Body& body, const Vec2& point) {
+/// The innermost region that holds a point, as in BodyDomain; `except` does not count.
+int region_at(const model::Body& body, const Vec2& point,
+              std::size_t except = std::numeric_limits<std::size_t>::max()) {
   int at = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < body.regions.size(); ++k) {
     const geometry::Outline& outline = body.regions[k].outline;
-    if (outline.area() >= least || !geometry::encloses(outline, point)) continue;
+    if (k == except || outline.area() >= least || !geometry::encloses(outline, point)) continue;
     at = static_cast<int>(k) + 1;
     least = outline.area();
   }
   return at;
-}
-
-/// Index of the innermost region that holds region `inner`, plus one; 0 if there is none.
-int region_around(const model::Body& body, std::size_t inner) {
-  int around = 0;
-  double least = std::numeric_limits<double>::infinity();
-  const Vec2 point = body.regions[inner].outline.edges.front().at(0.5);
-  for (std::size_t k = 0; k < body.regions.size(); ++k) {
-    const geometry::Outline& outline = body.regions[k].outline;
-    if (k == inner || outline.area() >= least || !geometry::encloses(outline, point)) continue;
-    around = static_cast<int>(k) + 1;
-    least = outline.area();
-  }
-  return around;
 }
 
 double approximate_nodes(const model::Body& body) {
@@ -322,8 +171,7 @@ PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double tu
     case model::MeshKind::polygons:
       return polygon_mesh(domain);
     case model::MeshKind::quadtree:
-      return quadtree_mesh(domain,
-                           {.min_size = body.mesh.min_size, .turn = turn, .size_of_roots = size_of_options});
+      return quadtree_mesh(domain, {.min_size = body.mesh.min_size, .turn = turn, .size_of_roots = size_of_options});
     case model::MeshKind::parts:
       return star_cells(domain);
     case model::MeshKind::fem:
@@ -365,7 +213,7 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes) {
     for (std::size_t e = 0; e < body.regions[k].outline.edges.size(); ++e)
       for (DomainLine& line : lines_of(body, sizes, body.regions[k].outline.edges[e], cracks.region_cuts(k, e))) {
         line.left = static_cast<int>(k) + 1;
-        line.right = region_around(body, k);
+        line.right = region_at(body, body.regions[k].outline.edges.front().at(0.5), k);
         made.domain.lines.push_back(std::move(line));
       }
   for (const std::vector<Vec2>& path : cracks.paths())
@@ -379,7 +227,7 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes) {
       line.left = line.right = region_at(body, edge.at(0.5));
       made.domain.lines.push_back(std::move(line));
     }
-  made.domain.centres = cracks.tips;
+  made.domain.centres = cracks.tips();
   made.domain.size = [&body, &sizes](const Vec2& x) { return wanted_size(body, sizes, x); };
   return made;
 }
@@ -411,7 +259,8 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
       const std::size_t line = arc == on_arc.end() ? 0 : arc->second;
       std::vector<int>& nodes = parts[ends];
       int before = ends.first;
-      for (const Vec2& x : points_at(fractions, from, to, arc == on_arc.end() ? std::nullopt : domain.lines[line].arc)) {
+      for (const Vec2& x :
+           points_at(fractions, from, to, arc == on_arc.end() ? std::nullopt : domain.lines[line].arc)) {
         nodes.push_back(static_cast<int>(mesh.nodes.size()));
         mesh.nodes.push_back(x);
         if (arc != on_arc.end()) on_arc.emplace(std::minmax(before, nodes.back()), line);
