@@ -12,37 +12,41 @@ namespace scabo::app {
 
 namespace {
 
-/// Degrees of freedom of one body that are held by supports.
+/// Degrees of freedom that are held by supports.
 class Held {
  public:
-  Held(const model::Body& body, const mesh::BodyMesh& mesh, const std::vector<system::Constraint>& constraints)
-      : whole_(body.rigid && constraints.size() >= 3), dofs_(2 * mesh.nodes.size()) {
-    if (body.rigid) return;
-    for (const system::Constraint& constraint : constraints) dofs_[constraint.dof] = true;
+  Held(const model::Model& model, const mesh::Mesh& mesh) : dofs_(model, mesh) {
+    const auto constraints = system::constraints_of(model, mesh, dofs_);
+    for (std::size_t p = 0; p < dofs_.parts(); ++p) {
+      whole_.push_back(dofs_.is_rigid(p) && constraints[p].size() >= 3);
+      held_.emplace_back(dofs_.size(p));
+      if (dofs_.is_rigid(p)) continue;
+      for (const system::Constraint& constraint : constraints[p]) held_[p][constraint.dof] = true;
+    }
   }
-  /// True if the body cannot move along `normal`; `node` is used only for an elastic body.
-  bool at(int node, const Vec2& normal) const {
-    if (node < 0) return whole_;
-    const auto moves = [&](int k) { return std::abs(normal[k]) > 1e-12 && !dofs_[2 * node + k]; };
+  /// True if the body cannot move along `normal` at a node; `node` is -1 for a rigid body.
+  bool at(int body, int node, const Vec2& normal) const {
+    const std::size_t p = dofs_.part_of(body);
+    if (node < 0) return whole_[p];
+    const auto moves = [&](int k) { return std::abs(normal[k]) > 1e-12 && !held_[p][dofs_.of(body, node, k)]; };
     return !moves(0) && !moves(1);
   }
 
  private:
-  bool whole_;
-  std::vector<bool> dofs_;  // two for each node
+  system::Dofs dofs_;
+  std::vector<bool> whole_;              // of every part
+  std::vector<std::vector<bool>> held_;  // [part][degree of freedom]
 };
 
 }  // namespace
 
 std::vector<int> moving_pairs(const model::Model& model, const mesh::Mesh& mesh) {
-  const auto constraints = system::constraints_of(model, mesh);
-  std::vector<Held> held;
-  for (size_t i = 0; i < model.bodies.size(); ++i) held.emplace_back(model.bodies[i], mesh.bodies[i], constraints[i]);
+  const Held held(model, mesh);
   std::vector<int> moving;
   for (const mesh::Interface& interface : mesh.interfaces) {
     const model::Contact& contact = model.contacts[interface.contact];
     const auto moves = [&](const mesh::ContactPair& pair) {
-      return !held[contact.a.body].at(pair.node_a, pair.normal) || !held[contact.b.body].at(pair.node_b, pair.normal);
+      return !held.at(contact.a.body, pair.node_a, pair.normal) || !held.at(contact.b.body, pair.node_b, pair.normal);
     };
     moving.push_back(static_cast<int>(std::count_if(interface.pairs.begin(), interface.pairs.end(), moves)));
   }

@@ -299,10 +299,11 @@ bool wants_refinement(const model::Model& model) {
 void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
   if (!wants_refinement(model)) return;
   std::vector<Diagnostic> mistakes;
+  const std::vector<mesh::Joint> joints = mesh::joints_of(model);
   const auto is_refined_alike = [&](const mesh::EdgeElement& at) {
     const auto is_side = [&](const model::Place& place) { return place.body == at.body && place.index == at.edge; };
-    return std::any_of(model.contacts.begin(), model.contacts.end(), [&](const model::Contact& contact) {
-      return (is_side(contact.a) || is_side(contact.b)) && mesh::is_refined_alike(model, contact);
+    return std::any_of(joints.begin(), joints.end(), [&](const mesh::Joint& joint) {
+      return (is_side(joint.a) || is_side(joint.b)) && mesh::is_refined_alike(model, joint);
     });
   };
   for (const mesh::EdgeElement& at : mesh::paired_elements(model, mesh).alone) {
@@ -311,7 +312,7 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
     const std::string edge = body.name + "." + body.outline.edges[static_cast<std::size_t>(at.edge)].names.back();
     mistakes.push_back(
         {body.mesh.source,
-         fmt::format("element {} of {} has no matching element on the other side of its contact, so that the two sides "
+         fmt::format("element {} of {} has no matching element on the other side of its contact or tie, so that the two sides "
                      "cannot be refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
                      "shorter edge fall on ends of elements of the longer one",
                      at.element + 1, edge)});

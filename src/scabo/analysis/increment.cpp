@@ -15,26 +15,31 @@ const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::Conta
   return prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
 }
 
+/// The part that a body belongs to.
+const system::BodySystem& part_of(const Prepared& prepared, int body) {
+  return *prepared.structure.parts[prepared.structure.dofs.part_of(body)];
+}
+
 std::vector<Vector> applied_forces(const Prepared& prepared, const std::vector<double>& factors) {
   std::vector<Vector> forces;
-  for (const auto& body : prepared.structure.bodies) forces.push_back(Vector::Zero(body->size()));
+  for (const auto& part : prepared.structure.parts) forces.push_back(Vector::Zero(part->size()));
   for (std::size_t load = 0; load < factors.size(); ++load)
-    for (std::size_t b = 0; b < forces.size(); ++b)
-      if (prepared.structure.loads[load][b].size() > 0) forces[b] += factors[load] * prepared.structure.loads[load][b];
+    for (std::size_t p = 0; p < forces.size(); ++p)
+      if (prepared.structure.loads[load][p].size() > 0) forces[p] += factors[load] * prepared.structure.loads[load][p];
   return forces;
 }
 
-/// Resultants of the loads on body `b` along its free rigid motions. Loads in equilibrium, as two equal opposite forces
+/// Resultants of the loads on part `p` along its free rigid motions. Loads in equilibrium, as two equal opposite forces
 /// or the forces of a temperature, leave rounding of their sum, which nothing could balance where neither supports nor
-/// friction hold the body: it is zero, whatever the unit of length makes of the last digits.
-Vector loads_on_motions(const Prepared& prepared, std::size_t b, const Vector& forces,
+/// friction hold it: it is zero, whatever the unit of length makes of the last digits.
+Vector loads_on_motions(const Prepared& prepared, std::size_t p, const Vector& forces,
                         const std::vector<double>& factors) {
   constexpr double rounding_of_sums = 1e-12;  // far below the tolerance of the certificate, 1e-10
   double acting = 0.0;
   for (std::size_t load = 0; load < factors.size(); ++load)
-    if (prepared.structure.loads[load][b].size() > 0)
-      acting += std::abs(factors[load]) * prepared.structure.loads[load][b].lpNorm<1>();
-  Vector f = prepared.structure.bodies[b]->rigid_motions().transpose() * forces;
+    if (prepared.structure.loads[load][p].size() > 0)
+      acting += std::abs(factors[load]) * prepared.structure.loads[load][p].lpNorm<1>();
+  Vector f = prepared.structure.parts[p]->rigid_motions().transpose() * forces;
   for (double& resultant : f)
     if (std::abs(resultant) <= rounding_of_sums * acting) resultant = 0.0;
   return f;
@@ -42,10 +47,10 @@ Vector loads_on_motions(const Prepared& prepared, std::size_t b, const Vector& f
 
 std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vector<double>& factors) {
   std::vector<Vector> values;
-  for (const auto& body : prepared.structure.bodies) {
-    Vector value(static_cast<Eigen::Index>(body->constraints().size()));
-    for (std::size_t c = 0; c < body->constraints().size(); ++c) {
-      const system::Constraint& constraint = body->constraints()[c];
+  for (const auto& part : prepared.structure.parts) {
+    Vector value(static_cast<Eigen::Index>(part->constraints().size()));
+    for (std::size_t c = 0; c < part->constraints().size(); ++c) {
+      const system::Constraint& constraint = part->constraints()[c];
       value[static_cast<Eigen::Index>(c)] = constraint.value * factors[static_cast<std::size_t>(constraint.support)];
     }
     values.push_back(std::move(value));
@@ -58,7 +63,7 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
   const system::ContactSystem& contact = prepared.contact;
   if (contact.held.empty()) return;
   Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
-  for (std::size_t b = 0; b < u.size(); ++b) motion.noalias() += contact.held_motion[b] * u[b];
+  for (std::size_t p = 0; p < u.size(); ++p) motion.noalias() += contact.held_motion[p] * u[p];
   for (std::size_t i = 0; i < contact.held.size(); ++i) {
     const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
     const double gap = pair.gap + motion[static_cast<Eigen::Index>(2 * i)];
@@ -81,8 +86,7 @@ std::vector<bool> touching_pairs(const Prepared& prepared) {
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const model::Contact& contact =
         prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
-    const double size = std::max(prepared.structure.bodies[static_cast<std::size_t>(contact.a.body)]->lever(),
-                                 prepared.structure.bodies[static_cast<std::size_t>(contact.b.body)]->lever());
+    const double size = std::max(part_of(prepared, contact.a.body).lever(), part_of(prepared, contact.b.body).lever());
     touching.push_back(prepared.contact.gap[static_cast<Eigen::Index>(i)] <= rounding_of_points * size);
   }
   return touching;
@@ -92,10 +96,10 @@ std::vector<bool> touching_pairs(const Prepared& prepared) {
 Energy energy_between(const Prepared& prepared, const State& from, const State& to) {
   Energy energy = from.energy;
   energy.elastic = 0.0;
-  for (std::size_t b = 0; b < to.u.size(); ++b) {
-    energy.external += 0.5 * (from.forces[b] + to.forces[b]).dot(to.u[b] - from.u[b]);
-    energy.external += 0.5 * (from.reactions[b] + to.reactions[b]).dot(to.prescribed[b] - from.prescribed[b]);
-    energy.elastic += prepared.structure.bodies[b]->elastic_energy(to.u[b]);
+  for (std::size_t p = 0; p < to.u.size(); ++p) {
+    energy.external += 0.5 * (from.forces[p] + to.forces[p]).dot(to.u[p] - from.u[p]);
+    energy.external += 0.5 * (from.reactions[p] + to.reactions[p]).dot(to.prescribed[p] - from.prescribed[p]);
+    energy.elastic += prepared.structure.parts[p]->elastic_energy(to.u[p]);
   }
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
     const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)],
@@ -109,12 +113,12 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
   return energy;
 }
 
-/// Force and moment of everything that acts on a body, as [F_x, F_y, M / L] about its reference point.
-Eigen::Vector3d resultant(const system::BodySystem& body, const std::vector<Vec2>& nodes, const Vector& forces) {
+/// Force and moment of everything that acts on a part, as [F_x, F_y, M / L] about its reference point.
+Eigen::Vector3d resultant(const system::BodySystem& part, const std::vector<Vec2>& nodes, const Vector& forces) {
   if (nodes.empty()) return forces;  // a rigid body's forces are resultants
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    sum += system::rigid_point(nodes[i], body.reference(), body.lever()).transpose() *
+    sum += system::rigid_point(nodes[i], part.reference(), part.lever()).transpose() *
            forces.segment<2>(static_cast<Eigen::Index>(2 * i));
   return sum;
 }
@@ -123,8 +127,8 @@ Eigen::Vector3d resultant(const system::BodySystem& body, const std::vector<Vec2
 double largest_force(const State& state) {
   double largest = state.p.size() > 0 ? state.p.lpNorm<Eigen::Infinity>() : 0.0;
   for (const auto* forces : {&state.forces, &state.reactions})
-    for (const Vector& of_body : *forces)
-      if (of_body.size() > 0) largest = std::max(largest, of_body.lpNorm<Eigen::Infinity>());
+    for (const Vector& of_part : *forces)
+      if (of_part.size() > 0) largest = std::max(largest, of_part.lpNorm<Eigen::Infinity>());
   return largest;
 }
 
@@ -134,8 +138,8 @@ constexpr double rounding = 1e3 * std::numeric_limits<double>::epsilon();
 /// The forces by which K would resist displacements as large.
 double resistance(const Prepared& prepared, const State& state) {
   double largest = 0.0;
-  for (std::size_t b = 0; b < state.u.size(); ++b)
-    largest = std::max(largest, prepared.structure.bodies[b]->stiff_force(state.u[b]));
+  for (std::size_t p = 0; p < state.u.size(); ++p)
+    largest = std::max(largest, prepared.structure.parts[p]->stiff_force(state.u[p]));
   return largest;
 }
 
@@ -148,23 +152,24 @@ double scale_of(const Prepared& prepared, const State& state, double largest_at_
   return largest_at_work <= rounding * resisting ? resisting : largest_at_work;
 }
 
-/// Completes the certificate with what only the whole structure can tell: equilibrium of every node and of every body.
+/// Completes the certificate with what only the whole structure can tell: equilibrium of every node and of every part.
 void certify_structure(const Prepared& prepared, const State& state, double scale, contact::Certificate& certificate) {
   if (scale == 0.0) return;
-  for (std::size_t b = 0; b < state.u.size(); ++b) {
-    if (!state.u[b].allFinite() || !state.reactions[b].allFinite()) {  // comparisons with nan would all look right
+  const system::Dofs& dofs = prepared.structure.dofs;
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    if (!state.u[p].allFinite() || !state.reactions[p].allFinite()) {  // comparisons with nan would all look right
       certificate.equilibrium = HUGE_VAL;
       return;
     }
-    const system::BodySystem& body = *prepared.structure.bodies[b];
-    Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
-    certificate.equilibrium = std::max(certificate.equilibrium, body.imbalance(state.u[b], forces) / scale);
-    // Of a rigid body imbalance() is the balance; what acts on an outside body goes to infinity.
-    if (prepared.model.bodies[b].rigid || prepared.model.bodies[b].outside) continue;
-    for (std::size_t c = 0; c < body.constraints().size(); ++c)
-      forces[body.constraints()[c].dof] += state.reactions[b][static_cast<Eigen::Index>(c)];
-    // Against all forces on the body: those of a fine mesh are small, and many.
-    const double unbalanced = resultant(body, prepared.mesh.bodies[b].nodes, forces).lpNorm<Eigen::Infinity>();
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    Vector forces = state.forces[p] + prepared.contact.motion[p].transpose() * state.p;
+    certificate.equilibrium = std::max(certificate.equilibrium, part.imbalance(state.u[p], forces) / scale);
+    // Of a rigid body imbalance() is the balance; what acts on an unbounded part goes to infinity.
+    if (dofs.is_rigid(p) || dofs.is_unbounded(p)) continue;
+    for (std::size_t c = 0; c < part.constraints().size(); ++c)
+      forces[part.constraints()[c].dof] += state.reactions[p][static_cast<Eigen::Index>(c)];
+    // Against all forces on the part: those of a fine mesh are small, and many.
+    const double unbalanced = resultant(part, dofs.nodes(p), forces).lpNorm<Eigen::Infinity>();
     certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / std::max(scale, forces.lpNorm<1>()));
   }
 }
@@ -172,11 +177,11 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
 /// Displacement along [n, t] of the point of a pair that belongs to body `b`.
 Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int node, const Vec2& point,
                      const Vec2& normal) {
-  const auto b = static_cast<std::size_t>(body);
-  const Vec2 u = node >= 0 ? Vec2(state.u[b].segment<2>(2 * node))
-                           : Vec2(system::rigid_point(point, prepared.structure.bodies[b]->reference(),
-                                                      prepared.structure.bodies[b]->lever()) *
-                                  state.u[b]);
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const system::BodySystem& part = part_of(prepared, body);
+  const Vector& of_part = state.u[dofs.part_of(body)];
+  const Vec2 u = node >= 0 ? Vec2(of_part.segment<2>(dofs.of(body, node, 0)))
+                           : Vec2(system::rigid_point(point, part.reference(), part.lever()) * of_part);
   return {u.dot(normal), u.dot(tangent_of(normal))};
 }
 
@@ -243,11 +248,11 @@ void add(element::CellLoads& to, const element::CellLoads& loads, double factor)
 /// stress.
 double lost_to_rounding(const Prepared& prepared, const State& state) {
   double energy = 0.0, lost = 0.0, resisting = 0.0;
-  for (std::size_t b = 0; b < state.u.size(); ++b) {
-    const system::BodySystem& body = *prepared.structure.bodies[b];
-    energy += body.elastic_energy(state.u[b]);
-    lost += body.energy_lost(state.u[b]);
-    if (state.u[b].size() > 0) resisting += body.stiff_force(state.u[b]) * state.u[b].lpNorm<Eigen::Infinity>();
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    energy += part.elastic_energy(state.u[p]);
+    lost += part.energy_lost(state.u[p]);
+    if (state.u[p].size() > 0) resisting += part.stiff_force(state.u[p]) * state.u[p].lpNorm<Eigen::Infinity>();
   }
   return energy > 1e-22 * resisting ? lost / energy : 0.0;
 }
@@ -277,15 +282,15 @@ State initial_state(const Prepared& prepared) {
   state.states.assign(prepared.contact.pairs.size(), contact::ContactState::open);
   state.forces = applied_forces(prepared, state.factors.loads);
   state.prescribed = prescribed_values(prepared, state.factors.supports);
-  for (const auto& body : prepared.structure.bodies) {
-    state.u.push_back(Vector::Zero(body->size()));
-    state.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(body->constraints().size())));
+  for (const auto& part : prepared.structure.parts) {
+    state.u.push_back(Vector::Zero(part->size()));
+    state.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(part->constraints().size())));
   }
   return state;
 }
 
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
-  const auto& bodies = prepared.structure.bodies;
+  const auto& parts = prepared.structure.parts;
   const system::ContactSystem& system = prepared.contact;
   const auto N = static_cast<Eigen::Index>(system.pairs.size());
   Attempt result;
@@ -308,11 +313,11 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   options.iterations = prepared.model.solver.iterations;
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
   std::vector<Vector> free;  // without contact
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    free.push_back(bodies[b]->displacement(to.forces[b], to.prescribed[b]));
-    problem.q.noalias() += system.motion[b] * free[b];
-    problem.f.segment(system.first_rigid[b], bodies[b]->rigid_motions().cols()) =
-        loads_on_motions(prepared, b, to.forces[b], factors.loads);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    free.push_back(parts[p]->displacement(to.forces[p], to.prescribed[p]));
+    problem.q.noalias() += system.motion[p] * free[p];
+    problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) =
+        loads_on_motions(prepared, p, to.forces[p], factors.loads);
   }
   check_held_pairs(prepared, free);
 
@@ -329,12 +334,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.gap = result.solution.gap;
   to.slip = from.slip + result.solution.slip_increment;
   to.states = result.solution.states;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Vector forces = to.forces[b] + system.motion[b].transpose() * to.p;
-    Vector u = N > 0 ? bodies[b]->displacement(forces, to.prescribed[b]) : free[b];
-    const Matrix& rigid = bodies[b]->rigid_motions();
-    if (rigid.cols() > 0) u += rigid * to.a.segment(system.first_rigid[b], rigid.cols());
-    to.reactions.push_back(bodies[b]->reactions(u, forces));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Vector forces = to.forces[p] + system.motion[p].transpose() * to.p;
+    Vector u = N > 0 ? parts[p]->displacement(forces, to.prescribed[p]) : free[p];
+    const Matrix& rigid = parts[p]->rigid_motions();
+    if (rigid.cols() > 0) u += rigid * to.a.segment(system.first_rigid[p], rigid.cols());
+    to.reactions.push_back(parts[p]->reactions(u, forces));
     to.u.push_back(std::move(u));
   }
   to.energy = energy_between(prepared, from, to);
@@ -371,18 +376,21 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   result.energy = state.energy;
   result.largest_force = largest_force(state);
   result.lost_to_rounding = lost_to_rounding(prepared, state);
-  result.displacements = state.u;
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
-  result.interior.resize(state.u.size());
-  for (std::size_t b = 0; b < state.u.size(); ++b) {
-    const system::BodySystem& body = *prepared.structure.bodies[b];
-    if (prepared.model.bodies[b].rigid) result.displacements[b][2] /= body.lever();
-    for (std::size_t c = 0; c < body.constraints().size(); ++c) {
-      const system::Constraint& constraint = body.constraints()[c];
-      if (constraint.rotation) continue;
-      result.reactions[static_cast<std::size_t>(constraint.support)][constraint.component] +=
-          state.reactions[b][static_cast<Eigen::Index>(c)];
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    const std::vector<system::Constraint>& constraints = prepared.structure.parts[p]->constraints();
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+      if (constraints[c].rotation) continue;
+      result.reactions[static_cast<std::size_t>(constraints[c].support)][constraints[c].component] +=
+          state.reactions[p][static_cast<Eigen::Index>(c)];
     }
+  }
+  const system::Dofs& dofs = prepared.structure.dofs;
+  result.interior.resize(prepared.model.bodies.size());
+  for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
+    const auto body = static_cast<int>(b);
+    result.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
+    if (prepared.model.bodies[b].rigid) result.displacements[b][2] /= part_of(prepared, body).lever();
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
       add(result.interior[b], prepared.structure.interior[load][b], state.factors.loads[load]);
   }
@@ -390,30 +398,31 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
 }
 
 std::string too_large(const Prepared& prepared, const State& state) {
-  for (std::size_t b = 0; b < state.u.size(); ++b) {
-    if (prepared.model.bodies[b].rigid) continue;
-    const double size = 2.0 * prepared.structure.bodies[b]->lever();
-    const double largest = state.u[b].lpNorm<Eigen::Infinity>();
+  const system::Dofs& dofs = prepared.structure.dofs;
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    if (dofs.is_rigid(p)) continue;
+    const double size = 2.0 * prepared.structure.parts[p]->lever();
+    const double largest = state.u[p].lpNorm<Eigen::Infinity>();
     if (largest > 0.1 * size)
       return fmt::format(
-          "displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory is valid for small ones "
+          "displacements of {} reach {:.3g}, more than a tenth of its size: the theory is valid for small ones "
           "only; check the units of stiffness and loads",
-          prepared.model.bodies[b].name, largest);
+          dofs.name_of(p, prepared.model), largest);
   }
   return {};
 }
 
 std::string describe_motions(const Prepared& prepared, const Vector& a) {
   std::string text;
-  for (std::size_t b = 0; b < prepared.structure.bodies.size(); ++b) {
-    const system::BodySystem& body = *prepared.structure.bodies[b];
-    const Eigen::Index m = body.rigid_motions().cols();
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    const Eigen::Index m = part.rigid_motions().cols();
     if (m == 0) continue;
-    const Eigen::Vector3d motion = body.rigid_coordinates() * a.segment(prepared.contact.first_rigid[b], m);
+    const Eigen::Vector3d motion = part.rigid_coordinates() * a.segment(prepared.contact.first_rigid[p], m);
     if (motion.norm() < 1e-6 * a.norm()) continue;
     if (!text.empty()) text += "; ";
-    text += fmt::format("body '{}': {}", prepared.model.bodies[b].name,
-                        system::describe_motion(motion, body.reference(), body.lever()));
+    text += fmt::format("{}: {}", prepared.structure.dofs.name_of(p, prepared.model),
+                        system::describe_motion(motion, part.reference(), part.lever()));
   }
   return text;
 }

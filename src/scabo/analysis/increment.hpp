@@ -31,10 +31,10 @@ struct State {
   Vector gap, slip;          // N; slip since the start
   contact::History history;  // N, of the laws
   std::vector<contact::ContactState> states;
-  std::vector<Vector> u;           // per body
-  std::vector<Vector> forces;      // per body: applied forces without contact
-  std::vector<Vector> reactions;   // per body, one for each constraint
-  std::vector<Vector> prescribed;  // per body, one for each constraint
+  std::vector<Vector> u;           // per part
+  std::vector<Vector> forces;      // per part: applied forces without contact
+  std::vector<Vector> reactions;   // per part, one for each constraint
+  std::vector<Vector> prescribed;  // per part, one for each constraint
   double largest_force = 0.0;  ///< largest force so far, against which forces are judged after failure and unloading
   Energy energy;
 };
@@ -60,7 +60,7 @@ DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attemp
 /// The results of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);
 
-/// A sentence about the first body whose displacements exceed a tenth of its size, for which the theory of small
+/// A sentence about the first part whose displacements exceed a tenth of its size, for which the theory of small
 /// displacements is not valid; empty if there is none.
 std::string too_large(const Prepared& prepared, const State& state);
 

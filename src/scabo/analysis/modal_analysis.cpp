@@ -39,10 +39,10 @@ std::array<Vector, 2> mass_of_translations(const system::Stiffness& M) {
   return products;
 }
 
-NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, std::size_t body,
+NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, const system::Dofs& dofs, std::size_t part,
                           const std::array<Vector, 2>& mass_of_translation) {
   NaturalMode mode;
-  mode.body = static_cast<int>(body);
+  mode.bodies = dofs.bodies_of(part);
   mode.rigid = k < modes.rigid;
   mode.frequency = std::sqrt(modes.eigenvalues[k]) / (2.0 * std::numbers::pi);
   mode.residual = modes.residuals[k];
@@ -55,7 +55,7 @@ NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, std
   const double largest = std::sqrt(phi.reshaped(2, phi.size() / 2).colwise().squaredNorm().maxCoeff(&node));
   phi.segment<2>(2 * node).cwiseAbs().maxCoeff(&component);
   const double scale = (phi[2 * node + component] < 0.0 ? -1.0 : 1.0) / largest;
-  mode.shape = scale * phi;
+  for (const int body : mode.bodies) mode.shape.push_back(dofs.of_body(body, scale * phi));
   mode.modal_mass = scale * scale;
   return mode;
 }
@@ -76,10 +76,12 @@ ModalResult solve_modal(model::Model model, const Options& options) {
 
   stage("mesh");
   std::vector<std::vector<system::Constraint>> constraints;
+  system::Dofs dofs;
   {
     const Stopwatch stopwatch(result.timing.mesh);
     structure.mesh = mesh::make_mesh(structure.model);
-    constraints = system::constraints_of(structure.model, structure.mesh);
+    dofs = system::Dofs(structure.model, structure.mesh);
+    constraints = system::constraints_of(structure.model, structure.mesh, dofs);
   }
   const int threads = worthwhile_threads(structure.model, structure.mesh, options.threads);
   linalg::set_blas_threads(threads);
@@ -90,23 +92,22 @@ ModalResult solve_modal(model::Model model, const Options& options) {
   }
   system::MassLibrary masses(
       [&](const element::SolvedSuperElement& cell) { return mass_of(structure.model, cell, threads); });
-  for (std::size_t b = 0; b < structure.model.bodies.size(); ++b) {
-    if (structure.model.bodies[b].rigid) continue;
+  for (std::size_t p = 0; p < dofs.parts(); ++p) {
+    if (dofs.is_rigid(p)) continue;
     system::Stiffness K, M;
-    stage(fmt::format("mass of body {}", structure.model.bodies[b].name));
+    stage("mass of " + dofs.name_of(p, structure.model));
     {
       const Stopwatch stopwatch(result.timing.mass);
-      K = system::body_stiffness(structure.model, structure.mesh.bodies[b], structure.cells[b]);
-      M = system::body_mass(structure.model, structure.mesh.bodies[b], structure.cells[b], masses);
+      K = system::part_stiffness(structure.model, structure.mesh, structure.cells, dofs, p);
+      M = system::part_mass(structure.model, structure.mesh, structure.cells, dofs, p, masses);
     }
-    stage(fmt::format("modes of body {}", structure.model.bodies[b].name));
+    stage("modes of " + dofs.name_of(p, structure.model));
     const Stopwatch stopwatch(result.timing.eigenvalues);
     const auto translations = mass_of_translations(M);
     for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
-    const system::NaturalModes modes =
-        system::natural_modes(K, M, structure.mesh.bodies[b].nodes, constraints[b], count);
+    const system::NaturalModes modes = system::natural_modes(K, M, dofs.nodes(p), constraints[p], count);
     for (Eigen::Index k = 0; k < modes.eigenvalues.size(); ++k)
-      result.modes.push_back(describe_mode(modes, k, b, translations));
+      result.modes.push_back(describe_mode(modes, k, dofs, p, translations));
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const NaturalMode& a, const NaturalMode& b) { return a.frequency < b.frequency; });
@@ -127,9 +128,11 @@ IncrementResult state_of(const ModalResult& result, const NaturalMode& mode) {
     const auto size = model.bodies[b].rigid
                           ? Eigen::Index{3}
                           : static_cast<Eigen::Index>(2 * result.structure.mesh.bodies[b].nodes.size());
-    state.displacements.push_back(static_cast<int>(b) == mode.body ? mode.shape : Vector(Vector::Zero(size)));
+    state.displacements.push_back(Vector::Zero(size));
     state.interior.emplace_back();
   }
+  for (std::size_t k = 0; k < mode.bodies.size(); ++k)
+    state.displacements[static_cast<std::size_t>(mode.bodies[k])] = mode.shape[k];
   return state;
 }
 

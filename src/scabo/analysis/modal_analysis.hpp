@@ -1,5 +1,5 @@
 // Natural frequencies and modes of the elastic bodies of a model: Model -> Mesh -> stiffness and mass -> modes. Bodies
-// do not interact: contacts, loads and steps are ignored, prescribed displacements are 0 (Model::warnings says so).
+// that are not tied do not interact: contacts, loads and steps are ignored, prescribed displacements are 0 (Model::warnings says so).
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"
@@ -7,10 +7,10 @@
 namespace scabo::analysis {
 
 struct NaturalMode {
-  int body = 0;                        ///< index of the body that vibrates; the others are at rest
+  std::vector<int> bodies;             ///< indices of the bodies that vibrate: one, or several that are tied
   bool rigid = false;                  ///< rigid-body mode: its frequency is exactly 0
   double frequency = 0.0;              ///< 1 / time (SI: Hz)
-  Vector shape;                        ///< 2 per node of the body; the largest displacement of a node is 1
+  std::vector<Vector> shape;           ///< of these bodies, 2 per node; the largest displacement of a node is 1
   double modal_mass = 0.0;             ///< shape' M shape, mass
   Vec2 effective_mass = Vec2::Zero();  ///< of motions of the supports along x and y, mass: (shape' M r)^2 / modal mass
   double residual = 0.0;               ///< of K phi = omega^2 M phi, free of units (system/natural_modes.hpp)

@@ -31,10 +31,11 @@ void check_references(const model::Model& model, const mesh::Mesh& mesh) {
 }
 
 std::string without_reference(const Prepared& prepared, const State& state) {
-  for (std::size_t b = 0; b < state.u.size(); ++b) {
+  for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
     const model::Body& body = prepared.model.bodies[b];
     if (!body.outside || body.reference) continue;
-    const Vector forces = state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
+    const std::size_t part = prepared.structure.dofs.part_of(static_cast<int>(b));
+    const Vector forces = state.forces[part] + prepared.contact.motion[part].transpose() * state.p;
     const Vec2 sum = forces.reshaped(2, forces.size() / 2).rowwise().sum();
     if (sum.norm() > 1e-9 * forces.lpNorm<1>())
       return fmt::format(

@@ -232,7 +232,7 @@ mesh::Mesh check(const model::Model& model) {
     model::Model apart = model;
     apart.contacts.clear();
     mesh::Mesh mesh = mesh::make_mesh(apart);
-    system::constraints_of(apart, mesh);
+    system::constraints_of(apart, mesh, system::Dofs(apart, mesh));
     return mesh;
   }
   mesh::Mesh mesh = mesh::make_mesh(model);

@@ -185,19 +185,20 @@ std::vector<std::string> load_warnings(const model::Model& model, const system::
   for (std::size_t load = 0; load < model.loads.size(); ++load) {
     double largest = 0.0, moving = 0.0;
     bool inside = false;
-    for (std::size_t b = 0; b < structure.bodies.size(); ++b) {
-      for (const element::InteriorLoads& interior : structure.interior[load][b])
-        inside = inside || !interior.loads.empty() || !interior.temperature.is_zero();
-      Vector forces = structure.loads[load][b];
+    for (const element::CellLoads& body : structure.interior[load])
+      for (const element::InteriorLoads& cell : body)
+        inside = inside || !cell.loads.empty() || !cell.temperature.is_zero();
+    for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+      Vector forces = structure.loads[load][p];
       if (forces.size() == 0) continue;
       largest = std::max(largest, forces.lpNorm<Eigen::Infinity>());
-      const system::BodySystem& body = *structure.bodies[b];
-      if (model.bodies[b].rigid) {
-        const Matrix& motions = body.rigid_motions();
+      const system::BodySystem& part = *structure.parts[p];
+      if (structure.dofs.is_rigid(p)) {
+        const Matrix& motions = part.rigid_motions();
         if (motions.cols() > 0) moving = std::max(moving, (motions.transpose() * forces).lpNorm<Eigen::Infinity>());
         continue;
       }
-      for (const system::Constraint& constraint : body.constraints()) forces[constraint.dof] = 0.0;
+      for (const system::Constraint& constraint : part.constraints()) forces[constraint.dof] = 0.0;
       moving = std::max(moving, forces.lpNorm<Eigen::Infinity>());
     }
     if (inside || moving > 1e-12 * largest) continue;

@@ -1,9 +1,11 @@
-// `contacts`.
+// `contacts` and `ties`.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <set>
+#include <tuple>
+#include <variant>
 
 #include "scabo/geometry/touching.hpp"
 #include "scabo/input/reading.hpp"
@@ -13,6 +15,7 @@ namespace scabo::input {
 namespace {
 
 constexpr const char* contact_example = "{between: [lower.top, upper.bottom], friction: 0.2}";
+constexpr const char* tie_example = "{between: [wall.bottom, base.top]}";
 
 /// One side; nothing if it is broken.
 std::optional<Place> read_side(Reading& reading, const Value& value) {
@@ -34,7 +37,7 @@ std::optional<std::pair<Place, Place>> read_between(Reading& reading, const Valu
   return std::pair(*a, *b);
 }
 
-/// What `between` names: two edges, or bodies whose touching edges are all in contact.
+/// What `between` names: two edges, or bodies whose touching edges are all meant.
 struct Between {
   std::optional<std::pair<Place, Place>> edges;
   bool many = false;                         // all touching edges
@@ -61,9 +64,31 @@ std::optional<Between> read_partners(Reading& reading, const Value& value) {
   return between;
 }
 
-/// Contacts of all touching edges, named `joint_1`, `joint_2`, ...
-void add_touching(Reading& reading, const Entry& entry, const Contact& law, const Between& between, double reach,
-                  std::set<std::array<int, 4>>& taken) {
+/// Edges with a contact or tie of their own.
+class Taken {
+ public:
+  bool insert(const Place& a, const Place& b) {
+    return pairs_.insert(a.body < b.body ? std::array{a.body, a.index, b.body, b.index}
+                                         : std::array{b.body, b.index, a.body, a.index}).second;
+  }
+
+ private:
+  std::set<std::array<int, 4>> pairs_;
+};
+
+/// A contact or tie between all touching edges of bodies: each pair that is not taken gets one, named `joint_1`,
+/// `joint_2`, ...
+struct Touching {
+  const Entry* entry = nullptr;
+  std::variant<Contact, Tie> law;  ///< with everything but name and places
+  Between between;
+  double reach = 0.0;
+};
+
+void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
+  const Entry& entry = *touching.entry;
+  const Between& between = touching.between;
+  const bool is_tie = std::holds_alternative<Tie>(touching.law);
   const auto edge_place = [&](int body, int edge) {
     Place place;
     place.kind = Place::Kind::edge;
@@ -80,19 +105,29 @@ void add_touching(Reading& reading, const Entry& entry, const Contact& law, cons
     outlines.push_back(named && reading.bodies[b].shape ? &reading.model.bodies[b].outline : nullptr);
   }
   int number = 0;
-  for (const geometry::TouchingEdges& pair : geometry::touching_edges(outlines, reach)) {
-    if (reading.body(pair.body_a).rigid && reading.body(pair.body_b).rigid) continue;
-    if (!taken.insert({pair.body_a, pair.edge_a, pair.body_b, pair.edge_b}).second) continue;
-    Contact contact = law;
-    contact.name = fmt::format("{}_{}", entry.key, ++number);
+  for (const geometry::TouchingEdges& pair : geometry::touching_edges(outlines, touching.reach)) {
+    const int rigid = reading.body(pair.body_a).rigid + reading.body(pair.body_b).rigid;
+    if (rigid == 2 || (is_tie && rigid > 0)) continue;
     const bool swapped = between.bodies && (*between.bodies)[0] == pair.body_b;
-    contact.a = edge_place(swapped ? pair.body_b : pair.body_a, swapped ? pair.edge_b : pair.edge_a);
-    contact.b = edge_place(swapped ? pair.body_a : pair.body_b, swapped ? pair.edge_a : pair.edge_b);
-    reading.model.contacts.push_back(std::move(contact));
+    const Place a = edge_place(swapped ? pair.body_b : pair.body_a, swapped ? pair.edge_b : pair.edge_a);
+    const Place b = edge_place(swapped ? pair.body_a : pair.body_b, swapped ? pair.edge_a : pair.edge_b);
+    if (!taken.insert(a, b)) continue;
+    const auto named = [&](auto joint) {
+      joint.name = fmt::format("{}_{}", entry.key, ++number);
+      joint.a = a;
+      joint.b = b;
+      return joint;
+    };
+    if (const Contact* contact = std::get_if<Contact>(&touching.law))
+      reading.model.contacts.push_back(named(*contact));
+    else
+      reading.model.ties.push_back(named(std::get<Tie>(touching.law)));
   }
   if (number == 0 && reading.report.clean())
-    reading.report.error(entry.value, "no two edges of these bodies lie on each other: give a 'reach', the distance up to "
-                                      "which edges are in contact, or name two edges");
+    reading.report.error(entry.value,
+                         is_tie ? "no two edges of these bodies lie on each other: move a body, or name two edges"
+                                : "no two edges of these bodies lie on each other: give a 'reach', the distance up to "
+                                  "which edges are in contact, or name two edges");
 }
 
 std::optional<Contact> read_contact(Reading& reading, const Entry& entry, Between& between_of, double& reach) {
@@ -127,41 +162,67 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry, Betwee
   return contact;
 }
 
+/// What is read of contacts and ties: those that name their edges enter the model, the others come after them.
+struct Joints {
+  Taken taken;
+  std::vector<Touching> touching;
+};
+
+void read_contact_entry(Reading& reading, const Entry& entry, Joints& joints) {
+  Between between;
+  double reach = 0.0;
+  auto contact = read_contact(reading, entry, between, reach);
+  if (!contact) {
+    reading.conditions_known = false;
+  } else if (between.many) {
+    joints.touching.push_back({&entry, std::move(*contact), between, reach});
+  } else {
+    joints.taken.insert(contact->a, contact->b);
+    reading.model.contacts.push_back(std::move(*contact));
+  }
+}
+
+void read_tie_entry(Reading& reading, const Entry& entry, Joints& joints) {
+  const MapReader map(reading.report, entry.value, {"between"}, tie_example,
+                      {{"friction", "leave it out, or make it a contact; tied edges neither slip nor open"},
+                       {"reach", "leave it out; tied edges lie on each other"}});
+  const auto value = map.need("between");
+  if (!value) reading.places_known = false;
+  const auto between = value ? read_partners(reading, *value) : std::nullopt;
+  if (!between) return;
+  Tie tie;
+  tie.name = entry.key;
+  tie.source = entry.key_source;
+  if (between->many) {
+    joints.touching.push_back({&entry, tie, *between, 0.0});
+    return;
+  }
+  std::tie(tie.a, tie.b) = *between->edges;
+  joints.taken.insert(tie.a, tie.b);
+  reading.model.ties.push_back(std::move(tie));
+}
+
 }  // namespace
 
-void read_contacts(Reading& reading, const Value& value) {
+void read_contacts_and_ties(Reading& reading, const std::optional<Value>& contacts, const std::optional<Value>& ties) {
   const std::size_t before = reading.report.count();
-  const auto entries =
-      read_named(reading.report, value, "contacts", "{joint: {between: [lower.top, upper.bottom], friction: 0.2}}");
+  std::vector<Entry> named_contacts, named_ties;
+  if (contacts)
+    named_contacts = read_named(reading.report, *contacts, "contacts",
+                                "{joint: {between: [lower.top, upper.bottom], friction: 0.2}}");
+  if (ties) named_ties = read_named(reading.report, *ties, "ties", "{glue: {between: [wall.bottom, base.top]}}");
   if (reading.report.count() > before) reading.places_known = reading.conditions_known = false;
-  struct Touching {
-    const Entry* entry = nullptr;
-    Contact law;
-    Between between;
-    double reach = 0.0;
+  Joints joints;
+  for (const Entry& entry : named_contacts) read_contact_entry(reading, entry, joints);
+  for (const Entry& entry : named_ties) read_tie_entry(reading, entry, joints);
+  // Contacts and ties that name their edges come first, then those between two bodies, then those between all; ties
+  // before contacts.
+  const auto rank = [](const Touching& touching) {
+    return std::pair(!touching.between.bodies.has_value(), std::holds_alternative<Contact>(touching.law));
   };
-  std::vector<Touching> touching;
-  std::set<std::array<int, 4>> taken;  // pairs of edges with a contact of their own
-  for (const Entry& entry : entries) {
-    Between between;
-    double reach = 0.0;
-    auto contact = read_contact(reading, entry, between, reach);
-    if (!contact) {
-      reading.conditions_known = false;
-    } else if (between.many) {
-      touching.push_back({&entry, std::move(*contact), between, reach});
-    } else {
-      const Place &a = contact->a, &b = contact->b;
-      taken.insert(a.body < b.body ? std::array{a.body, a.index, b.body, b.index}
-                                   : std::array{b.body, b.index, a.body, a.index});
-      reading.model.contacts.push_back(std::move(*contact));
-    }
-  }
-  // Contacts that name their edges come first, then those between two bodies, then those between all.
-  std::stable_sort(touching.begin(), touching.end(), [](const Touching& a, const Touching& b) {
-    return a.between.bodies.has_value() && !b.between.bodies.has_value();
-  });
-  for (const Touching& all : touching) add_touching(reading, *all.entry, all.law, all.between, all.reach, taken);
+  std::stable_sort(joints.touching.begin(), joints.touching.end(),
+                   [&](const Touching& a, const Touching& b) { return rank(a) < rank(b); });
+  for (const Touching& all : joints.touching) add_touching(reading, all, joints.taken);
 }
 
 }  // namespace scabo::input

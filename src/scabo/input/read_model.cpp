@@ -76,8 +76,8 @@ void check_version(Reading& reading, const MapReader& map) {
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "steps",
-                       "solver", "output"},
+                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
+                       "steps", "solver", "output"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
@@ -100,7 +100,7 @@ void read_sections(Reading& reading, const Value& root) {
 
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
-  if (const auto contacts = map.get("contacts")) read_contacts(reading, *contacts);
+  read_contacts_and_ties(reading, map.get("contacts"), map.get("ties"));
   const std::size_t before_steps = reading.report.count();
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;

@@ -68,7 +68,7 @@ void read_materials(Reading& reading, const Value& value);
 void read_bodies(Reading& reading, const Value& value);
 void read_supports(Reading& reading, const Value& value);
 void read_loads(Reading& reading, const Value& value);
-void read_contacts(Reading& reading, const Value& value);
+void read_contacts_and_ties(Reading& reading, const std::optional<Value>& contacts, const std::optional<Value>& ties);
 /// If the section is absent, there is one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);

@@ -80,7 +80,7 @@ BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
 }
 
 /// Pairs the elements of one contact.
-void pair_elements(const model::Contact& contact, const Interface& interface, const Mesh& mesh,
+void pair_elements(const Joint& contact, const Interface& interface, const Mesh& mesh,
                    PairedElements& paired) {
   std::map<int, int> b_of, a_of;
   for (const ContactPair& pair : interface.pairs) {
@@ -138,14 +138,7 @@ Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std
     fine.bodies.push_back(divided ? enriched(mesh.bodies[b], frozen.empty() ? std::vector<bool>{} : frozen[b])
                                   : mesh.bodies[b]);
   }
-  std::vector<Diagnostic> mistakes;
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    auto matched = match_interface(model, static_cast<int>(c), fine.bodies);
-    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched))
-      mistakes.push_back(*wrong);
-    else
-      fine.interfaces.push_back(std::get<Interface>(std::move(matched)));
-  }
+  std::vector<Diagnostic> mistakes = add_interfaces(model, fine);
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
   return fine;
 }
@@ -153,7 +146,9 @@ Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std
 PairedElements paired_elements(const model::Model& model, const Mesh& mesh) {
   PairedElements paired;
   for (const Interface& interface : mesh.interfaces)
-    pair_elements(model.contacts[static_cast<std::size_t>(interface.contact)], interface, mesh, paired);
+    pair_elements(joint_of(model.contacts[static_cast<std::size_t>(interface.contact)]), interface, mesh, paired);
+  for (std::size_t t = 0; t < mesh.ties.size(); ++t)
+    pair_elements(joint_of(model.ties[t]), mesh.ties[t], mesh, paired);
   return paired;
 }
 

@@ -38,13 +38,12 @@ Vec2 middle_of(const ContactPair& pair) { return 0.5 * (pair.point_a + pair.poin
 /// Matches one contact, with the data common to all steps.
 class Matching {
  public:
-  Matching(const model::Model& model, int contact, const std::vector<BodyMesh>& bodies)
-      : contact_(model.contacts[contact]),
+  Matching(const model::Model& model, const Joint& joint, const std::vector<BodyMesh>& bodies)
+      : contact_(joint),
         body_a_(model.bodies[contact_.a.body]),
         body_b_(model.bodies[contact_.b.body]),
         edge_a_(body_a_.outline.edges[contact_.a.index]),
         edge_b_(body_b_.outline.edges[contact_.b.index]) {
-    interface_.contact = contact;
     if (!body_a_.rigid) side_a_ = side_of(contact_.a, edge_a_, bodies);
     if (!body_b_.rigid) side_b_ = side_of(contact_.b, edge_b_, bodies);
   }
@@ -230,7 +229,7 @@ class Matching {
     }
   }
 
-  const model::Contact& contact_;
+  Joint contact_;
   const model::Body& body_a_;
   const model::Body& body_b_;
   const model::Edge& edge_a_;
@@ -243,9 +242,82 @@ class Matching {
 
 }  // namespace
 
+std::vector<Joint> joints_of(const model::Model& model) {
+  std::vector<Joint> joints;
+  for (const model::Contact& contact : model.contacts) joints.push_back(joint_of(contact));
+  for (const model::Tie& tie : model.ties) joints.push_back(joint_of(tie));
+  return joints;
+}
+
+std::variant<Interface, Diagnostic> match_interface(const model::Model& model, const Joint& joint,
+                                                    const std::vector<BodyMesh>& bodies) {
+  return Matching(model, joint, bodies).run();
+}
+
 std::variant<Interface, Diagnostic> match_interface(const model::Model& model, int contact,
                                                     const std::vector<BodyMesh>& bodies) {
-  return Matching(model, contact, bodies).run();
+  auto matched = match_interface(model, joint_of(model.contacts[static_cast<std::size_t>(contact)]), bodies);
+  if (Interface* interface = std::get_if<Interface>(&matched)) interface->contact = contact;
+  return matched;
+}
+
+namespace {
+
+/// The sides of a tie may be this far apart, relative to the length of the shorter one.
+constexpr double tie_tolerance = 1e-6;
+
+std::optional<Diagnostic> apart(const model::Model& model, const model::Tie& tie, const Interface& interface) {
+  const auto length = [&](const model::Place& place) {
+    return model.bodies[static_cast<std::size_t>(place.body)]
+        .outline.edges[static_cast<std::size_t>(place.index)]
+        .length();
+  };
+  const ContactPair* worst = nullptr;
+  double distance = tie_tolerance * std::min(length(tie.a), length(tie.b));
+  for (const ContactPair& pair : interface.pairs) {
+    if ((pair.point_b - pair.point_a).norm() <= distance) continue;
+    distance = (pair.point_b - pair.point_a).norm();
+    worst = &pair;
+  }
+  if (worst == nullptr) return std::nullopt;
+  return Diagnostic{tie.source, fmt::format("{} and {} are {:.3g} apart at {}: the two edges of a tie must lie on each "
+                                            "other; move a body, or use a contact with 'bond: true'",
+                                            tie.a.text, tie.b.text, distance, text_of(worst->point_a))};
+}
+
+}  // namespace
+
+std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
+  mesh.interfaces.clear();
+  mesh.ties.clear();
+  std::vector<Diagnostic> mistakes;
+  const auto has_mesh = [&](const model::Place& place) {  // otherwise its mistake has been reported
+    const auto b = static_cast<std::size_t>(place.body);
+    return model.bodies[b].rigid || !mesh.bodies[b].nodes.empty();
+  };
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const model::Contact& contact = model.contacts[c];
+    const auto is_edge = [](const model::Place& place) { return place.kind == model::Place::Kind::edge; };
+    ensure(is_edge(contact.a) && is_edge(contact.b), "a contact is between two edges");
+    if (!has_mesh(contact.a) || !has_mesh(contact.b)) continue;
+    auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
+    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched))
+      mistakes.push_back(*wrong);
+    else
+      mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
+  }
+  for (const model::Tie& tie : model.ties) {
+    if (!has_mesh(tie.a) || !has_mesh(tie.b)) continue;
+    auto matched = match_interface(model, joint_of(tie), mesh.bodies);
+    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched)) {
+      mistakes.push_back(*wrong);
+    } else if (const auto gap = apart(model, tie, std::get<Interface>(matched))) {
+      mistakes.push_back(*gap);
+    } else {
+      mesh.ties.push_back(std::get<Interface>(std::move(matched)));
+    }
+  }
+  return mistakes;
 }
 
 }  // namespace scabo::mesh

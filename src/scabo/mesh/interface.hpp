@@ -27,8 +27,27 @@
 
 namespace scabo::mesh {
 
-/// The interface of contact `contact`, or what is wrong with it. `bodies` are those of the Mesh.
+/// Two edges whose nodes are to be matched: those of a contact or of a tie. Refers to the model.
+struct Joint {
+  const model::Place& a;
+  const model::Place& b;
+  double gap = 0.0;  ///< added to the geometric gap
+  const Source& source;
+};
+inline Joint joint_of(const model::Contact& contact) { return {contact.a, contact.b, contact.gap, contact.source}; }
+inline Joint joint_of(const model::Tie& tie) { return {tie.a, tie.b, 0.0, tie.source}; }
+/// All contacts, then all ties.
+std::vector<Joint> joints_of(const model::Model& model);
+
+/// The pairs of a joint, or what is wrong with them. `bodies` are those of the Mesh.
+std::variant<Interface, Diagnostic> match_interface(const model::Model& model, const Joint& joint,
+                                                    const std::vector<BodyMesh>& bodies);
+/// The interface of contact number `contact`.
 std::variant<Interface, Diagnostic> match_interface(const model::Model& model, int contact,
                                                     const std::vector<BodyMesh>& bodies);
+
+/// The interfaces of all contacts and ties, added to a mesh whose bodies are complete; what is wrong with those that are
+/// not added. The sides of a tie must lie on each other.
+std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh);
 
 }  // namespace scabo::mesh

@@ -61,27 +61,6 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
   return mistakes;
 }
 
-bool is_edge(const model::Place& place) { return place.kind == model::Place::Kind::edge; }
-
-/// Matches all contacts of the mesh; what is wrong with those that are not added.
-std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
-  mesh.interfaces.clear();
-  std::vector<Diagnostic> mistakes;
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const model::Contact& contact = model.contacts[c];
-    ensure(is_edge(contact.a) && is_edge(contact.b), "a contact is between two edges");
-    const auto has_mesh = [&](int b) { return model.bodies[b].rigid || !mesh.bodies[b].nodes.empty(); };
-    if (!has_mesh(contact.a.body) || !has_mesh(contact.b.body)) continue;  // its mistake has been reported
-    auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
-    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched)) {
-      mistakes.push_back(*wrong);
-    } else {
-      mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
-    }
-  }
-  return mistakes;
-}
-
 }  // namespace
 
 Mesh make_mesh(const model::Model& model) { return make_mesh(model, Division(model.bodies.size())); }

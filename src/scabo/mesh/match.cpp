@@ -409,17 +409,17 @@ struct Sides {
   model::Place first, second;
 };
 
-std::optional<Sides> sides_to_match(const model::Model& model, const model::Contact& contact,
+std::optional<Sides> sides_to_match(const model::Model& model, const Joint& joint,
                                     const std::vector<BodyMesh>& bodies) {
-  if (is_refined_alike(model, contact)) return std::nullopt;
-  for (const model::Place& place : {contact.a, contact.b}) {
+  if (is_refined_alike(model, joint)) return std::nullopt;
+  for (const model::Place& place : {joint.a, joint.b}) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
     if (body.rigid) return std::nullopt;
     const std::vector<std::vector<LineElement>>& edges = bodies[static_cast<std::size_t>(place.body)].edges;
     if (edges.empty() || edges[static_cast<std::size_t>(place.index)].empty()) return std::nullopt;
   }
   const auto key = [](const model::Place& place) { return std::pair(place.body, place.index); };
-  return key(contact.b) < key(contact.a) ? Sides{contact.b, contact.a} : Sides{contact.a, contact.b};
+  return key(joint.b) < key(joint.a) ? Sides{joint.b, joint.a} : Sides{joint.a, joint.b};
 }
 
 ContactSide contact_side(const model::Model& model, const model::Place& place, const std::vector<BodyMesh>& bodies) {
@@ -442,22 +442,23 @@ bool matches(const model::Model& model, const Sides& sides, const std::vector<Bo
 
 }  // namespace
 
-bool is_refined_alike(const model::Model& model, const model::Contact& contact) {
+bool is_refined_alike(const model::Model& model, const Joint& joint) {
   const auto is_refined = [&](const model::Place& place) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
     return !body.rigid && body.mesh.tolerance && body.mesh.kind == model::MeshKind::superelement;
   };
-  return is_refined(contact.a) && is_refined(contact.b);
+  return is_refined(joint.a) && is_refined(joint.b);
 }
 
 std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies) {
   std::vector<BodyMesh> matched = bodies;
   FixedNodes fixed = fixed_nodes(model, bodies);
+  const std::vector<Joint> joints = joints_of(model);
   std::set<int> changed;
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Sides> apart;
-    for (const model::Contact& contact : model.contacts)
-      if (const auto sides = sides_to_match(model, contact, matched); sides && !matches(model, *sides, matched, fixed))
+    for (const Joint& joint : joints)
+      if (const auto sides = sides_to_match(model, joint, matched); sides && !matches(model, *sides, matched, fixed))
         apart.push_back(*sides);
     bool any = false;
     for (const auto& [first, second] : apart) {

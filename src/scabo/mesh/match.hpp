@@ -1,5 +1,5 @@
 // Interfaces match by themselves: a step from mesh to mesh, before anything is solved, that gives the two sides of
-// every contact between elastic bodies the same nodes.
+// every contact and tie between elastic bodies the same nodes.
 //
 // Break points (ends of elements) of each side are seen from the other along the rays of rays.hpp. Within the overlap
 // both sides get the union of them:
@@ -21,7 +21,7 @@
 #include <optional>
 #include <vector>
 
-#include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/interface.hpp"
 
 namespace scabo::mesh {
 
@@ -30,8 +30,8 @@ namespace scabo::mesh {
 /// alike are left alone.
 std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies);
 
-/// Whether refinement changes the elements of both sides of a contact alike, so that they must match from the beginning:
+/// Whether refinement changes the elements of both sides of a contact or tie alike, so that they must match from the beginning:
 /// both bodies are one super-element with a mesh.tolerance.
-bool is_refined_alike(const model::Model& model, const model::Contact& contact);
+bool is_refined_alike(const model::Model& model, const Joint& joint);
 
 }  // namespace scabo::mesh

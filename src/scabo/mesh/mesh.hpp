@@ -74,11 +74,12 @@ struct PlaceNodes {
 struct Mesh {
   std::vector<BodyMesh> bodies;       ///< one for each body of the model
   std::vector<Interface> interfaces;  ///< one for each contact of the model
+  std::vector<Interface> ties;        ///< one for each tie: nodes that are one; gaps are rounding, `contact` is -1
   int nodes() const;                  ///< number of nodes of all bodies
 };
 
-/// Divides every body and matches the two sides of every contact. Throws InputError, with file and lines of the model,
-/// for contacts whose nodes do not match and for meshes that are too large.
+/// Divides every body and matches the two sides of every contact and tie. Throws InputError, with file and lines of the model,
+/// for contacts and ties whose nodes do not match and for meshes that are too large.
 Mesh make_mesh(const model::Model& model);
 
 /// The nodes of `place`.

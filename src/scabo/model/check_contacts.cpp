@@ -1,4 +1,4 @@
-// Validation of contacts: their two edges and their laws.
+// Validation of contacts and ties: their two edges, and the laws of contacts.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double largest_coefficient = 1e6;  // for larger values the forces in balance are lost in rounding
 
-/// One side of a contact, an edge without a crack mouth.
-bool check_side(Checking& checking, const std::string& path, const Place& place) {
+/// One side of a contact or tie (`what`), an edge without a crack mouth.
+bool check_side(Checking& checking, const std::string& path, const char* what, const Place& place) {
   if (checking.is_body(place.body)) checking.touched[static_cast<std::size_t>(place.body)] = 1;
   if (!check_place(checking, path, place)) return false;
   const std::string text = text_of(checking.model, place);
@@ -26,40 +26,75 @@ bool check_side(Checking& checking, const std::string& path, const Place& place)
   }
   if (place.kind != Place::Kind::edge) {
     checking.error(path, "",
-                   fmt::format("a contact is between two edges, as in [lower.top, upper.bottom]; '{}' is not "
+                   fmt::format("a {} is between two edges, as in [lower.top, upper.bottom]; '{}' is not "
                                "an edge",
-                               text));
+                               what, text));
     return false;
   }
   for (const Crack& crack : checking.body(place.body).cracks)
     if (crack.edge == place.index) {
       checking.error(path, "",
-                     fmt::format("the mouth of crack '{}' lies on '{}', but a contact needs an edge without a "
+                     fmt::format("the mouth of crack '{}' lies on '{}', but a {} needs an edge without a "
                                  "crack mouth: divide the edge, or name another one",
-                                 crack.name, text));
+                                 crack.name, text, what));
       return false;
     }
   return true;
 }
 
-bool check_sides(Checking& checking, const std::string& path, const Contact& contact) {
-  const bool a = check_side(checking, path + ".between.0", contact.a);
-  const bool b = check_side(checking, path + ".between.1", contact.b);
-  if (!checking.is_body(contact.a.body) || !checking.is_body(contact.b.body)) return false;
-  const Body& body_a = checking.body(contact.a.body);
-  const Body& body_b = checking.body(contact.b.body);
-  if (contact.a.body == contact.b.body) {
+bool check_sides(Checking& checking, const std::string& path, const char* what, const Place& side_a,
+                 const Place& side_b) {
+  const bool a = check_side(checking, path + ".between.0", what, side_a);
+  const bool b = check_side(checking, path + ".between.1", what, side_b);
+  if (!checking.is_body(side_a.body) || !checking.is_body(side_b.body)) return false;
+  if (side_a.body == side_b.body) {
     checking.error(path, "between",
-                   fmt::format("a body cannot be in contact with itself: both edges belong to '{}'", body_a.name));
-    return false;
-  }
-  if (body_a.rigid && body_b.rigid) {
-    checking.error(path, "between",
-                   fmt::format("'{}' and '{}' are both rigid: one of them must be elastic", body_a.name, body_b.name));
+                   fmt::format("a body cannot be {} itself: both edges belong to '{}'",
+                               std::string_view(what) == "tie" ? "tied to" : "in contact with",
+                               checking.body(side_a.body).name));
     return false;
   }
   return a && b;
 }
+
+/// The bodies of a contact are not both rigid.
+bool check_one_elastic(Checking& checking, const std::string& path, const Contact& contact) {
+  const Body& a = checking.body(contact.a.body);
+  const Body& b = checking.body(contact.b.body);
+  if (!a.rigid || !b.rigid) return true;
+  checking.error(path, "between",
+                 fmt::format("'{}' and '{}' are both rigid: one of them must be elastic", a.name, b.name));
+  return false;
+}
+
+/// The bodies of a tie are elastic.
+bool check_both_elastic(Checking& checking, const std::string& path, const Tie& tie) {
+  for (const Place* side : {&tie.a, &tie.b})
+    if (const Body& body = checking.body(side->body); body.rigid) {
+      checking.error(path, "between",
+                     fmt::format("'{}' is rigid, but a tie joins elastic bodies: use a contact with 'bond: true'",
+                                 body.name));
+      return false;
+    }
+  return true;
+}
+
+/// Pairs of edges that are joined already, and by what.
+class Joined {
+ public:
+  /// Reports a pair that is joined twice; `what`: `contact 'joint'`.
+  void add(Checking& checking, const std::string& path, const Place& a, const Place& b, std::string what) {
+    std::array<int, 4> pair{a.body, a.index, b.body, b.index};
+    if (pair[0] > pair[2]) pair = {pair[2], pair[3], pair[0], pair[1]};
+    const auto [first, is_new] = pairs_.emplace(pair, std::move(what));
+    if (!is_new)
+      checking.error_of_key(
+          path, "", fmt::format("{} already connects the same two edges: remove one of the two", first->second));
+  }
+
+ private:
+  std::map<std::array<int, 4>, std::string> pairs_;
+};
 
 bool check_coefficient(Checking& checking, const std::string& path, std::string_view key, double friction) {
   if (!checking.not_negative(path, key, friction)) return false;
@@ -138,27 +173,29 @@ void check_law(Checking& checking, const std::string& path, const Contact& conta
          "slipping: give both");
 }
 
-void check_contacts(Checking& checking) {
+void check_contacts_and_ties(Checking& checking) {
   const Model& model = checking.model;
-  std::map<std::array<int, 4>, std::string> pairs;
-  std::unordered_set<std::string> names;
+  Joined joined;
+  std::unordered_set<std::string> names, tie_names;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const Contact& contact = model.contacts[i];
     const std::string path = path_of("contacts", contact.name, i);
     checking.enter(contact.source);
     check_name(checking, path, contact.name, "contact", names);
     check_law(checking, path, contact);
-    if (!check_sides(checking, path, contact)) {
+    if (!check_sides(checking, path, "contact", contact.a, contact.b) || !check_one_elastic(checking, path, contact)) {
       checking.gaps.conditions = true;
       continue;
     }
-    std::array<int, 4> pair{contact.a.body, contact.a.index, contact.b.body, contact.b.index};
-    if (pair[0] > pair[2]) pair = {pair[2], pair[3], pair[0], pair[1]};
-    const auto [first, is_new] = pairs.emplace(pair, contact.name);
-    if (!is_new)
-      checking.error_of_key(
-          path, "",
-          fmt::format("contact '{}' already connects the same two edges: remove one of the two", first->second));
+    joined.add(checking, path, contact.a, contact.b, fmt::format("contact '{}'", contact.name));
+  }
+  for (std::size_t i = 0; i < model.ties.size(); ++i) {
+    const Tie& tie = model.ties[i];
+    const std::string path = path_of("ties", tie.name, i);
+    checking.enter(tie.source);
+    check_name(checking, path, tie.name, "tie", tie_names);
+    if (check_sides(checking, path, "tie", tie.a, tie.b) && check_both_elastic(checking, path, tie))
+      joined.add(checking, path, tie.a, tie.b, fmt::format("tie '{}'", tie.name));
   }
 }
 

@@ -172,7 +172,7 @@ void check_bodies_held(Checking& checking) {
     } else if (!checking.held[i] && !body.outside) {
       checking.error_of_key(
           path_of("bodies", body.name, i), "",
-          fmt::format("body '{}' is insufficiently supported: it has no support and no contact", body.name));
+          fmt::format("body '{}' is insufficiently supported: it has no support, contact or tie", body.name));
       checking.of_whole();
     }
   }
@@ -186,7 +186,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   check_bodies(checking);
   check_supports(checking);
   check_loads(checking);
-  check_contacts(checking);
+  check_contacts_and_ties(checking);
   check_steps(checking);
   check_output(checking);
 

@@ -20,8 +20,12 @@ namespace {
 using Json = nlohmann::ordered_json;  // keys in the order of the documentation
 using Clock = std::chrono::steady_clock;
 
-const std::string& body_name(const analysis::ModalResult& result, const analysis::NaturalMode& mode) {
-  return result.structure.model.bodies[static_cast<std::size_t>(mode.body)].name;
+/// Names of the bodies that vibrate.
+std::string body_name(const analysis::ModalResult& result, const analysis::NaturalMode& mode) {
+  std::string names;
+  for (const int body : mode.bodies)
+    names += (names.empty() ? "" : ", ") + result.structure.model.bodies[static_cast<std::size_t>(body)].name;
+  return names;
 }
 
 std::string mass_cell(double mass, double total) {

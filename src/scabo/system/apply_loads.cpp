@@ -13,16 +13,16 @@ namespace {
 class Applied {
  public:
   Applied(const model::Model& model, const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells,
-          const BodySystem& system, std::size_t body, const model::Place* place)
+          const BodySystem& part, std::size_t body, const model::Place* place)
       : model_(model),
         mesh_(mesh),
-        system_(system),
+        part_(part),
         body_(model.bodies[body]),
         body_mesh_(mesh.bodies[body]),
         cells_(cells[body]),
         place_(place) {}
 
-  Vector nodal = Vector();
+  Vector nodal = Vector();     // in the numbering of the body
   element::CellLoads interior;  // empty: none
 
   void operator()(const model::Force& force) {
@@ -30,7 +30,7 @@ class Applied {
       nodal = Vector::Zero(3);
       const std::vector<Vec2> points = rigid_points(*place_, body_);
       for (const Vec2& point : points)
-        nodal += rigid_point(point, system_.reference(), system_.lever()).transpose() * force.value /
+        nodal += rigid_point(point, part_.reference(), part_.lever()).transpose() * force.value /
                  static_cast<double>(points.size());
       return;
     }
@@ -39,7 +39,7 @@ class Applied {
       const Vec2 traction = force.value / (length_of(at.elements, body_mesh_.nodes) * thickness());
       apply_traction(at, [&](const Vec2&, const Vec2&) { return traction; });
     } else {
-      nodal = Vector::Zero(system_.size());
+      nodal = Vector::Zero(size());
       nodal.segment<2>(2 * at.nodes.front()) = force.value;
     }
   }
@@ -117,7 +117,7 @@ class Applied {
   /// Fills `interior` and adds what it is worth at the nodes, which `of_finite` returns for finite elements.
   template <typename OfSuperElement, typename OfFinite>
   void for_each_cell(const OfSuperElement& of_super_element, const OfFinite& of_finite) {
-    nodal = Vector::Zero(system_.size());
+    nodal = Vector::Zero(size());
     interior.resize(body_mesh_.cells.size());
     for (std::size_t c = 0; c < interior.size(); ++c) {
       const mesh::Cell& cell = body_mesh_.cells[c];
@@ -142,6 +142,7 @@ class Applied {
   static element::LinearField about(const Vec2& centre, const model::Linear& field) {
     return {field.constant + field.per_x * centre.x() + field.per_y * centre.y(), field.per_x, field.per_y};
   }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(2 * body_mesh_.nodes.size()); }
   double thickness() const { return model_.analysis.thickness; }
   void apply_traction(const mesh::PlaceNodes& at, const TractionField& traction) {
     nodal = traction_forces(at.elements, body_mesh_.nodes, thickness(), traction);
@@ -149,7 +150,7 @@ class Applied {
 
   const model::Model& model_;
   const mesh::Mesh& mesh_;
-  const BodySystem& system_;
+  const BodySystem& part_;
   const model::Body& body_;
   const mesh::BodyMesh& body_mesh_;
   const element::SolvedCells& cells_;
@@ -161,14 +162,16 @@ class Applied {
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
                const std::vector<element::SolvedCells>& cells) {
   for (const model::Load& load : model.loads) {
-    std::vector<Vector>& forces = structure.loads.emplace_back(model.bodies.size());
+    std::vector<Vector>& forces = structure.loads.emplace_back(structure.parts.size());
     std::vector<element::CellLoads>& interior = structure.interior.emplace_back(model.bodies.size());
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       // Without a place, the load acts on every bounded elastic body.
       if (load.on ? load.on->body != static_cast<int>(b) : model.bodies[b].rigid || model.bodies[b].outside) continue;
-      Applied applied(model, mesh, cells, *structure.bodies[b], b, load.on ? &*load.on : nullptr);
+      const auto body = static_cast<int>(b);
+      const std::size_t part = structure.dofs.part_of(body);
+      Applied applied(model, mesh, cells, *structure.parts[part], b, load.on ? &*load.on : nullptr);
       std::visit(applied, load.kind);
-      forces[b] = std::move(applied.nodal);
+      structure.dofs.add(body, applied.nodal, forces[part]);
       interior[b] = std::move(applied.interior);
     }
   }

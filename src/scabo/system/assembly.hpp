@@ -1,4 +1,5 @@
-// Stiffness and mass of a body from those of its cells, super-elements and finite elements alike.
+// Stiffness and mass of a body, or of a part of tied bodies, from those of its cells, super-elements and finite elements
+// alike.
 #pragma once
 
 #include <functional>
@@ -7,12 +8,16 @@
 
 #include "scabo/element/cell_library.hpp"
 #include "scabo/system/body_system.hpp"
+#include "scabo/system/dofs.hpp"
 
 namespace scabo::system {
 
 /// Stiffness of a body: that of its super-element, shared with it, if it is one; otherwise sparse.
-Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
-                         bool unbounded = false);
+Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells);
+
+/// Stiffness of an elastic part; that of several tied bodies is sparse.
+Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
+                         const std::vector<element::SolvedCells>& cells, const Dofs& dofs, std::size_t part);
 
 /// Masses of super-elements, each distinct one computed once.
 class MassLibrary {
@@ -29,5 +34,9 @@ class MassLibrary {
 /// Mass, stored like the stiffness. Every material needs a density.
 Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
                     MassLibrary& masses);
+
+/// Mass of an elastic part, stored like its stiffness.
+Stiffness part_mass(const model::Model& model, const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells,
+                    const Dofs& dofs, std::size_t part, MassLibrary& masses);
 
 }  // namespace scabo::system

@@ -11,17 +11,19 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Rows [n, t] of one side of a pair over the displacements of its body.
-void add_side(Triplets& entries, int row, double sign, const model::Body& body, const BodySystem& system, int node,
+/// Rows [n, t] of one side of a pair over the displacements of its part.
+void add_side(Triplets& entries, int row, double sign, const Structure& structure, int body, int node,
               const Vec2& point, const Vec2& normal) {
+  const Dofs& dofs = structure.dofs;
+  const BodySystem& part = *structure.parts[dofs.part_of(body)];
   const Vec2 directions[2] = {normal, tangent_of(normal)};
   for (int k = 0; k < 2; ++k) {
-    if (body.rigid) {
-      const Eigen::RowVector3d map = directions[k].transpose() * rigid_point(point, system.reference(), system.lever());
+    if (node < 0) {
+      const Eigen::RowVector3d map = directions[k].transpose() * rigid_point(point, part.reference(), part.lever());
       for (int j = 0; j < 3; ++j) entries.emplace_back(row + k, j, sign * map[j]);
     } else {
-      entries.emplace_back(row + k, 2 * node, sign * directions[k].x());
-      entries.emplace_back(row + k, 2 * node + 1, sign * directions[k].y());
+      entries.emplace_back(row + k, dofs.of(body, node, 0), sign * directions[k].x());
+      entries.emplace_back(row + k, dofs.of(body, node, 1), sign * directions[k].y());
     }
   }
 }
@@ -29,34 +31,34 @@ void add_side(Triplets& entries, int row, double sign, const model::Body& body, 
 std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSystem::Pair>& pairs,
                                                    const Structure& structure, const model::Model& model,
                                                    const mesh::Mesh& mesh) {
-  std::vector<Triplets> entries(model.bodies.size());
+  std::vector<Triplets> entries(structure.parts.size());
   int row = 0;
   for (const ContactSystem::Pair& at : pairs) {
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(at.contact)];
     const mesh::ContactPair& pair =
         mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
-    const auto a = static_cast<std::size_t>(contact.a.body), b = static_cast<std::size_t>(contact.b.body);
-    add_side(entries[a], row, -1.0, model.bodies[a], *structure.bodies[a], pair.node_a, pair.point_a, pair.normal);
-    add_side(entries[b], row, 1.0, model.bodies[b], *structure.bodies[b], pair.node_b, pair.point_b, pair.normal);
+    const int a = contact.a.body, b = contact.b.body;
+    add_side(entries[structure.dofs.part_of(a)], row, -1.0, structure, a, pair.node_a, pair.point_a, pair.normal);
+    add_side(entries[structure.dofs.part_of(b)], row, 1.0, structure, b, pair.node_b, pair.point_b, pair.normal);
     row += 2;
   }
   std::vector<Eigen::SparseMatrix<double>> motion;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    motion.emplace_back(row, structure.bodies[b]->size());
-    motion.back().setFromTriplets(entries[b].begin(), entries[b].end());
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+    motion.emplace_back(row, structure.parts[p]->size());
+    motion.back().setFromTriplets(entries[p].begin(), entries[p].end());
   }
   return motion;
 }
 
-/// Contribution of one body to W: B A B' on the rows of the pairs that touch it.
-struct BodyFlexibility {
+/// Contribution of one part to W: B A B' on the rows of the pairs that touch it.
+struct PartFlexibility {
   std::vector<int> rows;
   Matrix block;  // rows x rows, symmetric
 };
 
-BodyFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const BodySystem& body) {
-  BodyFlexibility result;
-  std::vector<int> touched;  // degrees of freedom of the body
+PartFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const BodySystem& part) {
+  PartFlexibility result;
+  std::vector<int> touched;  // degrees of freedom of the part
   std::vector<int> place(static_cast<std::size_t>(motion.cols()), -1);
   for (Eigen::Index column = 0; column < motion.cols(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(motion, column); it; ++it) {
@@ -74,29 +76,29 @@ BodyFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const 
       const auto row = std::lower_bound(result.rows.begin(), result.rows.end(), it.row()) - result.rows.begin();
       narrow(row, static_cast<Eigen::Index>(k)) += it.value();
     }
-  const Matrix W = narrow * body.flexibility(touched) * narrow.transpose();
+  const Matrix W = narrow * part.flexibility(touched) * narrow.transpose();
   result.block = 0.5 * (W + W.transpose());
   return result;
 }
 
-/// W on the rows kept by `place` (-1: left out): dense if bodies couple most pairs with each other or if it is small,
+/// W on the rows kept by `place` (-1: left out): dense if parts couple most pairs with each other or if it is small,
 /// otherwise sparse.
-contact::Delassus sum_of(const std::vector<BodyFlexibility>& bodies, const std::vector<int>& place, Eigen::Index rows) {
+contact::Delassus sum_of(const std::vector<PartFlexibility>& parts, const std::vector<int>& place, Eigen::Index rows) {
   constexpr Eigen::Index least_sparse = 400;  // rows: below this, dense factors are as fast
   constexpr double most_filled = 0.2;
   double entries = 0.0;
-  for (const BodyFlexibility& body : bodies) entries += std::pow(static_cast<double>(body.rows.size()), 2);
+  for (const PartFlexibility& part : parts) entries += std::pow(static_cast<double>(part.rows.size()), 2);
   const bool is_sparse =
       rows >= least_sparse && entries <= most_filled * static_cast<double>(rows) * static_cast<double>(rows);
   Matrix dense = Matrix::Zero(is_sparse ? 0 : rows, is_sparse ? 0 : rows);
   Triplets triplets;
   if (is_sparse) triplets.reserve(static_cast<std::size_t>(entries));
-  for (const BodyFlexibility& body : bodies)
-    for (std::size_t j = 0; j < body.rows.size(); ++j) {
-      const int column = place[static_cast<std::size_t>(body.rows[j])];
-      for (std::size_t i = 0; column >= 0 && i < body.rows.size(); ++i) {
-        const int row = place[static_cast<std::size_t>(body.rows[i])];
-        const double value = body.block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  for (const PartFlexibility& part : parts)
+    for (std::size_t j = 0; j < part.rows.size(); ++j) {
+      const int column = place[static_cast<std::size_t>(part.rows[j])];
+      for (std::size_t i = 0; column >= 0 && i < part.rows.size(); ++i) {
+        const int row = place[static_cast<std::size_t>(part.rows[i])];
+        const double value = part.block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
         if (row < 0) continue;
         if (is_sparse)
           triplets.emplace_back(row, column, value);
@@ -130,21 +132,21 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   ContactSystem system;
   Eigen::Index columns = 0;
   Vector diagonal = Vector::Zero(rows);
-  std::vector<BodyFlexibility> flexibilities;
+  std::vector<PartFlexibility> flexibilities;
   Triplets of_G;
-  for (std::size_t b = 0; b < structure.bodies.size(); ++b) {
-    const BodySystem& body = *structure.bodies[b];
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+    const BodySystem& part = *structure.parts[p];
     system.first_rigid.push_back(static_cast<int>(columns));
-    if (!model.bodies[b].rigid) {
-      const BodyFlexibility& added = flexibilities.emplace_back(flexibility_of(motion[b], body));
+    if (!structure.dofs.is_rigid(p)) {
+      const PartFlexibility& added = flexibilities.emplace_back(flexibility_of(motion[p], part));
       if (added.block.size() > 0) diagonal(added.rows) += added.block.diagonal();
     }
-    const Matrix& rigid = body.rigid_motions();
-    for (Eigen::Index column = 0; column < motion[b].cols(); ++column)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(motion[b], column); it; ++it)
+    const Matrix& rigid = part.rigid_motions();
+    for (Eigen::Index column = 0; column < motion[p].cols(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(motion[p], column); it; ++it)
         for (Eigen::Index k = 0; k < rigid.cols(); ++k)
           if (rigid(column, k) != 0.0) of_G.emplace_back(it.row(), columns + k, it.value() * rigid(column, k));
-    columns += body.rigid_motions().cols();
+    columns += rigid.cols();
   }
 
   Eigen::SparseMatrix<double> G(rows, columns);

@@ -16,14 +16,14 @@ struct ContactSystem {
     int contact = -1, index = -1, number = 0;
   };
   std::vector<Pair> pairs;                               // N
-  std::vector<Eigen::SparseMatrix<double>> motion;       // per body, 2N x size of u: B side positive, A side negative
+  std::vector<Eigen::SparseMatrix<double>> motion;       // per part, 2N x size of u: B side positive, A side negative
   std::vector<Pair> held;                                // pairs whose gap is fixed by supports, which are left out
-  std::vector<Eigen::SparseMatrix<double>> held_motion;  // per body, rows [n, t] as above
+  std::vector<Eigen::SparseMatrix<double>> held_motion;  // per part, rows [n, t] as above
   Vector gap;                                            // N, initial; 0 if the pair is bonded in its initial position
   contact::JointLaws laws;                               // law of every pair
-  contact::Delassus W;                                   // 2N x 2N, a sum over bodies; sparse if there are many
+  contact::Delassus W;                                   // 2N x 2N, a sum over parts; sparse if there are many
   contact::RigidMap G;                                   // 2N x m
-  std::vector<int> first_rigid;                          // per body: its first column in G
+  std::vector<int> first_rigid;                          // per part: its first column in G
 
   int rigid_motions() const { return static_cast<int>(G.cols()); }
 };

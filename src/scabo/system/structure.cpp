@@ -31,23 +31,24 @@ double half_size(const model::Outline& outline) {
 
 class ConstraintCollector {
  public:
-  ConstraintCollector(const model::Model& model, const mesh::Mesh& mesh)
-      : model_(model), mesh_(mesh), constraints_(model.bodies.size()), held_by_(model.bodies.size()) {}
+  ConstraintCollector(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs)
+      : model_(model), mesh_(mesh), dofs_(dofs), constraints_(dofs.parts()), held_by_(dofs.parts()) {}
 
   void add(int index) {
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
     const auto body = static_cast<std::size_t>(support.on.body);
+    const std::size_t part = dofs_.part_of(support.on.body);
     for (int component = 0; component < 2; ++component) {
       const auto value = support.displacement[static_cast<std::size_t>(component)];
       if (!value) continue;
       if (model_.bodies[body].rigid) {
         for (const Vec2& point : rigid_points(support.on, model_.bodies[body]))
-          constraints_[body].push_back({-1, point, component, false, index, *value});
-        if (support.on.kind == model::Place::Kind::body && !holds_rotation(body))
-          constraints_[body].push_back({-1, Vec2::Zero(), component, true, index, 0.0});
+          constraints_[part].push_back({-1, point, component, false, index, *value});
+        if (support.on.kind == model::Place::Kind::body && !holds_rotation(part))
+          constraints_[part].push_back({-1, Vec2::Zero(), component, true, index, 0.0});
         continue;
       }
-      for (int node : mesh::nodes_of(support.on, mesh_).nodes) add_dof(body, node, component, index, *value);
+      for (int node : mesh::nodes_of(support.on, mesh_).nodes) add_dof(support.on.body, node, component, index, *value);
     }
   }
 
@@ -57,24 +58,25 @@ class ConstraintCollector {
   }
 
  private:
-  bool holds_rotation(std::size_t body) const {
-    for (const Constraint& constraint : constraints_[body])
+  bool holds_rotation(std::size_t part) const {
+    for (const Constraint& constraint : constraints_[part])
       if (constraint.rotation) return true;
     return false;
   }
 
-  void add_dof(std::size_t body, int node, int component, int index, double value) {
-    const int dof = 2 * node + component;
-    const auto [at, added] = held_by_[body].emplace(dof, constraints_[body].size());
+  void add_dof(int body, int node, int component, int index, double value) {
+    const std::size_t part = dofs_.part_of(body);
+    const int dof = dofs_.of(body, node, component);
+    const auto [at, added] = held_by_[part].emplace(dof, constraints_[part].size());
     if (added) {
-      constraints_[body].push_back({dof, Vec2::Zero(), component, false, index, value});
+      constraints_[part].push_back({dof, Vec2::Zero(), component, false, index, value});
       return;
     }
-    const Constraint& other = constraints_[body][at->second];
+    const Constraint& other = constraints_[part][at->second];
     const bool both_zero = value == 0.0 && other.value == 0.0;
     if (both_zero || (value == other.value && same_history(model_, index, other.support))) return;
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
-    const Vec2& x = mesh_.bodies[body].nodes[static_cast<std::size_t>(node)];
+    const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
     diagnostics_.push_back(
         {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
                                      "another value: give both the same value there, or move one of them",
@@ -85,6 +87,7 @@ class ConstraintCollector {
 
   const model::Model& model_;
   const mesh::Mesh& mesh_;
+  const Dofs& dofs_;
   std::vector<std::vector<Constraint>> constraints_;
   std::vector<std::map<int, std::size_t>> held_by_;
   std::vector<Diagnostic> diagnostics_;
@@ -103,13 +106,13 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   return system;
 }
 
-/// For each body: whether it has a contact with pairs.
-std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh) {
-  std::vector<bool> found(model.bodies.size(), false);
+/// For each part: whether it has a contact with pairs.
+std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
+  std::vector<bool> found(dofs.parts(), false);
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     if (!mesh.interfaces[c].pairs.empty())
       for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body})
-        found[static_cast<std::size_t>(body)] = true;
+        found[dofs.part_of(body)] = true;
   return found;
 }
 
@@ -133,54 +136,61 @@ std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& bod
   return {};
 }
 
-std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh) {
-  ConstraintCollector collector(model, mesh);
+std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh,
+                                                    const Dofs& dofs) {
+  ConstraintCollector collector(model, mesh, dofs);
   for (std::size_t s = 0; s < model.supports.size(); ++s) collector.add(static_cast<int>(s));
   return collector.finish();
 }
 
 void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
-  const auto constraints = constraints_of(model, mesh);
-  const std::vector<bool> touched = in_contact(model, mesh);
+  const Dofs dofs(model, mesh);
+  const auto constraints = constraints_of(model, mesh, dofs);
+  const std::vector<bool> touched = in_contact(model, mesh, dofs);
   std::vector<Diagnostic> diagnostics;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const model::Body& body = model.bodies[b];
-    if (body.outside || touched[b]) continue;
+  for (std::size_t p = 0; p < dofs.parts(); ++p) {
+    const std::vector<int>& bodies = dofs.bodies_of(p);
+    const model::Body& body = model.bodies[static_cast<std::size_t>(bodies.front())];
+    if (dofs.is_unbounded(p) || touched[p]) continue;
     Vec2 reference;
     double lever = 0.0;
     Matrix free;
     if (body.rigid) {
-      const auto system = make_rigid_body(model, body, constraints[b]);
+      const auto system = make_rigid_body(model, body, constraints[p]);
       reference = system->reference();
       lever = system->lever();
       free = system->rigid_coordinates();
     } else {
-      free = free_motions(mesh.bodies[b].nodes, constraints[b], reference, lever);
+      free = free_motions(dofs.nodes(p), constraints[p], reference, lever);
     }
     if (free.cols() == 0) continue;
     std::string motions;
     for (Eigen::Index k = 0; k < free.cols(); ++k)
       motions += (k > 0 ? ", " : "") + describe_motion(free.col(k), reference, lever);
-    diagnostics.push_back({body.source, fmt::format("this body is insufficiently supported: it is free to move by {}; "
-                                                    "add a support that prevents this motion, or a contact",
-                                                    motions)});
+    const std::string what = bodies.size() == 1 ? "this body is insufficiently supported: it is"
+                                                : dofs.name_of(p, model) + " are insufficiently supported: they are";
+    diagnostics.push_back(
+        {body.source,
+         fmt::format("{} free to move by {}; add a support that prevents this motion, or a contact", what, motions)});
   }
   if (!diagnostics.empty()) throw InputError(model.file, std::move(diagnostics));
 }
 
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                          const std::vector<element::SolvedCells>& cells) {
-  auto constraints = constraints_of(model, mesh);
   Structure structure;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const model::Body& body = model.bodies[b];
+  structure.dofs = Dofs(model, mesh);
+  const Dofs& dofs = structure.dofs;
+  auto constraints = constraints_of(model, mesh, dofs);
+  for (std::size_t p = 0; p < dofs.parts(); ++p) {
+    const model::Body& body = model.bodies[static_cast<std::size_t>(dofs.bodies_of(p).front())];
     if (body.rigid) {
-      structure.bodies.push_back(make_rigid_body(model, body, std::move(constraints[b])));
+      structure.parts.push_back(make_rigid_body(model, body, std::move(constraints[p])));
       continue;
     }
-    Stiffness stiffness = body_stiffness(model, mesh.bodies[b], cells[b], body.outside);
+    Stiffness stiffness = part_stiffness(model, mesh, cells, dofs, p);
     try {
-      structure.bodies.push_back(elastic_body(std::move(stiffness), mesh.bodies[b].nodes, std::move(constraints[b])));
+      structure.parts.push_back(elastic_body(std::move(stiffness), dofs.nodes(p), std::move(constraints[p])));
     } catch (const linalg::NotPositiveDefinite&) {
       throw InputError(model.file, {{body.source,
                                      "its stiffness matrix is not positive definite to working precision: the body is "

@@ -7,25 +7,28 @@
 #include "scabo/element/cell_library.hpp"
 #include "scabo/element/radial_load.hpp"
 #include "scabo/system/body_system.hpp"
+#include "scabo/system/dofs.hpp"
 
 namespace scabo::system {
 
 struct Structure {
-  std::vector<std::unique_ptr<BodySystem>> bodies;  ///< one for each body of the model
-  /// [load][body]: generalised forces at factor 1; empty where the load does not act on the body.
+  Dofs dofs;
+  std::vector<std::unique_ptr<BodySystem>> parts;  ///< one for each part of `dofs`
+  /// [load][part]: generalised forces at factor 1; empty where the load does not act on the part.
   std::vector<std::vector<Vector>> loads;
   /// [load][body][cell]: loads inside the cells, at factor 1; empty where the load does not act inside the body.
   std::vector<std::vector<element::CellLoads>> interior;
 };
 
-/// Constraints of every body, from the supports of the model. Throws InputError for supports that contradict each
+/// Constraints of every part, from the supports of the model. Throws InputError for supports that contradict each
 /// other.
-std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh);
+std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh,
+                                                    const Dofs& dofs);
 
-/// Throws InputError for bodies that are held neither by supports nor by contact pairs.
+/// Throws InputError for bodies and parts that are held neither by supports nor by contact pairs.
 void check_supports(const model::Model& model, const mesh::Mesh& mesh);
 
-/// Factorises every body. `cells[body]`: its solved super-elements.
+/// Factorises every part. `cells[body]`: its solved super-elements.
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                          const std::vector<element::SolvedCells>& cells);
 

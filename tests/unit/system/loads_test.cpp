@@ -122,18 +122,18 @@ TEST(Condensation, IsTheMotionOfThePairsUnderUnitPairForces) {
   for (Eigen::Index j = 0; j < 2 * N; ++j) {
     const auto& pair = pairs[static_cast<std::size_t>(j / 2)];
     const Vec2 direction = j % 2 == 0 ? pair.normal : tangent_of(pair.normal);
-    Vector on_lower = Vector::Zero(blocks.structure.bodies[0]->size()),
-           on_upper = Vector::Zero(blocks.structure.bodies[1]->size());
+    Vector on_lower = Vector::Zero(blocks.structure.parts[0]->size()),
+           on_upper = Vector::Zero(blocks.structure.parts[1]->size());
     on_lower.segment<2>(2 * pair.node_a) = -direction;
     on_upper.segment<2>(2 * pair.node_b) = direction;
-    const auto held = static_cast<Eigen::Index>(blocks.structure.bodies[0]->constraints().size());
-    const Vector expected = motion(blocks.structure.bodies[0]->displacement(on_lower, Vector::Zero(held)),
-                                   blocks.structure.bodies[1]->displacement(on_upper, Vector()));
+    const auto held = static_cast<Eigen::Index>(blocks.structure.parts[0]->constraints().size());
+    const Vector expected = motion(blocks.structure.parts[0]->displacement(on_lower, Vector::Zero(held)),
+                                   blocks.structure.parts[1]->displacement(on_upper, Vector()));
     EXPECT_LT(test::largest(system.W.dense().col(j) - expected), 1e-13 * test::largest(system.W.dense()));
   }
   for (Eigen::Index k = 0; k < 3; ++k)
-    EXPECT_LT(test::largest(system.G.dense().col(k) - motion(Vector::Zero(blocks.structure.bodies[0]->size()),
-                                                     blocks.structure.bodies[1]->rigid_motions().col(k))),
+    EXPECT_LT(test::largest(system.G.dense().col(k) - motion(Vector::Zero(blocks.structure.parts[0]->size()),
+                                                     blocks.structure.parts[1]->rigid_motions().col(k))),
               1e-14);
 }
 
