@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/system/loads.hpp"
 #include "support/decompositions.hpp"
 #include "support/long_double.hpp"
@@ -209,7 +210,7 @@ TEST(BodyLoad, SumsToTheWeightWithTheMomentOfTheWeight) {
 
 /// A quarter of a ring sector with arcs, as its scaling centre sees it: edges that are not straight.
 Ring disc(int elements, int order) {
-  const std::vector<double> points = mesh::lobatto_points(order);
+  const std::vector<double> points = geometry::lobatto_points(order);
   Ring ring;
   const Vec2 centre(0.2, -0.1);
   for (int e = 0; e < elements; ++e) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "support/decompositions.hpp"
 #include "theory/rings.hpp"
 
@@ -33,7 +33,7 @@ Matrix by_quadrature(const Ring& ring, const Mat3& D, const Matrix& K, const std
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, 1.0);
   Matrix S = solve_cholesky(Matrix(matrices.E0), K - Matrix(matrices.E1).transpose());
   const Matrix M0 = boundary_mass(ring, density, 1.0);
-  const GaussRule rule = gauss_rule(120);
+  const geometry::GaussRule rule = geometry::gauss_rule(120);
   Matrix M = Matrix::Zero(K.rows(), K.cols());
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const double t = 0.5 * (1.0 + rule.points[q]), xi = t * t * t * t;

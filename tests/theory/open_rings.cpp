@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "support/decompositions.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::test {
 
 element::Ring open_ring(const std::vector<Vec2>& vertices, const std::vector<std::vector<double>>& ends, int order) {
-  const std::vector<double> points = mesh::lobatto_points(order);
+  const std::vector<double> points = geometry::lobatto_points(order);
   element::Ring ring;
   ring.nodes.push_back(vertices.front());
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {

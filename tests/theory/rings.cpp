@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "scabo/geometry/line_basis.hpp"
+
 namespace scabo::test {
 
 element::Ring polygon_ring(const std::vector<Vec2>& vertices, const std::vector<int>& divisions, int order) {
-  const std::vector<double> points = mesh::lobatto_points(order);
+  const std::vector<double> points = geometry::lobatto_points(order);
   element::Ring ring;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec2 from = vertices[i], along = vertices[(i + 1) % vertices.size()] - from;

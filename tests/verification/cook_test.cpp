@@ -10,7 +10,7 @@ namespace {
 
 TEST(CooksMembrane, DeflectsAsPublished) {
   const auto deflection = [](const analysis::StaticSolution& solution) {
-    return result::Probe(solution, last(solution), 0).at({48, 52})->displacement.y();
+    return result::Probe(solution, last(solution).fields, 0).at({48, 52})->displacement.y();
   };
   const double equal = deflection(run(cooks_membrane, {"bodies.panel.mesh.size=4", "bodies.panel.mesh.order=6"}));
   const double refined = deflection(run(cooks_membrane, {"bodies.panel.mesh.tolerance=3e-4"}));

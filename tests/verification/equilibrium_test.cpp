@@ -14,7 +14,7 @@ double residual_of_cantilever(const analysis::StaticSolution& solution, const Ve
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
   const Matrix& K = solution.cells[0][0]->solution.K;
   const std::vector<Vec2>& nodes = solution.mesh.bodies[0].nodes;
-  LongVector u = last(solution).displacements[0].cast<long double>();
+  LongVector u = last(solution).fields.displacements[0].cast<long double>();
   // K of a translation is 0 but for the rounding of K itself, which is no imbalance: about the mean.
   auto by_node = u.reshaped(2, u.size() / 2);
   const Eigen::Matrix<long double, 2, 1> mean = by_node.rowwise().mean();

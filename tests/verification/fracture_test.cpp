@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/element/stress_intensity.hpp"
 #include "support/decompositions.hpp"
 #include "theory/open_rings.hpp"
@@ -25,8 +25,8 @@ Vector free_body(const Ring& ring, const SuperElementSolution& solution, Stress 
   Vector f = Vector::Zero(n);
   for (const mesh::LineElement& line : ring.elements) {
     const int order = static_cast<int>(line.nodes.size()) - 1;
-    const LineBasis& basis = LineBasis::of_order(order);
-    const GaussRule rule = gauss_rule(order + 4);
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
+    const geometry::GaussRule rule = geometry::gauss_rule(order + 4);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const Vector N = basis.values(rule.points[q]);
       const BoundaryPoint point = boundary_point(ring, line, N, basis.derivatives(rule.points[q]));
@@ -71,7 +71,7 @@ TEST(Fracture, SingleEdgeCrackUnderUniformTension) {
 // 1.1215222552 / (1 - a/d)^(3/2), d the diameter (Gregory 1979): 2.2698 for a = 1.5 in a disk of radius 2.
 void expect_disk(double R, double a, double expected) {
   // The circle as the tip sees it, cut into arcs; nodes on the circle.
-  const std::vector<double> points = mesh::lobatto_points(12);
+  const std::vector<double> points = geometry::lobatto_points(12);
   Ring ring;
   const int parts = 8;
   const Vec2 centre(R - a, 0.0);

@@ -56,7 +56,7 @@ loads: {{right: {{on: plate.edge_2, traction: [1, 0]}}, top: {{on: plate.edge_3,
 )",
                                         mesh_of_rectangle(GetParam().type, 3.0, 2.0, 6, 4).file(), GetParam().mesh));
   const auto& increment = last(solution);
-  const result::Probe probe(solution, increment, 0);
+  const result::Probe probe(solution, increment.fields, 0);
   double worst = 0.0;
   for (int i = 0; i <= 12; ++i)
     for (int j = 0; j <= 8; ++j) {
@@ -94,8 +94,8 @@ contacts: {{joint: {{between: [lower.edge_3, upper.bottom], friction: 0.5}}}}
       for (std::size_t i = 0; i < solution.mesh.bodies[b].nodes.size(); ++i) {
         const Vec2& x = solution.mesh.bodies[b].nodes[i];
         const auto k = static_cast<Eigen::Index>(2 * i);
-        EXPECT_NEAR(increment.displacements[b][k], 0.2 * x.x() / 30.0, 1e-12);
-        EXPECT_NEAR(increment.displacements[b][k + 1], -x.y() / 30.0, 1e-12);
+        EXPECT_NEAR(increment.fields.displacements[b][k], 0.2 * x.x() / 30.0, 1e-12);
+        EXPECT_NEAR(increment.fields.displacements[b][k + 1], -x.y() / 30.0, 1e-12);
       }
   }
 }
@@ -126,7 +126,7 @@ contacts: {{joint: {{between: [disc.to_region_2, ring.to_region_1], friction: 0.
       for (const auto& pair : contact.pairs) EXPECT_NEAR(pair.pressure, 1.0, 1e-10);
       for (std::size_t b = 0; b < 2; ++b)
         for (std::size_t i = 0; i < solution.mesh.bodies[b].nodes.size(); ++i)
-          EXPECT_LT((increment.displacements[b].segment<2>(static_cast<Eigen::Index>(2 * i)) +
+          EXPECT_LT((increment.fields.displacements[b].segment<2>(static_cast<Eigen::Index>(2 * i)) +
                      0.8 / 30.0 * solution.mesh.bodies[b].nodes[i])
                         .norm(),
                     1e-12);

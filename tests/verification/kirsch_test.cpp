@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/loads.hpp"
 #include "support/decompositions.hpp"
@@ -27,7 +28,7 @@ Vec3 kirsch(const Vec2& x) {
 
 /// A chain of `n` elements along a curve, t from 0 to 1; the last node is the next chain's first.
 void add_curve(Ring& ring, int n, int order, const std::function<Vec2(double)>& curve) {
-  const auto points = mesh::lobatto_points(order);
+  const auto points = geometry::lobatto_points(order);
   for (int part = 0; part < n; ++part) {
     mesh::LineElement element;
     for (int k = 0; k <= order; ++k) element.nodes.push_back(static_cast<int>(ring.nodes.size()) + k);

@@ -185,8 +185,8 @@ TEST(BondedHalves, AreTheBodyInOnePiece) {
     for (std::size_t i = 0; i < halves.mesh.bodies[b].nodes.size(); ++i)
       for (std::size_t j = 0; j < nodes.size(); ++j) {
         if ((nodes[j] - halves.mesh.bodies[b].nodes[i]).norm() > 1e-9) continue;
-        const Vec2 u = whole.increments.back().displacements[0].segment<2>(static_cast<Eigen::Index>(2 * j));
-        const Vec2 v = halves.increments.back().displacements[b].segment<2>(static_cast<Eigen::Index>(2 * i));
+        const Vec2 u = whole.increments.back().fields.displacements[0].segment<2>(static_cast<Eigen::Index>(2 * j));
+        const Vec2 v = halves.increments.back().fields.displacements[b].segment<2>(static_cast<Eigen::Index>(2 * i));
         largest = std::max(largest, u.norm());
         difference = std::max(difference, (u - v).norm());
         ++compared;

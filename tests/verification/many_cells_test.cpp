@@ -38,7 +38,7 @@ loads: {{right: {{on: plate.right, traction: [1, 0]}}, top: {{on: plate.top, tra
 )",
                                           kind(), order));
     const auto& increment = last(solution);
-    const result::Probe probe(solution, increment, 0);
+    const result::Probe probe(solution, increment.fields, 0);
     for (int i = 0; i <= 12; ++i)
       for (int j = 0; j <= 8; ++j) {
         const Vec2 x(0.25 * i, 0.25 * j);
@@ -99,7 +99,7 @@ supports: [{{on: plate.left, fix: [x]}}, {{on: plate.bottom_left, fix: [y]}}]
 loads: {{pull: {{on: plate.right, traction: [1, 0]}}}}
 )",
                                         kind()));
-  const result::Probe probe(solution, last(solution), 0);
+  const result::Probe probe(solution, last(solution).fields, 0);
   for (const double side : {-1.0, 1.0}) {
     const auto values = probe.at({3.0, 1.0 + side * 0.3 * (1.0 + 1e-9)});
     ASSERT_TRUE(values.has_value());
@@ -125,7 +125,7 @@ loads: {pull: {on: plate.right, traction: [1, 0]}}
   ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
   ASSERT_TRUE(last(solution).error.has_value());
   EXPECT_LE(last(solution).error->relative, 0.005);
-  const result::Probe probe(solution, last(solution), 0);
+  const result::Probe probe(solution, last(solution).fields, 0);
   EXPECT_NEAR(probe.at({2.0, 1.3 + 1e-9})->stress[0], 3.37, 0.05);  // Howland
 }
 

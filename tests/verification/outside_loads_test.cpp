@@ -34,11 +34,11 @@ TEST(OutsideBody, HasNoWeightAndNoTemperatureOfItsOwn) {
   const auto heavy = run(block_on_ground(", density: 2700, expansion: 8e-6")), light = run(block_on_ground(""));
   const analysis::IncrementResult &with = last(heavy), &without = last(light);
   EXPECT_NEAR(with.contacts.front().normal_force, 4e4, 1e-6);
-  EXPECT_TRUE(with.interior[0].empty());
-  EXPECT_FALSE(with.interior[1].at(0).loads.empty());
-  ASSERT_EQ(with.displacements.size(), 2u);
+  EXPECT_TRUE(with.fields.interior[0].empty());
+  EXPECT_FALSE(with.fields.interior[1].at(0).loads.empty());
+  ASSERT_EQ(with.fields.displacements.size(), 2u);
   for (std::size_t b = 0; b < 2; ++b)
-    EXPECT_LT((with.displacements[b] - without.displacements[b]).norm(), 1e-12 * without.displacements[b].norm());
+    EXPECT_LT((with.fields.displacements[b] - without.fields.displacements[b]).norm(), 1e-12 * without.fields.displacements[b].norm());
   EXPECT_NEAR(with.energy.external, without.energy.external, 1e-12 * std::abs(without.energy.external));
 }
 

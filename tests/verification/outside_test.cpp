@@ -14,7 +14,7 @@ namespace {
 
 /// Force that the inside of a circle about the origin exerts on what is outside, from the stresses along it.
 Vec2 resultant(const analysis::StaticSolution& solution, double radius) {
-  const result::Probe probe(solution, last(solution), 0);
+  const result::Probe probe(solution, last(solution).fields, 0);
   constexpr int points = 360;  // strains jump between elements: good to 1e-4
   Vec2 force = Vec2::Zero();
   for (int i = 0; i < points; ++i) {
@@ -119,7 +119,7 @@ TEST(Outside, AStripLoadHasBoussinesqsStresses) {
   for (const double size : {0.5, 0.25, 0.125}) {
     const auto solution =
         run(strip, {fmt::format("bodies.ground.mesh.size={}", size), fmt::format("bodies.block.mesh.size={}", size)});
-    const result::Probe ground(solution, last(solution), 0);
+    const result::Probe ground(solution, last(solution).fields, 0);
     double worst = 0.0;
     for (const Vec2& x : {Vec2(0.0, -3.0), Vec2(3.0, -1.0), Vec2(-3.0, -3.0), Vec2(1.0, -6.0), Vec2(-8.0, -2.0)})
       worst = std::max(worst, (ground.at(x)->stress - boussinesq(1e6, 1.0, x)).lpNorm<Eigen::Infinity>() / 1e6);
@@ -133,7 +133,7 @@ TEST(Outside, AStripLoadHasBoussinesqsStresses) {
 TEST(Outside, BlockAndContactAreShownRelativeToTheReferencePointToo) {
   const auto solution = run(strip);
   const analysis::IncrementResult& increment = last(solution);
-  const result::Probe ground(solution, increment, 0), block(solution, increment, 1);
+  const result::Probe ground(solution, increment.fields, 0), block(solution, increment.fields, 1);
   const double largest = ground.at({0.0, -2.0})->displacement.norm();
   EXPECT_LE((ground.at({0.0, -2.0})->displacement - block.at({0.0, -2.0})->displacement).norm(), 1e-8 * largest);
   for (const analysis::PairResult& pair : increment.contacts.front().pairs) {
@@ -142,7 +142,7 @@ TEST(Outside, BlockAndContactAreShownRelativeToTheReferencePointToo) {
     EXPECT_LE((pair.displacement_b - pair.displacement_a).norm(), 1e-8 * largest);
   }
   const result::Recovery recovery(solution);
-  const result::Fields fields = recovery.fields(solution, increment);
+  const result::Fields fields = recovery.fields(solution, increment.fields);
   const std::size_t first = recovery.grid().first_point[1];
   const Vec2 node = solution.mesh.bodies[1].nodes[0],
              shown(fields.displacement[3 * first], fields.displacement[3 * first + 1]);

@@ -28,7 +28,7 @@ loads: {{tip: {{on: beam.right, force: [0, {4}]}}}}
 double deflection(double ratio) { return (4.0 * std::pow(ratio, 3) + ratio * 1.2 * 2.0) / 1e9; }
 
 double tip(const analysis::StaticSolution& solution, double ratio, double length = 1.0) {
-  return -result::Probe(solution, last(solution), 0).at({ratio * length, 0.5 * length})->displacement.y() / length;
+  return -result::Probe(solution, last(solution).fields, 0).at({ratio * length, 0.5 * length})->displacement.y() / length;
 }
 
 struct Beam {
@@ -82,7 +82,7 @@ supports: [{{on: beam.edge_4, fix: [x, y]}}]
 loads: {{tip: {{on: beam.edge_2, force: [{:.17g}, {:.17g}]}}}}
 )",
                                         vertices, s, -c));
-  const Vec2 moved = result::Probe(solution, last(solution), 0).at(at(1000.0, 0.5))->displacement;
+  const Vec2 moved = result::Probe(solution, last(solution).fields, 0).at(at(1000.0, 0.5))->displacement;
   EXPECT_NEAR(moved.dot(Vec2(s, -c)) / deflection(1000.0), 1.0, 1e-4);
 }
 
@@ -123,7 +123,7 @@ contacts: {joint: {between: [lower.top, upper.bottom], friction: 0}}
   EXPECT_NEAR(increment.reactions[0].y() + increment.reactions[1].y(), 1.0, 1e-9);
   EXPECT_NEAR(increment.reactions[0].y(), increment.contacts[0].normal_force, 1e-9);
   EXPECT_NEAR(increment.contacts[0].normal_force, 0.5, 2e-3);
-  const double down = -result::Probe(solution, increment, 0).at({100.0, 0.5})->displacement.y();
+  const double down = -result::Probe(solution, increment.fields, 0).at({100.0, 0.5})->displacement.y();
   EXPECT_NEAR(down / (0.5 * deflection(100.0)), 1.0, 1e-2);
 }
 

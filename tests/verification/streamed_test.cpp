@@ -24,14 +24,14 @@ steps: [{name: press, increments: 7}]
   int seen = 0;
   options.on_increment = [&](const analysis::StaticSolution&, const analysis::IncrementResult& increment) {
     ++seen;
-    EXPECT_EQ(increment.displacements.size(), 2u);
+    EXPECT_EQ(increment.fields.displacements.size(), 2u);
   };
   const auto streamed = analysis::solve_static(input::parse_model(text, "test.yaml"), options);
   EXPECT_EQ(seen, 7);
   ASSERT_EQ(streamed.increments.size(), 7u);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(streamed.increments[i].displacements.empty());
-  ASSERT_EQ(last(streamed).displacements.size(), 2u);
-  for (std::size_t b = 0; b < 2; ++b) EXPECT_EQ(last(streamed).displacements[b], last(kept).displacements[b]);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(streamed.increments[i].fields.displacements.empty());
+  ASSERT_EQ(last(streamed).fields.displacements.size(), 2u);
+  for (std::size_t b = 0; b < 2; ++b) EXPECT_EQ(last(streamed).fields.displacements[b], last(kept).fields.displacements[b]);
   EXPECT_EQ(streamed.increments[3].contacts[0].normal_force, kept.increments[3].contacts[0].normal_force);
 }
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "scabo/element/interior_field.hpp"
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::test {
 
@@ -16,7 +16,7 @@ namespace scabo::test {
 inline double stress_error(const element::Ring& ring, const element::RadialField& field, const element::Mat3& D,
                            const std::function<element::Vec3(const Vec2&)>& exact) {
   const element::Mat3 S = D.inverse();
-  const element::GaussRule radial = element::gauss_rule(4);
+  const geometry::GaussRule radial = geometry::gauss_rule(4);
   double difference = 0.0, whole = 0.0, width = 1.0;
   for (int interval = 0; interval < 14; ++interval, width *= 0.4) {  // modes of high exponent live near the boundary
     const double from = 1.0 - width, to = interval == 13 ? 1.0 : 1.0 - 0.4 * width;
@@ -25,8 +25,8 @@ inline double stress_error(const element::Ring& ring, const element::RadialField
       const auto values = field.at(xi);
       for (std::size_t e = 0; e < ring.elements.size(); ++e) {
         const int order = static_cast<int>(ring.elements[e].nodes.size()) - 1;
-        const element::LineBasis& basis = element::LineBasis::of_order(order);
-        const element::GaussRule rule = element::gauss_rule(order + 4);
+        const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
+        const geometry::GaussRule rule = geometry::gauss_rule(order + 4);
         for (std::size_t q = 0; q < rule.points.size(); ++q) {
           const double eta = rule.points[q];
           const auto at = element::boundary_point(ring, ring.elements[e], basis.values(eta), basis.derivatives(eta));

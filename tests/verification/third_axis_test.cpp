@@ -96,7 +96,7 @@ TEST(StressOutOfThePlane, IsThatOfTheMaterialAtThePoint) {
 TEST(StressOutOfThePlane, IsThatOfTheMaterialInTheFieldsToo) {
   const auto solution = run(half_and_half);
   const result::Recovery recovery(solution);
-  const result::Fields fields = recovery.fields(solution, last(solution));
+  const result::Fields fields = recovery.fields(solution, last(solution).fields);
   int soft = 0, stiff = 0;
   for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {
     const double y = recovery.grid().points[3 * i + 1], sum = fields.stress[6 * i] + fields.stress[6 * i + 1];

@@ -9,6 +9,7 @@
 #include <functional>
 #include <numeric>
 
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/loads.hpp"
 #include "theory/rings.hpp"
@@ -33,7 +34,7 @@ Ring raised(const Ring& ring, int more) {
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
     const mesh::LineElement& old = ring.elements[e];
     mesh::LineElement element{{shared(old.nodes.front())}};
-    const auto points = mesh::lobatto_points(static_cast<int>(old.nodes.size()) - 1 + more);
+    const auto points = geometry::lobatto_points(static_cast<int>(old.nodes.size()) - 1 + more);
     for (std::size_t k = 1; k + 1 < points.size(); ++k) {
       element.nodes.push_back(static_cast<int>(fine.nodes.size()));
       fine.nodes.push_back(boundary_position(ring, static_cast<int>(e), points[k]));
@@ -124,7 +125,7 @@ Ring quarter_with_hole(int n, int order) {
         const double angle = 0.5 * std::numbers::pi * (1 - t);
         return Vec2(Vec2(std::cos(angle), std::sin(angle)) - centre);
       }};
-  const auto points = mesh::lobatto_points(order);
+  const auto points = geometry::lobatto_points(order);
   Ring ring;
   for (const auto& along : sides)
     for (int part = 0; part < n; ++part) {

@@ -48,7 +48,7 @@ Deviation deviation_of(const analysis::StaticSolution& solution, double height) 
   // displacements along x are compared relative to its first node.
   for (std::size_t b = 0; b < solution.mesh.bodies.size(); ++b) {
     const std::vector<Vec2>& nodes = solution.mesh.bodies[b].nodes;
-    const Vector& u = increment.displacements[b];
+    const Vector& u = increment.fields.displacements[b];
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(2 * i);
       const double x = 0.2 * (nodes[i].x() - nodes[0].x()) * 1e6 / 30e9 - (u[k] - u[0]);

@@ -32,7 +32,7 @@ bool has_estimate(const StaticSolution& solution, std::size_t body) {
 /// Displacements of a cell's own nodes.
 Vector displacement_of(const StaticSolution& solution, const IncrementResult& increment, std::size_t body,
                        std::size_t cell) {
-  return increment.displacements[body](element::dofs_of(solution.mesh.bodies[body].cells[cell]));
+  return increment.fields.displacements[body](element::dofs_of(solution.mesh.bodies[body].cells[cell]));
 }
 
 std::size_t boundary_elements(const mesh::BodyMesh& mesh) {
@@ -259,7 +259,7 @@ std::vector<double> squared_errors(const StaticSolution& solution, const Increme
     const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *wider.cells[b][c];
     const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
     // Loads inside a cell are not among the forces on its boundary.
-    const bool relaxed = element::loads_in(increment.interior[b], c).loads.empty();
+    const bool relaxed = element::loads_in(increment.fields.interior[b], c).loads.empty();
     squared.push_back(element::squared_difference(
         {narrow.ring.elements, narrow.solution.K, u, wide.ring.elements, wide.solution.K, U, relaxed}));
   }

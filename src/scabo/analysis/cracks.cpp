@@ -88,8 +88,8 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
       const auto& super_element = solution.cells[b][c];
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
-      const std::vector<element::RadialLoad>& loads = element::loads_in(increment.interior[b], c).loads;
-      const Vector u = increment.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
+      const std::vector<element::RadialLoad>& loads = element::loads_in(increment.fields.interior[b], c).loads;
+      const Vector u = increment.fields.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
       results.push_back({name_of(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre), super_element->corner().of(u, loads)});
       if (in_resonance(results.back().factors, loads)) take_back(results.back().factors);
     }

@@ -386,13 +386,13 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
     }
   }
   const system::Dofs& dofs = prepared.structure.dofs;
-  result.interior.resize(prepared.model.bodies.size());
+  result.fields.interior.resize(prepared.model.bodies.size());
   for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
     const auto body = static_cast<int>(b);
-    result.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
-    if (prepared.model.bodies[b].rigid) result.displacements[b][2] /= part_of(prepared, body).lever();
+    result.fields.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
+    if (prepared.model.bodies[b].rigid) result.fields.displacements[b][2] /= part_of(prepared, body).lever();
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
-      add(result.interior[b], prepared.structure.interior[load][b], state.factors.loads[load]);
+      add(result.fields.interior[b], prepared.structure.interior[load][b], state.factors.loads[load]);
   }
   return result;
 }

@@ -120,10 +120,9 @@ ModalResult solve_modal(model::Model model, const Options& options) {
   return result;
 }
 
-IncrementResult state_of(const ModalResult& result, const NaturalMode& mode) {
+FieldState state_of(const ModalResult& result, const NaturalMode& mode) {
   const model::Model& model = result.structure.model;
-  IncrementResult state;
-  state.converged = true;
+  FieldState state;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto size = model.bodies[b].rigid
                           ? Eigen::Index{3}

@@ -35,6 +35,6 @@ struct ModalResult {
 ModalResult solve_modal(model::Model model, const Options& options = {});
 
 /// A mode as the state of all bodies, for result::Recovery.
-IncrementResult state_of(const ModalResult& result, const NaturalMode& mode);
+FieldState state_of(const ModalResult& result, const NaturalMode& mode);
 
 }  // namespace scabo::analysis

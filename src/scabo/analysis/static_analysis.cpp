@@ -207,10 +207,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       if (options.on_increment) options.on_increment(solution, solution.increments.back());
       if (!options.keep_fields && solution.increments.size() > 1) {
         IncrementResult& before = solution.increments[solution.increments.size() - 2];
-        before.displacements.clear();
-        before.displacements.shrink_to_fit();
-        before.interior.clear();
-        before.interior.shrink_to_fit();
+        before.fields = {};
       }
     }
   }

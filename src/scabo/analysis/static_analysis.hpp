@@ -84,6 +84,17 @@ struct UniquenessResult {
   int index = 0;          ///< sign of det H'; 0: on a kink or not computed
 };
 
+/// What the fields of all bodies at one time follow from (result/).
+struct FieldState {
+  /// Per body: 2 per node; for a rigid body [u_x, u_y, rotation] about its centroid. For an unbounded body they are
+  /// those of its stiffness (element/stiffness.hpp, eq. 6), because a translation would change its forces.
+  std::vector<Vector> displacements;
+  /// Displacement of the reference point (analysis/outside.hpp). Displacements shown in results are relative to it;
+  /// those of contact pairs (PairResult) are already relative.
+  Vec2 reference_displacement = Vec2::Zero();
+  std::vector<element::CellLoads> interior;  ///< [body][cell]: loads inside; empty for a body without any
+};
+
 struct IncrementResult {
   int step = 0;  ///< from 1
   std::string step_name;
@@ -103,13 +114,7 @@ struct IncrementResult {
   double lost_to_rounding = 0.0;  ///< estimated relative error of displacements, of the rounding of stiffness
   Energy energy;
   std::optional<ErrorEstimate> error;  ///< if requested
-  /// Per body: 2 per node; for a rigid body [u_x, u_y, rotation] about its centroid. For an unbounded body they are
-  /// those of its stiffness (element/stiffness.hpp, eq. 6), because a translation would change its forces.
-  std::vector<Vector> displacements;
-  /// Displacement of the reference point (analysis/outside.hpp). Displacements shown in results are relative to it;
-  /// those of the pairs above are already relative.
-  Vec2 reference_displacement = Vec2::Zero();
-  std::vector<element::CellLoads> interior;       ///< [body][cell]: loads inside; empty for a body without any
+  FieldState fields;
   std::vector<CrackResult> cracks;               ///< of all bounded open super-elements
   std::string reason;                            ///< why it did not converge
   std::optional<UniquenessResult> uniqueness;    ///< if requested

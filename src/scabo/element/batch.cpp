@@ -6,7 +6,7 @@
 
 #include "scabo/element/batch_kernel.hpp"
 #include "scabo/element/exact_riccati.hpp"
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/element/stiffness.hpp"
 #include "scabo/linalg/instruction_sets.hpp"
 #include "scabo/linalg/parallel.hpp"
@@ -67,7 +67,7 @@ bool same_shape(const BatchItem& a, const BatchItem& b) {
 Group group_of(const BatchItem& first) {
   Group group;
   for (const mesh::LineElement& element : first.ring.elements) {
-    const LineBasis& basis = LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
     group.elements.push_back({element.nodes.data(), basis.nodes(), static_cast<int>(basis.rule().points.size()),
                               basis.values_at_rule().data(), basis.derivatives_at_rule().data(),
                               basis.rule().weights.data()});

@@ -6,14 +6,14 @@
 #include <type_traits>
 
 #include "scabo/element/ill_posed.hpp"
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
 
 namespace {
 
-const LineBasis& basis_of(const mesh::LineElement& element) {
-  return LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+const geometry::LineBasis& basis_of(const mesh::LineElement& element) {
+  return geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ void integrate(const Ring& ring, std::size_t e, const Mat3& D, double thickness,
   using Strain = Eigen::Matrix<Real, 3, 2>;
   using Block = Eigen::Matrix<Real, 2, 2>;
   const mesh::LineElement& element = ring.elements[e];
-  const LineBasis& basis = basis_of(element);
+  const geometry::LineBasis& basis = basis_of(element);
   const auto count = static_cast<Eigen::Index>(element.nodes.size());
   for (auto* part : {&blocks.e0, &blocks.e1, &blocks.e2})
     part->assign(static_cast<std::size_t>(count * count), Block::Zero());

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
 
@@ -135,7 +135,7 @@ using IntegrationRule = std::vector<IntegrationPoint>;
 
 /// Products of Gauss rules.
 IntegrationRule quad_rule(int count) {
-  const GaussRule rule = gauss_rule(count);
+  const geometry::GaussRule rule = geometry::gauss_rule(count);
   IntegrationRule points;
   for (std::size_t i = 0; i < rule.points.size(); ++i)
     for (std::size_t j = 0; j < rule.points.size(); ++j)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
 
@@ -13,8 +13,8 @@ const mesh::LineElement& element_at(const Ring& ring, int element) {
   return ring.elements[static_cast<std::size_t>(element)];
 }
 
-const LineBasis& basis_at(const Ring& ring, int element) {
-  return LineBasis::of_order(static_cast<int>(element_at(ring, element).nodes.size()) - 1);
+const geometry::LineBasis& basis_at(const Ring& ring, int element) {
+  return geometry::LineBasis::of_order(static_cast<int>(element_at(ring, element).nodes.size()) - 1);
 }
 
 Vec2 interpolate(const Ring& ring, int element, const Vector& N) {
@@ -42,7 +42,7 @@ std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x, bool unbounde
         (x.dot(first) <= 0.0 && x.dot(last) <= 0.0))  // an element spans less than 180 degrees
       continue;
     // The ray meets the element where cross(x_b(eta), x) = 0; this decreases with eta, since |J| > 0.
-    const LineBasis& basis = basis_at(ring, e);
+    const geometry::LineBasis& basis = basis_at(ring, e);
     double low = -1.0, high = 1.0;
     for (int halving = 0; halving < 60; ++halving) {
       const double middle = 0.5 * (low + high);
@@ -58,7 +58,7 @@ std::optional<ScaledPoint> locate(const Ring& ring, const Vec2& x, bool unbounde
 
 PointValues point_values(const Ring& ring, const RadialField::Values& values, const Elasticity& D, int element,
                          double eta, const Vec3& initial_strain) {
-  const LineBasis& basis = basis_at(ring, element);
+  const geometry::LineBasis& basis = basis_at(ring, element);
   const mesh::LineElement& line = element_at(ring, element);
   const Vector N = basis.values(eta);
   const StrainMatrices matrices = strain_matrices(ring, line, N, basis.derivatives(eta));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/linalg/sylvester.hpp"
 
@@ -55,9 +55,9 @@ Eigen::SparseMatrix<double> boundary_mass(const Ring& ring, const std::vector<do
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
     const std::vector<int>& nodes = ring.elements[e].nodes;
-    const LineBasis& basis = LineBasis::of_order(static_cast<int>(nodes.size()) - 1);
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(nodes.size()) - 1);
     // N'N |J| has degree 2p on straight elements, 4p - 1 on curved ones.
-    const GaussRule rule = gauss_rule(2 * basis.order());
+    const geometry::GaussRule rule = geometry::gauss_rule(2 * basis.order());
     Matrix m = Matrix::Zero(basis.nodes(), basis.nodes());
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const Vector N = basis.values(rule.points[q]), N_eta = basis.derivatives(rule.points[q]);

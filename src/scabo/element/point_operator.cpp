@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {
@@ -24,7 +24,7 @@ double slowest_of(const linalg::SchurExponential& modes) {
 /// Rows over all boundary displacements, n x (2 + 3 + 3): N, then B1 and B2 at a boundary point.
 Matrix boundary_rows(const Ring& ring, const ScaledPoint& point) {
   const mesh::LineElement& element = ring.elements[static_cast<std::size_t>(point.element)];
-  const LineBasis& basis = LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+  const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
   const Vector N = basis.values(point.eta);
   const StrainMatrices strain = strain_matrices(ring, element, N, basis.derivatives(point.eta));
   Matrix rows = Matrix::Zero(static_cast<Eigen::Index>(2 * ring.nodes.size()), 8);

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scabo/element/interior_field.hpp"
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/ordered_schur.hpp"
 
 namespace scabo::element {
@@ -64,7 +64,7 @@ CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& di
   b2 << direction.y(), 0.0, 0.0, -direction.x(), -direction.x(), direction.y();
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
     const mesh::LineElement& element = ring.elements[e];
-    const LineBasis& basis = LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
     const Eigen::Index m = 2 * basis.nodes();
     Matrix e0 = Matrix::Zero(m, m), e1 = e0, e2 = e0;
     for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
 
@@ -19,7 +19,7 @@ struct RadialPoint {
 std::vector<RadialPoint> radial_points() {
   constexpr int intervals = 16;
   constexpr double ratio = 0.35;  // the last interval is 5e-8 wide
-  const GaussRule rule = gauss_rule(2);
+  const geometry::GaussRule rule = geometry::gauss_rule(2);
   std::vector<RadialPoint> points;
   double width = 1.0;
   for (int k = 0; k < intervals; ++k) {
@@ -38,8 +38,8 @@ Vector prolonged(const std::vector<mesh::LineElement>& from, const Vector& u, co
   ensure(from.size() == to.size(), "both boundaries have the same elements");
   Vector result = Vector::Zero(size);
   for (std::size_t e = 0; e < from.size(); ++e) {
-    const LineBasis& basis = LineBasis::of_order(order_of(from[e]));
-    const std::vector<double> points = mesh::lobatto_points(order_of(to[e]));
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(order_of(from[e]));
+    const std::vector<double> points = geometry::lobatto_points(order_of(to[e]));
     const bool same = order_of(from[e]) == order_of(to[e]);
     for (std::size_t i = 0; i < points.size(); ++i) {
       Vec2 value = Vec2::Zero();
@@ -83,7 +83,7 @@ std::vector<double> sector_differences(const SuperElementField& narrower, const 
     subtract(difference.u_part, of_u.u_part);
     for (std::size_t e = 0; e < energies.size(); ++e) {
       const mesh::LineElement& element = wider.ring.elements[e];
-      const GaussRule rule = gauss_rule(order_of(element) + 1);
+      const geometry::GaussRule rule = geometry::gauss_rule(order_of(element) + 1);
       // J| varies little compared with the difference: for relative shares, that of the chord is sufficient.
       const double area = std::abs(cross(wider.ring.nodes[static_cast<std::size_t>(element.nodes.front())],
                                          wider.ring.nodes[static_cast<std::size_t>(element.nodes.back())]));

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scabo/geometry/foot_points.hpp"
-#include "scabo/mesh/lobatto.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::mesh {
 
@@ -43,15 +43,13 @@ ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement
   // to the weight times the normal at the node.
   normals.assign(count, Vec2::Zero());
   spacing = std::numeric_limits<double>::max();
-  std::optional<LobattoBasis> of_order;
   for (const LineElement& element : elements) {
     const int order = order_of(element);
-    if (!of_order || static_cast<int>(of_order->points.size()) != order + 1) of_order.emplace(order);
-    const LobattoBasis& basis = *of_order;
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
     for (int i = 0; i <= order; ++i) {
       Vec2 along = Vec2::Zero();
-      for (int j = 0; j <= order; ++j) along += basis.derivative(i, j) * points[element.nodes[j]];
-      normals[element.nodes[i]] += basis.weights[i] * tangent_of(along);
+      for (int j = 0; j <= order; ++j) along += basis.derivatives_at_nodes()(i, j) * points[element.nodes[j]];
+      normals[element.nodes[i]] += basis.weights()[i] * tangent_of(along);
     }
     for (int i = 0; i < order; ++i) {
       spacing = std::min(spacing, (points[element.nodes[i + 1]] - points[element.nodes[i]]).norm());

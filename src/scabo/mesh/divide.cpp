@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "scabo/mesh/lobatto.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::mesh {
 
@@ -109,7 +109,7 @@ std::vector<LineElement> divide_run(const model::Edge& edge, const EdgeDivision&
   std::vector<LineElement> line;
   for (const std::size_t k : elements) {
     const int order = divided.orders[k];
-    const std::vector<double> points = lobatto_points(order);
+    const std::vector<double> points = geometry::lobatto_points(order);
     const double from = divided.breaks[backwards ? k + 1 : k], to = divided.breaks[backwards ? k : k + 1];
     LineElement& element = line.emplace_back();
     for (int i = 0; i <= order; ++i) {
@@ -181,9 +181,9 @@ std::vector<Diagnostic> unseen_edges(const model::Body& body, const BodyMesh& me
     auto& [shape, slope] = found->second;
     if (is_new) {
       const int order = static_cast<int>(element.nodes.size()) - 1;
-      const LobattoBasis basis(order);
-      shape = basis.shape_at(lobatto_points(2 * order));
-      slope = shape * basis.derivative;
+      const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
+      shape = basis.values_at(geometry::lobatto_points(2 * order));
+      slope = shape * basis.derivatives_at_nodes();
     }
     Eigen::MatrixX2d x(element.nodes.size(), 2);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {

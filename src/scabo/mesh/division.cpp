@@ -5,7 +5,7 @@
 
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/interface.hpp"
-#include "scabo/mesh/lobatto.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::mesh {
 
@@ -18,7 +18,7 @@ Ends ends_of(const LineElement& element) { return {element.nodes.front(), elemen
 /// `nodes` of order p as those of order p + 1 on the same curve: the two ends, and the points between.
 std::vector<Vec2> inner_points(const std::vector<Vec2>& curve) {
   const int order = static_cast<int>(curve.size()) - 1;
-  const Matrix shape = LobattoBasis(order).shape_at(lobatto_points(order + 1));
+  const Matrix shape = geometry::LineBasis::of_order(order).values_at(geometry::lobatto_points(order + 1));
   std::vector<Vec2> points;
   for (Eigen::Index k = 1; k + 1 < shape.rows(); ++k) {
     Vec2 x = Vec2::Zero();

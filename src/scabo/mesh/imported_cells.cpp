@@ -9,7 +9,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "scabo/mesh/lobatto.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/replace_elements.hpp"
 
@@ -149,7 +149,7 @@ class FileCells {
   }
 
   void add_inner_nodes(const files::Facet& side, int order, std::vector<int>& inner) {
-    const std::vector<double> points = lobatto_points(order);
+    const std::vector<double> points = geometry::lobatto_points(order);
     const Vec2 &a = at(side.start), &b = at(side.end), m = side.middle < 0 ? Vec2(0.5 * (a + b)) : at(side.middle);
     for (int i = 1; i < order; ++i) {
       const double s = points[static_cast<std::size_t>(i)];

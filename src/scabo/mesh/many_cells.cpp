@@ -11,6 +11,7 @@
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/crack_net.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
@@ -154,7 +155,7 @@ std::vector<Vec2> points_at(const std::vector<double>& fractions, const Vec2& a,
 
 /// Points between the ends of a side, in the direction from `a` to `b`.
 std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::optional<geometry::Arc>& arc) {
-  const std::vector<double> lobatto = lobatto_points(order);
+  const std::vector<double> lobatto = geometry::lobatto_points(order);
   std::vector<double> fractions;
   for (int i = 1; i < order; ++i) fractions.push_back(0.5 * (1.0 + lobatto[static_cast<std::size_t>(i)]));
   return points_at(fractions, a, b, arc);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/contact_side.hpp"
 #include "scabo/mesh/node_matching.hpp"
 #include "scabo/mesh/rays.hpp"
@@ -350,7 +351,7 @@ class Union {
   std::vector<Vec2> inner_points(int s, std::size_t k, const Piece& piece, int order) const {
     const Side& side = sides_[s];
     const Break &from = side.breaks[k], &to = side.breaks[k + 1];
-    const std::vector<double> points = lobatto_points(order);
+    const std::vector<double> points = geometry::lobatto_points(order);
     std::vector<Vec2> inner;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       const double share = 0.5 * (1.0 + points[i]);

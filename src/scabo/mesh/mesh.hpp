@@ -85,7 +85,4 @@ Mesh make_mesh(const model::Model& model);
 /// The nodes of `place`.
 PlaceNodes nodes_of(const model::Place& place, const Mesh& mesh);
 
-/// Gauss-Lobatto-Legendre points of order p on [-1, 1], p + 1 of them, ascending.
-std::vector<double> lobatto_points(int order);
-
 }  // namespace scabo::mesh

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "scabo/geometry/line_basis.hpp"
+
 namespace scabo::mesh {
 
 namespace {
@@ -77,7 +79,7 @@ void move_nodes(BodyMesh& mesh, const std::map<int, Vec2>& moved, const Replacem
     const auto found = moved.find(end);
     if (found == moved.end()) return;
     const Vec2 displacement = found->second - mesh.nodes[static_cast<std::size_t>(end)];
-    const std::vector<double> points = lobatto_points(static_cast<int>(element.nodes.size()) - 1);
+    const std::vector<double> points = geometry::lobatto_points(static_cast<int>(element.nodes.size()) - 1);
     for (std::size_t i = 1; i + 1 < element.nodes.size(); ++i) {
       const double share = 0.5 * (1.0 + (from_end ? points[i] : -points[i]));
       const int node = element.nodes[i];

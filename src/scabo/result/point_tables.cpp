@@ -116,14 +116,14 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
     const model::Body& named = solution.model.bodies[b];
     const element::SolvedSuperElement* super_element =
         group.infinite.empty() ? nullptr : solution.cells[b][group.cell].get();
-    const element::InteriorLoads& interior = element::loads_in(increment.interior[b], group.cell);
+    const element::InteriorLoads& interior = element::loads_in(increment.fields.interior[b], group.cell);
     const bool condensed = !group.operators.empty() && interior.loads.empty();
     std::optional<Probe> probe;
     Vector u;
     if (condensed)
-      u = increment.displacements[b](group.dofs);
+      u = increment.fields.displacements[b](group.dofs);
     else
-      probe.emplace(solution, increment, group.body);
+      probe.emplace(solution, increment.fields, group.body);
     if (probe && super_element && group.rows.size() > many) probe->expect_many();
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const Vec2& x = points_[group.rows[i]].at;
@@ -131,7 +131,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       PointResult& result = results[group.rows[i]];
       if (condensed) {
         const element::PointOperator& rows = group.operators[i];
-        result.values.displacement = rows.N * u - increment.reference_displacement;
+        result.values.displacement = rows.N * u - increment.fields.reference_displacement;
         result.values.strain = rows.B * u;
         result.values.stress =
             super_element->sectors.D.of(static_cast<std::size_t>(place.scaled.element)) * result.values.strain;
@@ -142,7 +142,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       }
       result.has_stress = !named.rigid && !(super_element && group.infinite[i]);
       if (!result.has_stress) continue;
-      const double temperature = element::loads_in(increment.interior[b], place.cell).temperature.at(x);
+      const double temperature = element::loads_in(increment.fields.interior[b], place.cell).temperature.at(x);
       int material = solution.mesh.bodies[b].cells[place.cell].materials.front();
       element::Vec3 elastic = result.values.strain;
       if (super_element) {

@@ -22,15 +22,15 @@ Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
 }
 
 FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution,
-                                       const analysis::IncrementResult& increment, std::size_t body, std::size_t cell) {
+                                       const analysis::FieldState& state, std::size_t body, std::size_t cell) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   element_ = element::finite_element_of(mesh.cells[cell], mesh.nodes);
-  u_ = increment.displacements[body](element::dofs_of(element_));
+  u_ = state.displacements[body](element::dofs_of(element_));
   const model::Material& material =
       solution.model.materials[static_cast<std::size_t>(mesh.cells[cell].materials.front())];
   D_ = element::elasticity_matrix(material, solution.model.analysis.plane);
   unit_strain_ = element::thermal_strain(material, solution.model.analysis.plane);
-  temperature_ = element::loads_in(increment.interior[body], cell).temperature;
+  temperature_ = element::loads_in(state.interior[body], cell).temperature;
 }
 
 element::PointValues FiniteElementState::at(const Vec2& natural) const {
@@ -46,13 +46,13 @@ struct Probe::CellField {
   std::optional<element::RadialTable> table;
 };
 
-Probe::Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body)
+Probe::Probe(const analysis::StaticSolution& solution, const analysis::FieldState& state, int body)
     : solution_(solution),
-      increment_(increment),
+      state_(state),
       body_(static_cast<std::size_t>(body)),
-      u_(increment.displacements[body_]),
-      reference_displacement_(increment.reference_displacement),
-      interior_(increment.interior[body_]),
+      u_(state.displacements[body_]),
+      reference_displacement_(state.reference_displacement),
+      interior_(state.interior[body_]),
       fields_(solution.cells[body_].size()) {}
 
 Probe::~Probe() = default;
@@ -101,15 +101,15 @@ element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
     values = element::point_values(super_element->ring, field.table ? field.table->at(at.xi) : field.radial.at(at.xi),
                                    super_element->sectors.D, at.element, at.eta, free);
   } else {
-    values = FiniteElementState(solution_, increment_, body_, place.cell).at(place.natural);
+    values = FiniteElementState(solution_, state_, body_, place.cell).at(place.natural);
   }
   values.displacement -= reference_displacement_;
   return values;
 }
 
 std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
-                                             const analysis::IncrementResult& increment, int body, const Vec2& x) {
-  return Probe(solution, increment, body).at(x);
+                                             const analysis::FieldState& state, int body, const Vec2& x) {
+  return Probe(solution, state, body).at(x);
 }
 
 }  // namespace scabo::result

@@ -13,11 +13,11 @@
 
 namespace scabo::result {
 
-/// Values of one body after one increment at any point (x, y) of its undeformed shape. Keeps references to the solution
-/// and the increment.
+/// Values of one body in one state at any point (x, y) of its undeformed shape. Keeps references to the solution
+/// and the state.
 class Probe {
  public:
-  Probe(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment, int body);
+  Probe(const analysis::StaticSolution& solution, const analysis::FieldState& state, int body);
 
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
@@ -39,7 +39,7 @@ class Probe {
   CellField& field_of(std::size_t cell) const;
 
   const analysis::StaticSolution& solution_;
-  const analysis::IncrementResult& increment_;
+  const analysis::FieldState& state_;
   std::size_t body_;
   const Vector& u_;
   Vec2 reference_displacement_;
@@ -51,12 +51,12 @@ class Probe {
 
 /// The same for a single point.
 std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
-                                             const analysis::IncrementResult& increment, int body, const Vec2& x);
+                                             const analysis::FieldState& state, int body, const Vec2& x);
 
-/// A finite element with its material and its state after an increment.
+/// A finite element with its material and its values in one state.
 class FiniteElementState {
  public:
-  FiniteElementState(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment,
+  FiniteElementState(const analysis::StaticSolution& solution, const analysis::FieldState& state,
                      std::size_t body, std::size_t cell);
   const element::FiniteElement& element() const { return element_; }
   /// Without the reference displacement; the change of temperature is taken out of the stress.

@@ -7,7 +7,7 @@
 
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/result/probe.hpp"
 
 namespace scabo::result {
@@ -230,11 +230,11 @@ void recover_inside(Fields& fields, std::size_t point, const analysis::StaticSol
 }
 
 void recover_super_element(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
-                           const analysis::IncrementResult& increment, std::size_t body, const RingSampling& sampling) {
+                           const analysis::FieldState& state, std::size_t body, const RingSampling& sampling) {
   const element::SolvedSuperElement& super_element = *solution.cells[body].front();
   const Vec2& centre = solution.mesh.bodies[body].cells.front().centre;
-  const Vector& boundary = increment.displacements[body];
-  const element::InteriorLoads& interior = element::loads_in(increment.interior[body], 0);
+  const Vector& boundary = state.displacements[body];
+  const element::InteriorLoads& interior = element::loads_in(state.interior[body], 0);
   const element::RadialField field(super_element.solution, super_element.modes(), boundary, interior.loads);
   const std::size_t first = point;
   recover_inside(fields, first, solution, super_element, centre, sampling, field, interior.temperature, 0);
@@ -244,9 +244,9 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
 
 /// Stress on the sides of cells is the mean of the cells that share the point.
 void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
-                   const analysis::IncrementResult& increment, std::size_t body, const CellsBody& made) {
+                   const analysis::FieldState& state, std::size_t body, const CellsBody& made) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
-  const Vector& u = increment.displacements[body];
+  const Vector& u = state.displacements[body];
   Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(made.nodes.size()));
   std::vector<int> cells_at(made.nodes.size(), 0);
   const auto add = [&](std::int32_t point, const element::Vec3& stress) {
@@ -258,12 +258,12 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
     const mesh::Cell& cell = mesh.cells[c];
     const CellsBody::OfCell& of_cell = made.cells[c];
     const auto& super_element = solution.cells[body][c];
-    const element::InteriorLoads& interior = element::loads_in(increment.interior[body], c);
+    const element::InteriorLoads& interior = element::loads_in(state.interior[body], c);
     temperature = interior.temperature;
     if (!super_element) {
-      const FiniteElementState state(solution, increment, body, c);
-      const auto natural = element::natural_nodes(state.element().kind);
-      for (std::size_t i = 0; i < natural.size(); ++i) add(of_cell.outer[i], state.at(natural[i]).stress);
+      const FiniteElementState finite(solution, state, body, c);
+      const auto natural = element::natural_nodes(finite.element().kind);
+      for (std::size_t i = 0; i < natural.size(); ++i) add(of_cell.outer[i], finite.at(natural[i]).stress);
       continue;
     }
     const Vector own = u(element::dofs_of(cell));
@@ -358,8 +358,8 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
     const mesh::LineElement& element = ring.elements[e];
     const int order = static_cast<int>(element.nodes.size()) - 1;
-    const element::LineBasis& basis = element::LineBasis::of_order(order);
-    const std::vector<double> lobatto = mesh::lobatto_points(order);
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
+    const std::vector<double> lobatto = geometry::lobatto_points(order);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       element::StrainMatrices strain =
           element::strain_matrices(ring, element, basis.values(lobatto[i]), basis.derivatives(lobatto[i]));
@@ -409,26 +409,25 @@ Recovery::Recovery(const analysis::StaticSolution& solution) {
   grid_.first_point.push_back(grid_.point_count());
 }
 
-Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) const {
-  ensure(increment.converged, "only converged increments have fields");
-  ensure(increment.displacements.size() == bodies_.size() && increment.interior.size() == bodies_.size(),
-         "an increment has displacements and interior loads of every body");
+Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis::FieldState& state) const {
+  ensure(state.displacements.size() == bodies_.size() && state.interior.size() == bodies_.size(),
+         "a state has displacements and interior loads of every body");
   Fields fields(grid_.point_count());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const std::size_t point = grid_.first_point[b];
     if (const auto* super_element = std::get_if<SuperElementBody>(&bodies_[b])) {
-      recover_super_element(fields, point, solution, increment, b, *super_element->sampling);
+      recover_super_element(fields, point, solution, state, b, *super_element->sampling);
     } else if (const auto* rigid = std::get_if<RigidBody>(&bodies_[b])) {
       for (std::size_t i = 0; i < rigid->arms.size(); ++i)
-        fields.set(point + i, rigid_displacement(increment.displacements[b], rigid->arms[i]), element::Vec3::Zero(),
+        fields.set(point + i, rigid_displacement(state.displacements[b], rigid->arms[i]), element::Vec3::Zero(),
                    0.0);
     } else {
-      recover_cells(fields, point, solution, increment, b, std::get<CellsBody>(bodies_[b]));
+      recover_cells(fields, point, solution, state, b, std::get<CellsBody>(bodies_[b]));
     }
   }
   for (std::size_t point = 0; point < grid_.point_count(); ++point)
     for (std::size_t k = 0; k < 2; ++k)
-      fields.displacement[3 * point + k] -= increment.reference_displacement[static_cast<Eigen::Index>(k)];
+      fields.displacement[3 * point + k] -= state.reference_displacement[static_cast<Eigen::Index>(k)];
   return fields;
 }
 

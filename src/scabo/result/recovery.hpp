@@ -65,14 +65,14 @@ class SamplingLibrary {
   std::map<const element::SolvedSuperElement*, std::shared_ptr<const RingSampling>> known_, known_cells_;
 };
 
-/// Created once for a mesh; gives the fields of any increment.
+/// Created once for a mesh; gives the fields of any state.
 class Recovery {
  public:
   explicit Recovery(const analysis::StaticSolution& solution);
 
   const Grid& grid() const { return grid_; }
-  /// Fields of a converged increment of the same analysis.
-  Fields fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) const;
+  /// Fields of a state of the same analysis.
+  Fields fields(const analysis::StaticSolution& solution, const analysis::FieldState& state) const;
 
  private:
   Grid grid_;

@@ -42,7 +42,7 @@ double force_level(const analysis::IncrementResult& increment) {
 /// Smaller lengths are rounding.
 double length_level(const analysis::IncrementResult& increment) {
   double motion = 0.0, place = 0.0;
-  for (const Vector& u : increment.displacements)
+  for (const Vector& u : increment.fields.displacements)
     if (u.size() > 0) motion = std::max(motion, u.lpNorm<Eigen::Infinity>());
   for (const analysis::ContactResult& contact : increment.contacts)
     for (const analysis::PairResult& pair : contact.pairs)

@@ -205,7 +205,7 @@ void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
     {
       const Stopwatch recovering(recover_seconds_);
       if (!recovery_) recovery_.emplace(solution);
-      fields = recovery_->fields(solution, increment);
+      fields = recovery_->fields(solution, increment.fields);
     }
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("fields_{:04d}.vtu", finished_);

@@ -1,6 +1,6 @@
 #include "scabo/system/loads.hpp"
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::system {
 
@@ -10,7 +10,7 @@ namespace {
 /// weighted length.
 template <typename Visit>
 void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes, Visit visit) {
-  const auto& basis = element::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+  const auto& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
   for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
     const auto row = static_cast<Eigen::Index>(q);
     Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();

@@ -1,8 +1,6 @@
 #include "scabo/system/tributary_lengths.hpp"
 
-#include <map>
-
-#include "scabo/mesh/lobatto.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::system {
 
@@ -14,20 +12,19 @@ std::vector<double> lengths_of_side(const model::Place& place, const mesh::Mesh&
   std::vector<bool> takes_part(nodes.size(), false);
   for (const int node : paired) takes_part[static_cast<std::size_t>(node)] = true;
   std::vector<Vec2> whole(nodes.size(), Vec2::Zero()), covered = whole;
-  std::map<int, mesh::LobattoBasis> bases;
   for (const mesh::LineElement& element : mesh::nodes_of(place, mesh).elements) {
     const int order = static_cast<int>(element.nodes.size()) - 1;
-    const mesh::LobattoBasis& basis = bases.try_emplace(order, order).first->second;
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
     bool is_covered = true;
     for (const int node : element.nodes) is_covered = is_covered && takes_part[static_cast<std::size_t>(node)];
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       Vec2 along = Vec2::Zero();
       for (std::size_t j = 0; j < element.nodes.size(); ++j)
-        along += basis.derivative(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+        along += basis.derivatives_at_nodes()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
                  nodes[static_cast<std::size_t>(element.nodes[j])];
       const auto node = static_cast<std::size_t>(element.nodes[i]);
-      whole[node] += basis.weights[i] * along;
-      if (is_covered) covered[node] += basis.weights[i] * along;
+      whole[node] += basis.weights()[i] * along;
+      if (is_covered) covered[node] += basis.weights()[i] * along;
     }
   }
   std::vector<double> lengths;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "support/decompositions.hpp"
 #include "theory/rings.hpp"
 #include "unit/mesh/cell_meshes.hpp"
@@ -72,7 +72,7 @@ ElementVector values_of(const FiniteElement& element, Field field) {
 /// int f dA with Gauss points on its own: 8 x 8 points in a quadrilateral, or in a square collapsed to the triangle.
 template <typename Function>
 double integral(const FiniteElement& element, Function f) {
-  const GaussRule rule = gauss_rule(8);
+  const geometry::GaussRule rule = geometry::gauss_rule(8);
   const bool triangle = element.corners() == 3;
   double sum = 0.0;
   for (std::size_t i = 0; i < 8; ++i)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "models.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::mesh {
 namespace {
@@ -76,7 +77,7 @@ TEST(BoundaryDivision, PutsNodesOfAnArcOnTheArcAtEqualArcLength) {
   const BodyMesh mesh = mesh_of(elastic("disc", quarter_disc(), 0.2, 3));
   const std::vector<LineElement>& rim = mesh.edges[1];
   ASSERT_EQ(rim.size(), 8u);
-  const std::vector<double> points = lobatto_points(3);
+  const std::vector<double> points = geometry::lobatto_points(3);
   for (std::size_t k = 0; k < rim.size(); ++k) {
     for (int i = 0; i <= 3; ++i) {
       const Vec2 x = mesh.nodes[rim[k].nodes[i]];

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "models.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/division.hpp"
 
 namespace scabo::mesh {
@@ -61,7 +62,7 @@ TEST(Enriched, HoldsEveryFieldOfTheOldElementsOnTheSameCurve) {
                  &c = mesh.bodies[0].nodes[static_cast<std::size_t>(old_elements[e].nodes[2])];
       return Vec2(0.5 * eta * (eta - 1) * a + (1 - eta * eta) * b + 0.5 * eta * (eta + 1) * c);
     };
-    const auto points = lobatto_points(static_cast<int>(new_elements[e].nodes.size()) - 1);
+    const auto points = geometry::lobatto_points(static_cast<int>(new_elements[e].nodes.size()) - 1);
     for (std::size_t i = 0; i < points.size(); ++i)
       EXPECT_LT((fine.nodes[static_cast<std::size_t>(new_elements[e].nodes[i])] - at(points[i])).norm(), 1e-15);
   }

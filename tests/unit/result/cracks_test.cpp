@@ -35,8 +35,8 @@ analysis::StaticSolution solution_of(const element::Ring& ring, const std::vecto
   analysis::IncrementResult increment;
   increment.step = increment.increment = 1;
   increment.converged = true;
-  increment.displacements = {u};
-  increment.interior.assign(1, element::CellLoads(1));
+  increment.fields.displacements = {u};
+  increment.fields.interior.assign(1, element::CellLoads(1));
   solution.increments.push_back(increment);
   return solution;
 }
@@ -65,7 +65,7 @@ TEST(CrackResults, OfACrackByItsName) {
   EXPECT_NE(log.find("K_II"), std::string::npos);
 
   // A face pressed as far as the tip: J and T are not known, and say so.
-  element::add_radial_loads(solution.increments[0].interior[0][0].loads,
+  element::add_radial_loads(solution.increments[0].fields.interior[0][0].loads,
                             {element::face_load(ring, element::Face::first, 0.0, {0, -1}, 1.0)}, 1.0);
   solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
   const nlohmann::json pressed = cracks_in_summary(solution)["plate.flaw"];
@@ -81,8 +81,8 @@ TEST(CrackResults, HaveNoFactorsWhereALoadIsInResonance) {
   auto solution = solution_of(ring, {elasticity(1.0, 0.3)},
                               around_tip(ring, [&](double r, double t) { return williams(m, 2.0, -1.0, 0.5, r, t); }));
   const auto loaded = [&](double power) {
-    solution.increments[0].interior[0][0].loads.clear();
-    element::add_radial_loads(solution.increments[0].interior[0][0].loads,
+    solution.increments[0].fields.interior[0][0].loads.clear();
+    element::add_radial_loads(solution.increments[0].fields.interior[0][0].loads,
                               {element::face_load(ring, element::Face::first, power, {0, -1}, 1.0)}, 1.0);
     return solution.increments[0].cracks = analysis::crack_results(solution, solution.increments[0]);
   };

@@ -53,7 +53,7 @@ std::vector<PointResult> at_places(const analysis::StaticSolution& solution) {
 }
 
 double largest_stress(const analysis::StaticSolution& solution) {
-  const Fields fields = Recovery(solution).fields(solution, solved(solution));
+  const Fields fields = Recovery(solution).fields(solution, solved(solution).fields);
   double most = 0.0;
   for (const float value : fields.von_mises) most = std::max(most, std::abs(static_cast<double>(value)));
   return most;
@@ -81,7 +81,7 @@ TEST_P(BarOfOrder, ExpandsInPlaneStrain) {
     EXPECT_LT(value.values.stress.norm(), 1e-11);
     EXPECT_NEAR(value.stress_zz, -200 * 0.02, 1e-11);
   }
-  const Fields fields = Recovery(solution).fields(solution, solved(solution));
+  const Fields fields = Recovery(solution).fields(solution, solved(solution).fields);
   for (const float zz : fields.stress_zz) EXPECT_NEAR(zz, -4.0, 1e-6);
 }
 
@@ -129,8 +129,8 @@ TEST_P(BarOfOrder, WeightAndConstantBodyForceAreTheSame) {
   const auto weight = bar(GetParam(), 0.3, "stress", held, "{gravity: [2, -10]}"),
              force = bar(GetParam(), 0.3, "stress", held, "{on: bar, body_force: [6, -30]}");
   EXPECT_NEAR(solved(weight).reactions[0].y(), 3 * 10 * 4 * 0.5, 1e-10);
-  EXPECT_LT((solved(weight).displacements[0] - solved(force).displacements[0]).norm(),
-            1e-14 * solved(weight).displacements[0].norm());
+  EXPECT_LT((solved(weight).fields.displacements[0] - solved(force).fields.displacements[0]).norm(),
+            1e-14 * solved(weight).fields.displacements[0].norm());
 }
 
 // Two blocks of elements of either order: the same pressure at every pair, and the force of the load.
@@ -207,10 +207,10 @@ const Mat2 strip_gradient = (Mat2() << 1.1e-3, -0.4e-3, 0.7e-3, -0.9e-3).finishe
 TEST_P(EveryStrip, LinearFieldAndTemperatureGiveTheStressOfEachMaterial) {
   const auto solution = this->solution();
   auto increment = increment_of(solution, linear_field(strip_gradient));
-  increment.interior[0].resize(solution.cells[0].size());
-  for (auto& interior : increment.interior[0]) interior.temperature = {0.5};
+  increment.fields.interior[0].resize(solution.cells[0].size());
+  for (auto& interior : increment.fields.interior[0]) interior.temperature = {0.5};
   const Recovery recovery(solution);
-  const Fields fields = recovery.fields(solution, increment);
+  const Fields fields = recovery.fields(solution, increment.fields);
   for (const std::uint8_t type : recovery.grid().types) EXPECT_EQ(type, GetParam().vtk);
   EXPECT_EQ(recovery.grid().cell_count(), GetParam().triangles ? 12U : 6U);
   EXPECT_EQ(recovery.grid().point_count(), solution.mesh.bodies[0].nodes.size() + (GetParam().order == 1 ? 3U : 5U));
@@ -230,7 +230,7 @@ TEST_P(EveryStrip, LinearFieldAndTemperatureGiveTheStressOfEachMaterial) {
   }
   EXPECT_EQ(found[1], GetParam().order == 1 ? 6 : GetParam().triangles ? 15 : 13);
 
-  const Probe probe(solution, increment, 0);
+  const Probe probe(solution, increment.fields, 0);
   for (const Vec2& x : {Vec2(0.7, 0.4), Vec2(1.9, 1.3), Vec2(3.2, 1.7)}) {
     const auto values = probe.at(x);
     ASSERT_TRUE(values);

@@ -111,7 +111,7 @@ TEST(PointTables, HoldPointsOnAnArcThatItsElementsDoNotReach) {
   model.output.points = {{"rim", on_arc, -1, {}}};
   const auto solution = solution_of(model);
   const auto increment = increment_of(solution, linear_field(table_gradient));
-  EXPECT_FALSE(Probe(solution, increment, 0).at(on_arc));
+  EXPECT_FALSE(Probe(solution, increment.fields, 0).at(on_arc));
   for (const int increments : {1, 100}) {
     const PointEvaluation evaluation(solution, mesh::output_points(model).points, increments);
     const PointResult result = evaluation.at(solution, increment).front();
@@ -152,7 +152,7 @@ TEST(PointTables, ATipWhereStressIsInfiniteHasNone) {
   mesh.cells[0].boundary.back().nodes.back() = static_cast<int>(mesh.nodes.size());
   mesh.nodes.push_back(mesh.nodes.front());
   auto increment = increment_of(solution, linear_field(table_gradient));
-  Vector& u = increment.displacements[0];
+  Vector& u = increment.fields.displacements[0];
   u.tail<2>() = Vec2(1e-3, 2e-3);
   const PointEvaluation evaluation(solution, mesh::output_points(model).points, 1);
   const auto results = evaluation.at(solution, increment);

@@ -25,7 +25,7 @@ TEST(Probe, LinearFieldIsExactInASuperElement) {
   for (const model::Plane plane : {model::Plane::stress, model::Plane::strain}) {
     const auto solution = solution_of(model_of({elastic("body", pentagon(), 0.7, 3)}, plane));
     const auto increment = increment_of(solution, linear_field(probe_gradient));
-    const Probe probe(solution, increment, 0);
+    const Probe probe(solution, increment.fields, 0);
     const Vec2 centre = solution.mesh.bodies[0].cells[0].centre;
     for (const Vec2& x : {Vec2(0.1, 0.0), Vec2(1.0, 1.0), Vec2(2.0, 1.5), Vec2(-0.3, 1.05), Vec2(1.2, 0.2)})
       expect_linear_field(probe, x, plane, 1e-10);
@@ -41,7 +41,7 @@ TEST(Probe, LinearFieldIsExactInFiniteElements) {
   const auto solution =
       solution_of(model_of({finite_elements("body", {1.0, -2.0}, {3.0, 1.0}, 0.4)}, model::Plane::strain));
   const auto increment = increment_of(solution, linear_field(probe_gradient));
-  const Probe probe(solution, increment, 0);
+  const Probe probe(solution, increment.fields, 0);
   for (const Vec2& x : {Vec2(1.0, -2.0), Vec2(2.345, -1.111), Vec2(4.0, -1.0), Vec2(3.9, -1.95)})
     expect_linear_field(probe, x, model::Plane::strain, 1e-12);
 }

@@ -19,7 +19,7 @@ void expect_linear_field(const analysis::StaticSolution& solution, double tolera
   const Recovery recovery(solution);
   const Grid& grid = recovery.grid();
   const Field field = linear_field(gradient);
-  const Fields fields = recovery.fields(solution, increment_of(solution, field));
+  const Fields fields = recovery.fields(solution, increment_of(solution, field).fields);
   const UniformStress expected = stress_of(gradient, solution.model.analysis.plane);
   const double scale = expected.in_plane.cwiseAbs().maxCoeff();
   for (std::size_t i = 0; i < grid.point_count(); ++i) {
@@ -53,7 +53,7 @@ TEST(Recovery, RigidMotionCarriesNoStress) {
       {elastic("a", pentagon(), 0.5), finite_elements("b", {5.0, 0.0}, {1.0, 1.0}, 0.5)}, model::Plane::strain));
   const Field turn = [](const Vec2& x) { return Vec2(0.3 - 0.01 * x.y(), -0.2 + 0.01 * x.x()); };
   const Recovery recovery(solution);
-  const Fields fields = recovery.fields(solution, increment_of(solution, turn));
+  const Fields fields = recovery.fields(solution, increment_of(solution, turn).fields);
   for (const float value : fields.von_mises) EXPECT_LT(value, 1e-8 * (0.01 * young));
 }
 
@@ -63,10 +63,10 @@ TEST(Recovery, BodyForceIsPartOfTheInterior) {
   auto solution = solution_of(model_of({elastic("a", pentagon(), 0.7, 2)}, model::Plane::stress, 0.0));
   auto increment =
       increment_of(solution, [&](const Vec2& x) { return Vec2(0.0, weight * x.y() * x.y() / (2.0 * young)); });
-  increment.interior[0].resize(1);
-  increment.interior[0][0].loads = element::body_force_loads(solution.cells[0][0]->ring, {0.0}, {-weight}, 0.5);
+  increment.fields.interior[0].resize(1);
+  increment.fields.interior[0][0].loads = element::body_force_loads(solution.cells[0][0]->ring, {0.0}, {-weight}, 0.5);
   const Recovery recovery(solution);
-  const Fields fields = recovery.fields(solution, increment);
+  const Fields fields = recovery.fields(solution, increment.fields);
   for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {
     const double y = recovery.grid().points[3 * i + 1];
     EXPECT_NEAR(fields.stress_yy[i], weight * y, 1e-6 * weight);
@@ -131,7 +131,7 @@ TEST(Recovery, RigidBodyIsItsMovedOutline) {
   const auto solution = solution_of(model_of({rigid("punch", disc)}, model::Plane::strain));
   const Recovery recovery(solution);
   const Grid& grid = recovery.grid();
-  const Fields fields = recovery.fields(solution, increment_of(solution, linear_field(gradient), {0.01, -0.02, 0.003}));
+  const Fields fields = recovery.fields(solution, increment_of(solution, linear_field(gradient), {0.01, -0.02, 0.003}).fields);
   EXPECT_EQ(grid.cell_count(), 1U);
   EXPECT_EQ(grid.point_count(), 120U);
   for (std::size_t i = 0; i < grid.point_count(); ++i) {

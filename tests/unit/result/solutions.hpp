@@ -90,8 +90,8 @@ inline analysis::IncrementResult increment_of(const analysis::StaticSolution& so
     const std::vector<Vec2>& nodes = solution.mesh.bodies[b].nodes;
     Vector u(static_cast<Eigen::Index>(2 * nodes.size()));
     for (std::size_t i = 0; i < nodes.size(); ++i) u.segment<2>(static_cast<Eigen::Index>(2 * i)) = field(nodes[i]);
-    increment.displacements.push_back(solution.model.bodies[b].rigid ? Vector(rigid) : u);
-    increment.interior.emplace_back();
+    increment.fields.displacements.push_back(solution.model.bodies[b].rigid ? Vector(rigid) : u);
+    increment.fields.interior.emplace_back();
   }
   return increment;
 }

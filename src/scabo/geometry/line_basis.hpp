@@ -1,12 +1,17 @@
 // Shape functions N(eta) of a boundary element on -1 <= eta <= 1: Lagrange polynomials of order p through the
-// Gauss-Lobatto-Legendre points, and the Gauss rule by which they are integrated.
+// Gauss-Lobatto-Legendre points, and the rules by which they are integrated.
+//
+// The points eta_0 = -1 < ... < eta_p = 1 are the ends and the zeros of P_p', the derivative of Legendre's polynomial.
 #pragma once
 
 #include <vector>
 
 #include "scabo/base/types.hpp"
 
-namespace scabo::element {
+namespace scabo::geometry {
+
+/// Gauss-Lobatto-Legendre points of order p on [-1, 1], p + 1 of them, ascending, exactly symmetric.
+std::vector<double> lobatto_points(int order);
 
 struct GaussRule {
   std::vector<double> points;   ///< on [-1, 1], ascending
@@ -22,10 +27,17 @@ class LineBasis {
 
   int order() const { return order_; }
   int nodes() const { return order_ + 1; }
+  const std::vector<double>& points() const { return points_; }
+  /// Weights of the quadrature at the nodes, exact for polynomials of degree 2 p - 1; sum 2.
+  const std::vector<double>& weights() const { return weights_; }
   /// N(eta), p + 1 values in the order of the nodes.
   Vector values(double eta) const;
   /// N,eta(eta).
   Vector derivatives(double eta) const;
+  /// N at several points: at.size() x nodes.
+  Matrix values_at(const std::vector<double>& at) const;
+  /// N,eta at the nodes: row i holds the derivatives at node i.
+  const Matrix& derivatives_at_nodes() const { return at_nodes_; }
 
   /// Rule used for coefficient matrices and loads: two points more than the p that linear displacement fields need,
   /// because elements may be curved.
@@ -38,10 +50,10 @@ class LineBasis {
 
  private:
   int order_;
-  std::vector<double> points_;
+  std::vector<double> points_, weights_;
   std::vector<double> barycentric_;
   GaussRule rule_;
-  Matrix N_, N_eta_;
+  Matrix N_, N_eta_, at_nodes_;
 };
 
-}  // namespace scabo::element
+}  // namespace scabo::geometry

@@ -1,12 +1,12 @@
-#include "scabo/mesh/lobatto.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "scabo/mesh/mesh.hpp"
+#include "scabo/base/error.hpp"
 
-namespace scabo::mesh {
+namespace scabo::geometry {
 namespace {
 
 class LobattoOrder : public testing::TestWithParam<int> {};
@@ -23,32 +23,32 @@ TEST_P(LobattoOrder, PointsAreExactlySymmetricAndEndAtOne) {
 
 TEST_P(LobattoOrder, QuadratureIsExactUpToDegree2pMinus1) {
   const int p = GetParam();
-  const LobattoBasis basis(p);
+  const LineBasis& basis = LineBasis::of_order(p);
   for (int degree = 0; degree <= 2 * p - 1; ++degree) {
     double sum = 0.0;
-    for (int i = 0; i <= p; ++i) sum += basis.weights[i] * std::pow(basis.points[i], degree);
+    for (int i = 0; i <= p; ++i) sum += basis.weights()[i] * std::pow(basis.points()[i], degree);
     EXPECT_NEAR(sum, degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0, 4e-15) << "degree " << degree;
   }
 }
 
 TEST_P(LobattoOrder, QuadratureIsNotExactForDegree2p) {
   const int p = GetParam();
-  const LobattoBasis basis(p);
+  const LineBasis& basis = LineBasis::of_order(p);
   double sum = 0.0;
-  for (int i = 0; i <= p; ++i) sum += basis.weights[i] * std::pow(basis.points[i], 2 * p);
+  for (int i = 0; i <= p; ++i) sum += basis.weights()[i] * std::pow(basis.points()[i], 2 * p);
   EXPECT_GT(std::abs(sum - 2.0 / (2 * p + 1)), 1e-11);
 }
 
 TEST_P(LobattoOrder, DerivativeAndShapeReproducePolynomials) {
   const int p = GetParam();
-  const LobattoBasis basis(p);
+  const LineBasis& basis = LineBasis::of_order(p);
   Vector values(p + 1);
-  for (int i = 0; i <= p; ++i) values[i] = std::pow(basis.points[i], p);
-  const Vector slopes = basis.derivative * values;
-  for (int i = 0; i <= p; ++i) EXPECT_NEAR(slopes[i], p * std::pow(basis.points[i], p - 1), 2e-13 * p * p);
+  for (int i = 0; i <= p; ++i) values[i] = std::pow(basis.points()[i], p);
+  const Vector slopes = basis.derivatives_at_nodes() * values;
+  for (int i = 0; i <= p; ++i) EXPECT_NEAR(slopes[i], p * std::pow(basis.points()[i], p - 1), 2e-13 * p * p);
 
   const std::vector<double> at{-1.0, -0.73, 0.1, 0.5, 1.0};
-  const Vector between = basis.shape_at(at) * values;
+  const Vector between = basis.values_at(at) * values;
   for (std::size_t k = 0; k < at.size(); ++k) EXPECT_NEAR(between[k], std::pow(at[k], p), 1e-14);
 }
 
@@ -65,4 +65,4 @@ TEST(LobattoPoints, AgreeWithClosedForms) {
 TEST(LobattoPoints, NeedAnOrderOfAtLeastOne) { EXPECT_THROW(lobatto_points(0), BrokenInvariant); }
 
 }  // namespace
-}  // namespace scabo::mesh
+}  // namespace scabo::geometry

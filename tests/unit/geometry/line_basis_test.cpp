@@ -1,10 +1,10 @@
-#include "scabo/element/line_basis.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 #include <gtest/gtest.h>
 
-#include "scabo/mesh/mesh.hpp"
+#include <cmath>
 
-namespace scabo::element {
+namespace scabo::geometry {
 namespace {
 
 TEST(GaussRule, IsExactToTwiceItsPoints) {
@@ -27,7 +27,7 @@ TEST_P(LineBasisOrder, InterpolatesAndDifferentiatesPolynomialsExactly) {
   const int order = GetParam();
   const LineBasis& basis = LineBasis::of_order(order);
   ASSERT_EQ(basis.nodes(), order + 1);
-  const std::vector<double> nodes = mesh::lobatto_points(order);
+  const std::vector<double> nodes = lobatto_points(order);
   for (int i = 0; i <= order; ++i)
     for (int j = 0; j <= order; ++j)
       EXPECT_NEAR(basis.values(nodes[static_cast<std::size_t>(i)])[j], i == j ? 1.0 : 0.0, 1e-13);
@@ -50,4 +50,4 @@ TEST_P(LineBasisOrder, InterpolatesAndDifferentiatesPolynomialsExactly) {
 INSTANTIATE_TEST_SUITE_P(Orders, LineBasisOrder, testing::Range(1, 17));
 
 }  // namespace
-}  // namespace scabo::element
+}  // namespace scabo::geometry
