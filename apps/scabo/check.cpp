@@ -51,7 +51,7 @@ std::string steps_table(const model::Model& model) {
 ExitStatus check(const CheckOptions& options) {
   const model::Model model = input::read_model(options.model, parse_settings(options.settings));
   const mesh::Mesh mesh = analysis::check(model);
-  for (const std::string& warning : model.warnings) print_warning(warning);
+  for (const Warning& warning : model.warnings) print_warning(warning.text);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
   text += describe_sizes(sizes_of(model, mesh)) + "\n\n" + bodies_table(model, mesh);
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);

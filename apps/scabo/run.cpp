@@ -147,7 +147,7 @@ ExitStatus run(const RunOptions& options) {
   progress.clear();
 
   const ExitStatus status = status_of(solution, interrupt.signal());
-  for (const std::string& warning : solution.warnings) print_warning(warning);
+  for (const Warning& warning : solution.warnings) print_warning(warning.text);
   for (const std::string& warning : directory.warnings()) print_warning(warning);
   print_reason(solution, status);
   if (!options.quiet) print_summary(summary_text(solution, directory.path()));

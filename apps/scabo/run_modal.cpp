@@ -39,7 +39,7 @@ ExitStatus run_modal(const model::Model& model, const std::filesystem::path& dir
   });
   progress.meshed(result.structure);
   progress.clear();
-  for (const std::string& warning : result.warnings) print_warning(warning);
+  for (const Warning& warning : result.warnings) print_warning(warning.text);
   if (!options.quiet)
     print_summary(fmt::format("{} in {:.3g} s\n{}Results: {}\n",
                               count(static_cast<long>(result.modes.size()), "natural mode"), result.timing.total,

@@ -211,7 +211,7 @@ TEST(Refinement, OfTwoBeamsKeepsTheirNodesMatching) {
     EXPECT_NEAR(increment.contacts[0].normal_force / 53669.4, 1.0, tolerance);
     const auto tells = [&](const char* text) {
       return std::any_of(solution.warnings.begin(), solution.warnings.end(),
-                         [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+                         [&](const Warning& warning) { return warning.text.find(text) != std::string::npos; });
     };
     EXPECT_TRUE(tells("upper.top_right is infinite"));
     const bool coarse = increment.contacts[0].stick + increment.contacts[0].slip < 5;  // at the coarsest tolerance

@@ -218,15 +218,15 @@ contacts: {joint: {between: [beam.top, other.bottom]}}
     EXPECT_EQ(two.modes[k].body, static_cast<int>(k % 2));
   }
   ASSERT_EQ(two.warnings.size(), 2u);
-  EXPECT_EQ(two.warnings[0], "a modal analysis ignores the model's loads and contacts: each body vibrates by itself");
-  EXPECT_NE(two.warnings[1].find("'settle'"), std::string::npos);
+  EXPECT_EQ(two.warnings[0].text, "a modal analysis ignores the model's loads and contacts: each body vibrates by itself");
+  EXPECT_NE(two.warnings[1].text.find("'settle'"), std::string::npos);
 }
 
 TEST(NaturalFrequencies, MoreModesThanThereAreAreNotInvented) {
   const auto result = run(free_square, {"analysis.modes=20", "bodies.plate.mesh={size: 1, order: 1}"});
   EXPECT_EQ(result.modes.size(), 8u);
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_NE(result.warnings[0].find("8 modes only"), std::string::npos);
+  EXPECT_NE(result.warnings[0].text.find("8 modes only"), std::string::npos);
 }
 
 }  // namespace

@@ -208,10 +208,10 @@ void warn_of_point_forces(StaticSolution& solution) {
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
   for (const auto& [place, in_cells] : places)
-    solution.warnings.push_back(
+    solution.warnings.push_back({WarningKind::infinite_stress, place,
         fmt::format("stress under the point force at {} is infinite: for the estimated error {}", place,
                     in_cells ? "the adjacent cells are left out"
-                             : "the force is distributed over the adjacent elements, which are not refined"));
+                             : "the force is distributed over the adjacent elements, which are not refined")});
 }
 
 /// Reports a complete solution as if its increments were computed one by one.
@@ -396,7 +396,8 @@ StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Optio
     if (const auto wider = solve_wider(solution, options, "error", why))
       estimate_all(solution, *wider);
     else
-      solution.warnings.push_back(fmt::format("no error was estimated: on the mesh of higher order, {}", why));
+      solution.warnings.push_back({WarningKind::no_estimate, "",
+                                   fmt::format("no error was estimated: on the mesh of higher order, {}", why)});
     warn_of_point_forces(solution);
   }
   replay(solution, options);

@@ -61,23 +61,23 @@ bool resolved(const element::StressIntensity& factors) {
 
 }  // namespace
 
-std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks) {
-  std::vector<std::string> warnings;
+std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
+  std::vector<Warning> warnings;
   for (const CrackResult& crack : cracks) {
     if (std::isnan(crack.factors.K_I))
-      warnings.push_back(
+      warnings.push_back({WarningKind::crack, crack.name + " resonance",
           fmt::format("the load on the faces of '{}' has the same singularity at the tip as the stress (resonance), so "
                       "that the stress has an additional factor ln(r): the stress intensity factors are undefined",
-                      crack.name));
+                      crack.name)});
     if (resolved(crack.factors)) continue;
     std::string list;
     for (const std::complex<double>& exponent : crack.factors.exponents)
       list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
-    warnings.push_back(
+    warnings.push_back({WarningKind::crack, crack.name,
         fmt::format("the boundary of '{}' is too coarse to resolve its singular stress: the computed exponents are {} "
                     "instead of 0.5 twice, and the stress intensity factors have errors of the same size; use a "
                     "smaller mesh size, a higher order, or a tip farther from the boundary",
-                    crack.name, list));
+                    crack.name, list)});
   }
   return warnings;
 }

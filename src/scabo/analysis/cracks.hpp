@@ -10,6 +10,6 @@ namespace scabo::analysis {
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment);
 
 /// Warnings for users: undefined factors, exponents that the boundary does not resolve.
-std::vector<std::string> crack_warnings(const std::vector<CrackResult>& cracks);
+std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks);
 
 }  // namespace scabo::analysis

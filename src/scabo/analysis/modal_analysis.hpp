@@ -27,7 +27,7 @@ struct ModalResult {
   StaticSolution structure;
   std::vector<NaturalMode> modes;  ///< ascending frequency
   double total_mass = 0.0;         ///< of all elastic bodies
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   ModalTiming timing;
 };
 

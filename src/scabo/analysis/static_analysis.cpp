@@ -118,38 +118,43 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
 
 /// Adds each kind of warning once, for the increment where it first applies.
 void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
-                  std::vector<std::string>& warnings) {
-  const auto add = [&](const std::string& kind, const std::string& sentence) {
-    for (const std::string& warning : warnings)
-      if (warning.find(kind) != std::string::npos) return;
-    warnings.push_back(fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence));
+                  std::vector<Warning>& warnings) {
+  const auto add = [&](WarningKind kind, const std::string& subject, const std::string& sentence) {
+    for (const Warning& warning : warnings)
+      if (warning.kind == kind && warning.subject == subject) return;
+    warnings.push_back(
+        {kind, subject, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
   };
   for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
     const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
-    add(motion, fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
+    add(WarningKind::undetermined_motion, motion,
+        fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
                             "add a support if the position matters",
                             motion));
   }
   if (reached.uniqueness && reached.uniqueness->others > 0)
-    add("other solutions exist", fmt::format("other solutions exist ({} found); the one closest to the previous "
+    add(WarningKind::several_solutions, "",
+        fmt::format("other solutions exist ({} found); the one closest to the previous "
                                              "increment was chosen: see 'uniqueness' in summary.json",
                                              reached.uniqueness->others));
   for (std::size_t c = 0; c < at.contacts.size(); ++c) {
     if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
-    const std::string open = fmt::format("open pairs of contact '{}'", at.contacts[c].name);
     if (at.contacts[c].open > 0)
-      add(open, open + " carry shear: a prescribed shear strength does not depend on pressure");
+      add(WarningKind::open_shear, at.contacts[c].name,
+          fmt::format("open pairs of contact '{}' carry shear: a prescribed shear strength does not depend on pressure",
+                      at.contacts[c].name));
   }
   constexpr double worth_saying = 3e-5;  // errors of three times the estimate were seen
   if (at.lost_to_rounding > worth_saying)
-    add("rounding of the stiffness",
+    add(WarningKind::rounding, "",
         fmt::format("rounding of the stiffness of a body this slender may change its displacements by a part of about "
                     "{:.0e}: give it mesh {{kind: fem}}, or longer elements",
                     at.lost_to_rounding));
-  if (const std::string large = too_large(prepared, reached.state); !large.empty()) add("small ones", large);
+  if (const std::string large = too_large(prepared, reached.state); !large.empty())
+    add(WarningKind::large_displacement, "", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
-    add("only up to a translation", relative);
-  for (const std::string& warning : crack_warnings(at.cracks)) add(warning, warning);
+    add(WarningKind::no_reference, "", relative);
+  for (const Warning& warning : crack_warnings(at.cracks)) add(warning.kind, warning.subject, warning.text);
 }
 
 void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
@@ -273,9 +278,10 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   const system::ContactSystem contact =
       timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh); });
   if (options.on_mesh) options.on_mesh(solution);
-  solution.warnings = load_warnings(solution.model, structure);
+  solution.warnings = solution.model.warnings;
+  for (Warning& warning : load_warnings(solution.model, structure)) solution.warnings.push_back(std::move(warning));
   run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure)}, solution, options);
-  for (std::string& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
+  for (Warning& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;
 }
 

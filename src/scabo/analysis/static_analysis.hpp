@@ -155,7 +155,7 @@ struct StaticSolution {
   std::vector<element::SolvedCells> cells;  ///< [body][cell]; null for finite elements
   std::vector<IncrementResult> increments;  ///< converged increments, then at most one that is not
   std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   Outcome outcome = Outcome::solved;
   std::string reason;  ///< if not solved
   Timing timing;

@@ -100,7 +100,7 @@ double pressure_strain(const StaticSolution& solution, std::size_t contact, doub
   return pressure / stiffness;
 }
 
-void warn_of_large_strains(const StaticSolution& solution, std::vector<std::string>& warnings) {
+void warn_of_large_strains(const StaticSolution& solution, std::vector<Warning>& warnings) {
   std::vector<Finding> overlapping, pressed;
   for (std::size_t c = 0; c < solution.model.contacts.size(); ++c) {
     double pressure = 0.0;
@@ -115,20 +115,20 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<std::stri
     double pressure = 0.0;
     pressure_strain(solution, worst.contact, pressure);
     const std::string pressing = pressure > 0.0 ? fmt::format(", which presses with {:.3g} there", pressure) : "";
-    warnings.push_back(fmt::format(
+    warnings.push_back({WarningKind::overlap, contacts_of(solution, overlapping), fmt::format(
         "{}: the bodies overlap at the start by up to {:.3g}{}, {:.3g} % of the smaller body's size{}; small strains "
         "are assumed: check the shapes, 'gap' and the units",
         contacts_of(solution, overlapping), overlap_of(solution, worst.contact).depth, in_worst(solution, overlapping),
-        100.0 * worst.figure, pressing));
+        100.0 * worst.figure, pressing)});
   }
   if (!pressed.empty()) {
     const Finding& worst = worst_of(pressed);
     double pressure = 0.0;
     pressure_strain(solution, worst.contact, pressure);
-    warnings.push_back(
+    warnings.push_back({WarningKind::pressure, contacts_of(solution, pressed),
         fmt::format("{}: the pressure reaches {:.3g}{}, {:.3g} % of Young's modulus; small strains are assumed: check "
                     "loads, stiffness and their units",
-                    contacts_of(solution, pressed), pressure, in_worst(solution, pressed), 100.0 * worst.figure));
+                    contacts_of(solution, pressed), pressure, in_worst(solution, pressed), 100.0 * worst.figure)});
   }
 }
 
@@ -148,19 +148,19 @@ std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t c
   return std::isfinite(smallest) && !touching ? std::optional(smallest) : std::nullopt;
 }
 
-void warn_of_open_contacts(const StaticSolution& solution, std::vector<std::string>& warnings) {
+void warn_of_open_contacts(const StaticSolution& solution, std::vector<Warning>& warnings) {
   std::vector<Finding> open;
   for (std::size_t c = 0; c < solution.model.contacts.size(); ++c)
     if (const auto gap = smallest_gap(solution, c)) open.push_back({c, -*gap});
   if (open.empty()) return;
-  warnings.push_back(
+  warnings.push_back({WarningKind::open_contact, contacts_of(solution, open),
       fmt::format("{} never {}: the smallest gap is {:.3g}{}; check 'between', 'gap' and the direction "
                   "of the loads, or leave {} out",
                   contacts_of(solution, open), open.size() == 1 ? "closes" : "close", -worst_of(open).figure,
-                  in_worst(solution, open), open.size() == 1 ? "it" : "them"));
+                  in_worst(solution, open), open.size() == 1 ? "it" : "them")});
 }
 
-void warn_of_coarse_zones(const StaticSolution& solution, std::vector<std::string>& warnings) {
+void warn_of_coarse_zones(const StaticSolution& solution, std::vector<Warning>& warnings) {
   const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
                                  [](const IncrementResult& increment) { return increment.converged; });
   if (last == solution.increments.rend()) return;
@@ -171,17 +171,17 @@ void warn_of_coarse_zones(const StaticSolution& solution, std::vector<std::strin
   }
   if (coarse.empty()) return;
   const auto fewest = static_cast<int>(-worst_of(coarse).figure);
-  warnings.push_back(fmt::format(
+  warnings.push_back({WarningKind::few_pairs, contacts_of(solution, coarse), fmt::format(
       "{}: only {} pair{} {} in contact at the end{}, too few for a reliable pressure (total forces are not affected): "
       "use a smaller mesh.size or a higher mesh.order, so that five or more pairs are in contact",
       contacts_of(solution, coarse), fewest, fewest == 1 ? "" : "s", fewest == 1 ? "is" : "are",
-      in_worst(solution, coarse)));
+      in_worst(solution, coarse))});
 }
 
 }  // namespace
 
-std::vector<std::string> load_warnings(const model::Model& model, const system::Structure& structure) {
-  std::vector<std::string> warnings;
+std::vector<Warning> load_warnings(const model::Model& model, const system::Structure& structure) {
+  std::vector<Warning> warnings;
   for (std::size_t load = 0; load < model.loads.size(); ++load) {
     double largest = 0.0, moving = 0.0;
     bool inside = false;
@@ -202,16 +202,16 @@ std::vector<std::string> load_warnings(const model::Model& model, const system::
       moving = std::max(moving, forces.lpNorm<Eigen::Infinity>());
     }
     if (inside || moving > 1e-12 * largest) continue;
-    warnings.push_back(largest == 0.0 ? fmt::format("load '{}' is zero and has no effect", model.loads[load].name)
+    warnings.push_back({WarningKind::load_without_effect, model.loads[load].name, largest == 0.0 ? fmt::format("load '{}' is zero and has no effect", model.loads[load].name)
                                       : fmt::format("load '{}' has no effect because all its forces act on supported "
                                                     "nodes: move the load, or free the support there",
-                                                    model.loads[load].name));
+                                                    model.loads[load].name)});
   }
   return warnings;
 }
 
-std::vector<std::string> contact_warnings(const StaticSolution& solution) {
-  std::vector<std::string> warnings;
+std::vector<Warning> contact_warnings(const StaticSolution& solution) {
+  std::vector<Warning> warnings;
   warn_of_large_strains(solution, warnings);
   warn_of_open_contacts(solution, warnings);
   warn_of_coarse_zones(solution, warnings);

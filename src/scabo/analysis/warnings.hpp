@@ -1,5 +1,4 @@
-// Warnings about models that were analysed as written but are probably not what was intended: a sentence for each,
-// with a remedy.
+// Warnings about models that were analysed as written but are probably not what was intended.
 //
 // - A load without effect: it is zero, or all its forces act on supported degrees of freedom.
 // - Bodies that overlap at the start by more than a hundredth of the smaller one's size across the contact, or
@@ -10,7 +9,6 @@
 // Contacts with the same problem share one sentence, however many they are.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
@@ -18,9 +16,9 @@
 
 namespace scabo::analysis {
 
-std::vector<std::string> load_warnings(const model::Model& model, const system::Structure& structure);
+std::vector<Warning> load_warnings(const model::Model& model, const system::Structure& structure);
 
 /// Warnings about all increments so far.
-std::vector<std::string> contact_warnings(const StaticSolution& solution);
+std::vector<Warning> contact_warnings(const StaticSolution& solution);
 
 }  // namespace scabo::analysis

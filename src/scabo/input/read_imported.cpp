@@ -29,7 +29,7 @@ Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name)
   if (!is_new) return found->second;
   try {
     files::ImportedMesh mesh = files::read_mesh_file(path);
-    for (const std::string& remark : mesh.remarks) reading.model.warnings.push_back(as_given(remark, path, name));
+    for (const std::string& remark : mesh.remarks) reading.model.warnings.push_back({WarningKind::input, path, as_given(remark, path, name)});
     found->second = std::make_shared<const files::ImportedMesh>(std::move(mesh));
   } catch (const InputError& error) {
     reading.report.error(value, as_given(format_diagnostic(error.file(), error.diagnostics().front()), path, name));

@@ -130,15 +130,17 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
       list += i + 1 < parts.size() ? ", " : " and ";
       list += parts[i];
     }
-    model.warnings.push_back(fmt::format("a modal analysis ignores the model's {}{}", list,
-                                         model.contacts.empty() ? "" : ": each body vibrates by itself"));
+    model.warnings.push_back({WarningKind::input, "modal",
+                              fmt::format("a modal analysis ignores the model's {}{}", list,
+                                          model.contacts.empty() ? "" : ": each body vibrates by itself")});
   }
   for (const Support& support : model.supports)
     if (std::any_of(support.displacement.begin(), support.displacement.end(),
                     [](const auto& u) { return u.value_or(0.0) != 0.0; }))
       model.warnings.push_back(
-          fmt::format("a modal analysis takes support '{}' as fixed and ignores the displacement that it prescribes",
-                      support.name));
+          {WarningKind::input, support.name,
+           fmt::format("a modal analysis takes support '{}' as fixed and ignores the displacement that it prescribes",
+                       support.name)});
 }
 
 /// What validate cannot judge, because it could not be read.

@@ -54,9 +54,9 @@ void tell_of_pieces(Reading& reading, int body, const std::string& part) {
   std::vector<std::string>& pieces = reading.state(body).pieces;
   if (const auto found = std::find(pieces.begin(), pieces.end(), part); found != pieces.end()) {
     pieces.erase(found);
-    reading.model.warnings.push_back(fmt::format(
+    reading.model.warnings.push_back({WarningKind::input, reading.body(body).name + "." + part, fmt::format(
         "the set '{0}' of the mesh file is not one edge of body '{1}': {1}.{0} is its first piece, and {1}.{0}_2 the next",
-        part, reading.body(body).name));
+        part, reading.body(body).name)});
   }
 }
 

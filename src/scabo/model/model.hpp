@@ -14,6 +14,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/types.hpp"
+#include "scabo/base/warning.hpp"
 #include "scabo/files/image.hpp"
 #include "scabo/files/imported_mesh.hpp"
 #include "scabo/geometry/outline.hpp"
@@ -313,7 +314,7 @@ struct Model {
   std::vector<Tie> ties;
   std::vector<Step> steps;
   SolverOptions solver;
-  std::vector<std::string> warnings;  ///< sentences about input that has no effect in this analysis
+  std::vector<Warning> warnings;  ///< about input that has no effect in this analysis, or is named otherwise
   Output output;
 };
 

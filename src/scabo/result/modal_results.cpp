@@ -46,7 +46,7 @@ std::vector<std::pair<const char*, double>> stages(const analysis::ModalTiming& 
 
 std::string report_warnings(const analysis::ModalResult& result) {
   std::string text;
-  for (const std::string& warning : result.warnings) text += fmt::format("warning: {}\n", warning);
+  for (const Warning& warning : result.warnings) text += fmt::format("warning: {}\n", warning.text);
   return text.empty() ? text : text + '\n';
 }
 
@@ -74,7 +74,7 @@ std::string modal_summary_content(const analysis::ModalResult& result, bool runn
   json["analysis"] = "modal";
   json["status"] = running ? "running" : "solved";
   json["reason"] = nullptr;
-  json["warnings"] = result.warnings;
+  json["warnings"] = texts_of(result.warnings);
   json["model"] = {{"nodes", sizes.nodes},
                    {"dofs", sizes.dofs},
                    {"super_elements", sizes.super_elements},

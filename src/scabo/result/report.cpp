@@ -226,7 +226,7 @@ std::string report_totals(const model::Model& model, const analysis::IncrementRe
 
 std::string report_warnings(const analysis::StaticSolution& solution) {
   std::string text;
-  for (const std::string& warning : solution.warnings) text += fmt::format("warning: {}\n", warning);
+  for (const Warning& warning : solution.warnings) text += fmt::format("warning: {}\n", warning.text);
   return text;
 }
 

@@ -218,7 +218,9 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
   json["title"] = solution.model.title;
   json["status"] = running ? "running" : name_of(solution.outcome);
   json["reason"] = solution.reason.empty() ? Json() : Json(solution.reason);
-  json["warnings"] = solution.warnings;
+  json["warnings"] = texts_of(solution.warnings);
+  json["warning_kinds"] = Json::array();
+  for (const Warning& warning : solution.warnings) json["warning_kinds"].push_back(name_of(warning.kind));
   json["model"] = {{"nodes", sizes.nodes},
                    {"dofs", sizes.dofs},
                    {"super_elements", sizes.super_elements},

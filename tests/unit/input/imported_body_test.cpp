@@ -181,7 +181,7 @@ TEST(ImportedBody, WarnsOfPieces) {
                                          "contacts: {}\noutput: {}\n# boundary_1 is used twice below\n"),
                                 "model.yaml", {parse_override("supports.0.on=part.boundary_1")});
   ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_THAT(read.warnings[0], HasSubstr("part.boundary_1 is its first piece, and part.boundary_1_2 the next"));
+  EXPECT_THAT(read.warnings[0].text, HasSubstr("part.boundary_1 is its first piece, and part.boundary_1_2 the next"));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(CrackResults, HaveNoFactorsWhereALoadIsInResonance) {
   EXPECT_FALSE(resonant[0].factors.G);
   EXPECT_TRUE(cracks_in_summary(solution)["plate"]["K_I"].is_null());
   ASSERT_EQ(analysis::crack_warnings(resonant).size(), 1u);
-  EXPECT_NE(analysis::crack_warnings(resonant)[0].find("are undefined"), std::string::npos);
+  EXPECT_NE(analysis::crack_warnings(resonant)[0].text.find("are undefined"), std::string::npos);
   for (const double power : {-0.9, -0.4, 0.0, 0.5}) {
     const auto found = loaded(power);
     EXPECT_TRUE(std::isfinite(found[0].factors.K_I)) << power;
@@ -106,7 +106,7 @@ TEST(CrackResults, SayWhereTheBoundaryIsTooCoarseForThem) {
     const auto warnings = analysis::crack_warnings(analysis::crack_results(solution, solution.increments[0]));
     ASSERT_EQ(warnings.size(), coarse ? 1u : 0u);
     if (coarse) {
-      EXPECT_NE(warnings[0].find("too coarse to resolve its singular stress"), std::string::npos) << warnings[0];
+      EXPECT_NE(warnings[0].text.find("too coarse to resolve its singular stress"), std::string::npos) << warnings[0].text;
     }
   }
 }

@@ -101,7 +101,7 @@ class FinishedRun {
     add(failed);
     solution.outcome = analysis::Outcome::not_converged;
     solution.reason = "step press, increment 3: the line search found no descent";
-    solution.warnings = {"a first warning"};
+    solution.warnings = {{WarningKind::few_pairs, "joint", "a first warning"}};
     solution.timing.total = 1.25;
     directory.finish(solution);
   }
@@ -199,7 +199,7 @@ TEST_F(Results, ContactTable) {
 TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const FinishedRun run(path_);
   const Json summary = Json::parse(content_of(path_ / "summary.json"));
-  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "model", "passes",
+  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "warning_kinds", "model", "passes",
                                             "increments", "timing", "peak_memory_bytes"));
   EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs"));
   EXPECT_THAT(keys_of(summary["timing"]), ElementsAre("read", "mesh", "super_elements", "assemble", "factorise",
@@ -222,6 +222,7 @@ TEST_F(Results, SummaryValues) {
   EXPECT_EQ(summary["status"], "not_converged");
   EXPECT_EQ(summary["reason"], "step press, increment 3: the line search found no descent");
   EXPECT_EQ(summary["warnings"], Json::array({"a first warning"}));
+  EXPECT_EQ(summary["warning_kinds"], Json::array({"few_pairs"}));
   EXPECT_EQ(summary["model"]["nodes"], 16 + 21);
   EXPECT_EQ(summary["model"]["dofs"], 2 * (16 + 21));
   EXPECT_EQ(summary["model"]["super_elements"], 1);
