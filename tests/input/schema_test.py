@@ -26,7 +26,7 @@ BEYOND_SCHEMA = re.compile(
     r"|polygon_(?!two_vertices|vertex_of_three)|outline_(not_|full_circle|arc_radii|arc_crosses|arc_swallows"
     r"|name_twice|without_area)"
     r"|shape_too_|centre_|mesh_(1e9|too_many|quadtree_of_a_sliver|min_size_(of|above)|refine_(of|on_un)|tolerance_of_a_body|quadtree_centre)"
-    r"|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named)|regions?_(of_unknown|crosses|outside|touch)|outside_of_polygons"
+    r"|tie_(with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named)|regions?_(of_unknown|crosses|outside|touch)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
     r"|imported_(no_|folded|cut_off|empty|apart|unknown_(region|material|edge)|material_of|region_without|polygon_as|cell_without)"
     r"|support_(conflict|name_)|load_(on_unknown|force_on|pressure_on|traction_on|gravity_|none|section_empty)"

@@ -226,7 +226,7 @@ loads: {{heat: {{temperature: 10}}}}
 )";
   const auto free = run(fmt::format(fmt::runtime(text), kind(), ""));
   const auto held = run(fmt::format(fmt::runtime(text), kind(), "{on: bar.right, fix: [x]}, "));
-  const result::Probe of_free(free, last(free), 0), of_held(held, last(held), 0);
+  const result::Probe of_free(free, last(free).fields, 0), of_held(held, last(held).fields, 0);
   for (const Vec2& x : {Vec2(1.1, 0.7), Vec2(2.9, 0.05), Vec2(0.3, 0.5)}) {
     EXPECT_LT((of_free.at(x)->displacement - 0.01 * x).norm(), 1e-13);
     EXPECT_LT(of_free.at(x)->stress.norm(), 1e-12);

@@ -215,7 +215,7 @@ contacts: {joint: {between: [beam.top, other.bottom]}}
   ASSERT_EQ(two.modes.size(), 10u);
   for (std::size_t k = 0; k < 10; ++k) {
     EXPECT_DOUBLE_EQ(two.modes[k].frequency, alone.modes[k / 2].frequency);
-    EXPECT_EQ(two.modes[k].body, static_cast<int>(k % 2));
+    EXPECT_EQ(two.modes[k].bodies, std::vector<int>{static_cast<int>(k % 2)});
   }
   ASSERT_EQ(two.warnings.size(), 2u);
   EXPECT_EQ(two.warnings[0].text, "a modal analysis ignores the model's loads and contacts: each body vibrates by itself");

@@ -61,7 +61,7 @@ TEST(Outside, StressesOverACircleBalanceTheLoad) {
 
 TEST(Outside, TheReferencePointStandsStillAndStressesDoNotDependOnIt) {
   const auto near = run(loaded_hole), far = run(loaded_hole, {"bodies.ground.reference=[-300, 40]"});
-  const result::Probe of_near(near, last(near), 0), of_far(far, last(far), 0);
+  const result::Probe of_near(near, last(near).fields, 0), of_far(far, last(far).fields, 0);
   const double largest = of_near.at({1.0, 0.0})->displacement.norm();
   EXPECT_GT(largest, 1e-4);
   EXPECT_LE(of_near.at({5.0, -20.0})->displacement.norm(), 1e-12 * largest);

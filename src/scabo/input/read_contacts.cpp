@@ -9,6 +9,7 @@
 
 #include "scabo/geometry/touching.hpp"
 #include "scabo/input/reading.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::input {
 
@@ -108,6 +109,8 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
   for (const geometry::TouchingEdges& pair : geometry::touching_edges(outlines, touching.reach)) {
     const int rigid = reading.body(pair.body_a).rigid + reading.body(pair.body_b).rigid;
     if (rigid == 2 || (is_tie && rigid > 0)) continue;
+    if (model::is_side_face(reading.body(pair.body_a), pair.edge_a) || model::is_side_face(reading.body(pair.body_b), pair.edge_b))
+      continue;
     const bool swapped = between.bodies && (*between.bodies)[0] == pair.body_b;
     const Place a = edge_place(swapped ? pair.body_b : pair.body_a, swapped ? pair.edge_b : pair.edge_a);
     const Place b = edge_place(swapped ? pair.body_a : pair.body_b, swapped ? pair.edge_a : pair.edge_b);
@@ -183,9 +186,7 @@ void read_contact_entry(Reading& reading, const Entry& entry, Joints& joints) {
 }
 
 void read_tie_entry(Reading& reading, const Entry& entry, Joints& joints) {
-  const MapReader map(reading.report, entry.value, {"between"}, tie_example,
-                      {{"friction", "leave it out, or make it a contact; tied edges neither slip nor open"},
-                       {"reach", "leave it out; tied edges lie on each other"}});
+  const MapReader map(reading.report, entry.value, {"between"}, tie_example);
   const auto value = map.need("between");
   if (!value) reading.places_known = false;
   const auto between = value ? read_partners(reading, *value) : std::nullopt;

@@ -8,6 +8,7 @@
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/model/checking.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::model {
 
@@ -25,9 +26,7 @@ struct BodyCheck {
   int centre_corner = -1;  // of `outline`
 
   int edges() const { return static_cast<int>(outline.edges.size()); }
-  bool is_side_face(int edge) const {
-    return centre_corner >= 0 && (edge == centre_corner || edge == (centre_corner + edges() - 1) % edges());
-  }
+  bool is_side_face(int edge) const { return model::is_side_face(outline, centre_corner, edge); }
   const Edge& edge(int index) const { return outline.edges[static_cast<std::size_t>(index)]; }
 };
 

@@ -5,16 +5,11 @@
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/checking.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::model {
 
 namespace {
-
-/// Whether an edge is a side face, at a scaling centre on a corner.
-bool is_side_face(const Body& body, int edge) {
-  const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
-  return corner >= 0 && (edge == corner || edge == (corner + count - 1) % count);
-}
 
 bool check_index(Checking& checking, const std::string& path, const Place& place, const char* what, std::size_t count) {
   if (place.index >= 0 && static_cast<std::size_t>(place.index) < count) return true;

@@ -32,10 +32,12 @@ bool is_vtu_name(const std::string& name, std::string_view begin) {
          std::all_of(number.begin(), number.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
+constexpr const char* cells_name = "cells.vtu";
+
 /// Text at the beginning of a result file; nothing for names that are not results.
 std::optional<std::string_view> mark_of(const std::string& name) {
   if (is_vtu_name(name, "fields_") || is_vtu_name(name, "contact_")) return vtk_mark;
-  if (name == "fields.pvd" || name == "contact.pvd") return vtk_mark;
+  if (name == "fields.pvd" || name == "contact.pvd" || name == cells_name) return vtk_mark;
   if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
   if (name == "contact.csv") return contact_table_header;
   if (name == "convergence.csv") return convergence_table_header;
@@ -253,11 +255,24 @@ void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
   }
 }
 
+namespace {
+
+bool has_many_cells(const mesh::Mesh& mesh) {
+  return std::any_of(mesh.bodies.begin(), mesh.bodies.end(),
+                     [](const mesh::BodyMesh& body) { return body.cells.size() > 1; });
+}
+
+}  // namespace
+
 void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
   // If the run ended early, the last converged increment was not known to be the last.
   const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
                                  [](const auto& increment) { return increment.converged; });
   if (fields_written_ < finished_ && last != solution.increments.rend()) add_fields(solution, *last);
+  if (fields_collection_ && last != solution.increments.rend() && has_many_cells(solution.mesh)) {
+    const Stopwatch writing(write_seconds_);
+    write_file(path_ / cells_name, vtu_content(cell_polygons(solution, last->fields)));
+  }
   {
     const Stopwatch writing(write_seconds_);
     if (has_iterations(solution)) replace_file(path_ / "convergence.svg", convergence_plot(solution));

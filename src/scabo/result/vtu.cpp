@@ -111,12 +111,11 @@ std::string point_data(std::string_view scalars, bool displacement) {
                      displacement ? " Vectors=\"displacement\"" : "");
 }
 
-/// Everything after the arrays of the points.
+void begin_cell_data(Document& document) { document.add("      </PointData>\n      <CellData>\n"); }
+
+/// Everything after the arrays of the cells.
 template <typename Cells>
-std::string finish_piece(Document document, const Cells& cells, std::string_view owner,
-                         const std::vector<std::int32_t>& owners) {
-  document.add("      </PointData>\n      <CellData>\n");
-  document.add_array(owner, 1, owners);
+std::string finish_piece(Document document, const Cells& cells) {
   document.add("      </CellData>\n      <Points>\n");
   document.add_array("Points", 3, cells.points);
   document.add("      </Points>\n      <Cells>\n");
@@ -141,7 +140,9 @@ std::string vtu_content(const Grid& grid, const Fields& fields, const model::Out
   document.add(point_data(wanted.principal ? "principal_1" : wanted.von_mises ? "von_mises" : "", wanted.displacement));
   add_fields(document, fields, wanted);
   document.add_array("body", 1, grid.point_body);
-  return finish_piece(std::move(document), grid, "body", grid.cell_body);
+  begin_cell_data(document);
+  document.add_array("body", 1, grid.cell_body);
+  return finish_piece(std::move(document), grid);
 }
 
 std::string vtu_content(const ContactLines& lines) {
@@ -158,7 +159,20 @@ std::string vtu_content(const ContactLines& lines) {
   document.add_array("displacement", 3, lines.displacement);
   document.add_array("pair", 1, lines.pair);
   document.add_array("contact", 1, lines.contact);
-  return finish_piece(std::move(document), lines, "contact", lines.cell_contact);
+  begin_cell_data(document);
+  document.add_array("contact", 1, lines.cell_contact);
+  return finish_piece(std::move(document), lines);
+}
+
+std::string vtu_content(const CellPolygons& polygons) {
+  Document document = begin_piece(polygons.points.size() / 3, polygons.types.size(), Encoding::appended);
+  document.add(point_data("", true));
+  document.add_array("displacement", 3, polygons.displacement);
+  begin_cell_data(document);
+  document.add_array("body", 1, polygons.body);
+  document.add_array("material", 1, polygons.material);
+  document.add_array("finite_element", 1, polygons.finite_element);
+  return finish_piece(std::move(document), polygons);
 }
 
 FieldCollection::FieldCollection(const std::filesystem::path& path) : file_(path) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "scabo/model/model.hpp"
+#include "scabo/result/cell_polygons.hpp"
 #include "scabo/result/contact_lines.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/grid.hpp"
@@ -19,6 +20,7 @@ inline constexpr std::string_view vtk_mark = "<!-- written by Scabo";
 /// Content of a .vtu file with the requested arrays.
 std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {});
 std::string vtu_content(const ContactLines& lines);
+std::string vtu_content(const CellPolygons& polygons);
 
 /// A .pvd file, which is complete after every call.
 class FieldCollection {

@@ -118,7 +118,7 @@ TEST_P(BarOfOrder, IsPulledByABodyForceThatGrowsAlongIt) {
   const analysis::IncrementResult& increment = solved(solution);
   EXPECT_NEAR(increment.reactions[0].x(), -0.5 * 6 * (25 - 1) / 2, 1e-11);  // on an area of 4 x 1
   for (const double x : {1.5, 2.0, 3.0, 5.0}) {
-    const auto value = value_at(solution, increment, 0, {x, 2.5});
+    const auto value = value_at(solution, increment.fields, 0, {x, 2.5});
     ASSERT_TRUE(value);
     EXPECT_NEAR(value->displacement.x(), 6.0 / 200 * (12.5 * (x - 1) - (x * x * x - 1) / 6), 1e-12);
   }

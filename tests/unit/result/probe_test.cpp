@@ -52,15 +52,15 @@ TEST(Probe, OutsideIsNothing) {
       model_of({elastic("a", pentagon(), 0.7), finite_elements("b", {5.0, 0.0}, {1.0, 1.0}, 0.5), rigid("c", disc)},
                model::Plane::stress));
   const auto increment = increment_of(solution, linear_field(probe_gradient), {1.0, 2.0, 0.1});
-  EXPECT_FALSE(value_at(solution, increment, 0, {3.0, 1.7}));
-  EXPECT_FALSE(value_at(solution, increment, 0, {0.0, 0.0}));
-  EXPECT_FALSE(value_at(solution, increment, 1, {4.99, 0.5}));
-  EXPECT_FALSE(value_at(solution, increment, 2, {9.51, 0.0}));
-  const auto punch = value_at(solution, increment, 2, {9.3, 0.2});
+  EXPECT_FALSE(value_at(solution, increment.fields, 0, {3.0, 1.7}));
+  EXPECT_FALSE(value_at(solution, increment.fields, 0, {0.0, 0.0}));
+  EXPECT_FALSE(value_at(solution, increment.fields, 1, {4.99, 0.5}));
+  EXPECT_FALSE(value_at(solution, increment.fields, 2, {9.51, 0.0}));
+  const auto punch = value_at(solution, increment.fields, 2, {9.3, 0.2});
   ASSERT_TRUE(punch);
   EXPECT_NEAR(punch->displacement.x(), 1.0 - 0.1 * 0.2, 1e-14);
   EXPECT_NEAR(punch->displacement.y(), 2.0 + 0.1 * 0.3, 1e-14);
-  EXPECT_TRUE(value_at(solution, increment, 2, {9.5, 0.0}));
+  EXPECT_TRUE(value_at(solution, increment.fields, 2, {9.5, 0.0}));
 }
 
 }  // namespace
