@@ -9,8 +9,9 @@
 #include <optional>
 #include <tuple>
 
-#include "scabo/mesh/contact_side.hpp"
 #include "scabo/geometry/foot_points.hpp"
+#include "scabo/mesh/contact_side.hpp"
+#include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/node_matching.hpp"
 
 namespace scabo::mesh {
@@ -245,6 +246,7 @@ class Matching {
 
 std::variant<Interface, Diagnostic> match_interface(const model::Model& model, int contact,
                                                     const std::vector<BodyMesh>& bodies) {
+  if (model.contacts[contact].a.kind == model::Place::Kind::face) return crack_interface(model, contact, bodies);
   return Matching(model, contact, bodies).run();
 }
 

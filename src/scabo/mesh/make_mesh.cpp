@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/division.hpp"
 #include "scabo/mesh/grid.hpp"
@@ -11,6 +12,7 @@
 #include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/match.hpp"
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/tip_rings.hpp"
 
 namespace scabo::mesh {
 
@@ -61,15 +63,14 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
   return mistakes;
 }
 
-bool is_edge(const model::Place& place) { return place.kind == model::Place::Kind::edge; }
-
 /// Matches all contacts of the mesh; what is wrong with those that are not added.
 std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
   mesh.interfaces.clear();
   std::vector<Diagnostic> mistakes;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const model::Contact& contact = model.contacts[c];
-    ensure(is_edge(contact.a) && is_edge(contact.b), "a contact is between two edges");
+    const auto is = [&](model::Place::Kind kind) { return contact.a.kind == kind && contact.b.kind == kind; };
+    ensure(is(model::Place::Kind::edge) || is(model::Place::Kind::face), "a contact is between two edges or two faces");
     const auto has_mesh = [&](int b) { return model.bodies[b].rigid || !mesh.bodies[b].nodes.empty(); };
     if (!has_mesh(contact.a.body) || !has_mesh(contact.b.body)) continue;  // its mistake has been reported
     auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
@@ -108,6 +109,13 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
         continue;
       }
       mesh.bodies[b] = std::get<BodyMesh>(std::move(divided));
+      if (const std::vector<int> cracks = cracks_in_contact(model, static_cast<int>(b)); !cracks.empty()) {
+        divide_faces_alike(mesh.bodies[b], cracks);
+        TipRings rings;
+        if (getenv("RC")) rings.count = atoi(getenv("RC"));
+        if (getenv("RQ")) rings.ratio = atof(getenv("RQ"));
+        if (rings.count > 0) add_tip_rings(mesh.bodies[b], body, cracks, rings);
+      }
       nodes += static_cast<double>(mesh.bodies[b].nodes.size());
       continue;
     }

@@ -411,7 +411,7 @@ struct Sides {
 
 std::optional<Sides> sides_to_match(const model::Model& model, const model::Contact& contact,
                                     const std::vector<BodyMesh>& bodies) {
-  if (is_refined_alike(model, contact)) return std::nullopt;
+  if (is_refined_alike(model, contact) || contact.a.kind == model::Place::Kind::face) return std::nullopt;
   for (const model::Place& place : {contact.a, contact.b}) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
     if (body.rigid) return std::nullopt;

@@ -1,4 +1,4 @@
-// Validation of contacts: their two edges and their laws.
+// Validation of contacts: their two edges or faces, and their laws.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,16 +12,21 @@ namespace {
 
 constexpr double largest_coefficient = 1e6;  // for larger values the forces in balance are lost in rounding
 
-/// One side of a contact, an edge without a crack mouth.
+/// One side of a contact: an edge without a crack mouth, or a face of a crack between cells.
 bool check_side(Checking& checking, const std::string& path, const Place& place) {
-  if (checking.is_body(place.body)) checking.touched[static_cast<std::size_t>(place.body)] = 1;
   if (!check_place(checking, path, place)) return false;
   const std::string text = text_of(checking.model, place);
   if (place.kind == Place::Kind::face) {
+    if (has_divided_faces(checking.body(place.body))) return true;
     checking.error(path, "",
-                   fmt::format("'{}' is a side face, which has no nodes between its ends: for contact "
-                               "between the faces of a crack, divide the body along the crack",
-                               text));
+                   checking.body(place.body).cracks.empty()
+                       ? fmt::format("'{}' is a side face, which has no nodes between its ends: move the scaling centre "
+                                     "away from its end",
+                                     text)
+                       : fmt::format("'{}' is a side face, which has no nodes between its ends: for contact between "
+                                     "the faces of a crack, write mesh: {{kind: polygons, ...}}, and give the crack as "
+                                     "a path: [mouth, tip]",
+                                     text));
     return false;
   }
   if (place.kind != Place::Kind::edge) {
@@ -42,12 +47,31 @@ bool check_side(Checking& checking, const std::string& path, const Place& place)
   return true;
 }
 
+/// A contact with a face of a crack is one between its two faces.
+bool check_faces(Checking& checking, const std::string& path, const Contact& contact) {
+  const Place &a = contact.a, &b = contact.b;
+  if (a.kind == b.kind && a.body == b.body && a.index / 2 == b.index / 2 && a.index != b.index) return true;
+  const Place& face = a.kind == Place::Kind::face ? a : b;
+  const std::string crack = checking.body(face.body).name + "." +
+                            checking.body(face.body).cracks[static_cast<std::size_t>(face.index / 2)].name;
+  const char* what = a.kind != b.kind                          ? "a face of a crack and an edge are not in contact"
+                     : a.body == b.body && a.index == b.index ? "both sides are the same face of a crack"
+                                                               : "faces of different cracks are not in contact";
+  checking.error(path, "between", fmt::format("{}: write [{}.left, {}.right]", what, crack, crack));
+  return false;
+}
+
 bool check_sides(Checking& checking, const std::string& path, const Contact& contact) {
+  for (const Place* place : {&contact.a, &contact.b})  // a crack does not hold its body
+    if (checking.is_body(place->body) && place->kind != Place::Kind::face)
+      checking.touched[static_cast<std::size_t>(place->body)] = 1;
   const bool a = check_side(checking, path + ".between.0", contact.a);
   const bool b = check_side(checking, path + ".between.1", contact.b);
   if (!checking.is_body(contact.a.body) || !checking.is_body(contact.b.body)) return false;
   const Body& body_a = checking.body(contact.a.body);
   const Body& body_b = checking.body(contact.b.body);
+  if (contact.a.kind == Place::Kind::face || contact.b.kind == Place::Kind::face)
+    return a && b && check_faces(checking, path, contact);
   if (contact.a.body == contact.b.body) {
     checking.error(path, "between",
                    fmt::format("a body cannot be in contact with itself: both edges belong to '{}'", body_a.name));
@@ -153,7 +177,7 @@ void check_contacts(Checking& checking) {
       continue;
     }
     std::array<int, 4> pair{contact.a.body, contact.a.index, contact.b.body, contact.b.index};
-    if (pair[0] > pair[2]) pair = {pair[2], pair[3], pair[0], pair[1]};
+    if (pair[0] > pair[2] || (pair[0] == pair[2] && pair[1] > pair[3])) pair = {pair[2], pair[3], pair[0], pair[1]};
     const auto [first, is_new] = pairs.emplace(pair, contact.name);
     if (!is_new)
       checking.error_of_key(

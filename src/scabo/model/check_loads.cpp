@@ -41,7 +41,7 @@ const char* kind_text(Place::Kind kind) {
     case Place::Kind::mouth:
       return "a point";
     case Place::Kind::face:
-      return "a side face";
+      return "a face of a crack";
   }
   return "";
 }
@@ -73,7 +73,7 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
     return "";
   }
   if (of.rigid) return fmt::format("'{}' is rigid: apply a force to the body instead", body);
-  if (place.kind != Place::Kind::edge)
+  if (place.kind != Place::Kind::edge)  // faces have been dealt with
     return fmt::format("{} acts on an edge, but this is {}: name an edge", kind, kind_text(place.kind));
   return "";
 }
@@ -143,14 +143,15 @@ bool check_on(Checking& checking, const std::string& path, const Load& load) {
     return false;
   }
   const bool in_powers = std::holds_alternative<FaceTraction>(load.kind);
-  if (in_powers && place.kind == Place::Kind::edge) {
+  const bool divided = place.kind == Place::Kind::face && has_divided_faces(checking.body(place.body));
+  if (in_powers && (place.kind == Place::Kind::edge || divided)) {
     checking.error(path, kind,
-                   fmt::format("powers and points of xi are available only on side faces: on an edge, give a constant "
-                               "{}",
-                               kind));
+                   fmt::format("powers and points of xi are available only on side faces{}: on {}, give a constant {}",
+                               divided ? " of a body that is one super-element" : "",
+                               divided ? "the face of a crack between cells" : "an edge", kind));
     return false;
   }
-  if (!in_powers && place.kind == Place::Kind::face) {
+  if (!in_powers && place.kind == Place::Kind::face && !divided) {
     checking.error(path, kind, fmt::format("on a side face, {} is given as powers of xi", kind));
     return false;
   }

@@ -107,7 +107,7 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
 std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<bool> found(model.bodies.size(), false);
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    if (!mesh.interfaces[c].pairs.empty())
+    if (!mesh.interfaces[c].pairs.empty() && model.contacts[c].a.body != model.contacts[c].b.body)
       for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body})
         found[static_cast<std::size_t>(body)] = true;
   return found;
