@@ -111,10 +111,7 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
       mesh.bodies[b] = std::get<BodyMesh>(std::move(divided));
       if (const std::vector<int> cracks = cracks_in_contact(model, static_cast<int>(b)); !cracks.empty()) {
         divide_faces_alike(mesh.bodies[b], cracks);
-        TipRings rings;
-        if (getenv("RC")) rings.count = atoi(getenv("RC"));
-        if (getenv("RQ")) rings.ratio = atof(getenv("RQ"));
-        if (rings.count > 0) add_tip_rings(mesh.bodies[b], body, cracks, rings);
+        add_tip_rings(mesh.bodies[b], body, cracks);
       }
       nodes += static_cast<double>(mesh.bodies[b].nodes.size());
       continue;

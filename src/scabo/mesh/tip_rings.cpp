@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scabo/mesh/crack_faces.hpp"
 
@@ -19,7 +20,8 @@ struct DividedTip {
 
 LineElement inverted(const LineElement& element) { return {{element.nodes.rbegin(), element.nodes.rend()}}; }
 
-DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings& rings) {
+/// `smallest`: the innermost copy is no smaller than this.
+DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings& rings, double smallest) {
   DividedTip made;
   made.innermost = tip;
   const std::vector<int> own = tip.nodes();
@@ -31,13 +33,16 @@ DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings
   };
 
   std::vector<int> outer = own;
-  double xi = 1.0;
+  double xi = 1.0, shortest = arms.front().norm();
+  for (const Vec2& arm : arms) shortest = std::min(shortest, arm.norm());
   for (int ring = 0; ring < rings.count; ++ring) {
     const double next = xi * rings.ratio;
+    if (next * shortest < smallest) break;
     std::vector<int> inner;
     for (std::size_t i = 0; i < own.size(); ++i) inner.push_back(add(i, next));
-    // Sides from the outer copy to the inner one, of the order of the elements beside them.
+    // Sides from the outer copy to the inner one.
     const auto side = [&](std::size_t i, std::size_t order) {
+      order = std::max(order, static_cast<std::size_t>(rings.order));
       LineElement element{{outer[i]}};
       const std::vector<double> points = lobatto_points(static_cast<int>(order));
       for (std::size_t k = 1; k < order; ++k)
@@ -79,8 +84,11 @@ void add_tip_rings(BodyMesh& mesh, const model::Body& body, const std::vector<in
   std::erase_if(tips, [&](const TipFace& tip) {
     return !tip.last || std::find(cracks.begin(), cracks.end(), tip.crack) == cracks.end();
   });
+  double farthest = 0.0;
+  for (const Vec2& x : mesh.nodes) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
+  const double rounding = std::numeric_limits<double>::epsilon() * farthest;  // of coordinates
   for (const TipFace& tip : tips) {
-    DividedTip divided = divided_tip(mesh.cells[tip.cell], mesh.nodes, rings);
+    DividedTip divided = divided_tip(mesh.cells[tip.cell], mesh.nodes, rings, 1e5 * rounding);
     mesh.cells[tip.cell] = divided.innermost;
     mesh.cells.insert(mesh.cells.end(), divided.cells.begin(), divided.cells.end());
     // The last side face is run towards the tip, the first one away from it.

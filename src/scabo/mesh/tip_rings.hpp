@@ -17,9 +17,13 @@
 
 namespace scabo::mesh {
 
+/// With these values a crack that slides everywhere has K_II to 1.3e-4 and |K_I| below 8e-5 K_II, for a cell of a tenth
+/// of its half length; the number of the rings determines K_I, their ratio and order the rest
+/// (docs/methods/22_many_cells.md).
 struct TipRings {
-  int count = 24;      ///< 1 or more
-  double ratio = 0.5;  ///< of the sizes of neighbouring copies, between 0 and 1
+  int count = 14;      ///< 1 or more; fewer where the coordinates do not have enough digits
+  double ratio = 0.3;  ///< of the sizes of neighbouring copies, between 0 and 1
+  int order = 4;       ///< of the sides between copies, at least; otherwise that of the boundary elements
 };
 
 /// Divides the cells at the tips of `cracks`.
