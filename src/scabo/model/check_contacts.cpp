@@ -66,7 +66,9 @@ bool check_sides(Checking& checking, const std::string& path, const Contact& con
     if (checking.is_body(place->body) && place->kind != Place::Kind::face)
       checking.touched[static_cast<std::size_t>(place->body)] = 1;
   const bool a = check_side(checking, path + ".between.0", contact.a);
-  const bool b = check_side(checking, path + ".between.1", contact.b);
+  const bool told = !a && contact.a.kind == Place::Kind::face && contact.b.kind == Place::Kind::face &&
+                    contact.a.body == contact.b.body;
+  const bool b = !told && check_side(checking, path + ".between.1", contact.b);
   if (!checking.is_body(contact.a.body) || !checking.is_body(contact.b.body)) return false;
   const Body& body_a = checking.body(contact.a.body);
   const Body& body_b = checking.body(contact.b.body);

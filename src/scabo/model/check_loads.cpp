@@ -62,7 +62,8 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
     if (of.outside)
       return fmt::format("'{}' is unbounded: loads can act only on its inner boundary, not on its side faces", body);
     if (kind == "force")
-      return "a force cannot act on a side face: use a traction, which is the force divided by length and thickness";
+      return fmt::format("a force cannot act on a {}: use a traction, which is the force divided by length and thickness",
+                         has_divided_faces(of) ? "face of a crack" : "side face");
     return "";
   }
   if (kind == "force") {
@@ -73,7 +74,7 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
     return "";
   }
   if (of.rigid) return fmt::format("'{}' is rigid: apply a force to the body instead", body);
-  if (place.kind != Place::Kind::edge)  // faces have been dealt with
+  if (place.kind != Place::Kind::edge)
     return fmt::format("{} acts on an edge, but this is {}: name an edge", kind, kind_text(place.kind));
   return "";
 }
