@@ -25,8 +25,8 @@ class CrackContact : public testing::TestWithParam<const char*> {
  protected:
   std::string kind() const { return GetParam(); }
 
-  /// A square plate of half width 100 under uniform stress, with a crack of half length 1 at an angle at its centre: the
-  /// finite width adds 1.4e-4 to the factors.
+  /// A square plate of half width 100 under uniform stress, with a crack of half length 1 at an angle at its centre:
+  /// the finite width adds 1.4e-4 to the factors.
   std::string plate(double angle, double vertical, const std::string& more, int order = 3) const {
     const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
     return fmt::format(R"(scabo: 1
@@ -47,8 +47,8 @@ loads:
   }
 
   static std::string contact(double friction, const std::string& more = "") {
-    return fmt::format("contacts: {{faces: {{between: [plate.flaw.left, plate.flaw.right], friction: {}{}}}}}", friction,
-                       more);
+    return fmt::format("contacts: {{faces: {{between: [plate.flaw.left, plate.flaw.right], friction: {}{}}}}}",
+                       friction, more);
   }
 
   /// A square of side 6 under the uniform stress (-0.5, -1, 0.2), with cracks; all friction high enough to stick.
@@ -114,14 +114,17 @@ double deviation(const analysis::StaticSolution& solution, double sx, double sy,
   return worst / largest;
 }
 
-// K_I = p sqrt(pi a) of an inner pressure, K_II = q sqrt(pi a) of an inner shear: the cells at the tips take the load on
-// their side faces exactly.
+// K_I = p sqrt(pi a) of an inner pressure, K_II = q sqrt(pi a) of an inner shear: the cells at the tips take the load
+// on their side faces exactly.
 TEST_P(CrackContact, LoadsOnFaces) {
-  const auto inside = run(plate(30, 0, "  left: {on: plate.flaw.left, pressure: 2}\n"
-                                       "  right: {on: plate.flaw.right, pressure: 2}"));
+  const auto inside = run(plate(30, 0,
+                                "  left: {on: plate.flaw.left, pressure: 2}\n"
+                                "  right: {on: plate.flaw.right, pressure: 2}"));
   const double c = 2.0 * std::cos(30 * degrees), s = 2.0 * std::sin(30 * degrees);
-  const auto shear = run(plate(30, 0, fmt::format("  left: {{on: plate.flaw.left, traction: [{0}, {1}]}}\n"
-                                                  "  right: {{on: plate.flaw.right, traction: [-{0}, -{1}]}}", c, s)));
+  const auto shear = run(plate(30, 0,
+                               fmt::format("  left: {{on: plate.flaw.left, traction: [{0}, {1}]}}\n"
+                                           "  right: {{on: plate.flaw.right, traction: [-{0}, -{1}]}}",
+                                           c, s)));
   for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
     EXPECT_NEAR(factors_at(last(inside), end).K_I, 2.0 * root_pi, 3e-4 * 2.0 * root_pi);
     EXPECT_NEAR(factors_at(last(inside), end).K_II, 0.0, 1e-4);
@@ -133,9 +136,10 @@ TEST_P(CrackContact, LoadsOnFaces) {
 // A pressure from inside that is larger than that from outside opens the crack, and one that is smaller does not.
 TEST_P(CrackContact, PressureInAContact) {
   for (const auto& [inside, exact] : {std::pair(1.5, 0.5), std::pair(0.5, 0.0)}) {
-    const auto solution = run(plate(0, -1, fmt::format("  left: {{on: plate.flaw.left, pressure: {0}}}\n"
-                                                       "  right: {{on: plate.flaw.right, pressure: {0}}}\n{1}",
-                                                       inside, contact(0.3))));
+    const auto solution = run(plate(0, -1,
+                                    fmt::format("  left: {{on: plate.flaw.left, pressure: {0}}}\n"
+                                                "  right: {{on: plate.flaw.right, pressure: {0}}}\n{1}",
+                                                inside, contact(0.3))));
     for (const char* end : {"plate.flaw.start", "plate.flaw.end"})
       EXPECT_NEAR(factors_at(last(solution), end).K_I, exact * root_pi, 4e-4) << inside;
     const analysis::ContactResult& faces = contact_of(last(solution));
@@ -244,6 +248,39 @@ TEST_P(CrackContact, CracksThatMeetAndStickAreNoCracks) {
   }
 }
 
+// Error estimate, with a force at the mouth, beside which elements of one face are not refined; and refinement. The
+// work of the loads on a fine mesh is the energy that counts.
+TEST_P(CrackContact, ErrorIsEstimated) {
+  const auto model = [&](const std::string& mesh, const std::string& force) {
+    return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{rectangle: {{corner: [-3, -3], size: [6, 6]}}}}
+    cracks: [{{name: flaw, path: [[-3, -0.5], [0, 0.5]]}}]
+    mesh: {{kind: {}, {}}}
+supports: [{{on: plate.bottom, fix: [x, y]}}]
+loads: {{press: {{on: plate.top, traction: [0, -1]}}{}}}
+contacts: {{c: {{between: [plate.flaw.left, plate.flaw.right], friction: 0.2}}}}
+output: {{error: true}}
+)",
+                       kind(), mesh, force);
+  };
+  const auto forced =
+      run(model("size: 0.5, order: 2", ", poke: {on: {body: plate, near: [-3, -0.5]}, force: [0.1, 0]}"));
+  ASSERT_TRUE(last(forced).error);
+  EXPECT_LT(last(forced).error->relative, 0.03);
+  const auto refined = run(model("size: 1, order: 2, tolerance: 5e-3", "")),
+             fine = run(model("size: 0.4, order: 4", ""));
+  ASSERT_TRUE(last(refined).error && last(fine).error);
+  EXPECT_LT(last(refined).error->relative, 5e-3);
+  EXPECT_LT(last(fine).error->relative, 5e-3);
+  EXPECT_NEAR(last(refined).energy.external / last(fine).energy.external, 1.0, 1e-4);
+  EXPECT_NEAR(factors_at(last(refined), "plate.flaw.end").K_II / factors_at(last(fine), "plate.flaw.end").K_II, 1.0,
+              0.01);
+}
+
 // A sliding crack in a plate that is turned as a whole.
 TEST(CrackContactTurned, SameForces) {
   std::vector<Eigen::Vector3d> forces;
@@ -251,7 +288,8 @@ TEST(CrackContactTurned, SameForces) {
   for (const double angle : {0.0, 30.0}) {
     const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
     const auto at = [&](double x, double y) { return fmt::format("[{:.17g}, {:.17g}]", c * x - s * y, s * x + c * y); };
-    const auto solution = run(fmt::format(R"(scabo: 1
+    const auto solution =
+        run(fmt::format(R"(scabo: 1
 materials: {{steel: {{young: 200, poisson: 0.3}}}}
 bodies:
   plate:
@@ -263,8 +301,7 @@ supports: [{{on: plate.edge_1, fix: [x, y]}}]
 loads: {{press: {{on: plate.edge_3, traction: {7}}}}}
 contacts: {{c: {{between: [plate.flaw.left, plate.flaw.right], friction: 0.3}}}}
 )",
-                                          at(-3, -3), at(3, -3), at(3, 3), at(-3, 3), at(-1, -0.6), at(0, 0), at(1, 0.8),
-                                          at(0, -1)));
+                        at(-3, -3), at(3, -3), at(3, 3), at(-3, 3), at(-1, -0.6), at(0, 0), at(1, 0.8), at(0, -1)));
     const Eigen::Vector3d force = force_of(contact_of(last(solution)));
     forces.emplace_back(c * force.x() + s * force.y(), -s * force.x() + c * force.y(), force.z());
     K_II.push_back(factors_at(last(solution), "plate.flaw.end").K_II);

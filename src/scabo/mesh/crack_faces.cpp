@@ -40,7 +40,8 @@ LineElement against(const LineElement& element) { return {{element.nodes.rbegin(
 }  // namespace
 
 std::vector<FacePair> face_pairs(const BodyMesh& mesh, int crack) {
-  const std::vector<LineElement>&left = elements_of_face(mesh, crack, true), &right = elements_of_face(mesh, crack, false);
+  const std::vector<LineElement>&left = elements_of_face(mesh, crack, true),
+        &right = elements_of_face(mesh, crack, false);
   ensure(left.size() == right.size(), "the two faces of a crack have the same elements");
   std::vector<FacePair> pairs;
   std::optional<LobattoBasis> basis;
@@ -93,8 +94,7 @@ std::vector<TipFace> tip_faces(const model::Body& body, const BodyMesh& mesh) {
       for (const bool at_end : {false, true}) {
         if (path.empty() || cell.centre != (at_end ? path.back() : path.front())) continue;
         // The boundary runs counter-clockwise around the tip: into the tip, its end lies on the left of the crack.
-        for (const bool last : {false, true})
-          faces.push_back({c, static_cast<int>(k), at_end, last, last == at_end});
+        for (const bool last : {false, true}) faces.push_back({c, static_cast<int>(k), at_end, last, last == at_end});
       }
     }
   }
@@ -103,7 +103,8 @@ std::vector<TipFace> tip_faces(const model::Body& body, const BodyMesh& mesh) {
 
 void divide_faces_alike(BodyMesh& mesh, const std::vector<int>& cracks) {
   for (const int crack : cracks) {
-    const std::vector<LineElement> left = elements_of_face(mesh, crack, true), right = elements_of_face(mesh, crack, false);
+    const std::vector<LineElement> left = elements_of_face(mesh, crack, true),
+                                   right = elements_of_face(mesh, crack, false);
     std::vector<LineElement> facing;  // those of the right face in the direction of the left one
     for (auto element = right.rbegin(); element != right.rend(); ++element) facing.push_back(against(*element));
     const auto end_of = [&](const LineElement& element) {

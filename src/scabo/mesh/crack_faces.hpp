@@ -6,7 +6,8 @@
 //
 //  - The normal of a pair is that of the segments that meet there, weighted like nodal forces: at a kink their mean.
 //  - Where other cracks begin, end or cross, every crack has a pair of its own for each two nodes that face each other.
-//  - Pairs end where a tip's cell begins, because a tip is the scaling centre of an open cell, which has no nodes on its
+//  - Pairs end where a tip's cell begins, because a tip is the scaling centre of an open cell, which has no nodes on
+//  its
 //    side faces. tip_rings.hpp takes the pairs further towards the tip.
 #pragma once
 

@@ -10,8 +10,8 @@ namespace scabo::mesh {
 
 namespace {
 
-/// What becomes of a tip's cell: the innermost copy, the cells of the rings, and their sides on the two side faces, from
-/// the boundary towards the tip.
+/// What becomes of a tip's cell: the innermost copy, the cells of the rings, and their sides on the two side faces,
+/// from the boundary towards the tip.
 struct DividedTip {
   Cell innermost;
   std::vector<Cell> cells;

@@ -75,8 +75,7 @@ TEST_P(CrackFaces, RunAlongThePath) {
   EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(left.front().nodes.front())], Vec2(0, 1));
   EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(right.back().nodes.back())], Vec2(0, 1));
   for (const auto* face : {&left, &right})
-    for (std::size_t k = 0; k + 1 < face->size(); ++k)
-      EXPECT_EQ((*face)[k].nodes.back(), (*face)[k + 1].nodes.front());
+    for (std::size_t k = 0; k + 1 < face->size(); ++k) EXPECT_EQ((*face)[k].nodes.back(), (*face)[k + 1].nodes.front());
   // Without what belongs to the cell at the tip.
   const double whole = 1.0 + std::sqrt(1.25);
   EXPECT_LT(length_of(mesh, left), whole - 0.05);
@@ -102,8 +101,7 @@ TEST_P(CrackFaces, RunAlongThePath) {
 
 // Two cracks that end on a third one from both sides: it has a pair for each two nodes that face each other.
 TEST_P(CrackFaces, OfCracksThatMeet) {
-  const model::Body body =
-      block(GetParam(), {{{1, 1}, {3, 1}}, {{2, 1}, {2.2, 1.7}}, {{1.5, 1}, {1.4, 0.5}}});
+  const model::Body body = block(GetParam(), {{{1, 1}, {3, 1}}, {{2, 1}, {2.2, 1.7}}, {{1.5, 1}, {1.4, 0.5}}});
   const BodyMesh mesh = mesh_of(body);
   const auto at = [&](int crack, const Vec2& x) {
     const std::vector<FacePair> pairs = face_pairs(mesh, crack);
@@ -177,7 +175,8 @@ TEST(CrackFacesAlike, AreDivided) {
   const std::size_t before = mesh.faces[1].size();
   LineElement& old = mesh.faces[1][1];
   const LineElement whole = old;
-  const Vec2 a = mesh.nodes[static_cast<std::size_t>(old.nodes.front())], b = mesh.nodes[static_cast<std::size_t>(old.nodes.back())];
+  const Vec2 a = mesh.nodes[static_cast<std::size_t>(old.nodes.front())],
+             b = mesh.nodes[static_cast<std::size_t>(old.nodes.back())];
   std::vector<LineElement> halves;
   int from = old.nodes.front();
   for (const double t : {0.0, 0.5}) {
@@ -208,8 +207,9 @@ TEST(CrackFacesAlike, AreDivided) {
   EXPECT_EQ(mesh.faces[1].size(), before + 1);
   ASSERT_EQ(mesh.faces[0].size(), before + 1);
   for (const FacePair& pair : face_pairs(mesh, 0))
-    EXPECT_LT((mesh.nodes[static_cast<std::size_t>(pair.left)] - mesh.nodes[static_cast<std::size_t>(pair.right)]).norm(),
-              1e-12);
+    EXPECT_LT(
+        (mesh.nodes[static_cast<std::size_t>(pair.left)] - mesh.nodes[static_cast<std::size_t>(pair.right)]).norm(),
+        1e-12);
 }
 
 }  // namespace
