@@ -9,6 +9,7 @@
 
 #include "scabo/analysis/refinement.hpp"
 #include "scabo/element/two_orders.hpp"
+#include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/match.hpp"
 
 namespace scabo::analysis {
@@ -109,6 +110,23 @@ Flags left_out_cells(const StaticSolution& solution) {
   return left_out;
 }
 
+/// Elements of the faces of cracks in contact that face each other are frozen together.
+void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::size_t body, std::vector<bool>& frozen) {
+  const std::vector<int> cracks = mesh::cracks_in_contact(model, static_cast<int>(body));
+  if (cracks.empty() || frozen.empty()) return;
+  std::map<std::vector<int>, std::size_t> number;  // of an element, by its nodes; faces run as the boundaries of cells do
+  for (const mesh::Cell& cell : mesh.bodies[body].cells)
+    for (const mesh::LineElement& element : cell.boundary) number.emplace(element.nodes, number.size());
+  for (const int crack : cracks) {
+    const auto& right = mesh.bodies[body].faces[static_cast<std::size_t>(2 * crack)];
+    const auto& left = mesh.bodies[body].faces[static_cast<std::size_t>(2 * crack + 1)];
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const std::size_t a = number.at(left[k].nodes), b = number.at(right[right.size() - 1 - k].nodes);
+      frozen[a] = frozen[b] = frozen[a] || frozen[b];
+    }
+  }
+}
+
 /// Elements beside singular places, and those that cannot be changed without separating pairs of nodes.
 Flags frozen_elements(const StaticSolution& solution) {
   const mesh::Mesh& mesh = solution.mesh;
@@ -142,6 +160,7 @@ Flags frozen_elements(const StaticSolution& solution) {
     else if (divided_a && (flag(a) || flag(b)))
       flag(a) = flag(b) = true;
   }
+  for (std::size_t b = 0; b < frozen.size(); ++b) freeze_faces_alike(solution.model, mesh, b, frozen[b]);
   return frozen;
 }
 

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <set>
+
+#include "scabo/mesh/crack_faces.hpp"
 
 namespace scabo::analysis {
 
@@ -40,6 +43,17 @@ bool in_resonance(const element::StressIntensity& factors, const std::vector<ele
              return std::abs(exponent - load.power) < resonance;
            });
   });
+}
+
+/// Cells at the tips of cracks whose faces are in contact. They are the innermost of many rings, so small that T is lost
+/// in the discretised singular field, and without the contact's tractions on their own faces.
+std::set<std::size_t> tips_in_contact(const StaticSolution& solution, std::size_t body) {
+  std::set<std::size_t> cells;
+  const std::vector<int> cracks = mesh::cracks_in_contact(solution.model, static_cast<int>(body));
+  if (cracks.empty()) return cells;
+  for (const mesh::TipFace& tip : mesh::tip_faces(solution.model.bodies[body], solution.mesh.bodies[body]))
+    if (std::find(cracks.begin(), cracks.end(), tip.crack) != cracks.end()) cells.insert(tip.cell);
+  return cells;
 }
 
 void take_back(element::StressIntensity& factors) {
@@ -84,15 +98,19 @@ std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
 
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment) {
   std::vector<CrackResult> results;
-  for (std::size_t b = 0; b < solution.cells.size(); ++b)
+  for (std::size_t b = 0; b < solution.cells.size(); ++b) {
+    const std::set<std::size_t> touching = tips_in_contact(solution, b);
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
       const auto& super_element = solution.cells[b][c];
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
       const std::vector<element::RadialLoad>& loads = element::loads_in(increment.fields.interior[b], c).loads;
       const Vector u = increment.fields.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
       results.push_back({name_of(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre), super_element->corner().of(u, loads)});
-      if (in_resonance(results.back().factors, loads)) take_back(results.back().factors);
+      element::StressIntensity& factors = results.back().factors;
+      if (touching.contains(c)) factors.T_left.reset(), factors.T_right.reset();
+      if (in_resonance(factors, loads)) take_back(factors);
     }
+  }
   return results;
 }
 

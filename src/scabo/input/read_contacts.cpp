@@ -21,7 +21,8 @@ constexpr const char* tie_example = "{between: [wall.bottom, base.top]}";
 /// One side; nothing if it is broken.
 std::optional<Place> read_side(Reading& reading, const Value& value) {
   const ReadPlace read = read_place(reading, value);
-  if (read.body >= 0) reading.state(read.body).touched = true;
+  const bool face = read.place && read.place->kind == Place::Kind::face;  // a crack does not hold its body
+  if (read.body >= 0 && !face) reading.state(read.body).touched = true;
   return read.place;
 }
 

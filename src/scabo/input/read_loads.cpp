@@ -62,8 +62,8 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   if (on) {
     load.on = read_place(reading, *on).place;
   }
-  const bool on_face =
-      load.on && load.on->kind == Place::Kind::face && (kind == "traction" || kind == "pressure");
+  const bool on_face = load.on && load.on->kind == Place::Kind::face && (kind == "traction" || kind == "pressure") &&
+                       !has_divided_faces(reading.body(load.on->body));
   // A map cannot be read if the place is not known: it may contain powers of xi or coefficients of x and y.
   const bool value_known = !on || load.on || map.get(kind)->node->kind != Node::Kind::map;
   const auto value = value_known ? read_kind(reading, *map.get(kind), kind, on_face) : std::nullopt;

@@ -35,16 +35,18 @@ int face_of_edge(const Body& body, int edge) {
   return edge == (corner + count - 1) % count ? (body.outside ? 0 : 1) : -1;
 }
 
-/// Faces and mouths of a crack: looking from the mouth towards the tip, `left` is the end of the boundary.
-void add_crack_places(const Crack& crack, std::vector<std::pair<std::string, Place>>& places) {
+/// Faces of crack number `number`, and its mouths if it ends at the scaling centre: looking from the mouth towards the
+/// tip, `left` is the end of the boundary.
+void add_crack_places(const Crack& crack, int number, std::vector<std::pair<std::string, Place>>& places) {
   const auto add = [&](const char* part, Place::Kind kind, int index) {
     Place place;
     place.kind = kind;
     place.index = index;
     places.emplace_back(crack.name + part, place);
   };
-  add(".left", Place::Kind::face, 1);
-  add(".right", Place::Kind::face, 0);
+  add(".left", Place::Kind::face, 2 * number + 1);
+  add(".right", Place::Kind::face, 2 * number);
+  if (!crack.path.empty()) return;
   add(".mouth_left", Place::Kind::mouth, 1);
   add(".mouth_right", Place::Kind::mouth, 0);
 }
@@ -65,10 +67,10 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
   if (!reading.state(body).shape) return result;
   const Outline& outline = reading.body(body).outline;
   std::vector<std::string> known;
-  for (const Crack& crack : reading.body(body).cracks) {
-    if (!crack.path.empty()) continue;  // its faces are not places
+  const std::vector<Crack>& cracks = reading.body(body).cracks;
+  for (std::size_t c = 0; c < cracks.size(); ++c) {
     std::vector<std::pair<std::string, Place>> places;
-    add_crack_places(crack, places);
+    add_crack_places(cracks[c], static_cast<int>(c), places);
     for (auto& [name, place] : places) {
       known.push_back(name);
       if (name != part) continue;

@@ -70,8 +70,9 @@ BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
       element.nodes.push_back(shared(old.nodes.back()));
       element_of[ends_of(old)] = element;
     }
-  for (std::vector<LineElement>& edge : fine.edges)
-    for (LineElement& element : edge) element = *find_element(element_of, ends_of(element), turned);
+  for (auto* lines : {&fine.edges, &fine.faces})
+    for (std::vector<LineElement>& edge : *lines)
+      for (LineElement& element : edge) element = *find_element(element_of, ends_of(element), turned);
   for (int& corner : fine.corners)
     if (corner >= 0) corner = number.at(corner);
   for (int& node : fine.mouth)
@@ -82,6 +83,7 @@ BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
 /// Pairs the elements of one contact.
 void pair_elements(const Joint& contact, const Interface& interface, const Mesh& mesh,
                    PairedElements& paired) {
+  if (contact.a.kind == model::Place::Kind::face) return;  // of no edge
   std::map<int, int> b_of, a_of;
   for (const ContactPair& pair : interface.pairs) {
     if (pair.node_a < 0 || pair.node_b < 0) return;  // one side is rigid and has no elements

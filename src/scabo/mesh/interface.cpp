@@ -9,8 +9,9 @@
 #include <optional>
 #include <tuple>
 
-#include "scabo/mesh/contact_side.hpp"
 #include "scabo/geometry/foot_points.hpp"
+#include "scabo/mesh/contact_side.hpp"
+#include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/node_matching.hpp"
 
 namespace scabo::mesh {
@@ -256,6 +257,8 @@ std::variant<Interface, Diagnostic> match_interface(const model::Model& model, c
 
 std::variant<Interface, Diagnostic> match_interface(const model::Model& model, int contact,
                                                     const std::vector<BodyMesh>& bodies) {
+  if (model.contacts[static_cast<std::size_t>(contact)].a.kind == model::Place::Kind::face)
+    return crack_interface(model, contact, bodies);
   auto matched = match_interface(model, joint_of(model.contacts[static_cast<std::size_t>(contact)]), bodies);
   if (Interface* interface = std::get_if<Interface>(&matched)) interface->contact = contact;
   return matched;
@@ -297,8 +300,8 @@ std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
   };
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const model::Contact& contact = model.contacts[c];
-    const auto is_edge = [](const model::Place& place) { return place.kind == model::Place::Kind::edge; };
-    ensure(is_edge(contact.a) && is_edge(contact.b), "a contact is between two edges");
+    const auto is = [&](model::Place::Kind kind) { return contact.a.kind == kind && contact.b.kind == kind; };
+    ensure(is(model::Place::Kind::edge) || is(model::Place::Kind::face), "a contact is between two edges or two faces");
     if (!has_mesh(contact.a) || !has_mesh(contact.b)) continue;
     auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
     if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched))

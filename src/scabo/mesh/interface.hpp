@@ -19,6 +19,8 @@
 // exact normal of the rigid edge there, directed out of A. Only the named edge counts, not its neighbours.
 //
 // g < 0 is an overlap, which is treated as an interference fit.
+//
+// The two faces of a crack have the same points (crack_faces.hpp).
 #pragma once
 
 #include <variant>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/division.hpp"
 #include "scabo/mesh/grid.hpp"
@@ -11,6 +12,7 @@
 #include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/match.hpp"
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/tip_rings.hpp"
 
 namespace scabo::mesh {
 
@@ -87,6 +89,10 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
         continue;
       }
       mesh.bodies[b] = std::get<BodyMesh>(std::move(divided));
+      if (const std::vector<int> cracks = cracks_in_contact(model, static_cast<int>(b)); !cracks.empty()) {
+        divide_faces_alike(mesh.bodies[b], cracks);
+        add_tip_rings(mesh.bodies[b], body, cracks);
+      }
       nodes += static_cast<double>(mesh.bodies[b].nodes.size());
       continue;
     }

@@ -217,7 +217,8 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes) {
         line.right = region_at(body, body.regions[k].outline.edges.front().at(0.5), k);
         made.domain.lines.push_back(std::move(line));
       }
-  for (const std::vector<Vec2>& path : cracks.paths())
+  for (const std::vector<Vec2>& path : cracks.paths()) {
+    made.lines_of_crack.emplace_back();
     for (std::size_t k = 0; k + 1 < path.size(); ++k) {
       geometry::Edge edge;
       edge.start = path[k];
@@ -226,8 +227,10 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes) {
       DomainLine line = part_of(edge, breaks, 0, breaks.size() - 1);
       line.crack = true;
       line.left = line.right = region_at(body, edge.at(0.5));
+      made.lines_of_crack.back().push_back(made.domain.lines.size());
       made.domain.lines.push_back(std::move(line));
     }
+  }
   made.domain.centres = cracks.tips();
   made.domain.size = [&body, &sizes](const Vec2& x) { return wanted_size(body, sizes, x); };
   return made;
@@ -356,6 +359,21 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
       for (std::size_t k = 0; k + 1 < polygons.left[line].size(); ++k)
         for (LineElement& element : sides(polygons.left[line][k], polygons.left[line][k + 1]))
           elements.push_back(std::move(element));
+  }
+  for (const std::vector<std::size_t>& lines : of.lines_of_crack) {
+    std::vector<LineElement> left, right;
+    for (const std::size_t line : lines) {
+      const std::vector<int>&here = polygons.left[line], &there = polygons.right[line];
+      for (std::size_t k = 0; k + 1 < here.size(); ++k)
+        for (LineElement& element : sides(here[k], here[k + 1])) left.push_back(std::move(element));
+      for (std::size_t k = 0; k + 1 < there.size(); ++k) {
+        std::vector<LineElement> elements = sides(there[k + 1], there[k]);
+        right.insert(right.end(), elements.rbegin(), elements.rend());
+      }
+    }
+    std::reverse(right.begin(), right.end());
+    mesh.faces.push_back(std::move(right));
+    mesh.faces.push_back(std::move(left));
   }
   return mesh;
 }

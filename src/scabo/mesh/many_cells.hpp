@@ -17,7 +17,8 @@ double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& 
 /// `sizes`.
 struct BodyDomain {
   Domain domain;  ///< region 0 is the body outside of its regions, and region k + 1 is body.regions[k]
-  std::vector<std::vector<std::size_t>> lines_of_edge;  ///< the lines of each edge of the outline, in its direction
+  std::vector<std::vector<std::size_t>> lines_of_edge;   ///< the lines of each edge of the outline, in its direction
+  std::vector<std::vector<std::size_t>> lines_of_crack;  ///< the lines of each crack, in the direction of its path
 };
 BodyDomain domain_of(const model::Body& body, const SizeField& sizes);
 

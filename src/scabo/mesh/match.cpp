@@ -412,7 +412,7 @@ struct Sides {
 
 std::optional<Sides> sides_to_match(const model::Model& model, const Joint& joint,
                                     const std::vector<BodyMesh>& bodies) {
-  if (is_refined_alike(model, joint)) return std::nullopt;
+  if (is_refined_alike(model, joint) || joint.a.kind == model::Place::Kind::face) return std::nullopt;
   for (const model::Place& place : {joint.a, joint.b}) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
     if (body.rigid) return std::nullopt;

@@ -42,6 +42,10 @@ struct BodyMesh {
   /// The elements of every edge of the outline, in its order and direction; none for a side face. The two elements at
   /// the mouth of a crack have different nodes there.
   std::vector<std::vector<LineElement>> edges;
+  /// The elements of the two faces of every crack between cells, face 2 k on the right of crack k and 2 k + 1 on its
+  /// left; they run as a boundary does, the left face along the path of the crack and the right one against it.
+  /// (crack_faces.hpp)
+  std::vector<std::vector<LineElement>> faces;
   std::vector<int> corners;           ///< node of every corner of the outline; -1 at the scaling centre
   std::array<int, 2> mouth{-1, -1};   ///< the nodes of an open super-element at its first and last side face
 
@@ -68,7 +72,7 @@ struct Interface {
 /// The nodes of a place, without repetition.
 struct PlaceNodes {
   std::vector<int> nodes;             ///< node numbers of the body; empty for a rigid body
-  std::vector<LineElement> elements;  ///< of an edge; empty otherwise
+  std::vector<LineElement> elements;  ///< of an edge or the face of a crack; empty otherwise
 };
 
 struct Mesh {

@@ -52,7 +52,10 @@ PlaceNodes nodes_of(const model::Place& place, const Mesh& mesh) {
       found.nodes = {body.corners.at(place.index)};
       break;
     case model::Place::Kind::face:
-      break;  // not divided
+      if (body.faces.empty()) break;  // a side face is not divided
+      found.elements = body.faces.at(static_cast<std::size_t>(place.index));
+      if (!found.elements.empty()) found.nodes = nodes_along(found.elements);
+      break;
     case model::Place::Kind::mouth:
       found.nodes = {body.mouth.at(static_cast<std::size_t>(place.index))};
       break;

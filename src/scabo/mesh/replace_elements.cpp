@@ -59,11 +59,12 @@ void replace_in_cell(Cell& cell, const Replacements& replacements, const std::ve
 }  // namespace
 
 void replace_elements(BodyMesh& mesh, const Replacements& replacements) {
-  for (std::vector<LineElement>& edge : mesh.edges) {
-    std::vector<LineElement> line;
-    for (const LineElement& element : edge) append(element, replacements, line);
-    edge = std::move(line);
-  }
+  for (auto* lines : {&mesh.edges, &mesh.faces})
+    for (std::vector<LineElement>& edge : *lines) {
+      std::vector<LineElement> line;
+      for (const LineElement& element : edge) append(element, replacements, line);
+      edge = std::move(line);
+    }
   for (Cell& cell : mesh.cells) {
     const bool concerned = std::any_of(cell.boundary.begin(), cell.boundary.end(), [&](const LineElement& element) {
       return replacements.contains(element.nodes) || replacements.contains(turned_round(element).nodes);
@@ -128,7 +129,8 @@ BodyMesh renumbered(const BodyMesh& mesh) {
       for (int& node : element.nodes) renumber(node);
   };
   for (Cell& cell : made.cells) renumber_elements(cell.boundary);
-  for (std::vector<LineElement>& edge : made.edges) renumber_elements(edge);
+  for (auto* lines : {&made.edges, &made.faces})
+    for (std::vector<LineElement>& edge : *lines) renumber_elements(edge);
   for (int& corner : made.corners) renumber(corner);
   for (int& node : made.mouth) renumber(node);
   return made;

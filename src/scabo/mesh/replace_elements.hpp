@@ -11,7 +11,7 @@ namespace scabo::mesh {
 /// For the nodes of a line element, the elements that take its place, in its direction and from end to end.
 using Replacements = std::map<std::vector<int>, std::vector<LineElement>>;
 
-/// Replaces line elements in edges and cells, in whichever direction they run there. Finite elements that would no
+/// Replaces line elements in edges, faces of cracks and cells, in whichever direction they run there. Finite elements that would no
 /// longer be ones become super-elements.
 void replace_elements(BodyMesh& mesh, const Replacements& replacements);
 

@@ -1,4 +1,4 @@
-// Validation of contacts and ties: their two edges, and the laws of contacts.
+// Validation of contacts and ties: their two edges or faces, and the laws of contacts.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,16 +12,21 @@ namespace {
 
 constexpr double largest_coefficient = 1e6;  // for larger values the forces in balance are lost in rounding
 
-/// One side of a contact or tie (`what`), an edge without a crack mouth.
+/// One side of a contact or tie (`what`): an edge without a crack mouth, or the face of a crack between cells.
 bool check_side(Checking& checking, const std::string& path, const char* what, const Place& place) {
-  if (checking.is_body(place.body)) checking.touched[static_cast<std::size_t>(place.body)] = 1;
   if (!check_place(checking, path, place)) return false;
   const std::string text = text_of(checking.model, place);
   if (place.kind == Place::Kind::face) {
+    if (has_divided_faces(checking.body(place.body))) return true;
     checking.error(path, "",
-                   fmt::format("'{}' is a side face, which has no nodes between its ends: for contact "
-                               "between the faces of a crack, divide the body along the crack",
-                               text));
+                   checking.body(place.body).cracks.empty()
+                       ? fmt::format("'{}' is a side face, which has no nodes between its ends: move the scaling centre "
+                                     "away from its end",
+                                     text)
+                       : fmt::format("'{}' is a side face, which has no nodes between its ends: for contact between "
+                                     "the faces of a crack, write mesh: {{kind: polygons, ...}}, and give the crack as "
+                                     "a path: [mouth, tip]",
+                                     text));
     return false;
   }
   if (place.kind != Place::Kind::edge) {
@@ -42,11 +47,33 @@ bool check_side(Checking& checking, const std::string& path, const char* what, c
   return true;
 }
 
+/// A contact with a face of a crack is one between its two faces.
+bool check_faces(Checking& checking, const std::string& path, const char* what, const Place& a, const Place& b) {
+  if (std::string_view(what) == "tie") {
+    checking.error(path, "between", "the faces of a crack cannot be tied: use edges, or leave out the crack");
+    return false;
+  }
+  if (a.kind == b.kind && a.body == b.body && a.index / 2 == b.index / 2 && a.index != b.index) return true;
+  const Place& face = a.kind == Place::Kind::face ? a : b;
+  const std::string crack = checking.body(face.body).name + "." +
+                            checking.body(face.body).cracks[static_cast<std::size_t>(face.index / 2)].name;
+  const char* wrong = a.kind != b.kind                          ? "a face of a crack and an edge are not in contact"
+                     : a.body == b.body && a.index == b.index ? "both sides are the same face of a crack"
+                                                               : "faces of different cracks are not in contact";
+  checking.error(path, "between", fmt::format("{}: write [{}.left, {}.right]", wrong, crack, crack));
+  return false;
+}
+
 bool check_sides(Checking& checking, const std::string& path, const char* what, const Place& side_a,
                  const Place& side_b) {
+  const auto is_face = [](const Place& place) { return place.kind == Place::Kind::face; };
+  for (const Place* place : {&side_a, &side_b})  // a crack does not hold its body
+    if (checking.is_body(place->body) && !is_face(*place)) checking.touched[static_cast<std::size_t>(place->body)] = 1;
   const bool a = check_side(checking, path + ".between.0", what, side_a);
-  const bool b = check_side(checking, path + ".between.1", what, side_b);
+  const bool told = !a && is_face(side_a) && is_face(side_b) && side_a.body == side_b.body;
+  const bool b = !told && check_side(checking, path + ".between.1", what, side_b);
   if (!checking.is_body(side_a.body) || !checking.is_body(side_b.body)) return false;
+  if (is_face(side_a) || is_face(side_b)) return a && b && check_faces(checking, path, what, side_a, side_b);
   if (side_a.body == side_b.body) {
     checking.error(path, "between",
                    fmt::format("a body cannot be {} itself: both edges belong to '{}'",
@@ -85,7 +112,7 @@ class Joined {
   /// Reports a pair that is joined twice; `what`: `contact 'joint'`.
   void add(Checking& checking, const std::string& path, const Place& a, const Place& b, std::string what) {
     std::array<int, 4> pair{a.body, a.index, b.body, b.index};
-    if (pair[0] > pair[2]) pair = {pair[2], pair[3], pair[0], pair[1]};
+    if (pair[0] > pair[2] || (pair[0] == pair[2] && pair[1] > pair[3])) pair = {pair[2], pair[3], pair[0], pair[1]};
     const auto [first, is_new] = pairs_.emplace(pair, std::move(what));
     if (!is_new)
       checking.error_of_key(

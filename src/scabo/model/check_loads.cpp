@@ -41,7 +41,7 @@ const char* kind_text(Place::Kind kind) {
     case Place::Kind::mouth:
       return "a point";
     case Place::Kind::face:
-      return "a side face";
+      return "a face of a crack";
   }
   return "";
 }
@@ -62,7 +62,8 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
     if (of.outside)
       return fmt::format("'{}' is unbounded: loads can act only on its inner boundary, not on its side faces", body);
     if (kind == "force")
-      return "a force cannot act on a side face: use a traction, which is the force divided by length and thickness";
+      return fmt::format("a force cannot act on a {}: use a traction, which is the force divided by length and thickness",
+                         has_divided_faces(of) ? "face of a crack" : "side face");
     return "";
   }
   if (kind == "force") {
@@ -143,14 +144,15 @@ bool check_on(Checking& checking, const std::string& path, const Load& load) {
     return false;
   }
   const bool in_powers = std::holds_alternative<FaceTraction>(load.kind);
-  if (in_powers && place.kind == Place::Kind::edge) {
+  const bool divided = place.kind == Place::Kind::face && has_divided_faces(checking.body(place.body));
+  if (in_powers && (place.kind == Place::Kind::edge || divided)) {
     checking.error(path, kind,
-                   fmt::format("powers and points of xi are available only on side faces: on an edge, give a constant "
-                               "{}",
-                               kind));
+                   fmt::format("powers and points of xi are available only on side faces{}: on {}, give a constant {}",
+                               divided ? " of a body that is one super-element" : "",
+                               divided ? "the face of a crack between cells" : "an edge", kind));
     return false;
   }
-  if (!in_powers && place.kind == Place::Kind::face) {
+  if (!in_powers && place.kind == Place::Kind::face && !divided) {
     checking.error(path, kind, fmt::format("on a side face, {} is given as powers of xi", kind));
     return false;
   }

@@ -60,13 +60,15 @@ bool check_near(Checking& checking, const std::string& path, const Place& place)
 bool check_face(Checking& checking, const std::string& path, const Place& place) {
   const Body& body = checking.body(place.body);
   const bool mouth = place.kind == Place::Kind::mouth;
-  if (mouth ? body.cracks.empty() : !body.open()) {
+  if (mouth ? body.cracks.empty() || has_divided_faces(body) : !body.open() && !has_divided_faces(body)) {
     checking.error(path, "",
                    fmt::format("body '{}' has no {}", body.name,
                                mouth ? "crack, and so no crack mouth"
                                      : "side faces: it has no crack, and its scaling centre is on no corner"));
     return false;
   }
+  if (!mouth && has_divided_faces(body))
+    return check_index(checking, path, place, "face of a crack", 2 * body.cracks.size());
   return check_index(checking, path, place, mouth ? "crack mouth" : "side face", 2);
 }
 
@@ -112,7 +114,8 @@ std::string text_of(const Model& model, const Place& place) {
     return fmt::format("{}.{}", body.name, names.size() > 1 ? names[1] : names[0]);
   };
   const auto index = static_cast<std::size_t>(std::max(place.index, 0));
-  const std::string crack = body.cracks.empty() ? "" : "." + body.cracks.front().name;
+  const std::size_t number = has_divided_faces(body) ? std::min(index / 2, body.cracks.size() - 1) : 0;
+  const std::string crack = body.cracks.empty() ? "" : "." + body.cracks[number].name;
   switch (place.kind) {
     case Place::Kind::edge:
       return part(body.outline.edges[index].names);
@@ -121,7 +124,7 @@ std::string text_of(const Model& model, const Place& place) {
     case Place::Kind::near:
       return fmt::format("{} near {}", body.name, point_text(place.near));
     case Place::Kind::face:
-      return fmt::format("{}{}.{}", body.name, crack, place.index == 0 ? "right" : "left");
+      return fmt::format("{}{}.{}", body.name, crack, place.index % 2 == 0 ? "right" : "left");
     case Place::Kind::mouth:
       return fmt::format("{}{}.mouth_{}", body.name, crack, place.index == 0 ? "right" : "left");
     case Place::Kind::body:

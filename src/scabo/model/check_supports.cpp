@@ -27,9 +27,10 @@ void check_supports(Checking& checking) {
     bool good = check_place(checking, path + ".on", support.on);
     if (good && support.on.kind == Place::Kind::face) {
       checking.error(path, "on",
-                     fmt::format("'{}' is a side face, which has no nodes between its ends: support an "
-                                 "edge, a corner or a point instead",
-                                 text_of(model, support.on)));
+                     fmt::format("'{}' is {}: support an edge, a corner or a point instead", text_of(model, support.on),
+                                 has_divided_faces(checking.body(support.on.body))
+                                     ? "a face of a crack"
+                                     : "a side face, which has no nodes between its ends"));
       good = false;
     }
     for (std::size_t c = 0; c < 2; ++c)

@@ -149,13 +149,18 @@ inline bool is_divided_inside(const Body& body) {
                                                        body.regions.empty() && body.mesh.refine.empty()));
 }
 
+/// Whether the cracks of a body lie between its cells: both faces of each consist of boundary elements.
+inline bool has_divided_faces(const Body& body) { return !body.cracks.empty() && !body.cracks.front().path.empty(); }
+
 /// Where a support, load or contact acts.
 struct Place {
-  /// `face`: a side face; `mouth`: the node of a side face at the boundary.
+  /// `face`: a side face, or a face of a crack between cells; `mouth`: the node of a side face at the boundary.
   enum class Kind { body, edge, corner, near, face, mouth };
   Kind kind = Kind::body;
   int body = -1;
-  int index = -1;            ///< edge or corner; face, mouth: 0 at the start of the boundary, 1 at its end
+  /// Edge or corner; side face, mouth: 0 at the start of the boundary, 1 at its end; face of Body::cracks[k] with a path:
+  /// 2 k on its right, 2 k + 1 on its left, looking along the path.
+  int index = -1;
   Vec2 near = Vec2::Zero();  ///< `near`: stands for the boundary node closest to this point
   std::string text;          ///< as given by the user, `upper.top_right`
   Source source;
@@ -215,7 +220,7 @@ struct FrictionPoint {
   double position = 0.0, friction = 0.0;
 };
 
-/// Unilateral contact between two edges, A (named first) and B. Either friction, cohesion and tension, or `bond`, or a
+/// Unilateral contact between two edges, or the two faces of a crack, A (named first) and B. Either friction, cohesion and tension, or `bond`, or a
 /// shear strength.
 struct Contact {
   std::string name;

@@ -135,6 +135,7 @@ bool coincide(const Edge& a, const Edge& b, double tolerance) {
 /// Whether a contact alone may press its bodies together.
 bool may_interfere(const Checking& checking, const Contact& contact) {
   if (contact.gap < 0.0) return true;
+  if (contact.a.kind == Place::Kind::face) return false;  // faces of a crack lie on each other
   const Outline& a = checking.body(contact.a.body).outline;
   const Outline& b = checking.body(contact.b.body).outline;
   const double tolerance = 1e-9 * std::max(outline_size(a), outline_size(b));

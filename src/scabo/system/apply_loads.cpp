@@ -1,6 +1,7 @@
 // The loads of a model as nodal forces and as loads inside bodies.
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/modal_solution.hpp"
+#include "scabo/mesh/crack_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 #include "scabo/system/structure.hpp"
@@ -46,11 +47,13 @@ class Applied {
 
   void operator()(const model::Traction& traction) {
     apply_traction(mesh::nodes_of(*place_, mesh_), [&](const Vec2&, const Vec2&) { return traction.value; });
+    add_at_tips([&](const Vec2&) { return traction.value; });
   }
 
   void operator()(const model::Pressure& pressure) {
-    apply_traction(mesh::nodes_of(*place_, mesh_),
-                   [&](const Vec2&, const Vec2& n) { return Vec2(-pressure.value * n); });
+    const auto along_normal = [&](const Vec2& n) { return Vec2(-pressure.value * n); };
+    apply_traction(mesh::nodes_of(*place_, mesh_), [&](const Vec2&, const Vec2& n) { return along_normal(n); });
+    add_at_tips(along_normal);
   }
 
   void operator()(const model::Gravity& gravity) {
@@ -130,6 +133,23 @@ class Applied {
       of_super_element(*cells_[c], cell.centre, interior[c]);
       if (!interior[c].loads.empty())
         nodal(element::dofs_of(cell)) += element::equivalent_load(cells_[c]->solution, interior[c].loads);
+    }
+  }
+
+  /// What a traction on the face of a crack is on the side faces of the cells around its tips: those have no elements,
+  /// but take it exactly. `of_normal`: the traction where the face has this outward normal.
+  template <typename OfNormal>
+  void add_at_tips(const OfNormal& of_normal) {
+    if (place_->kind != model::Place::Kind::face) return;
+    for (const mesh::TipFace& tip : mesh::tip_faces(body_, body_mesh_)) {
+      if (2 * tip.crack + (tip.left ? 1 : 0) != place_->index) continue;
+      interior.resize(body_mesh_.cells.size());
+      const element::SolvedSuperElement& cell = *cells_[tip.cell];
+      const auto face = tip.last ? element::Face::last : element::Face::first;
+      element::InteriorLoads& loads = interior[tip.cell];
+      const Vec2 traction = of_normal(element::face_normal(cell.ring, face));
+      element::add_radial_loads(loads.loads, {element::face_load(cell.ring, face, 0.0, traction, thickness())}, 1.0);
+      nodal(element::dofs_of(body_mesh_.cells[tip.cell])) += element::equivalent_load(cell.solution, loads.loads);
     }
   }
 

@@ -106,11 +106,12 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   return system;
 }
 
-/// For each part: whether it has a contact with pairs.
+/// For each part: whether it has a contact with pairs, other than with itself.
 std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
   std::vector<bool> found(dofs.parts(), false);
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    if (!mesh.interfaces[c].pairs.empty())
+    if (!mesh.interfaces[c].pairs.empty() &&
+        dofs.part_of(model.contacts[c].a.body) != dofs.part_of(model.contacts[c].b.body))
       for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body})
         found[dofs.part_of(body)] = true;
   return found;

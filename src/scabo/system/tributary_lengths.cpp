@@ -1,6 +1,9 @@
 #include "scabo/system/tributary_lengths.hpp"
 
+#include <map>
+
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/mesh/crack_faces.hpp"
 
 namespace scabo::system {
 
@@ -35,12 +38,26 @@ std::vector<double> lengths_of_side(const model::Place& place, const mesh::Mesh&
   return lengths;
 }
 
+/// Of the two faces of a crack. Where other cracks end on it, two pairs may share a node but not their lengths.
+std::vector<double> lengths_of_crack(const model::Contact& contact, const mesh::Interface& interface,
+                                     const mesh::Mesh& mesh) {
+  std::map<std::pair<int, int>, double> of_pair;
+  for (const mesh::FacePair& pair :
+       mesh::face_pairs(mesh.bodies[static_cast<std::size_t>(contact.a.body)], contact.a.index / 2))
+    of_pair[std::minmax(pair.left, pair.right)] = pair.normal.norm();
+  std::vector<double> lengths;
+  for (const mesh::ContactPair& pair : interface.pairs)
+    lengths.push_back(of_pair.at(std::minmax(pair.node_a, pair.node_b)));
+  return lengths;
+}
+
 }  // namespace
 
 std::vector<double> tributary_lengths(int contact, const model::Model& model, const mesh::Mesh& mesh) {
   const model::Contact& named = model.contacts[static_cast<std::size_t>(contact)];
   const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(contact)];
   std::vector<double> lengths(interface.pairs.size(), 0.0);
+  if (named.a.kind == model::Place::Kind::face) return lengths_of_crack(named, interface, mesh);
   int sides = 0;
   for (const bool on_b : {false, true}) {
     const model::Place& place = on_b ? named.b : named.a;

@@ -1,0 +1,52 @@
+// The two faces of cracks between cells, which carry loads and contacts.
+//
+// A crack of a body of many cells is a line along which cells have nodes of their own on either side. Its faces are
+// lists of boundary elements (BodyMesh::faces): the left one in the direction of its path, the right one against it, as
+// the boundary of a body runs. Opposite nodes have the same position, so that they are the pairs of a contact:
+//
+//  - The normal of a pair is that of the segments that meet there, weighted like nodal forces: at a kink their mean.
+//  - Where other cracks begin, end or cross, every crack has a pair of its own for each two nodes that face each other.
+//  - Pairs end where a tip's cell begins, because a tip is the scaling centre of an open cell, which has no nodes on
+//  its
+//    side faces. tip_rings.hpp takes the pairs further towards the tip.
+#pragma once
+
+#include <vector>
+
+#include "scabo/mesh/mesh.hpp"
+
+namespace scabo::mesh {
+
+/// Opposite nodes of the two faces of a crack.
+struct FacePair {
+  int left = -1, right = -1;
+  /// Integral of N ds n over the elements that have both nodes, n out of the left face: its length is the tributary
+  /// length of the pair.
+  Vec2 normal = Vec2::Zero();
+};
+
+/// In the direction of the path; without nodes that both faces share. The two faces have the same elements.
+std::vector<FacePair> face_pairs(const BodyMesh& mesh, int crack);
+
+/// The pairs of a contact between the two faces of a crack.
+Interface crack_interface(const model::Model& model, int contact, const std::vector<BodyMesh>& bodies);
+
+/// A side face of the open cell around a tip, part of the face of a crack.
+struct TipFace {
+  std::size_t cell = 0;
+  int crack = -1;
+  bool at_end = false;  ///< the tip is the last point of the path, otherwise the first
+  bool last = false;    ///< the side face at the end of the cell's boundary, otherwise at its start
+  bool left = false;    ///< it belongs to the left face of the crack
+};
+
+/// Both side faces of every cell at a tip.
+std::vector<TipFace> tip_faces(const model::Body& body, const BodyMesh& mesh);
+
+/// Where only one face of a crack is divided at a point, the other one is divided there too. `cracks`: of which cracks.
+void divide_faces_alike(BodyMesh& mesh, const std::vector<int>& cracks);
+
+/// The cracks of a body whose faces are in contact with each other.
+std::vector<int> cracks_in_contact(const model::Model& model, int body);
+
+}  // namespace scabo::mesh

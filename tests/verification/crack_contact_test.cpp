@@ -1,0 +1,315 @@
+// Loads and contacts on the faces of cracks in bodies of polygons and quadtrees, against closed forms.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "verification/run.hpp"
+
+namespace scabo::verification {
+namespace {
+
+constexpr double degrees = std::numbers::pi / 180.0;
+const double root_pi = std::sqrt(std::numbers::pi);
+
+const element::StressIntensity& factors_at(const analysis::IncrementResult& increment, const std::string& name) {
+  for (const analysis::CrackResult& crack : increment.cracks)
+    if (crack.name == name) return crack.factors;
+  throw std::runtime_error("there is no crack tip " + name);
+}
+
+class CrackContact : public testing::TestWithParam<const char*> {
+ protected:
+  std::string kind() const { return GetParam(); }
+
+  /// A square plate of half width 100 under uniform stress, with a crack of half length 1 at an angle at its centre:
+  /// the finite width adds 1.4e-4 to the factors.
+  std::string plate(double angle, double vertical, const std::string& more, int order = 3) const {
+    const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
+    return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{rectangle: {{corner: [-100, -100], size: [200, 200]}}}}
+    cracks: [{{name: flaw, path: [[{0}, {1}], [{2}, {3}]]}}]
+    mesh: {{kind: {4}, size: 20, order: {5}, refine: [{{near: [{0}, {1}], size: 0.2}}, {{near: [{2}, {3}], size: 0.2}}]}}
+supports: [{{on: plate.bottom_left, fix: [x, y]}}, {{on: plate.bottom_right, fix: [y]}}]
+loads:
+  up: {{on: plate.top, traction: [0, {6}]}}
+  down: {{on: plate.bottom, traction: [0, {7}]}}
+{8}
+)",
+                       -c, -s, c, s, kind(), order, vertical, -vertical, more);
+  }
+
+  static std::string contact(double friction, const std::string& more = "") {
+    return fmt::format("contacts: {{faces: {{between: [plate.flaw.left, plate.flaw.right], friction: {}{}}}}}",
+                       friction, more);
+  }
+
+  /// A square of side 6 under the uniform stress (-0.5, -1, 0.2), with cracks; all friction high enough to stick.
+  std::string square(const std::string& cracks, const std::string& contacts) const {
+    return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{rectangle: {{corner: [-3, -3], size: [6, 6]}}}}
+    cracks: [{}]
+    mesh: {{kind: {}, size: 0.5, order: 2, refine: [{{near: [0, 0], size: 0.2}}]}}
+supports: [{{on: plate.bottom_left, fix: [x, y]}}, {{on: plate.bottom_right, fix: [y]}}]
+loads:
+  up: {{on: plate.top, traction: [0.2, -1]}}
+  down: {{on: plate.bottom, traction: [-0.2, 1]}}
+  right: {{on: plate.right, traction: [-0.5, 0.2]}}
+  left: {{on: plate.left, traction: [0.5, -0.2]}}
+contacts: {{{}}}
+)",
+                       cracks, kind(), contacts);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, CrackContact, testing::Values("polygons", "quadtree"),
+                         [](const auto& kind) { return std::string(kind.param); });
+
+/// Force on the side B of a contact, and its moment about the origin.
+Eigen::Vector3d force_of(const analysis::ContactResult& contact) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const analysis::PairResult& pair : contact.pairs) {
+    const Vec2 force = pair.normal_force * pair.normal + pair.tangential_force * tangent_of(pair.normal);
+    sum += Eigen::Vector3d(force.x(), force.y(), cross(pair.position, force));
+  }
+  return sum;
+}
+
+/// What the stress of CrackContact::square does along a path, as force_of: on the right of it, B.
+Eigen::Vector3d force_along(const std::vector<Vec2>& path) {
+  const Mat2 stress = (Mat2() << -0.5, 0.2, 0.2, -1.0).finished();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    const Vec2 along = path[k + 1] - path[k], out(-along.y(), along.x());  // out of the material on the right
+    const Vec2 force = stress * out;
+    sum += Eigen::Vector3d(force.x(), force.y(), cross(Vec2(0.5 * (path[k] + path[k + 1])), force));
+  }
+  return sum;
+}
+
+/// Largest difference of the displacement to that of the uniform stress (sx, sy, sxy) in a plate held at its first
+/// corner, relative to the largest displacement. Plane stress, E = 200, nu = 0.3.
+double deviation(const analysis::StaticSolution& solution, double sx, double sy, double sxy) {
+  const double exx = (sx - 0.3 * sy) / 200.0, eyy = (sy - 0.3 * sx) / 200.0, gxy = 2.6 * sxy / 200.0;
+  const auto& nodes = solution.mesh.bodies.front().nodes;
+  const Vector& u = last(solution).displacements.front();
+  const Vec2 corner = solution.model.bodies.front().outline.edges.front().start;
+  double largest = 0.0, worst = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec2 x = nodes[i] - corner;
+    const Vec2 exact(exx * x.x() + gxy * x.y(), eyy * x.y());  // the bottom does not turn
+    largest = std::max(largest, exact.norm());
+    worst = std::max(worst, (u.segment<2>(static_cast<Eigen::Index>(2 * i)) - exact).norm());
+  }
+  return worst / largest;
+}
+
+// K_I = p sqrt(pi a) of an inner pressure, K_II = q sqrt(pi a) of an inner shear: the cells at the tips take the load
+// on their side faces exactly.
+TEST_P(CrackContact, LoadsOnFaces) {
+  const auto inside = run(plate(30, 0,
+                                "  left: {on: plate.flaw.left, pressure: 2}\n"
+                                "  right: {on: plate.flaw.right, pressure: 2}"));
+  const double c = 2.0 * std::cos(30 * degrees), s = 2.0 * std::sin(30 * degrees);
+  const auto shear = run(plate(30, 0,
+                               fmt::format("  left: {{on: plate.flaw.left, traction: [{0}, {1}]}}\n"
+                                           "  right: {{on: plate.flaw.right, traction: [-{0}, -{1}]}}",
+                                           c, s)));
+  for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
+    EXPECT_NEAR(factors_at(last(inside), end).K_I, 2.0 * root_pi, 3e-4 * 2.0 * root_pi);
+    EXPECT_NEAR(factors_at(last(inside), end).K_II, 0.0, 1e-4);
+    EXPECT_NEAR(factors_at(last(shear), end).K_II, 2.0 * root_pi, 3e-4 * 2.0 * root_pi);
+    EXPECT_NEAR(factors_at(last(shear), end).K_I, 0.0, 1e-4);
+  }
+}
+
+// A pressure from inside that is larger than that from outside opens the crack, and one that is smaller does not.
+TEST_P(CrackContact, PressureInAContact) {
+  for (const auto& [inside, exact] : {std::pair(1.5, 0.5), std::pair(0.5, 0.0)}) {
+    const auto solution = run(plate(0, -1,
+                                    fmt::format("  left: {{on: plate.flaw.left, pressure: {0}}}\n"
+                                                "  right: {{on: plate.flaw.right, pressure: {0}}}\n{1}",
+                                                inside, contact(0.3))));
+    for (const char* end : {"plate.flaw.start", "plate.flaw.end"})
+      EXPECT_NEAR(factors_at(last(solution), end).K_I, exact * root_pi, 4e-4) << inside;
+    const analysis::ContactResult& faces = contact_of(last(solution));
+    if (exact > 0.0) EXPECT_EQ(faces.stick + faces.slip, 0);
+    if (exact == 0.0) EXPECT_NEAR(faces.normal_force, 2.0 * (1.0 - inside), 1e-6);
+  }
+}
+
+// Slanted crack under compression: K_I = 0, K_II = -(tau - mu sigma) sqrt(pi a).
+TEST_P(CrackContact, ClosedCrackSlides) {
+  for (const double angle : {30.0, 60.0})
+    for (const double friction : {0.0, 0.3}) {
+      const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
+      const double exact = -(s * c - friction * c * c) * root_pi;
+      const auto solution = run(plate(angle, -1, contact(friction)));
+      for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
+        const element::StressIntensity& tip = factors_at(last(solution), end);
+        EXPECT_NEAR(tip.K_II / exact, 1.0, 6e-4) << angle << " " << friction;
+        EXPECT_NEAR(tip.K_I / exact, 0.0, 1e-3) << angle << " " << friction;
+        EXPECT_FALSE(tip.T_left || tip.T_right);  // not known in the innermost ring
+      }
+      // Uniform pressure, except where the discretised singular field of K_II is no longer free of it.
+      for (const analysis::PairResult& pair : contact_of(last(solution)).pairs)
+        if (pair.position.norm() < 1.0 - 1e-3) {
+          EXPECT_NEAR(pair.pressure, c * c, 0.01) << pair.position.transpose();
+          EXPECT_NEAR(pair.shear / pair.pressure, pair.slip < 0.0 ? friction : -friction, 1e-9);
+        } else if (pair.position.norm() < 1.0 - 1e-6) {
+          EXPECT_EQ(pair.state, contact::ContactState::slip) << pair.position.transpose();
+        }
+    }
+}
+
+// The same with linear and quadratic elements of the body: the rings have a higher order than these.
+TEST_P(CrackContact, LowOrdersSlideToo) {
+  for (const auto& [order, bound] : {std::pair(1, 1e-2), std::pair(2, 1e-3)}) {
+    const auto solution = run(plate(45, -1, contact(0.3), order));
+    for (const char* end : {"plate.flaw.start", "plate.flaw.end"})
+      EXPECT_NEAR(factors_at(last(solution), end).K_II / (-0.35 * root_pi), 1.0, bound) << order;
+  }
+}
+
+// Friction above tan(angle): no slip, and the displacement of the plate without a crack.
+TEST_P(CrackContact, CrackThatSticksIsNoCrack) {
+  const auto solution = run(plate(30, -1, contact(1.0)));
+  for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
+    EXPECT_NEAR(factors_at(last(solution), end).K_I, 0.0, 3e-4);
+    EXPECT_NEAR(factors_at(last(solution), end).K_II, 0.0, 3e-4);
+  }
+  for (const analysis::PairResult& pair : contact_of(last(solution)).pairs) {
+    if (pair.position.norm() > 1.0 - 1e-6) continue;  // where the innermost cell, with free faces, is near
+    EXPECT_EQ(pair.state, contact::ContactState::stick) << pair.position.transpose();
+    EXPECT_NEAR(pair.pressure, 0.75, 1e-3);
+  }
+  EXPECT_LT(deviation(solution, 0.0, -1.0, 0.0), 1e-9);
+}
+
+// An open crack: as if there were no contact. Contact faces with a large gap have the same mesh.
+TEST_P(CrackContact, OpenCrackIsFree) {
+  const auto free = run(plate(30, 1, "")), open = run(plate(30, 1, contact(0.3))),
+             apart = run(plate(30, 1, contact(0.3, ", gap: 1")));
+  for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
+    const element::StressIntensity &of = factors_at(last(open), end), &same = factors_at(last(apart), end),
+                                   &other = factors_at(last(free), end);
+    EXPECT_NEAR(of.K_I / same.K_I, 1.0, 1e-10);
+    EXPECT_NEAR(of.K_II / same.K_II, 1.0, 1e-10);
+    EXPECT_NEAR(of.K_I / other.K_I, 1.0, 2e-4);  // without rings
+    EXPECT_NEAR(of.K_II / other.K_II, 1.0, 2e-4);
+  }
+  EXPECT_EQ(contact_of(last(open)).open, static_cast<int>(contact_of(last(open)).pairs.size()));
+}
+
+// Bent cracks, inside and from an edge: if they stick, their forces are those of the uniform stress.
+TEST_P(CrackContact, KinkedCracksAreInEquilibrium) {
+  for (const std::vector<Vec2>& path : {std::vector<Vec2>{{-1, 0}, {0, 0.3}, {1, 0}}, {{-3, 0}, {0, 0.3}, {1, -1}}}) {
+    std::string points;
+    for (const Vec2& x : path) points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", x.x(), x.y());
+    const std::string crack = fmt::format("{{name: flaw, path: [{}]}}", points);
+    const auto solution = run(square(crack, "c: {between: [plate.flaw.left, plate.flaw.right], friction: 2}"));
+    const auto swapped = run(square(crack, "c: {between: [plate.flaw.right, plate.flaw.left], friction: 2}"));
+    const analysis::ContactResult &one = contact_of(last(solution)), &other = contact_of(last(swapped));
+    const Eigen::Vector3d exact = force_along(path);
+    EXPECT_EQ(one.stick, static_cast<int>(one.pairs.size()));
+    EXPECT_LT((force_of(one) - exact).norm(), 1e-6 * exact.norm());
+    EXPECT_LT(deviation(solution, -0.5, -1.0, 0.2), 1e-8);
+    // Sides swapped: the same numbers.
+    ASSERT_EQ(one.pairs.size(), other.pairs.size());
+    EXPECT_LT((force_of(one) + force_of(other)).norm(), 1e-9 * exact.norm());
+    EXPECT_NEAR(one.normal_force, other.normal_force, 1e-9);
+    EXPECT_NEAR(one.tangential_force, other.tangential_force, 1e-9);
+    for (std::size_t k = 0; k < last(solution).cracks.size(); ++k) {
+      EXPECT_NEAR(last(solution).cracks[k].factors.K_I, last(swapped).cracks[k].factors.K_I, 1e-7);
+      EXPECT_NEAR(last(solution).cracks[k].factors.K_II, last(swapped).cracks[k].factors.K_II, 1e-7);
+    }
+  }
+}
+
+// Cracks that meet or cross and stick are no cracks. (How the three or four nodes at the common point share the force
+// there is not unique.)
+TEST_P(CrackContact, CracksThatMeetAndStickAreNoCracks) {
+  for (const char* second : {"[[0, 0.15], [0.2, 1]]", "[[-0.1, -1], [0.2, 1]]"}) {
+    const auto solution =
+        run(square(fmt::format("{{name: flaw, path: [[-1, 0], [1, 0.3]]}}, {{name: other, path: {}}}", second),
+                   "c: {between: [plate.flaw.left, plate.flaw.right], friction: 2}, "
+                   "d: {between: [plate.other.left, plate.other.right], friction: 2}"));
+    EXPECT_LT(deviation(solution, -0.5, -1.0, 0.2), 1e-8) << second;
+  }
+}
+
+// Error estimate, with a force at the mouth, beside which elements of one face are not refined; and refinement. The
+// work of the loads on a fine mesh is the energy that counts.
+TEST_P(CrackContact, ErrorIsEstimated) {
+  const auto model = [&](const std::string& mesh, const std::string& force) {
+    return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{rectangle: {{corner: [-3, -3], size: [6, 6]}}}}
+    cracks: [{{name: flaw, path: [[-3, -0.5], [0, 0.5]]}}]
+    mesh: {{kind: {}, {}}}
+supports: [{{on: plate.bottom, fix: [x, y]}}]
+loads: {{press: {{on: plate.top, traction: [0, -1]}}{}}}
+contacts: {{c: {{between: [plate.flaw.left, plate.flaw.right], friction: 0.2}}}}
+output: {{error: true}}
+)",
+                       kind(), mesh, force);
+  };
+  const auto forced =
+      run(model("size: 0.5, order: 2", ", poke: {on: {body: plate, near: [-3, -0.5]}, force: [0.1, 0]}"));
+  ASSERT_TRUE(last(forced).error);
+  EXPECT_LT(last(forced).error->relative, 0.03);
+  const auto refined = run(model("size: 1, order: 2, tolerance: 5e-3", "")),
+             fine = run(model("size: 0.4, order: 4", ""));
+  ASSERT_TRUE(last(refined).error && last(fine).error);
+  EXPECT_LT(last(refined).error->relative, 5e-3);
+  EXPECT_LT(last(fine).error->relative, 5e-3);
+  EXPECT_NEAR(last(refined).energy.external / last(fine).energy.external, 1.0, 1e-4);
+  EXPECT_NEAR(factors_at(last(refined), "plate.flaw.end").K_II / factors_at(last(fine), "plate.flaw.end").K_II, 1.0,
+              0.01);
+}
+
+// A sliding crack in a plate that is turned as a whole.
+TEST(CrackContactTurned, SameForces) {
+  std::vector<Eigen::Vector3d> forces;
+  std::vector<double> K_II;
+  for (const double angle : {0.0, 30.0}) {
+    const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
+    const auto at = [&](double x, double y) { return fmt::format("[{:.17g}, {:.17g}]", c * x - s * y, s * x + c * y); };
+    const auto solution =
+        run(fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{polygon: {{vertices: [{0}, {1}, {2}, {3}]}}}}
+    cracks: [{{name: flaw, path: [{4}, {5}, {6}]}}]
+    mesh: {{kind: polygons, size: 1, order: 4, refine: [{{near: {4}, size: 0.2}}, {{near: {6}, size: 0.2}}]}}
+supports: [{{on: plate.edge_1, fix: [x, y]}}]
+loads: {{press: {{on: plate.edge_3, traction: {7}}}}}
+contacts: {{c: {{between: [plate.flaw.left, plate.flaw.right], friction: 0.3}}}}
+)",
+                        at(-3, -3), at(3, -3), at(3, 3), at(-3, 3), at(-1, -0.6), at(0, 0), at(1, 0.8), at(0, -1)));
+    const Eigen::Vector3d force = force_of(contact_of(last(solution)));
+    forces.emplace_back(c * force.x() + s * force.y(), -s * force.x() + c * force.y(), force.z());
+    K_II.push_back(factors_at(last(solution), "plate.flaw.end").K_II);
+    EXPECT_GT(contact_of(last(solution)).slip, 100);
+  }
+  EXPECT_LT((forces[0] - forces[1]).norm(), 1e-4 * forces[0].norm());
+  EXPECT_NEAR(K_II[0] / K_II[1], 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace scabo::verification
