@@ -18,7 +18,9 @@
 #include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
+#include "scabo/mesh/refusal.hpp"
 #include "scabo/mesh/star_cells.hpp"
+#include "scabo/mesh/unit_free.hpp"
 
 namespace scabo::mesh {
 
@@ -27,14 +29,18 @@ namespace {
 /// A side on an arc turns by at most this, so that its chord is near it and cells beside it stay valid.
 constexpr double largest_turn_of_side = std::numbers::pi / 12;
 
+/// Part of an element by which the length of an edge, in elements of a size, may be rounded: its ends are (UnitFree).
+double rounding_of(double size) { return std::min(1e-6 + 2.0 * rounding_of_points / size, 0.1); }
+
 /// Fractions of the length of an edge at which its part from `from` to `to` is divided, both included.
 std::vector<double> breaks_of(const model::Body& body, const SizeField& sizes, const geometry::Edge& edge, double from,
                               double to) {
   const double length = (to - from) * edge.length();
   const double by_turn = edge.arc ? (to - from) * std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
+  const double rounding = rounding_of(body.mesh.size);
   std::vector<double> breaks{from};
   if (body.mesh.refine.empty() && sizes.empty()) {
-    const double count = std::max(elements_along(length, body.mesh.size), std::ceil(by_turn - 1e-9));
+    const double count = std::max({1.0, std::ceil(length / body.mesh.size - rounding), std::ceil(by_turn - rounding)});
     for (int k = 1; k < count; ++k) breaks.push_back(std::lerp(from, to, k / count));
   } else {
     // As many elements as the integral of 1 / size, each with an equal part of it. Steps are short compared with the
@@ -55,7 +61,7 @@ std::vector<double> breaks_of(const model::Body& body, const SizeField& sizes, c
     };
     for (int i = 0; i < samples; ++i)
       add(add, std::lerp(from, to, double(i) / samples), std::lerp(from, to, (i + 1.0) / samples));
-    const double count = std::max(1.0, std::ceil(sum.back() - 1e-9));
+    const double count = std::max(1.0, std::ceil(sum.back() - rounding));
     std::size_t i = 0;
     for (int k = 1; k < count; ++k) {
       const double part = k / count * sum.back();
@@ -326,9 +332,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     if (!hollow || straight || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
     const KernelCentre better = kernel_centre(points, well_seen);
     if (better.visibility > hardly_seen) return better.centre;
-    throw InputError("", {Diagnostic{{},
-                                     fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
-                                                 polygon.centre.x(), polygon.centre.y())}});
+    throw Refusal("a cell is too large for the arc beside it", polygon.centre);
   };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
@@ -416,11 +420,12 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
     return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
                                                     "allowed: use a larger 'size'",
                                                     body.mesh.size, nodes, most_nodes)};
-  const BodyDomain of = domain_of(body, sizes);
+  const UnitFree own(body, sizes);
+  const BodyDomain of = domain_of(own.body(), own.sizes());
   constexpr double turn = 0.5, least_turn = 0.1;
   for (double now = turn;; now *= 0.5) {
     try {
-      BodyMesh mesh = body_mesh_of(polygons_of(of.domain, body, now), of, body);
+      BodyMesh mesh = own.real(body_mesh_of(polygons_of(of.domain, own.body(), now), of, own.body()));
       const std::size_t pieces = body.cracks.empty() ? 1 : pieces_of(mesh);
       if (pieces > 1)
         return Diagnostic{body.cracks.front().source,
@@ -428,12 +433,14 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                       "pieces bodies of their own, with a contact between them",
                                       body.name, pieces)};
       return mesh;
-    } catch (const InputError& error) {
+    } catch (const Refusal& refusal) {
       // Cells of a quadtree that are too large beside an arc become smaller.
       if (body.mesh.kind == model::MeshKind::quadtree && now > least_turn) continue;
+      std::optional<Vec2> place;
+      if (refusal.near()) place = own.real(*refusal.near());
       return Diagnostic{body.mesh.source,
                         fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind",
-                                    error.diagnostics().front().message)};
+                                    refusal_text(refusal.reason(), place))};
     }
   }
 }

@@ -1,0 +1,90 @@
+#include "scabo/mesh/unit_free.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+constexpr int digits_of_lengths = 40;  // binary
+
+double rounded_length(double length) {
+  int exponent = 0;
+  const double fraction = std::frexp(length, &exponent);
+  return std::ldexp(std::nearbyint(std::ldexp(fraction, digits_of_lengths)), exponent - digits_of_lengths);
+}
+
+/// Of an arc from its rounded points, nearest to the given one.
+geometry::Arc arc_through(const geometry::Arc& given, const Vec2& centre, const Vec2& start, const Vec2& end) {
+  const Vec2 from = start - centre, to = end - centre;
+  const double full = 2.0 * std::numbers::pi;
+  geometry::Arc arc{centre, from.norm(), std::atan2(from.y(), from.x()), std::atan2(cross(from, to), from.dot(to))};
+  arc.sweep += full * std::round((given.sweep - arc.sweep) / full);
+  return arc;
+}
+
+}  // namespace
+
+UnitFree::UnitFree(const model::Body& body, const SizeField& sizes) : given_(body), made_(body) {
+  const geometry::Box box = geometry::box_of(body.outline);
+  origin_ = box.low;
+  scale_ = (box.high - box.low).maxCoeff();
+  const auto point = [this](const Vec2& x) {
+    const Vec2 own = (x - origin_) / scale_;
+    return Vec2(rounding_of_points * Vec2(own / rounding_of_points).array().round());
+  };
+  const auto length = [this](double given) { return rounded_length(given / scale_); };
+  const auto convert = [&](geometry::Outline& outline) {
+    for (geometry::Corner& corner : outline.corners) corner.position = point(corner.position);
+    for (geometry::Edge& edge : outline.edges) edge.start = point(edge.start);
+    for (std::size_t e = 0; e < outline.edges.size(); ++e) {
+      geometry::Edge& edge = outline.edges[e];
+      edge.end = outline.edges[static_cast<std::size_t>(outline.next(static_cast<int>(e)))].start;
+      for (Vec2& x : edge.points) x = point(x);
+      if (edge.arc) edge.arc = arc_through(*edge.arc, point(edge.arc->centre), edge.start, edge.end);
+    }
+  };
+  convert(made_.outline);
+  for (model::Region& region : made_.regions) convert(region.outline);
+  for (model::Crack& crack : made_.cracks) {
+    crack.tip = point(crack.tip);
+    crack.mouth = point(crack.mouth);
+    for (Vec2& x : crack.path) x = point(x);
+  }
+  made_.mesh.size = length(body.mesh.size);
+  made_.mesh.min_size = length(body.mesh.min_size);
+  made_.mesh.centre = point(body.mesh.centre);
+  for (model::LocalSize& local : made_.mesh.refine) {
+    local.size = length(local.size);
+    if (local.near) local.near = point(*local.near);
+  }
+  std::vector<SizeField::Sample> samples;
+  for (const SizeField::Sample& sample : sizes.samples()) samples.push_back({point(sample.at), length(sample.size)});
+  sizes_ = SizeField(samples, sizes.growth());
+}
+
+BodyMesh UnitFree::real(BodyMesh mesh) const {
+  constexpr double on_the_outline = 1e-9;
+  const std::vector<Vec2> own = mesh.nodes;
+  for (Vec2& node : mesh.nodes) node = real(node);
+  for (Cell& cell : mesh.cells) cell.centre = real(cell.centre);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const geometry::Edge &edge = given_.outline.edges[e], &own_edge = made_.outline.edges[e];
+    for (const LineElement& element : mesh.edges[e])
+      for (const int node : element.nodes) {
+        const Vec2& x = own[static_cast<std::size_t>(node)];
+        const double t = geometry::closest_position(own_edge, x);
+        if ((own_edge.at(t) - x).norm() <= on_the_outline) mesh.nodes[static_cast<std::size_t>(node)] = edge.at(t);
+      }
+  }
+  for (std::size_t e = 0; e < mesh.corners.size(); ++e)
+    if (mesh.corners[e] >= 0)
+      mesh.nodes[static_cast<std::size_t>(mesh.corners[e])] = given_.outline.edges[e].start;
+  return mesh;
+}
+
+}  // namespace scabo::mesh

@@ -1,0 +1,42 @@
+// A body in coordinates of its own, so that its mesh depends neither on the unit of length nor on where the body lies.
+//
+// With the low corner o and the longer side L of the box around the outline,
+//
+//     x' = (x - o) / L, rounded to multiples of 2^-34                                                        (1)
+//
+// and lengths l' = l / L rounded to 40 binary digits. The same body in metres and in millimetres differs in last digits
+// of x only, which eq. (1) removes: a mesher sees the same numbers, and makes the same cells. Nodes on the outline are
+// put on the outline as given afterwards, at the same fractions of its edges; all others are at o + L x'.
+#pragma once
+
+#include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/size_field.hpp"
+
+namespace scabo::mesh {
+
+/// Multiples of it are the coordinates of the points that describe a body. A body a thousand of its sizes away from the
+/// origin has an error of 1e-13 there, so that hardly one point in a thousand is rounded otherwise than near the origin.
+constexpr double rounding_of_points = 0x1p-34;
+
+class UnitFree {
+ public:
+  /// It holds on to `body`, which has an outline with an extent.
+  UnitFree(const model::Body& body, const SizeField& sizes);
+
+  const model::Body& body() const { return made_; }
+  const SizeField& sizes() const { return sizes_; }
+
+  Vec2 real(const Vec2& x) const { return origin_ + scale_ * x; }
+  double scale() const { return scale_; }  ///< L, > 0
+  /// The mesh of body() as one of the body itself.
+  BodyMesh real(BodyMesh mesh) const;
+
+ private:
+  const model::Body& given_;
+  Vec2 origin_ = Vec2::Zero();
+  double scale_ = 1.0;
+  model::Body made_;
+  SizeField sizes_;
+};
+
+}  // namespace scabo::mesh
