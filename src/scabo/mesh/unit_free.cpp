@@ -1,7 +1,9 @@
 #include "scabo/mesh/unit_free.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
@@ -67,20 +69,49 @@ UnitFree::UnitFree(const model::Body& body, const SizeField& sizes) : given_(bod
   sizes_ = SizeField(samples, sizes.growth());
 }
 
-BodyMesh UnitFree::real(BodyMesh mesh) const {
-  constexpr double on_the_outline = 1e-9;
+BodyMesh UnitFree::real(BodyMesh mesh, const std::vector<BorderNodes>& borders) const {
   const std::vector<Vec2> own = mesh.nodes;
   for (Vec2& node : mesh.nodes) node = real(node);
-  for (Cell& cell : mesh.cells) cell.centre = real(cell.centre);
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const geometry::Edge &edge = given_.outline.edges[e], &own_edge = made_.outline.edges[e];
+  for (Cell& cell : mesh.cells) {
+    const Vec2 tip = cell.centre;
+    cell.centre = real(tip);
+    for (std::size_t c = 0; cell.is_open() && c < made_.cracks.size(); ++c) {
+      const std::vector<Vec2>&path = made_.cracks[c].path, &given = given_.cracks[c].path;
+      if (!path.empty() && path.front() == tip) cell.centre = given.front();
+      if (!path.empty() && path.back() == tip) cell.centre = given.back();
+    }
+  }
+  constexpr double rounding = 1e-9;
+  std::vector<char> on_border(mesh.nodes.size(), 0);
+  const auto put = [&](int node, const geometry::Edge& edge, const geometry::Edge& own_edge) {
+    const Vec2& x = own[static_cast<std::size_t>(node)];
+    const double t = geometry::closest_position(own_edge, x);
+    if ((own_edge.at(t) - x).norm() <= rounding) mesh.nodes[static_cast<std::size_t>(node)] = edge.at(t);
+  };
+  std::map<std::pair<int, int>, const BorderNodes*> sides;
+  for (const BorderNodes& border : borders)
+    for (std::size_t k = 0; k + 1 < border.nodes.size(); ++k)
+      sides.emplace(std::minmax(border.nodes[k], border.nodes[k + 1]), &border);
+  for (std::size_t c = 0; !sides.empty() && c < mesh.cells.size(); ++c)
+    for (const LineElement& element : mesh.cells[c].boundary)
+      if (const auto side = sides.find(std::minmax(element.nodes.front(), element.nodes.back())); side != sides.end()) {
+        const auto region = static_cast<std::size_t>(side->second->region), e = static_cast<std::size_t>(side->second->edge);
+        for (const int node : element.nodes) {
+          put(node, given_.regions[region].outline.edges[e], made_.regions[region].outline.edges[e]);
+          on_border[static_cast<std::size_t>(node)] = 1;
+        }
+      }
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     for (const LineElement& element : mesh.edges[e])
       for (const int node : element.nodes) {
-        const Vec2& x = own[static_cast<std::size_t>(node)];
-        const double t = geometry::closest_position(own_edge, x);
-        if ((own_edge.at(t) - x).norm() <= on_the_outline) mesh.nodes[static_cast<std::size_t>(node)] = edge.at(t);
+        const geometry::Edge& edge = given_.outline.edges[e];
+        Vec2& x = mesh.nodes[static_cast<std::size_t>(node)];
+        const Vec2 there = geometry::closest_point(edge, x);
+        if (on_border[static_cast<std::size_t>(node)] && (there - x).norm() <= 4.0 * rounding * scale_)
+          x = there;
+        else
+          put(node, edge, made_.outline.edges[e]);
       }
-  }
   for (std::size_t e = 0; e < mesh.corners.size(); ++e)
     if (mesh.corners[e] >= 0)
       mesh.nodes[static_cast<std::size_t>(mesh.corners[e])] = given_.outline.edges[e].start;

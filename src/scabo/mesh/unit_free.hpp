@@ -6,7 +6,8 @@
 //
 // and lengths l' = l / L rounded to 40 binary digits. The same body in metres and in millimetres differs in last digits
 // of x only, which eq. (1) removes: a mesher sees the same numbers, and makes the same cells. Nodes on the outline are
-// put on the outline as given afterwards, at the same fractions of its edges; all others are at o + L x'.
+// put on the outline as given afterwards, at the same fractions of its edges, and those on borders of regions likewise;
+// crack tips are where they were given, and all other points at o + L x'.
 #pragma once
 
 #include "scabo/mesh/mesh.hpp"
@@ -18,6 +19,12 @@ namespace scabo::mesh {
 /// origin has an error of 1e-13 there, so that hardly one point in a thousand is rounded otherwise than near the origin.
 constexpr double rounding_of_points = 0x1p-34;
 
+/// Nodes along a part of an edge of a region.
+struct BorderNodes {
+  int region = 0, edge = 0;  ///< counted from 0
+  std::vector<int> nodes;
+};
+
 class UnitFree {
  public:
   /// It holds on to `body`, which has an outline with an extent.
@@ -28,8 +35,8 @@ class UnitFree {
 
   Vec2 real(const Vec2& x) const { return origin_ + scale_ * x; }
   double scale() const { return scale_; }  ///< L, > 0
-  /// The mesh of body() as one of the body itself.
-  BodyMesh real(BodyMesh mesh) const;
+  /// The mesh of body() as one of the body itself. `borders`: ends of sides on borders of regions.
+  BodyMesh real(BodyMesh mesh, const std::vector<BorderNodes>& borders) const;
 
  private:
   const model::Body& given_;
