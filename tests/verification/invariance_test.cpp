@@ -141,5 +141,24 @@ TEST(Invariance, MeshesOfManyCellsDoNotKnowTheUnitOfLength) {
   }
 }
 
+// A block that only contact holds, ten million of its sizes away from the origin: its coordinates have nine digits left,
+// and the certificate, with balance of forces and moments, has all of its own.
+TEST(Invariance, FarFromTheOrigin) {
+  for (const char* kind : {"fem", "polygons", "quadtree", "superelement"})
+    for (const double x : {1e6, 1e7}) {
+      SCOPED_TRACE(fmt::format("{} at {}", kind, x));
+      const auto solution = run(fmt::format(
+          "scabo: 1\nmaterials: {{s: {{young: 200, poisson: 0.3}}}}\nbodies:\n"
+          "  low: {{material: s, shape: {{rectangle: {{corner: [{1:.17g}, 0], size: [1, 1]}}}}, mesh: {{kind: {0}, size: 0.125}}}}\n"
+          "  up: {{material: s, shape: {{rectangle: {{corner: [{1:.17g}, 1], size: [1, 1]}}}}, mesh: {{kind: {0}, size: 0.125}}}}\n"
+          "supports: [{{on: low.bottom, fix: [x, y]}}]\nloads: {{p: {{on: up.top, traction: [0.05, -1]}}}}\n"
+          "contacts: {{joint: {{between: [low.top, up.bottom], friction: 0.3}}}}\n",
+          kind, x));
+      EXPECT_LT(last(solution).certificate.worst(), 1e-11);
+      EXPECT_NEAR(last(solution).contacts.front().normal_force, 1.0, 1e-9);  // the length of the top is rounded
+      EXPECT_NEAR(last(solution).contacts.front().tangential_force, 0.05, 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace scabo::verification

@@ -32,7 +32,7 @@ namespace {
 constexpr double largest_turn_of_side = std::numbers::pi / 12;
 
 /// Part of an element by which the length of an edge, in elements of a size, may be rounded: its ends are (UnitFree).
-double rounding_of(double size) { return std::min(1e-6 + 2.0 * rounding_of_points / size, 0.1); }
+double rounding_of(double size) { return std::min(1e-6 + 2.0 * rounding_of_points(model::MeshKind::polygons) / size, 0.1); }
 
 /// The wanted sizes of cells of a body.
 struct Sizing {

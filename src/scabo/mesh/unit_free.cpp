@@ -35,10 +35,15 @@ UnitFree::UnitFree(const model::Body& body, const SizeField& sizes) : given_(bod
   const geometry::Box box = geometry::box_of(body.outline);
   origin_ = box.low;
   scale_ = (box.high - box.low).maxCoeff();
-  const auto point = [this](const Vec2& x) {
+  const double epsilon = rounding_of_points(body.mesh.kind);
+  const auto point = [this, epsilon](const Vec2& x) {
     const Vec2 own = (x - origin_) / scale_;
-    return Vec2(rounding_of_points * Vec2(own / rounding_of_points).array().round());
+    return Vec2(epsilon * Vec2(own / epsilon).array().round());
   };
+  // The box as given belongs to the rounded one, so that cells in rows along its sides stay equal to rounding.
+  const Vec2 high = point(box.high);
+  for (int axis = 0; axis < 2; ++axis)
+    stretch_[axis] = high[axis] > 0.0 ? (box.high - box.low)[axis] / high[axis] : scale_;
   const auto length = [this](double given) { return rounded_length(given / scale_); };
   const auto convert = [&](geometry::Outline& outline) {
     for (geometry::Corner& corner : outline.corners) corner.position = point(corner.position);
@@ -70,23 +75,22 @@ UnitFree::UnitFree(const model::Body& body, const SizeField& sizes) : given_(bod
 }
 
 BodyMesh UnitFree::real(BodyMesh mesh, const std::vector<BorderNodes>& borders) const {
+  constexpr double rounding = 1e-9;
   const std::vector<Vec2> own = mesh.nodes;
   for (Vec2& node : mesh.nodes) node = real(node);
-  for (Cell& cell : mesh.cells) {
-    const Vec2 tip = cell.centre;
-    cell.centre = real(tip);
-    for (std::size_t c = 0; cell.is_open() && c < made_.cracks.size(); ++c) {
-      const std::vector<Vec2>&path = made_.cracks[c].path, &given = given_.cracks[c].path;
-      if (!path.empty() && path.front() == tip) cell.centre = given.front();
-      if (!path.empty() && path.back() == tip) cell.centre = given.back();
+  enum : char { inside, on_border, on_outline };
+  std::vector<char> where(mesh.nodes.size(), inside);
+  const auto put = [&](int n, const geometry::Edge& edge, const geometry::Edge& own_edge, char there) {
+    const auto node = static_cast<std::size_t>(n);
+    if (where[node] == there) return;
+    if (where[node] == inside) {
+      const double t = geometry::closest_position(own_edge, own[node]);
+      if ((own_edge.at(t) - own[node]).norm() > rounding) return;
+      mesh.nodes[node] = edge.at(t);
+    } else {  // where the border of a region reaches the outline
+      mesh.nodes[node] = geometry::closest_point(edge, mesh.nodes[node]);
     }
-  }
-  constexpr double rounding = 1e-9;
-  std::vector<char> on_border(mesh.nodes.size(), 0);
-  const auto put = [&](int node, const geometry::Edge& edge, const geometry::Edge& own_edge) {
-    const Vec2& x = own[static_cast<std::size_t>(node)];
-    const double t = geometry::closest_position(own_edge, x);
-    if ((own_edge.at(t) - x).norm() <= rounding) mesh.nodes[static_cast<std::size_t>(node)] = edge.at(t);
+    where[node] = there;
   };
   std::map<std::pair<int, int>, const BorderNodes*> sides;
   for (const BorderNodes& border : borders)
@@ -96,25 +100,36 @@ BodyMesh UnitFree::real(BodyMesh mesh, const std::vector<BorderNodes>& borders) 
     for (const LineElement& element : mesh.cells[c].boundary)
       if (const auto side = sides.find(std::minmax(element.nodes.front(), element.nodes.back())); side != sides.end()) {
         const auto region = static_cast<std::size_t>(side->second->region), e = static_cast<std::size_t>(side->second->edge);
-        for (const int node : element.nodes) {
-          put(node, given_.regions[region].outline.edges[e], made_.regions[region].outline.edges[e]);
-          on_border[static_cast<std::size_t>(node)] = 1;
-        }
+        for (const int node : element.nodes)
+          put(node, given_.regions[region].outline.edges[e], made_.regions[region].outline.edges[e], on_border);
       }
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     for (const LineElement& element : mesh.edges[e])
-      for (const int node : element.nodes) {
-        const geometry::Edge& edge = given_.outline.edges[e];
-        Vec2& x = mesh.nodes[static_cast<std::size_t>(node)];
-        const Vec2 there = geometry::closest_point(edge, x);
-        if (on_border[static_cast<std::size_t>(node)] && (there - x).norm() <= 4.0 * rounding * scale_)
-          x = there;
-        else
-          put(node, edge, made_.outline.edges[e]);
-      }
+      for (const int node : element.nodes) put(node, given_.outline.edges[e], made_.outline.edges[e], on_outline);
   for (std::size_t e = 0; e < mesh.corners.size(); ++e)
     if (mesh.corners[e] >= 0)
       mesh.nodes[static_cast<std::size_t>(mesh.corners[e])] = given_.outline.edges[e].start;
+  for (Cell& cell : mesh.cells) {
+    const Vec2 tip = cell.centre;
+    cell.centre = real(tip);
+    for (std::size_t c = 0; cell.is_open() && c < made_.cracks.size(); ++c) {
+      const std::vector<Vec2>&path = made_.cracks[c].path, &given = given_.cracks[c].path;
+      if (!path.empty() && path.front() == tip) cell.centre = given.front();
+      if (!path.empty() && path.back() == tip) cell.centre = given.back();
+    }
+    // Nodes inside a side go with its ends.
+    for (const LineElement& element : cell.boundary) {
+      const auto a = static_cast<std::size_t>(element.nodes.front()), b = static_cast<std::size_t>(element.nodes.back());
+      if (element.nodes.size() == 2 || (where[a] == inside && where[b] == inside)) continue;
+      const Vec2 along = own[b] - own[a], at_a = mesh.nodes[a] - real(own[a]), at_b = mesh.nodes[b] - real(own[b]);
+      for (std::size_t k = 1; k + 1 < element.nodes.size(); ++k) {
+        const auto node = static_cast<std::size_t>(element.nodes[k]);
+        if (where[node] != inside) continue;
+        const double t = (own[node] - own[a]).dot(along) / along.squaredNorm();
+        mesh.nodes[node] = real(own[node]) + (1.0 - t) * at_a + t * at_b;
+      }
+    }
+  }
   return mesh;
 }
 
