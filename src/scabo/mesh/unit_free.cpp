@@ -117,10 +117,11 @@ BodyMesh UnitFree::real(BodyMesh mesh, const std::vector<BorderNodes>& borders) 
       if (!path.empty() && path.front() == tip) cell.centre = given.front();
       if (!path.empty() && path.back() == tip) cell.centre = given.back();
     }
+    if (given_.mesh.order == 1) continue;
     // Nodes inside a side go with its ends.
     for (const LineElement& element : cell.boundary) {
       const auto a = static_cast<std::size_t>(element.nodes.front()), b = static_cast<std::size_t>(element.nodes.back());
-      if (element.nodes.size() == 2 || (where[a] == inside && where[b] == inside)) continue;
+      if (where[a] == inside && where[b] == inside) continue;
       const Vec2 along = own[b] - own[a], at_a = mesh.nodes[a] - real(own[a]), at_b = mesh.nodes[b] - real(own[b]);
       for (std::size_t k = 1; k + 1 < element.nodes.size(); ++k) {
         const auto node = static_cast<std::size_t>(element.nodes[k]);
