@@ -157,19 +157,22 @@ class Builder {
   }
 
   void add_cracks() {
-    for (const std::vector<Vec2>& path : cracks_.paths())
+    for (std::size_t p = 0; p < cracks_.paths().size(); ++p) {
+      const std::vector<Vec2>& path = cracks_.paths()[p];
       for (std::size_t k = 0; k + 1 < path.size(); ++k) {
         Shared crack;
         NetLine& line = crack.line;
         line.edge.start = path[k];
         line.edge.end = path[k + 1];
         line.crack = true;
+        line.of_crack = static_cast<int>(p);
         line.start = points_.number(line.edge.start);
         line.end = points_.number(line.edge.end);
         crack.middle = line.edge.at(0.5);
         line.left = line.right = region_beside(crack, true);
         net_.push_back(std::move(line));
       }
+    }
   }
 
   const model::Body& body_;

@@ -13,7 +13,8 @@ struct NetLine {
   int left = 0, right = -1;  ///< as in DomainLine
   bool crack = false;
   int of_edge = -1;        ///< edge of the outline
-  int region = -1, region_edge = -1;  ///< or of a region, counted from 0; a crack has neither
+  int region = -1, region_edge = -1;  ///< or of a region, counted from 0
+  int of_crack = -1;                  ///< or of a crack of the body
   int start = 0, end = 0;  ///< numbers of its ends; lines that meet there have the same one, and the same coordinates
 };
 
