@@ -95,12 +95,21 @@ Shape<size_of(kind)> natural_shape(double r, double s) {
   return shape;
 }
 
-/// J(a, b) = d x_a / d natural_b.
+/// J(a, b) = d x_a / d natural_b. The gradients add to zero: positions relative to a node of the element do not lose the
+/// digits of large coordinates.
 template <int n>
 Mat2 jacobian_matrix(const Shape<n>& shape, const FiniteElement& element) {
   Mat2 J = Mat2::Zero();
-  for (std::size_t i = 0; i < n; ++i) J += element.x[i] * shape.gradient[i].transpose();
+  for (std::size_t i = 1; i < n; ++i) J += (element.x[i] - element.x[0]) * shape.gradient[i].transpose();
   return J;
+}
+
+/// The position at a point relative to the first node.
+template <int n>
+Vec2 arm_to(const Shape<n>& shape, const FiniteElement& element) {
+  Vec2 arm = Vec2::Zero();
+  for (std::size_t i = 1; i < n; ++i) arm += shape.N[i] * (element.x[i] - element.x[0]);
+  return arm;
 }
 
 /// With gradients in real coordinates; not numbers where the Jacobian is zero.
@@ -204,9 +213,7 @@ struct Residual {
 Residual residual_at(const FiniteElement& element, const Vec2& x, const Vec2& natural) {
   return with_kind(element.kind, [&](auto kind) {
     const auto shape = natural_shape<kind()>(natural.x(), natural.y());
-    Residual residual{x, jacobian_matrix(shape, element)};
-    for (std::size_t i = 0; i < shape.N.size(); ++i) residual.miss -= shape.N[i] * element.x[i];
-    return residual;
+    return Residual{(x - element.x[0]) - arm_to(shape, element), jacobian_matrix(shape, element)};
   });
 }
 
@@ -343,8 +350,7 @@ ElementVector finite_element_body_force(const FiniteElement& element, const Line
     std::array<Vec2, n> moments;
     moments.fill(Vec2::Zero());
     integrate<kind()>(element, [&](const auto& shape, double weight) {
-      Vec2 arm = -origin;
-      for (std::size_t i = 0; i < n; ++i) arm += shape.N[i] * element.x[i];
+      const Vec2 arm = arm_to(shape, element);
       for (std::size_t i = 0; i < n; ++i) {
         areas[i] += shape.N[i] * weight;
         moments[i] += shape.N[i] * weight * arm;
@@ -369,8 +375,7 @@ ElementVector finite_element_thermal_force(const FiniteElement& element, const M
     Eigen::Matrix<double, 2 * n, 1> f = Eigen::Matrix<double, 2 * n, 1>::Zero();
     const Vec3 unit_stress = D * unit_strain;
     integrate<kind()>(element, [&](const auto& shape, double weight) {
-      Vec2 x = Vec2::Zero();
-      for (std::size_t i = 0; i < n; ++i) x += shape.N[i] * element.x[i];
+      const Vec2 x = element.x[0] + arm_to(shape, element);
       f.noalias() += strain_matrix<n>(shape).transpose() * (unit_stress * (temperature.at(x) * weight * thickness));
     });
     return f;
@@ -392,7 +397,7 @@ PointValues finite_element_values(const FiniteElement& element, const ElementVec
 }
 
 Vec2 position_in(const FiniteElement& element, const Vec2& natural) {
-  return -residual_at(element, Vec2::Zero(), natural).miss;
+  return element.x[0] - residual_at(element, element.x[0], natural).miss;
 }
 
 std::optional<Vec2> natural_coordinates(const FiniteElement& element, const Vec2& x) {

@@ -7,9 +7,9 @@
 #include <map>
 #include <numbers>
 
-#include "scabo/base/error.hpp"
 #include "scabo/mesh/interior_points.hpp"
 #include "scabo/mesh/polygons.hpp"
+#include "scabo/mesh/refusal.hpp"
 
 namespace scabo::mesh {
 namespace {
@@ -17,8 +17,6 @@ namespace {
 constexpr double largest_facet_turn =
     std::numbers::pi / 6.0;  // of a facet of an arc that has vertices at middles of facets
 constexpr int rounds_of_smoothing = 3;
-
-[[noreturn]] void refuse(const std::string& message) { throw InputError("", {Diagnostic{{}, message}}); }
 
 std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
 
@@ -91,7 +89,7 @@ void add_edges(DualVertices& vertices) {
       const PieceEdge edge{static_cast<int>(p), static_cast<int>(j)};
       if (chain[j] == chain[j + 1] ||
           !vertices.piece_edges.emplace(DualVertices::pair_key(chain[j], chain[j + 1]), edge).second)
-        refuse("two lines of the shape lie on each other, or a line returns to its start");
+        throw Refusal("two lines of the shape lie on each other, or a line returns to its start");
       vertices.segments.emplace_back(chain[j], chain[j + 1]);
     }
   }
@@ -114,13 +112,13 @@ std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices,
       if (!triangles[t].constrained[i]) continue;
       const int a = triangles[t].vertices[(i + 1) % 3], b = triangles[t].vertices[(i + 2) % 3];
       const auto found = vertices.piece_edges.find(DualVertices::pair_key(a, b));
-      if (found == vertices.piece_edges.end()) refuse("a line of the shape touches another one between its ends");
+      if (found == vertices.piece_edges.end()) throw Refusal("a line of the shape touches another one between its ends");
       const LinePiece& piece = vertices.pieces[index_of(found->second.piece)];
       const bool on_left = piece.vertices[index_of(found->second.edge)] == a;
       const DomainLine& line = domain.lines[index_of(piece.line)];
       const int own = on_left ? line.left : line.right;
       if (region[t] == unknown) known.push_back(t);
-      if (region[t] != unknown && region[t] != own) refuse("the lines of the shape do not enclose its regions");
+      if (region[t] != unknown && region[t] != own) throw Refusal("the lines of the shape do not enclose its regions");
       region[t] = own;
     }
   while (!known.empty()) {
@@ -133,7 +131,7 @@ std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices,
         other = region[t];
         known.push_back(index_of(triangles[t].neighbours[i]));
       } else if (other != region[t]) {
-        refuse("the lines of the shape do not enclose its regions");
+        throw Refusal("the lines of the shape do not enclose its regions");
       }
     }
   }
@@ -142,7 +140,7 @@ std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices,
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i)
       if (region[t] >= 0 && triangles[t].neighbours[i] < 0 && !triangles[t].constrained[i])
-        refuse("the lines of the shape do not enclose its regions");
+        throw Refusal("the lines of the shape do not enclose its regions");
   return region;
 }
 

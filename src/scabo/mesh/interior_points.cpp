@@ -17,6 +17,9 @@ namespace {
 constexpr double from_points = 0.72;   // least distance of a new point from others, per spacing
 constexpr double from_lines = 0.55;    // the same from lines
 constexpr double from_segments = 0.3;  // and per length of the segment: long facets have no crowd of points before them
+/// Spacings by which points take their turn differ by more than rounding, which has no say in the mesh.
+double rounded(double spacing) { return static_cast<double>(static_cast<float>(spacing)); }
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -230,7 +233,7 @@ class Growth {
       if (segment.left_inside) seeds.push_back({i, wanted, true});
       if (segment.right_inside) seeds.push_back({i, wanted, false});
     }
-    std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.spacing < b.spacing; });
+    std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return rounded(a.spacing) < rounded(b.spacing); });
     for (const Seed& seed : seeds)
       for (const double height : {0.87, 0.55}) {
         const BorderSegment& segment = segments_[seed.segment];
@@ -294,7 +297,7 @@ class Growth {
     result_.spacing.push_back(wanted);
     surroundings_.push_back(around);
     angles_.push_back(angle);
-    waiting_.push({wanted, static_cast<int>(result_.points.size()) - 1});
+    waiting_.push({rounded(wanted), static_cast<int>(result_.points.size()) - 1});
   }
 
   void grow() {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
@@ -19,7 +21,9 @@
 #include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
+#include "scabo/mesh/refusal.hpp"
 #include "scabo/mesh/star_cells.hpp"
+#include "scabo/mesh/unit_free.hpp"
 
 namespace scabo::mesh {
 
@@ -28,24 +32,34 @@ namespace {
 /// A side on an arc turns by at most this, so that its chord is near it and cells beside it stay valid.
 constexpr double largest_turn_of_side = std::numbers::pi / 12;
 
-/// Fractions of the length of an edge at which its part from `from` to `to` is divided, both included.
-std::vector<double> breaks_of(const model::Body& body, const SizeField& sizes, const geometry::Edge& edge, double from,
-                              double to) {
-  const double length = (to - from) * edge.length();
-  const double by_turn = edge.arc ? (to - from) * std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
-  std::vector<double> breaks{from};
-  if (body.mesh.refine.empty() && sizes.empty()) {
-    const double count = std::max(elements_along(length, body.mesh.size), std::ceil(by_turn - 1e-9));
-    for (int k = 1; k < count; ++k) breaks.push_back(std::lerp(from, to, k / count));
+/// Part of an element by which the length of an edge, in elements of a size, may be rounded: its ends are (UnitFree).
+double rounding_of(double size) { return std::min(1e-6 + 2.0 * rounding_of_points(model::MeshKind::polygons) / size, 0.1); }
+
+/// The wanted sizes of cells of a body.
+struct Sizing {
+  std::function<double(const Vec2&)> at;
+  double largest = 0.0;
+  bool uniform = true;  ///< the same everywhere
+};
+
+/// Fractions of the length of an edge at which it is divided, 0 and 1 included.
+std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge) {
+  const double length = edge.length();
+  const double by_turn = edge.arc ? std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
+  const double rounding = rounding_of(sizing.largest);
+  std::vector<double> breaks{0.0};
+  if (sizing.uniform) {
+    const double count = std::max({1.0, std::ceil(length / sizing.largest - rounding), std::ceil(by_turn - rounding)});
+    for (int k = 1; k < count; ++k) breaks.push_back(k / count);
   } else {
     // As many elements as the integral of 1 / size, each with an equal part of it. Steps are short compared with the
     // size, which changes by less than the distance.
     constexpr int samples = 1000;
     constexpr double longest_step = 0.25;
-    std::vector<double> ends{from}, sum{0.0};
+    std::vector<double> ends{0.0}, sum{0.0};
     const auto add = [&](const auto& self, double low, double high) -> void {
       const double step = (high - low) * edge.length();
-      const double size = std::min(wanted_size(body, sizes, edge.at(0.5 * (low + high))), length / by_turn);
+      const double size = std::min(sizing.at(edge.at(0.5 * (low + high))), length / by_turn);
       if (step > longest_step * size && step > 1e-9 * length) {
         self(self, low, 0.5 * (low + high));
         self(self, 0.5 * (low + high), high);
@@ -55,8 +69,8 @@ std::vector<double> breaks_of(const model::Body& body, const SizeField& sizes, c
       sum.push_back(sum.back() + step / size);
     };
     for (int i = 0; i < samples; ++i)
-      add(add, std::lerp(from, to, double(i) / samples), std::lerp(from, to, (i + 1.0) / samples));
-    const double count = std::max(1.0, std::ceil(sum.back() - 1e-9));
+      add(add, double(i) / samples, (i + 1.0) / samples);
+    const double count = std::max(1.0, std::ceil(sum.back() - rounding));
     std::size_t i = 0;
     for (int k = 1; k < count; ++k) {
       const double part = k / count * sum.back();
@@ -64,7 +78,7 @@ std::vector<double> breaks_of(const model::Body& body, const SizeField& sizes, c
       breaks.push_back(std::lerp(ends[i], ends[i + 1], (part - sum[i]) / (sum[i + 1] - sum[i])));
     }
   }
-  breaks.push_back(to);
+  breaks.push_back(1.0);
   return breaks;
 }
 
@@ -80,35 +94,12 @@ DomainLine part_of(const geometry::Edge& edge, const std::vector<double>& breaks
   return line;
 }
 
-/// Lines of an edge between the given positions on it, `cuts`, which include 0 and 1: one, or two halves of a long arc.
-std::vector<DomainLine> lines_of(const model::Body& body, const SizeField& sizes, const geometry::Edge& edge,
-                                 const std::vector<double>& cuts) {
-  std::vector<DomainLine> lines;
-  for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-    const std::vector<double> breaks = breaks_of(body, sizes, edge, cuts[c], cuts[c + 1]);
-    const std::size_t last = breaks.size() - 1;
-    if (!edge.arc || (cuts[c + 1] - cuts[c]) * std::abs(edge.arc->sweep) < std::numbers::pi) {
-      lines.push_back(part_of(edge, breaks, 0, last));
-      continue;
-    }
-    lines.push_back(part_of(edge, breaks, 0, last / 2));
-    lines.push_back(part_of(edge, breaks, last / 2, last));
-  }
-  return lines;
-}
-
-/// The innermost region that holds a point, as in BodyDomain; `except` does not count.
-int region_at(const model::Body& body, const Vec2& point,
-              std::size_t except = std::numeric_limits<std::size_t>::max()) {
-  int at = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < body.regions.size(); ++k) {
-    const geometry::Outline& outline = body.regions[k].outline;
-    if (k == except || outline.area() >= least || !geometry::encloses(outline, point)) continue;
-    at = static_cast<int>(k) + 1;
-    least = outline.area();
-  }
-  return at;
+/// Lines of an edge: one, or two halves of a long arc.
+std::vector<DomainLine> lines_of(const Sizing& sizing, const geometry::Edge& edge) {
+  const std::vector<double> breaks = breaks_of(sizing, edge);
+  const std::size_t last = breaks.size() - 1;
+  if (!edge.arc || std::abs(edge.arc->sweep) < std::numbers::pi) return {part_of(edge, breaks, 0, last)};
+  return {part_of(edge, breaks, 0, last / 2), part_of(edge, breaks, last / 2, last)};
 }
 
 double approximate_nodes(const model::Body& body) {
@@ -165,6 +156,21 @@ std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::op
 /// exact as the elements there resolve it, however small the cell is.
 constexpr double largest_angle_at_tip = std::numbers::pi / 8;
 
+/// Whether the Jacobian of a triangle of six nodes is hardly positive, or not at all, at one of its corners.
+bool is_folded(const Cell& triangle, const std::vector<Vec2>& nodes) {
+  constexpr double least = 0.05;  // of the triangle with straight sides
+  const auto at = [&](std::size_t side, std::size_t k) -> const Vec2& {
+    return nodes[static_cast<std::size_t>(triangle.boundary[side % 3].nodes[k])];
+  };
+  const double straight = cross(at(0, 2) - at(0, 0), at(1, 2) - at(0, 0));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 &corner = at(i, 0), &before = at(i + 2, 0), &after = at(i, 2);
+    const Vec2 forth = 4.0 * at(i, 1) - 3.0 * corner - after, back = 4.0 * at(i + 2, 1) - 3.0 * corner - before;
+    if (cross(forth, back) < least * straight) return true;
+  }
+  return false;
+}
+
 /// `turn`: of a quadtree (QuadtreeOptions).
 PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double turn) {
   const auto size_of_options = [&body](const Vec2& x) { return wanted_size(body, {}, x); };
@@ -197,42 +203,33 @@ double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& 
   return size;
 }
 
-BodyDomain domain_of(const model::Body& body, const SizeField& sizes) {
+BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options) {
   BodyDomain made;
   const CrackNet cracks(body);
-  for (std::size_t e = 0; e < body.outline.edges.size(); ++e) {
-    made.lines_of_edge.emplace_back();
-    const geometry::Edge& edge = body.outline.edges[e];
-    const bool of_hole = !body.outline.holes.empty() && static_cast<int>(e) >= body.outline.holes.front();
-    for (DomainLine& line : lines_of(body, sizes, edge, cracks.cuts(e))) {
-      if (of_hole) line.left = region_at(body, edge.at(0.5));
-      made.lines_of_edge.back().push_back(made.domain.lines.size());
-      made.domain.lines.push_back(std::move(line));
-    }
+  const std::vector<NetLine> net = line_net(body, cracks);
+  const auto asked = [&body, &sizes](const Vec2& x) { return wanted_size(body, sizes, x); };
+  made.narrow = narrow_places(net, cracks.tips(), asked, body.mesh.size, options);
+  Sizing sizing{asked, body.mesh.size, body.mesh.refine.empty() && sizes.empty() && made.narrow.samples.empty()};
+  if (!made.narrow.samples.empty()) {
+    const auto narrow = std::make_shared<SizeField>(made.narrow.samples, model::mesh_growth);
+    sizing.at = [asked, narrow](const Vec2& x) { return std::min(asked(x), narrow->at(x)); };
   }
-  for (std::size_t k = 0; k < body.regions.size(); ++k)
-    for (std::size_t e = 0; e < body.regions[k].outline.edges.size(); ++e)
-      for (DomainLine& line : lines_of(body, sizes, body.regions[k].outline.edges[e], cracks.region_cuts(k, e))) {
-        line.left = static_cast<int>(k) + 1;
-        line.right = region_at(body, body.regions[k].outline.edges.front().at(0.5), k);
-        made.domain.lines.push_back(std::move(line));
-      }
-  for (const std::vector<Vec2>& path : cracks.paths()) {
-    made.lines_of_crack.emplace_back();
-    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-      geometry::Edge edge;
-      edge.start = path[k];
-      edge.end = path[k + 1];
-      const std::vector<double> breaks = breaks_of(body, sizes, edge, 0.0, 1.0);
-      DomainLine line = part_of(edge, breaks, 0, breaks.size() - 1);
-      line.crack = true;
-      line.left = line.right = region_at(body, edge.at(0.5));
-      made.lines_of_crack.back().push_back(made.domain.lines.size());
+  if (made.narrow.cells > options.most) return made;
+  made.lines_of_edge.resize(body.outline.edges.size());
+  made.lines_of_crack.resize(cracks.paths().size());
+  for (const NetLine& of : net)
+    for (DomainLine& line : lines_of(sizing, of.edge)) {
+      line.left = of.left;
+      line.right = of.right;
+      line.crack = of.crack;
+      if (of.of_edge >= 0) made.lines_of_edge[static_cast<std::size_t>(of.of_edge)].push_back(made.domain.lines.size());
+      if (of.of_crack >= 0) made.lines_of_crack[static_cast<std::size_t>(of.of_crack)].push_back(made.domain.lines.size());
       made.domain.lines.push_back(std::move(line));
+      made.sources.push_back(of);
     }
   }
   made.domain.centres = cracks.tips();
-  made.domain.size = [&body, &sizes](const Vec2& x) { return wanted_size(body, sizes, x); };
+  made.domain.size = sizing.at;
   return made;
 }
 
@@ -330,9 +327,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     if (!hollow || straight || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
     const KernelCentre better = kernel_centre(points, well_seen);
     if (better.visibility > hardly_seen) return better.centre;
-    throw InputError("", {Diagnostic{{},
-                                     fmt::format("the cell at ({:.6g}, {:.6g}) is too large for the arc beside it",
-                                                 polygon.centre.x(), polygon.centre.y())}});
+    throw Refusal("a cell is too large for the arc beside it", polygon.centre);
   };
   for (const PolygonCell& polygon : polygons.cells) {
     Cell cell;
@@ -352,6 +347,9 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
       }
     mesh.cells.push_back(std::move(cell));
   }
+  if (body.mesh.kind == model::MeshKind::fem && order == 2)
+    for (const Cell& cell : mesh.cells)
+      if (is_folded(cell, mesh.nodes)) throw Refusal("a triangle is too large for the arc beside it", cell.centre);
   for (const std::vector<std::size_t>& lines : of.lines_of_edge) {
     std::vector<LineElement>& elements = mesh.edges.emplace_back();
     mesh.corners.push_back(polygons.left[lines.front()].empty() ? -1 : polygons.left[lines.front()].front());
@@ -431,15 +429,40 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
     }
   }
   const double nodes = body.mesh.kind == model::MeshKind::parts ? 0.0 : approximate_nodes(body);
+  const geometry::Box box = geometry::box_of(body.outline);
+  const double thickness = (box.high - box.low).minCoeff();
+  const bool thin = body.mesh.kind == model::MeshKind::quadtree && thickness < body.mesh.size;
   if (!(nodes <= most_nodes))
-    return Diagnostic{body.mesh.source, fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
-                                                    "allowed: use a larger 'size'",
-                                                    body.mesh.size, nodes, most_nodes)};
-  const BodyDomain of = domain_of(body, sizes);
-  constexpr double turn = 0.5, least_turn = 0.1;
-  for (double now = turn;; now *= 0.5) {
+    return Diagnostic{body.mesh.source, thin ? fmt::format("the squares of a quadtree are not larger than the body is thick, "
+                                                           "{:.3g}, which makes about {:.2g} nodes, more than the {:.7g} "
+                                                           "allowed: make the body thicker or shorter",
+                                                           thickness, nodes, most_nodes)
+                                             : fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
+                                                           "allowed: use a larger 'size'",
+                                                           body.mesh.size, nodes, most_nodes)};
+  const UnitFree own(body, sizes);
+  // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places.
+  constexpr std::array<double, 3> turns{0.5, 0.25, 0.125}, sizes_per_width{2.0, 1.4, 1.0};
+  for (std::size_t attempt = 0;; ++attempt) {
+    const BodyDomain of = domain_of(own.body(), own.sizes(),
+                                    {.sizes_per_width = sizes_per_width[attempt],
+                                     .gaps = attempt > 0,
+                                     .arcs = attempt > 0 && body.mesh.kind == model::MeshKind::quadtree,
+                                     .most = most_nodes});
+    const auto in_words = [&](const Vec2& x) { const Vec2 real = own.real(x); return fmt::format("({:.6g}, {:.6g})", real.x(), real.y()); };
+    const double width = own.scale() * of.narrow.width;
+    if (of.narrow.cells > most_nodes)
+      return Diagnostic{body.mesh.source,
+                        fmt::format("body '{}' is only {:.3g} wide near {}: cells that fit there make more than the {:.7g} "
+                                    "nodes allowed; make it wider there, or leave the narrow part out",
+                                    body.name, width, in_words(of.narrow.narrowest), most_nodes)};
     try {
-      BodyMesh mesh = body_mesh_of(polygons_of(of.domain, body, now), of, body);
+      const PolygonMesh polygons = polygons_of(of.domain, own.body(), turns[attempt]);
+      std::vector<BorderNodes> borders;
+      for (std::size_t l = 0; l < of.sources.size(); ++l)
+        if (of.sources[l].region >= 0)
+          borders.push_back({of.sources[l].region, of.sources[l].region_edge, polygons.left[l]});
+      BodyMesh mesh = own.real(body_mesh_of(polygons, of, own.body()), borders);
       const std::size_t pieces = body.cracks.empty() ? 1 : pieces_of(mesh);
       if (pieces > 1)
         return Diagnostic{body.cracks.front().source,
@@ -447,12 +470,17 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                       "pieces bodies of their own, with a contact between them",
                                       body.name, pieces)};
       return mesh;
-    } catch (const InputError& error) {
-      // Cells of a quadtree that are too large beside an arc become smaller.
-      if (body.mesh.kind == model::MeshKind::quadtree && now > least_turn) continue;
-      return Diagnostic{body.mesh.source,
-                        fmt::format("this shape could not be divided ({}): use a smaller 'size' or another kind",
-                                    error.diagnostics().front().message)};
+    } catch (const Refusal& refusal) {
+      if (attempt + 1 < turns.size()) continue;
+      std::optional<Vec2> place;
+      if (refusal.near()) place = own.real(*refusal.near());
+      const std::string narrow =
+          of.narrow.width > 0.0
+              ? fmt::format("; its lines are {:.3g} apart near {}", width, in_words(of.narrow.narrowest))
+              : "";
+      return Diagnostic{body.mesh.source, fmt::format("this shape could not be divided ({}{}): use a smaller 'size' there, "
+                                                      "with 'refine', or another kind",
+                                                      refusal_text(refusal.reason(), place), narrow)};
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "scabo/mesh/domain.hpp"
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/narrow_places.hpp"
 #include "scabo/mesh/size_field.hpp"
 
 namespace scabo::mesh {
@@ -13,14 +14,16 @@ namespace scabo::mesh {
 /// than `sizes`.
 double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x);
 
-/// The outline, the regions and the cracks of a body as lines, divided by wanted_size. It holds on to `body` and to
-/// `sizes`.
+/// The outline, the regions and the cracks of a body as lines, divided by wanted_size or less in narrow places. It holds
+/// on to `body` and to `sizes`. If the cells in narrow places are too many (NarrowOptions), it has no lines.
 struct BodyDomain {
   Domain domain;  ///< region 0 is the body outside of its regions, and region k + 1 is body.regions[k]
-  std::vector<std::vector<std::size_t>> lines_of_edge;   ///< the lines of each edge of the outline, in its direction
+  std::vector<std::vector<std::size_t>> lines_of_edge;  ///< the lines of each edge of the outline, in its direction
   std::vector<std::vector<std::size_t>> lines_of_crack;  ///< the lines of each crack, in the direction of its path
+  std::vector<NetLine> sources;  ///< what each line is a part of
+  NarrowPlaces narrow;
 };
-BodyDomain domain_of(const model::Body& body, const SizeField& sizes);
+BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options);
 
 /// Divides a body into cells, of polynomial order mesh.order; or says why this is not possible. `most_nodes`: at most
 /// about as many nodes.

@@ -1,16 +1,14 @@
 #include "scabo/mesh/polygons.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
 
-#include "scabo/base/error.hpp"
 #include "scabo/mesh/dual_vertices.hpp"
 #include "scabo/mesh/polygon_kernel.hpp"
+#include "scabo/mesh/refusal.hpp"
 
 namespace scabo::mesh {
 namespace {
@@ -218,9 +216,7 @@ class Dual {
     for (const Vec2& centre : domain_.centres) {
       const int corner = corner_at(vertices_, centre);
       if (corner < 0)
-        throw InputError(
-            "", {Diagnostic{
-                    {}, fmt::format("the scaling centre ({}, {}) is not the end of a line", centre.x(), centre.y())}});
+        throw Refusal("a scaling centre is not the end of a line", centre);
       is_centre_[at(corner)] = true;
     }
     std::vector<bool> seen(wedges_.size(), false);
@@ -578,13 +574,8 @@ class Dual {
 
   void check() const {
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-      if (!(visibility_[c] > 0.0)) {
-        const Vec2& place = mesh_.nodes[at(mesh_.cells[c].nodes.front())];
-        throw InputError("", {Diagnostic{{},
-                                         fmt::format("no polygon fits between the lines near ({:.6g}, {:.6g}): "
-                                                     "give a smaller size there",
-                                                     place.x(), place.y())}});
-      }
+      if (!(visibility_[c] > 0.0))
+        throw Refusal("no polygon fits between the lines", mesh_.nodes[at(mesh_.cells[c].nodes.front())]);
   }
 
   // Nodes in the order in which cells meet them; those that no cell has go.

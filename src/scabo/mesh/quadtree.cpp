@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "scabo/base/error.hpp"
+#include "scabo/mesh/refusal.hpp"
 #include "scabo/mesh/quadtree/curves.hpp"
 #include "scabo/mesh/quadtree/cut.hpp"
 #include "scabo/mesh/quadtree/forest.hpp"
@@ -58,14 +58,12 @@ class Grower {
       last_trouble_ = trouble.front();
       if (!divide_at(trouble)) break;
     }
-    give_up("lines are too close to each other, or meet elsewhere than at their ends, near");
+    give_up("lines are too close to each other, or meet elsewhere than at their ends,");
   }
 
  private:
-  [[noreturn]] void give_up(const std::string& reason) const {
-    throw InputError({}, {{{},
-                           "the quadtree cannot divide the body: " + reason + " (" + std::to_string(last_trouble_.x()) +
-                               ", " + std::to_string(last_trouble_.y()) + ")"}});
+  [[noreturn]] void give_up(const char* reason) const {
+    throw Refusal(reason, last_trouble_);
   }
 
   Forest make_forest() {
@@ -80,7 +78,7 @@ class Grower {
     }
     const auto [nx, ny] = root_numbers(extent, largest);
     last_trouble_ = curves_.box.lower;
-    if (nx == 0) give_up("the wanted size makes more than 500 million cells, for a body that begins at");
+    if (nx == 0) give_up("the wanted size makes more than 500 million cells, for a body that begins");
     return Forest(curves_.box.lower, extent.cwiseQuotient(Vec2(nx, ny)), nx, ny);
   }
 
@@ -159,7 +157,7 @@ class Grower {
     for (std::size_t k = from; k < forest_.cells.size(); ++k) {
       if (forest_.cells[k].child < 0 && too_large(forest_.cells[k])) forest_.split(int(k));
       if (forest_.cells.size() > 400000000)
-        give_up("the wanted sizes make more than 400 million cells, for a body that begins at");
+        give_up("the wanted sizes make more than 400 million cells, for a body that begins");
     }
   }
 
@@ -252,7 +250,7 @@ class Grower {
       if (!is_free(patch, size.maxCoeff())) {
         if (leaf.level >= forest_.deepest()) {
           last_trouble_ = centre;
-          give_up("there is no room for a cell around");
+          give_up("there is no room for the cell of a crack tip");
         }
         forest_.split(index);
         continue;

@@ -34,6 +34,7 @@ class SizeField {
   /// Samples that count, in an order of their own.
   const std::vector<Sample>& samples() const { return samples_; }
   bool empty() const { return samples_.empty(); }
+  double growth() const { return growth_; }
 
  private:
   void build(std::size_t from, std::size_t to);

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "scabo/base/error.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
 #include "scabo/mesh/polygon_kernel.hpp"
+#include "scabo/mesh/refusal.hpp"
 
 namespace scabo::mesh {
 
@@ -257,7 +257,7 @@ PolygonMesh star_cells(const Domain& domain) {
     Division division(domain, turn);
     const double seen = division.seen();
     if (seen > hardly_seen || (seen > 0.0 && turn <= least_turn)) return division.mesh();
-    if (turn <= least_turn) throw InputError("", {Diagnostic{{}, "a part between two arcs is too thin for its sides"}});
+    if (turn <= least_turn) throw Refusal("a part between two arcs is too thin for its sides");
   }
 }
 

@@ -15,7 +15,7 @@
 
 #include <numeric>
 
-#include "scabo/base/error.hpp"
+#include "scabo/mesh/refusal.hpp"
 
 namespace scabo::mesh {
 namespace {
@@ -54,13 +54,12 @@ std::vector<Triangle> triangulate(const std::vector<Vec2>& points, const std::ve
     near = vertices[i]->face();
   }
   if (delaunay.number_of_vertices() != points.size())
-    throw InputError("", {Diagnostic{{}, "two lines of the shape touch between their ends"}});
+    throw Refusal("two lines of the shape touch between their ends");
   try {
     for (const auto& [a, b] : segments)
       delaunay.insert_constraint(vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)]);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
-    throw InputError("",
-                     {Diagnostic{{}, "two lines of the shape cross, or their facets are too long to tell them apart"}});
+    throw Refusal("two lines of the shape cross, or their facets are too long to tell them apart");
   }
 
   int count = 0;

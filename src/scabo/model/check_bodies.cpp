@@ -7,6 +7,7 @@
 
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/pieces.hpp"
 #include "scabo/model/checking.hpp"
 #include "scabo/model/side_faces.hpp"
 
@@ -474,8 +475,9 @@ void check_reference(const BodyCheck& of) {
   }
 }
 
-/// Regions lie inside the body, apart from its boundary and from each other.
+/// Regions lie in the body, at least in part. One may lie inside another, or beside it with a common border.
 void check_regions(const BodyCheck& of) {
+  const double tolerance = 1e-9 * outline_size(of.outline);
   std::unordered_set<std::string> names;
   std::vector<const Region*> sound;
   for (std::size_t i = 0; i < of.body.regions.size(); ++i) {
@@ -483,18 +485,26 @@ void check_regions(const BodyCheck& of) {
     const std::string path = path_of(of.path + ".regions", region.name, i);
     check_name(of.checking, path, region.name, "region", names);
     check_material(of.checking, path, "material", region.material);
-    if (!check_outline(of.checking, path + ".shape", region.outline) ||
-        !check_inside(of.checking, path + ".shape", fmt::format("region '{}'", region.name), of.outline,
-                      region.outline))
+    if (!check_outline(of.checking, path + ".shape", region.outline)) continue;
+    if (!geometry::overlap_of(of.outline, region.outline, tolerance).share_area) {
+      of.checking.error(path, "shape", fmt::format("region '{}' lies outside of the body: move it inside", region.name));
       continue;
-    const auto touches = [&](const Region* other) { return crossing_between(other->outline, region.outline); };
-    const auto other = std::find_if(sound.begin(), sound.end(), touches);
-    if (other != sound.end())
+    }
+    bool good = true;
+    for (const Region* other : sound) {
+      const geometry::Overlap overlap = geometry::overlap_of(other->outline, region.outline, tolerance);
+      if (!overlap.share_area || overlap.first_beyond != overlap.second_beyond) continue;
       of.checking.error(
           path, "shape",
-          fmt::format("regions '{}' and '{}' touch or cross each other: keep them apart", (*other)->name, region.name));
-    else
-      sound.push_back(&region);
+          overlap.first_beyond
+              ? fmt::format("regions '{}' and '{}' overlap in part, from {} on: a region lies inside another one, or "
+                            "beside it, also with a common border",
+                            other->name, region.name, point_text(overlap.crossing))
+              : fmt::format("regions '{}' and '{}' have the same shape: leave one out", other->name, region.name));
+      good = false;
+      break;
+    }
+    if (good) sound.push_back(&region);
   }
 }
 

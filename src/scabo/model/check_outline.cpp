@@ -318,7 +318,7 @@ bool check_inside(Checking& checking, const std::string& path, const std::string
     };
     checking.error(path, "",
                    fmt::format("{} and {} meet at {}: {} must lie inside the body, apart from its boundary "
-                               "and other holes and regions",
+                               "and other holes",
                                name(crossing->first), name(crossing->second), point_text(crossing->point), what));
     return false;
   }

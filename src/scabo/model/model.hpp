@@ -105,7 +105,7 @@ struct Crack {
   std::vector<Vec2> path;
 };
 
-/// A part of a body with a material of its own, inside its outline.
+/// A part of a body with a material of its own. What of it lies outside of the body does not count.
 struct Region {
   std::string name;
   int material = -1;  ///< index into Model::materials
@@ -127,7 +127,7 @@ struct Body {
   Outline outline;                    ///< with the material on its left
   MeshOptions mesh;                   ///< unused for a rigid body
   std::vector<Crack> cracks;          ///< at most one
-  std::vector<Region> regions;        ///< apart from each other, or one inside another, the outer one first
+  std::vector<Region> regions;        ///< beside each other, or one inside another: the smallest one counts
   std::vector<int> sector_materials;  ///< per edge: its sector's index into Model::materials; empty: `material`
   /// The mesh of the body, from a file (imported_body.hpp): facet_sets[i] has the sides along edge i of the outline, in
   /// their order.

@@ -1,0 +1,173 @@
+#include "scabo/mesh/narrow_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+/// A line lies opposite another one where the way to it leaves at less than 60 degrees from the normal.
+constexpr double opposite = 0.5;
+/// Lengths are relative to the body here (unit_free.hpp); places below this are rounding.
+constexpr double least_width = 1e-8;
+/// Cells next to a narrow place are about as many again in each of the layers in which sizes grow.
+constexpr double cells_per_size = 4.0;
+
+/// A tree of boxes around lines.
+class LineTree {
+ public:
+  explicit LineTree(const std::vector<NetLine>& lines) : order_(lines.size()) {
+    for (const NetLine& line : lines) boxes_.push_back(geometry::box_of(line.edge));
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    if (!lines.empty()) build(0, lines.size());
+  }
+
+  /// Calls `act` with every line whose box is within `radius` of p.
+  template <typename Act>
+  void within(const Vec2& p, double radius, const Act& act) const {
+    if (!nodes_.empty()) visit(0, p, radius, act);
+  }
+
+ private:
+  struct Node {
+    geometry::Box box;
+    std::size_t begin, end;
+    std::size_t second = 0;  ///< the first child follows the node; 0: a leaf
+  };
+
+  std::size_t build(std::size_t begin, std::size_t end) {
+    Node node{{}, begin, end};
+    for (std::size_t i = begin; i < end; ++i) node.box.add(boxes_[order_[i]]);
+    const std::size_t index = nodes_.size();
+    nodes_.push_back(node);
+    if (end - begin <= 4) return index;
+    const Vec2 extent = node.box.high - node.box.low;
+    const int axis = extent.x() >= extent.y() ? 0 : 1;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end), [&](std::size_t i, std::size_t j) {
+      const double x = boxes_[i].low[axis] + boxes_[i].high[axis], y = boxes_[j].low[axis] + boxes_[j].high[axis];
+      return x < y || (x == y && i < j);
+    });
+    build(begin, middle);
+    const std::size_t second = build(middle, end);
+    nodes_[index].second = second;
+    return index;
+  }
+
+  static bool near(const geometry::Box& box, const Vec2& p, double radius) {
+    return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).norm() <= radius;
+  }
+
+  template <typename Act>
+  void visit(std::size_t index, const Vec2& p, double radius, const Act& act) const {
+    const Node& node = nodes_[index];
+    if (!near(node.box, p, radius)) return;
+    if (node.second != 0) {
+      visit(index + 1, p, radius, act);
+      visit(node.second, p, radius, act);
+      return;
+    }
+    for (std::size_t i = node.begin; i < node.end; ++i)
+      if (near(boxes_[order_[i]], p, radius)) act(order_[i]);
+  }
+
+  std::vector<geometry::Box> boxes_;
+  std::vector<std::size_t> order_;
+  std::vector<Node> nodes_;
+};
+
+class Finder {
+ public:
+  Finder(const std::vector<NetLine>& lines, const std::function<double(const Vec2&)>& size, double largest,
+         const NarrowOptions& options)
+      : lines_(lines), size_(size), largest_(largest), options_(options), tree_(lines) {}
+
+  NarrowPlaces run(const std::vector<Vec2>& tips) {
+    for (const Vec2& tip : tips) look_at_tip(tip);
+    for (const NetLine& line : lines_) {
+      look_along(line, 0.0, 1.0, line.edge.length());
+      if (options_.arcs && line.edge.arc) look_at_arc(line);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add(const Vec2& at, double size, double along) {
+    if (size >= size_(at)) return;
+    found_.samples.push_back({at, size});
+    found_.cells += cells_per_size * along / size;
+  }
+
+  void look_at_tip(const Vec2& tip) {
+    double least = std::numeric_limits<double>::infinity();
+    tree_.within(tip, largest_ / options_.sizes_per_tip, [&](std::size_t i) {
+      const geometry::Edge& edge = lines_[i].edge;
+      if (edge.start != tip && edge.end != tip) least = std::min(least, geometry::distance_to(edge, tip));
+    });
+    add(tip, options_.sizes_per_tip * std::max(least, least_width), 0.0);
+  }
+
+  void look_at_arc(const NetLine& line) {
+    const double turn = std::abs(line.edge.arc->sweep), radius = line.edge.arc->radius;
+    const int count = static_cast<int>(std::ceil(2.0 * turn));
+    for (int k = 0; k < count; ++k) add(line.edge.at((k + 0.5) / count), radius, radius * turn / count);
+  }
+
+  /// The part of a line from position `from` to position `to`, of the given length.
+  void look_along(const NetLine& line, double from, double to, double length) {
+    if (found_.cells > options_.most) return;
+    const Vec2 middle = line.edge.at(0.5 * (from + to));
+    // Sizes grow by less than half of the distance, so that nothing beyond this matters to any point of the part.
+    const double reach = (size_(middle) + 0.25 * length) / options_.sizes_per_width + 0.5 * length;
+    double nearest = reach, width = std::numeric_limits<double>::infinity();
+    const auto foot = geometry::foot_on(line.edge, middle);
+    if (!foot) return;
+    tree_.within(middle, reach, [&](std::size_t i) {
+      const NetLine& other = lines_[i];
+      if (other.start == line.start || other.start == line.end || other.end == line.start || other.end == line.end) return;
+      const Vec2 way = geometry::closest_point(other.edge, middle) - middle;
+      const double distance = way.norm(), right = foot->normal.dot(way);
+      nearest = std::min(nearest, distance);
+      const bool material = (right > 0.0 ? line.right : line.left) >= 0;
+      if ((material || options_.gaps) && std::abs(right) > opposite * distance) width = std::min(width, distance);
+    });
+    if (nearest >= reach) return;
+    if (length > std::max(nearest, least_width)) {
+      const double half = 0.5 * (from + to);
+      look_along(line, from, half, 0.5 * length);
+      look_along(line, half, to, 0.5 * length);
+      return;
+    }
+    if (width > reach) return;
+    width = std::max(width, least_width);
+    if (found_.width == 0.0 || width < found_.width) {
+      found_.width = width;
+      found_.narrowest = middle;
+    }
+    add(middle, options_.sizes_per_width * width, length);
+  }
+
+  const std::vector<NetLine>& lines_;
+  const std::function<double(const Vec2&)>& size_;
+  const double largest_;
+  const NarrowOptions options_;
+  LineTree tree_;
+  NarrowPlaces found_;
+};
+
+}  // namespace
+
+NarrowPlaces narrow_places(const std::vector<NetLine>& lines, const std::vector<Vec2>& tips,
+                           const std::function<double(const Vec2&)>& size, double largest,
+                           const NarrowOptions& options) {
+  return Finder(lines, size, largest, options).run(tips);
+}
+
+}  // namespace scabo::mesh
