@@ -1,0 +1,25 @@
+"""The checked numbers of examples/12_hertz to 15_concrete_section."""
+import support
+
+
+class Hertz(support.OfExample):
+    FOLDER, PICTURES = "12_hertz", ["hertz.png", "convergence.png"]
+
+    def test_pressure_half_width_and_force_are_those_of_hertz(self):
+        check = self.check()
+        summary = self.solve()
+        pairs = [(float(row["x"]), float(row["pressure"])) for row in support.rows_of(self.directory / "results")]
+        inside = [(x * x, pressure * pressure) for x, pressure in pairs if pressure > 0]
+        mean_x, mean_p = (sum(column) / len(inside) for column in zip(*inside))
+        slope = sum((x - mean_x) * (p - mean_p) for x, p in inside) / sum((x - mean_x)**2 for x, _ in inside)
+        self.assertAlmostEqual((mean_x - mean_p / slope)**0.5 / check["half_width"], 1.0, delta=check["relative_tolerance_of_half_width"])
+        self.assertAlmostEqual(max(p for _, p in pairs) / check["pressure"], 1.0, delta=check["relative_tolerance_of_pressure"])
+        self.assertAlmostEqual(summary["increments"][-1]["reactions"]["block.bottom"][1] / 1e6, 1.0,
+                               delta=check["relative_tolerance_of_force"])
+
+    def test_figures_are_drawn(self):
+        self.draw()
+
+
+if __name__ == "__main__":
+    support.main()
