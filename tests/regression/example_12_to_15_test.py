@@ -1,4 +1,6 @@
 """The checked numbers of examples/12_hertz to 15_concrete_section."""
+import math
+
 import support
 
 
@@ -16,6 +18,28 @@ class Hertz(support.OfExample):
         self.assertAlmostEqual(max(p for _, p in pairs) / check["pressure"], 1.0, delta=check["relative_tolerance_of_pressure"])
         self.assertAlmostEqual(summary["increments"][-1]["reactions"]["block.bottom"][1] / 1e6, 1.0,
                                delta=check["relative_tolerance_of_force"])
+
+    def test_figures_are_drawn(self):
+        self.draw()
+
+
+class BrazilianDisc(support.OfExample):
+    FOLDER, PICTURES = "13_brazilian_disc", ["brazilian_disc.png"]
+
+    def test_stress_intensity_factors_are_those_of_dislocations(self):
+        check = self.check()
+        for kind in ("polygons", "quadtree"):
+            for case in check["cases"]:
+                with self.subTest(kind=kind, **case):
+                    a, angle = 0.05 * case["a_over_R"], math.radians(case["angle"])
+                    x, y = a * math.sin(angle), a * math.cos(angle)
+                    near = ", ".join(f"{{near: [{s * x:.15g}, {s * y:.15g}], size: 0.005}}" for s in (-1, 1))
+                    summary = self.solve(f"bodies.disc.cracks.0.path=[[{-x:.15g}, {-y:.15g}], [{x:.15g}, {y:.15g}]]",
+                                         f"bodies.disc.mesh.refine=[{near}]", f"bodies.disc.mesh.kind={kind}")
+                    unit = 20e3 / (math.pi * 0.05 * 0.02) * math.sqrt(math.pi * a)
+                    for tip in summary["increments"][-1]["cracks"].values():
+                        self.assertAlmostEqual(tip["K_I"] / unit, case["N_I"], delta=check["absolute_tolerance"])
+                        self.assertAlmostEqual(abs(tip["K_II"]) / unit, case["N_II"], delta=check["absolute_tolerance"])
 
     def test_figures_are_drawn(self):
         self.draw()
