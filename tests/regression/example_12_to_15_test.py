@@ -45,5 +45,23 @@ class BrazilianDisc(support.OfExample):
         self.draw()
 
 
+class Wall(support.OfExample):
+    FOLDER, PICTURES = "14_wall", ["wall.png"]
+
+    def test_reactions_are_weight_and_push(self):
+        check = self.check()
+        run = support.scabo("run", support.ROOT / "examples" / self.FOLDER / "model.yaml", "-o", self.directory / "results", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)  # it warns of contacts with a single pair
+        summary = support.summary_of(self.directory / "results")
+        self.assertEqual(summary["model"]["super_elements"], check["bodies"])
+        for increment, push in zip(summary["increments"], check["push"], strict=True):
+            x, y = increment["reactions"]["ground"]
+            self.assertAlmostEqual(y / check["weight"], 1.0, delta=check["relative_tolerance"])
+            self.assertAlmostEqual(x / check["weight"], -push, delta=check["relative_tolerance"])
+
+    def test_figures_are_drawn(self):
+        self.draw()
+
+
 if __name__ == "__main__":
     support.main()
