@@ -1,4 +1,4 @@
-"""The checked numbers of examples/12_hertz to 15_concrete_section."""
+"""The checked numbers of examples/12_hertz and 13_brazilian_disc."""
 import math
 
 import support
@@ -40,24 +40,6 @@ class BrazilianDisc(support.OfExample):
                     for tip in summary["increments"][-1]["cracks"].values():
                         self.assertAlmostEqual(tip["K_I"] / unit, case["N_I"], delta=check["absolute_tolerance"])
                         self.assertAlmostEqual(abs(tip["K_II"]) / unit, case["N_II"], delta=check["absolute_tolerance"])
-
-    def test_figures_are_drawn(self):
-        self.draw()
-
-
-class Wall(support.OfExample):
-    FOLDER, PICTURES = "14_wall", ["wall.png"]
-
-    def test_reactions_are_weight_and_push(self):
-        check = self.check()
-        run = support.scabo("run", support.ROOT / "examples" / self.FOLDER / "model.yaml", "-o", self.directory / "results", "--quiet")
-        self.assertEqual(run.returncode, 0, run.stderr)  # it warns of contacts with a single pair
-        summary = support.summary_of(self.directory / "results")
-        self.assertEqual(summary["model"]["super_elements"], check["bodies"])
-        for increment, push in zip(summary["increments"], check["push"], strict=True):
-            x, y = increment["reactions"]["ground"]
-            self.assertAlmostEqual(y / check["weight"], 1.0, delta=check["relative_tolerance"])
-            self.assertAlmostEqual(x / check["weight"], -push, delta=check["relative_tolerance"])
 
     def test_figures_are_drawn(self):
         self.draw()
