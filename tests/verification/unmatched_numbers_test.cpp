@@ -34,7 +34,8 @@ struct Cattaneo {
 
 /// Linear between the pairs, which are sorted along x.
 double interpolated(const std::vector<std::array<double, 2>>& values, double x) {
-  const auto after = std::find_if(values.begin() + 1, values.end() - 1, [&](const auto& value) { return value[0] > x; });
+  const auto after =
+      std::find_if(values.begin() + 1, values.end() - 1, [&](const auto& value) { return value[0] > x; });
   const auto& [x0, y0] = *(after - 1);
   const auto& [x1, y1] = *after;
   return std::lerp(y0, y1, (x - x0) / (x1 - x0));
@@ -43,8 +44,8 @@ double interpolated(const std::vector<std::array<double, 2>>& values, double x) 
 /// Sizes relative to the half width `a` at the middle, at the ends of the stick zone and at the ends of the contact.
 std::string graded(double a, double c, double middle, double stick, double end) {
   std::string places;
-  for (const auto& [x, size] : {std::pair(0.0, middle), std::pair(-0.5 * a, middle), std::pair(0.5 * a, middle), std::pair(-c, stick),
-                                std::pair(c, stick), std::pair(-a, end), std::pair(a, end)})
+  for (const auto& [x, size] : {std::pair(0.0, middle), std::pair(-0.5 * a, middle), std::pair(0.5 * a, middle),
+                                std::pair(-c, stick), std::pair(c, stick), std::pair(-a, end), std::pair(a, end)})
     places += fmt::format("{}{{near: [{}, 0], size: {}}}", places.empty() ? "" : ", ", x, a * size);
   return places;
 }
@@ -56,13 +57,16 @@ struct CattaneoCase {
 
 class CattaneoMindlin : public testing::TestWithParam<CattaneoCase> {};
 INSTANTIATE_TEST_SUITE_P(Loads, CattaneoMindlin,
-                         testing::Values(CattaneoCase{"polygons", 3.12e-3, 0.243}, CattaneoCase{"polygons", 6.24e-3, 0.198},
-                                         CattaneoCase{"polygons", 9.35e-3, 0.140}, CattaneoCase{"quadtree", 6.24e-3, 0.198}));
+                         testing::Values(CattaneoCase{"polygons", 3.12e-3, 0.243},
+                                         CattaneoCase{"polygons", 6.24e-3, 0.198},
+                                         CattaneoCase{"polygons", 9.35e-3, 0.140},
+                                         CattaneoCase{"quadtree", 6.24e-3, 0.198}));
 
 TEST_P(CattaneoMindlin, ShearTractionAndStickZone) {
   const auto& [kind, sideways, stick] = GetParam();
   const double a = 0.2804;
-  const auto solution = run(fmt::format(R"(scabo: 1
+  const auto solution =
+      run(fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: 200, poisson: 0.3}}}}
 bodies:
@@ -81,7 +85,7 @@ supports:
 contacts: {{touch: {{between: [low.rim, up.rim], friction: 0.2}}}}
 steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
 )",
-                                        kind, graded(a, stick, 0.5, 0.03, 0.02), graded(a, stick, 0.4, 0.024, 0.016), sideways));
+                      kind, graded(a, stick, 0.5, 0.03, 0.02), graded(a, stick, 0.4, 0.024, 0.016), sideways));
   const analysis::ContactResult& touch = contact_of(last(solution));
   const Cattaneo exact(touch.normal_force, std::abs(touch.tangential_force));
   std::vector<std::array<double, 2>> pressure, shear;
@@ -103,11 +107,11 @@ steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
     sums[3] += q * q;
   }
   const double of_pressure = std::sqrt(sums[0] / sums[1]), of_shear = std::sqrt(sums[2] / sums[3]);
-  std::cout << kind << ", Q/(mu P) " << exact.Q / (exact.mu * exact.P) << ", " << 2 * solution.mesh.nodes() << " dofs: pressure "
-            << of_pressure << ", shear " << of_shear << " in L2; stick c/a " << exact.c / exact.a << ", between " << sticks / exact.a
-            << " and " << slips / exact.a << "\n";
+  std::cout << kind << ", Q/(mu P) " << exact.Q / (exact.mu * exact.P) << ", " << 2 * solution.mesh.nodes()
+            << " dofs: pressure " << of_pressure << ", shear " << of_shear << " in L2; stick c/a " << exact.c / exact.a
+            << ", between " << sticks / exact.a << " and " << slips / exact.a << "\n";
   EXPECT_LT(of_pressure, 5e-3);
-  EXPECT_LT(of_shear, 2e-2);
+  EXPECT_LT(of_shear, 1e-2);
   EXPECT_NEAR(0.5 * (sticks + slips), exact.c, 0.015 * exact.a);
 }
 
@@ -159,8 +163,8 @@ contacts: {{joint: {{between: [pin.rim, plate.rim]}}}}
     const double angle = std::atan2(std::abs(pair.position.x()), -pair.position.y()) * 180 / std::numbers::pi;
     if (angle > edge + 1e-9) after = std::min(after, angle);
   }
-  std::cout << half_angle << " degrees, " << 2 * solution.mesh.nodes() << " dofs: largest pressure " << largest / pressure - 1.0
-            << ", contact ends between " << edge << " and " << after << "\n";
+  std::cout << half_angle << " degrees, " << 2 * solution.mesh.nodes() << " dofs: largest pressure "
+            << largest / pressure - 1.0 << ", contact ends between " << edge << " and " << after << "\n";
   EXPECT_LT(2 * solution.mesh.nodes(), 5000);
   EXPECT_NEAR(largest / pressure, 1.0, 5e-3);
   EXPECT_NEAR(edge, half_angle, 1.5);
@@ -168,14 +172,16 @@ contacts: {{joint: {{between: [pin.rim, plate.rim]}}}}
 
 // ---- press fit -----------------------------------------------------------------------------------------
 
-// Lame: a shaft of radius 50 in a hub to radius 100, interference 0.05, E = 210e3, plane stress: pressure 78.75 all around.
+// Lame: a shaft of radius 50 in a hub to radius 100, interference 0.05, E = 210e3, plane stress: pressure 78.75 all
+// around.
 TEST(PressFit, PressureIsUniformOverMeshesThatDoNotMatch) {
   struct Case {
     const char *shaft, *hub;
     double bound, mean;
   };
   for (const auto& [shaft, hub, bound, mean] :
-       {Case{"quadtree", "polygons", 2e-3, 1e-4}, Case{"polygons", "polygons", 4e-3, 1e-4}, Case{"polygons", "quadtree", 1e-2, 5e-4}}) {
+       {Case{"quadtree", "polygons", 2e-3, 1e-4}, Case{"polygons", "polygons", 4e-3, 1e-4},
+        Case{"polygons", "quadtree", 1e-2, 5e-4}}) {
     const auto solution = run(fmt::format(R"(scabo: 1
 materials: {{steel: {{young: 210e3, poisson: 0.3}}}}
 bodies:
@@ -196,8 +202,8 @@ contacts: {{fit: {{between: [shaft.rim, hub.bore], friction: 0.1, gap: -0.05}}}}
       largest = std::max(largest, pair.pressure / 78.75);
       sum += pair.pressure / 78.75;
     }
-    std::cout << shaft << " in " << hub << ", " << 2 * solution.mesh.nodes() << " dofs: pressure " << least << " to " << largest
-              << ", mean " << sum / pairs.size() << "\n";
+    std::cout << shaft << " in " << hub << ", " << 2 * solution.mesh.nodes() << " dofs: pressure " << least << " to "
+              << largest << ", mean " << sum / pairs.size() << "\n";
     EXPECT_LT(2 * solution.mesh.nodes(), 5000);
     EXPECT_NEAR(least, 1.0, bound);
     EXPECT_NEAR(largest, 1.0, bound);
@@ -207,7 +213,8 @@ contacts: {{fit: {{between: [shaft.rim, hub.bore], friction: 0.1, gap: -0.05}}}}
 
 // ---- double cantilever beam ----------------------------------------------------------------------------
 
-// The beams of examples/01 as 2,000 and 3,500 polygons: 53.66936 kN (docs/verification.md), the same with A and B swapped.
+// The beams of examples/01 as 2,000 and 3,500 polygons: 53.66936 kN (docs/verification.md), the same with A and B
+// swapped.
 TEST(DoubleCantileverBeam, OfThousandsOfPolygonsThatDoNotMatch) {
   const std::string text = R"(scabo: 1
 materials: {concrete: {young: 10e9, poisson: 0.3}}
