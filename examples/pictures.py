@@ -111,8 +111,7 @@ def draw(axis, mesh, values, levels, magnification=0.0):
                              extend="both" if signed else "max")
     if signed:  # which side of zero a dark colour is on, told without colour too
         axis.tricontour(shown, np.nan_to_num(values), levels=levels[1:-1:2], colors="black", linewidths=0.3, alpha=0.7)
-    for side in outline(triangles):
-        axis.plot(*moved[side].T, color="black", linewidth=0.6)
+    axis.add_collection(LineCollection(moved[outline(triangles)], colors="black", linewidths=0.6, capstyle="projecting"))
     label_map(axis, magnification)
     return drawn
 

@@ -1,38 +1,11 @@
 """The checked numbers of examples/09_plate_with_hole and 10_culvert."""
 import csv
-import json
-import subprocess
-import sys
-import unittest
 
 import support
-from support import ROOT, scabo, summary_of
-
-EXAMPLES = ROOT / "examples"
 
 
-class Examples(support.InTemporaryDirectory):
-    FOLDER = PICTURE = ""
-
-    def check(self):
-        return json.loads((EXAMPLES / self.FOLDER / "check.json").read_text(encoding="utf-8"))
-
-    def solve(self, *settings):
-        arguments = [word for setting in settings for word in ("--set", setting)]
-        run = scabo("run", EXAMPLES / self.FOLDER / "model.yaml", "-o", self.directory / "results", "--quiet", *arguments)
-        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
-        return summary_of(self.directory / "results")
-
-    def draw(self):
-        run = subprocess.run([sys.executable, EXAMPLES / self.FOLDER / "figures.py", "--scabo", support.SCABO, "-o", self.directory],
-                             cwd=self.directory, text=True, capture_output=True, timeout=support.PATIENCE)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertTrue((self.directory / self.PICTURE).read_bytes().startswith(b"\x89PNG"))
-        self.assertTrue((EXAMPLES / self.FOLDER / "figures" / self.PICTURE).exists(), "the README shows it")
-
-
-class PlateWithHole(Examples):
-    FOLDER, PICTURE = "09_plate_with_hole", "plate_with_hole.png"
+class PlateWithHole(support.OfExample):
+    FOLDER, PICTURES = "09_plate_with_hole", ["plate_with_hole.png"]
 
     def test_the_stress_at_the_hole_is_howlands(self):
         check = self.check()
@@ -48,8 +21,8 @@ class PlateWithHole(Examples):
         self.draw()
 
 
-class Culvert(Examples):
-    FOLDER, PICTURE = "10_culvert", "culvert.png"
+class Culvert(support.OfExample):
+    FOLDER, PICTURES = "10_culvert", ["culvert.png"]
 
     def test_weight_traffic_and_pressure(self):
         check = self.check()

@@ -44,6 +44,29 @@ class InTemporaryDirectory(unittest.TestCase):
         self.directory = pathlib.Path(holder.name)
 
 
+class OfExample(InTemporaryDirectory):
+    """Of the example in `FOLDER`, whose README shows the pictures `PICTURES`."""
+    FOLDER, PICTURES = "", ()
+
+    def check(self):
+        return json.loads((ROOT / "examples" / self.FOLDER / "check.json").read_text(encoding="utf-8"))
+
+    def solve(self, *settings):
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        run = scabo("run", ROOT / "examples" / self.FOLDER / "model.yaml", "-o", self.directory / "results", "--quiet", *arguments)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+        return summary_of(self.directory / "results")
+
+    def draw(self):
+        example = ROOT / "examples" / self.FOLDER
+        run = subprocess.run([sys.executable, example / "figures.py", "--scabo", SCABO, "-o", self.directory],
+                             cwd=self.directory, text=True, capture_output=True, timeout=PATIENCE)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for picture in self.PICTURES:
+            self.assertTrue((self.directory / picture).read_bytes().startswith(b"\x89PNG"))
+            self.assertTrue((example / "figures" / picture).exists(), "the README shows it")
+
+
 def main():
     """Runs the tests of the calling script; its first argument is the program."""
     global SCABO

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 #include "scabo/base/error.hpp"
@@ -100,6 +101,58 @@ TEST_P(CracksAnywhere, CracksThatCross) {
   for (const analysis::CrackResult& tip : last(solution).cracks) {
     EXPECT_NEAR(tip.factors.K_I / std::sqrt(std::numbers::pi), 0.8636, 2e-4) << tip.name;
     EXPECT_NEAR(tip.factors.K_II, 0.0, 1e-5) << tip.name;
+  }
+}
+
+// A short kink at the end of a crack under tension from all sides, for which T = 0: K_I = F_11 sqrt(pi), K_II = F_21
+// sqrt(pi), with the series in the angle m (over pi) of Amestoy, Leblond, Int. J. Solids Struct. 29 (1992) 465-501. A
+// kink of 1e-3 of the half length adds about 5e-4, the plate 1.4e-4.
+TEST_P(CracksAnywhere, KinkAtTheEndOfACrack) {
+  const double pi = std::numbers::pi, length = 1e-3;
+  for (const double angle : {15.0, 45.0, 70.0}) {
+    const double m = angle / 180.0, s = m * m;
+    const double first =
+        1.0 + s * (-3.0 * std::pow(pi, 2) / 8.0 +
+                   s * (std::pow(pi, 2) - 5.0 * std::pow(pi, 4) / 128.0 +
+                        s * (std::pow(pi, 2) / 9.0 - 11.0 * std::pow(pi, 4) / 72.0 + 119.0 * std::pow(pi, 6) / 15360.0 +
+                             s * (5.07790 + s * (-2.88312 + s * (-0.0925 + s * (2.996 - s * 4.059)))))));
+    const double second =
+        m * (pi / 2.0 + s * (-4.0 * pi / 3.0 - std::pow(pi, 3) / 48.0 +
+                             s * (-2.0 * pi / 3.0 + 13.0 * std::pow(pi, 3) / 30.0 - 59.0 * std::pow(pi, 5) / 3840.0 +
+                                  s * (-6.176023 + s * (4.44112 + s * (-1.5340 + s * (-2.0700 + s * 4.684)))))));
+    const double x = 1.0 + length * std::cos(angle * degree), y = length * std::sin(angle * degree);
+    const auto solution = run(wide_plate(
+        kind(), fmt::format("{{name: flaw, path: [[-1, 0], [1, 0], [{}, {}]]}}", x, y),
+        fmt::format("{{near: [-1, 0], size: 0.3}}, {{near: [1, 0], size: {0}}}, {{near: [{1}, {2}], size: {0}}}",
+                    0.3 * length, x, y),
+        1.0));
+    const element::StressIntensity& tip = tip_of(last(solution), "plate.flaw.end");
+    std::cout << kind() << ", kink of " << angle << " degrees, " << 2 * solution.mesh.nodes()
+              << " dofs: " << tip.K_I / std::sqrt(pi) - first << ", " << tip.K_II / std::sqrt(pi) - second << "\n";
+    EXPECT_NEAR(tip.K_I / std::sqrt(pi), first, 1e-3) << angle;
+    EXPECT_NEAR(tip.K_II / std::sqrt(pi), second, 1e-3) << angle;
+  }
+}
+
+// Three branches of length 1 under tension from all sides: equal factors, pure mode I, and J from the whole field is G.
+TEST_P(CracksAnywhere, StarOfThreeBranches) {
+  const double h = std::sqrt(0.75);
+  std::string refine = "{near: [0, 0], size: 0.1}";
+  for (const auto& [x, y] : {std::pair(0.0, 1.0), std::pair(h, -0.5), std::pair(-h, -0.5)})
+    refine += fmt::format(", {{near: [{}, {}], size: 0.1}}", x, y);
+  const auto solution = run(wide_plate(
+      kind(),
+      fmt::format("{{name: bent, path: [[0, 1], [0, 0], [{0}, -0.5]]}}, {{name: branch, path: [[0, 0], [-{0}, -0.5]]}}",
+                  h),
+      refine, 1.0));
+  ASSERT_EQ(last(solution).cracks.size(), 3);
+  const double K = last(solution).cracks[0].factors.K_I;
+  std::cout << kind() << ", star: " << K / std::sqrt(std::numbers::pi) << "\n";
+  for (const analysis::CrackResult& tip : last(solution).cracks) {
+    EXPECT_NEAR(tip.factors.K_I / K, 1.0, 1e-6) << tip.name;
+    EXPECT_NEAR(tip.factors.K_II / K, 0.0, 1e-6) << tip.name;
+    ASSERT_TRUE(tip.factors.J.has_value() && tip.factors.G.has_value());
+    EXPECT_NEAR(*tip.factors.J / *tip.factors.G, 1.0, 1e-5) << tip.name;
   }
 }
 

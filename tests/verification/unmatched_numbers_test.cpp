@@ -1,0 +1,239 @@
+// Published numbers and closed forms of contact between meshes of many cells that do not match.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+
+#include "verification/run.hpp"
+
+namespace scabo::verification {
+namespace {
+
+// ---- Cattaneo and Mindlin ------------------------------------------------------------------------------
+
+/// Two equal cylinders, radius 8, E = 200, nu = 0.3, plane strain, pressed together and then moved sideways.
+struct Cattaneo {
+  double P, Q, a, c, p0;  // forces; half widths of contact and stick; largest pressure
+  static constexpr double mu = 0.2;
+
+  Cattaneo(double normal, double tangential) : P(normal), Q(tangential) {
+    const double R = 4.0, E = 200.0 / (2.0 * 0.91);
+    a = std::sqrt(4.0 * P * R / (std::numbers::pi * E));
+    p0 = 2.0 * P / (std::numbers::pi * a);
+    c = a * std::sqrt(1.0 - Q / (mu * P));
+  }
+  double pressure(double x) const { return p0 * std::sqrt(std::max(0.0, 1.0 - x * x / (a * a))); }
+  double shear(double x) const {
+    return mu * (pressure(x) - c / a * p0 * std::sqrt(std::max(0.0, 1.0 - x * x / (c * c))));
+  }
+};
+
+/// Linear between the pairs, which are sorted along x.
+double interpolated(const std::vector<std::array<double, 2>>& values, double x) {
+  const auto after =
+      std::find_if(values.begin() + 1, values.end() - 1, [&](const auto& value) { return value[0] > x; });
+  const auto& [x0, y0] = *(after - 1);
+  const auto& [x1, y1] = *after;
+  return std::lerp(y0, y1, (x - x0) / (x1 - x0));
+}
+
+/// Sizes relative to the half width `a` at the middle, at the ends of the stick zone and at the ends of the contact.
+std::string graded(double a, double c, double middle, double stick, double end) {
+  std::string places;
+  for (const auto& [x, size] : {std::pair(0.0, middle), std::pair(-0.5 * a, middle), std::pair(0.5 * a, middle),
+                                std::pair(-c, stick), std::pair(c, stick), std::pair(-a, end), std::pair(a, end)})
+    places += fmt::format("{}{{near: [{}, 0], size: {}}}", places.empty() ? "" : ", ", x, a * size);
+  return places;
+}
+
+struct CattaneoCase {
+  const char* kind;
+  double sideways, stick;  // displacement; the half width of stick that it gives, where the mesh is graded
+};
+
+class CattaneoMindlin : public testing::TestWithParam<CattaneoCase> {};
+INSTANTIATE_TEST_SUITE_P(Loads, CattaneoMindlin,
+                         testing::Values(CattaneoCase{"polygons", 3.12e-3, 0.243},
+                                         CattaneoCase{"polygons", 6.24e-3, 0.198},
+                                         CattaneoCase{"polygons", 9.35e-3, 0.140},
+                                         CattaneoCase{"quadtree", 6.24e-3, 0.198}));
+
+TEST_P(CattaneoMindlin, ShearTractionAndStickZone) {
+  const auto& [kind, sideways, stick] = GetParam();
+  const double a = 0.2804;
+  const auto solution =
+      run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:
+  low:
+    material: steel
+    shape: {{outline: [{{line: {{from: [-8, -8], to: [8, -8]}}, name: base}}, {{arc: {{to: [-8, -8], centre: [0, -8]}}, name: rim}}]}}
+    mesh: {{kind: {0}, size: 8, refine: [{1}]}}
+  up:
+    material: steel
+    shape: {{outline: [{{line: {{from: [8, 8], to: [-8, 8]}}, name: top}}, {{arc: {{to: [8, 8], centre: [0, 8]}}, name: rim}}]}}
+    mesh: {{kind: {0}, size: 8, refine: [{2}]}}
+supports:
+  - {{on: low.base, fix: [x, y]}}
+  - {{on: up.top, displacement: [null, -0.04], name: down}}
+  - {{on: up.top, displacement: [{3}, null], name: aside}}
+contacts: {{touch: {{between: [low.rim, up.rim], friction: 0.2}}}}
+steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
+)",
+                      kind, graded(a, stick, 0.5, 0.03, 0.02), graded(a, stick, 0.4, 0.024, 0.016), sideways));
+  const analysis::ContactResult& touch = contact_of(last(solution));
+  const Cattaneo exact(touch.normal_force, std::abs(touch.tangential_force));
+  std::vector<std::array<double, 2>> pressure, shear;
+  double sticks = 0.0, slips = exact.a;  // last pair that sticks, first one that slips
+  for (const analysis::PairResult& pair : touch.pairs) {
+    pressure.push_back({pair.position.x(), pair.pressure});
+    shear.push_back({pair.position.x(), std::abs(pair.shear)});
+    if (pair.state == contact::ContactState::stick) sticks = std::max(sticks, std::abs(pair.position.x()));
+    if (pair.state == contact::ContactState::slip) slips = std::min(slips, std::abs(pair.position.x()));
+  }
+  std::sort(pressure.begin(), pressure.end());
+  std::sort(shear.begin(), shear.end());
+  std::array<double, 4> sums{};
+  for (int i = -2600; i <= 2600; ++i) {
+    const double x = 5e-4 * i * exact.a, p = exact.pressure(x), q = exact.shear(x);
+    sums[0] += std::pow(interpolated(pressure, x) - p, 2);
+    sums[1] += p * p;
+    sums[2] += std::pow(interpolated(shear, x) - q, 2);
+    sums[3] += q * q;
+  }
+  const double of_pressure = std::sqrt(sums[0] / sums[1]), of_shear = std::sqrt(sums[2] / sums[3]);
+  std::cout << kind << ", Q/(mu P) " << exact.Q / (exact.mu * exact.P) << ", " << 2 * solution.mesh.nodes()
+            << " dofs: pressure " << of_pressure << ", shear " << of_shear << " in L2; stick c/a " << exact.c / exact.a
+            << ", between " << sticks / exact.a << " and " << slips / exact.a << "\n";
+  EXPECT_LT(of_pressure, 5e-3);
+  EXPECT_LT(of_shear, 1e-2);
+  EXPECT_NEAR(0.5 * (sticks + slips), exact.c, 0.015 * exact.a);
+}
+
+// ---- Persson -------------------------------------------------------------------------------------------
+
+/// Half angle of contact e in degrees; E* dR / Q; R p_max / Q. The pin of this clearance dR is loaded at its centre.
+class PerssonsPin : public testing::TestWithParam<std::array<double, 3>> {};
+INSTANTIATE_TEST_SUITE_P(Angles, PerssonsPin,
+                         testing::Values(std::array{30.0, 7.943540, 1.260289}, std::array{45.0, 2.823121, 0.882111},
+                                         std::array{60.0, 1.067202, 0.711721}, std::array{75.0, 0.287077, 0.628103},
+                                         std::array{84.828, 0.0, 0.599629}));
+
+TEST_P(PerssonsPin, OfPolygonsInAnUnboundedPlate) {
+  const auto [half_angle, clearance, pressure] = GetParam();
+  const double dR = 1e-3 * clearance;  // E* = 1e3, R = 1, Q = 1
+  const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{m: {{young: 910, poisson: 0.3}}}}
+bodies:
+  pin:
+    material: m
+    shape:
+      outline:
+        - {{arc: {{from: [1, 0], to: [-1, 0], centre: [0, 0]}}, name: crown}}
+        - {{arc: {{to: [1, 0], centre: [0, 0]}}, name: rim}}
+    holes: {{bore: {{circle: {{centre: [0, 0], radius: 0.02}}}}}}
+    mesh: {{size: 0.3, kind: polygons, refine: [{{on: rim, size: 0.066}}, {{near: [0, 0], size: 0.02}}]}}
+  plate:
+    material: m
+    outside: true
+    reference: [0, -1000]
+    shape:
+      outline:
+        - {{arc: {{from: [{0:.15g}, {1:.15g}], to: [-{0:.15g}, {1:.15g}], centre: [0, {1:.15g}]}}, name: crown}}
+        - {{arc: {{to: [{0:.15g}, {1:.15g}], centre: [0, {1:.15g}]}}, name: rim}}
+    mesh: {{size: 0.06}}
+supports: [{{on: pin.vertex_1, fix: x}}, {{on: {{body: pin, near: [0, 1]}}, fix: x}}]
+loads: {{press: {{on: pin.bore, force: [0, -1]}}}}
+contacts: {{joint: {{between: [pin.rim, plate.rim]}}}}
+)",
+                                        1.0 + dR, dR));
+  double largest = 0.0, edge = 0.0, after = 180.0;  // last angle in contact, first one that is not
+  for (const analysis::PairResult& pair : contact_of(last(solution)).pairs) {
+    const double angle = std::atan2(std::abs(pair.position.x()), -pair.position.y()) * 180 / std::numbers::pi;
+    largest = std::max(largest, pair.pressure);
+    if (pair.pressure > 0.0) edge = std::max(edge, angle);
+  }
+  for (const analysis::PairResult& pair : contact_of(last(solution)).pairs) {
+    const double angle = std::atan2(std::abs(pair.position.x()), -pair.position.y()) * 180 / std::numbers::pi;
+    if (angle > edge + 1e-9) after = std::min(after, angle);
+  }
+  std::cout << half_angle << " degrees, " << 2 * solution.mesh.nodes() << " dofs: largest pressure "
+            << largest / pressure - 1.0 << ", contact ends between " << edge << " and " << after << "\n";
+  EXPECT_LT(2 * solution.mesh.nodes(), 5000);
+  EXPECT_NEAR(largest / pressure, 1.0, 5e-3);
+  EXPECT_NEAR(edge, half_angle, 1.5);
+}
+
+// ---- press fit -----------------------------------------------------------------------------------------
+
+// Lame: a shaft of radius 50 in a hub to radius 100, interference 0.05, E = 210e3, plane stress: pressure 78.75 all
+// around.
+TEST(PressFit, PressureIsUniformOverMeshesThatDoNotMatch) {
+  struct Case {
+    const char *shaft, *hub;
+    double bound, mean;
+  };
+  for (const auto& [shaft, hub, bound, mean] :
+       {Case{"quadtree", "polygons", 2e-3, 1e-4}, Case{"polygons", "polygons", 4e-3, 1e-4},
+        Case{"polygons", "quadtree", 1e-2, 5e-4}}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 210e3, poisson: 0.3}}}}
+bodies:
+  shaft: {{material: steel, shape: {{circle: {{centre: [0, 0], radius: 50}}}}, mesh: {{size: 12, order: 2, kind: {}}}}}
+  hub:
+    material: steel
+    shape: {{circle: {{centre: [0, 0], radius: 100}}}}
+    holes: {{bore: {{circle: {{centre: [0, 0], radius: 50}}}}}}
+    mesh: {{size: 15, order: 2, kind: {}}}
+supports: [{{on: {{body: hub, near: [100, 0]}}, fix: [x, y]}}, {{on: {{body: hub, near: [-100, 0]}}, fix: y}}]
+contacts: {{fit: {{between: [shaft.rim, hub.bore], friction: 0.1, gap: -0.05}}}}
+)",
+                                          shaft, hub));
+    double least = 1e9, largest = 0.0, sum = 0.0;
+    const auto& pairs = contact_of(last(solution)).pairs;
+    for (const analysis::PairResult& pair : pairs) {
+      least = std::min(least, pair.pressure / 78.75);
+      largest = std::max(largest, pair.pressure / 78.75);
+      sum += pair.pressure / 78.75;
+    }
+    std::cout << shaft << " in " << hub << ", " << 2 * solution.mesh.nodes() << " dofs: pressure " << least << " to "
+              << largest << ", mean " << sum / pairs.size() << "\n";
+    EXPECT_LT(2 * solution.mesh.nodes(), 5000);
+    EXPECT_NEAR(least, 1.0, bound);
+    EXPECT_NEAR(largest, 1.0, bound);
+    EXPECT_NEAR(sum / pairs.size(), 1.0, mean);
+  }
+}
+
+// ---- double cantilever beam ----------------------------------------------------------------------------
+
+// The beams of examples/01 as 2,000 and 3,500 polygons: 53.66936 kN (docs/verification.md), the same with A and B
+// swapped.
+TEST(DoubleCantileverBeam, OfThousandsOfPolygonsThatDoNotMatch) {
+  const std::string text = R"(scabo: 1
+materials: {concrete: {young: 10e9, poisson: 0.3}}
+bodies:
+  lower: {material: concrete, shape: {rectangle: {corner: [0, 0], size: [6.0, 1.5]}}, mesh: {kind: polygons, size: 0.0698, order: 1}}
+  upper: {material: concrete, shape: {rectangle: {corner: [0, 1.5], size: [6.0, 1.5]}}, mesh: {kind: polygons, size: 0.0518, order: 1}}
+supports: [{on: lower.left, fix: [x, y]}, {on: upper.left, fix: [x, y]}]
+loads: {tip: {on: upper.top_right, force: [0, -100e3]}}
+contacts: {joint: {between: [lower.top, upper.bottom], friction: 0.2}}
+output: {fields: []}
+)";
+  const auto solution = run(text), swapped = run(text, {"contacts.joint.between=[upper.bottom, lower.top]"});
+  const double force = contact_of(last(solution)).normal_force;
+  std::cout << solution.cells[0].size() << " and " << solution.cells[1].size() << " polygons: " << force << " N\n";
+  EXPECT_NEAR(static_cast<double>(solution.cells[0].size()), 2000.0, 50.0);
+  EXPECT_NEAR(static_cast<double>(solution.cells[1].size()), 3500.0, 100.0);
+  EXPECT_NEAR(force / 53669.36, 1.0, 1e-3);
+  EXPECT_NEAR(contact_of(last(swapped)).normal_force / force, 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace scabo::verification
