@@ -227,7 +227,6 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
       made.domain.lines.push_back(std::move(line));
       made.sources.push_back(of);
     }
-  }
   made.domain.centres = cracks.tips();
   made.domain.size = sizing.at;
   return made;
