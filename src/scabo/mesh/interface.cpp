@@ -96,14 +96,24 @@ class Matching {
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
     partners_ = std::move(matching.partners);
+    const bool weighted = touch_everywhere();
     for (const auto& [i, j] : partners_) {
       interface_.pairs.push_back({.node_a = a.nodes[i],
                                   .node_b = b.nodes[j],
                                   .point_a = a.points[i],
                                   .point_b = b.points[j],
-                                  .normal = common_normal(a.normals[i], b.normals[j])});
+                                  .normal = weighted ? common_normal(a.normals[i], b.normals[j])
+                                                   : common_normal(a.true_normals[i], b.true_normals[j])});
     }
     return std::nullopt;
+  }
+
+  /// Whether the two edges have, but for a gap, the same shape; chains count as such.
+  bool touch_everywhere() const {
+    if (edge_a_.is_chain() || edge_b_.is_chain()) return true;
+    if (!edge_a_.arc || !edge_b_.arc) return !edge_a_.arc && !edge_b_.arc;
+    const double radius = std::max(edge_a_.arc->radius, edge_b_.arc->radius);
+    return (edge_a_.arc->centre - edge_b_.arc->centre).norm() <= 1e-6 * radius;
   }
 
   Diagnostic not_matching(const LoneNode& lone) const {

@@ -4,7 +4,9 @@
 //
 //     n = (n_A - n_B) / |n_A - n_B|,   t = n turned by -90 degrees,   g = (x_B - x_A) . n
 //
-// with the nodal normals n_A, n_B of contact_side.hpp; swapping A and B gives -n and exactly the same g. The nodes
+// with the nodal normals n_A, n_B of contact_side.hpp, which pass on a uniform pressure exactly. Two arcs that are not
+// concentric, or an arc and a straight edge, touch in a narrow zone, and a body that rolls or slides along the other one
+// must not meet the differences of those normals: n_A, n_B are the normals of the undivided edges there. Swapping A and B gives -n and exactly the same g. The nodes
 // match if x_B - x_A lies along n: |(x_B - x_A) . t| <= 1e-6 element lengths. Where the two sides are apart and not
 // parallel (a disc and a plane with equal divisions), corresponding nodes are not exactly opposite: x_B - x_A may then
 // also have any direction between the normals of the two sides, divided or exact. On curved edges of nearly equal

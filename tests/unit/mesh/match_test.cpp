@@ -488,5 +488,33 @@ TEST(Match, NodesWhereSightEndsAreNotDoubled) {
   }
 }
 
+/// The forces on a disc that nothing but a plane holds must not turn it about the point that all rays have in common,
+/// however its sides are divided: (0, 2 r).
+TEST(Match, NormalsOfADiscOnAPlanePassThroughOnePoint) {
+  const double r = 0.05;
+  model::Model model = pair_of(elastic("block", rectangle({-4.0 * r, -4.0 * r}, {8.0 * r, 4.0 * r}), r, 2), "top",
+                               elastic("roller", test::outline({line("top", {r, r}, {-r, r}), arc("rim", {0, r}, r, pi, pi)}),
+                                       0.25 * r, 2), "rim");
+  std::vector<BodyMesh> bodies;
+  for (model::Body& body : model.bodies) {
+    body.mesh.kind = model::MeshKind::quadtree;
+    bodies.push_back(std::get<BodyMesh>(divide_into_cells(body, {}, 1e6)));
+  }
+  const auto matched = match_sides(model, bodies);
+  ASSERT_TRUE(matched.has_value());
+  const Interface joint = std::get<Interface>(match_interface(model, 0, *matched));
+  ASSERT_GT(joint.pairs.size(), 20u);
+  double longest = 0.0, shortest = 1.0;
+  for (std::size_t k = 0; k < joint.pairs.size(); ++k) {
+    if (joint.pairs[k].point_b.y() < 0.4 * r)  // beyond 60 degrees partners need not lie on one ray
+      for (const Vec2& x : {joint.pairs[k].point_a, joint.pairs[k].point_b})
+        EXPECT_NEAR(cross(x - Vec2(0.0, 2.0 * r), joint.pairs[k].normal), 0.0, 1e-15) << k;
+    if (k == 0) continue;
+    const double step = joint.pairs[k].point_a.x() - joint.pairs[k - 1].point_a.x();
+    longest = std::max(longest, step), shortest = std::min(shortest, step);
+  }
+  EXPECT_GT(longest, 2.0 * shortest);  // unequal elements
+}
+
 }  // namespace
 }  // namespace scabo::mesh
