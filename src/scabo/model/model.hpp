@@ -17,6 +17,7 @@
 #include "scabo/files/image.hpp"
 #include "scabo/files/imported_mesh.hpp"
 #include "scabo/geometry/outline.hpp"
+#include "scabo/model/quantity.hpp"
 
 namespace scabo::model {
 
@@ -296,6 +297,7 @@ struct Output {
   std::vector<OutputLine> lines;
   std::optional<OutputGrid> grid;
   bool error = false;              ///< estimate the error of every increment
+  std::vector<Quantity> error_of;  ///< numbers that get an error bar
   bool discrete_problems = false;  ///< write the contact problem of every increment to a file
   int every = 1;                   ///< .vtu files of every so many increments, and of the last
   OutputFields fields;
@@ -315,6 +317,7 @@ struct Model {
   SolverOptions solver;
   std::vector<std::string> warnings;  ///< sentences about input that has no effect in this analysis
   Output output;
+  std::optional<QuantityTolerance> tolerance;  ///< meshes are refined until the bar of a number is that small
 };
 
 }  // namespace scabo::model

@@ -189,6 +189,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   check_contacts(checking);
   check_steps(checking);
   check_output(checking);
+  check_quantities(checking);
 
   check_density(checking);
   check_expansion(checking);
