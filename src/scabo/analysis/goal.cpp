@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "scabo/analysis/quantities.hpp"
 #include "scabo/analysis/refinement.hpp"
+#include "scabo/element/two_orders.hpp"
+#include "scabo/geometry/box.hpp"
 #include "scabo/model/validate.hpp"
 
 namespace scabo::analysis {
@@ -30,7 +33,7 @@ struct Richer {
   double finite_size = 1.0;  ///< of finite elements, relative
 };
 constexpr Richer same_elements{1.0, 1, 0.5}, halved{0.5, 1, 0.25}, halved_and_raised{0.5, 2, 0.25},
-    raised_twice{1.0, 2, 0.25};
+    raised_twice{1.0, 2, 0.25}, raised_thrice{1.0, 3, 0.25};
 
 std::vector<const model::Quantity*> quantities_of(const model::Model& model) {
   std::vector<const model::Quantity*> quantities;
@@ -79,10 +82,16 @@ mesh::Division enriched_division(mesh::Division division, const Richer& richer) 
 /// Where the mesh of the results comes from.
 struct MeshSource {
   const model::Model& model;
-  const ModelRefinement* refinement = nullptr;  ///< null: from the options of the bodies
+  const ModelRefinement* refinement = nullptr;  ///< its division and sizes
+  const mesh::Mesh* mesh = nullptr;             ///< a mesh refined for tolerances of bodies; only its orders are raised
 };
 
 mesh::Mesh richer_mesh(const MeshSource& source, const model::Model& model, const Richer& richer) {
+  if (source.mesh) {
+    mesh::Mesh mesh = *source.mesh;
+    for (int k = 0; k < richer.raised; ++k) mesh = mesh::enriched(model, mesh, {});
+    return mesh;
+  }
   if (!source.refinement) return mesh::make_mesh(model);
   return mesh::make_mesh(model, enriched_division(source.refinement->boundaries.division(), richer),
                          source.refinement->cells.scaled_sizes(richer.size));
@@ -149,9 +158,10 @@ bool agree(const Values& J, const RicherValues& richer) {
 RicherValues richer_values(const MeshSource& source, const StaticSolution& solution, const Options& options) {
   const auto quantities = quantities_of(source.model);
   const Values J = values_of(solution, quantities);
-  const bool small = !is_too_large(solution.mesh, source.model, halved);
+  const bool divided = !source.mesh && !is_too_large(solution.mesh, source.model, halved);
   RicherValues richer;
-  for (const Richer& next : {same_elements, small ? halved : raised_twice, halved_and_raised}) {
+  for (const Richer& next :
+       {same_elements, divided ? halved : raised_twice, divided ? halved_and_raised : raised_thrice}) {
     const std::size_t level = richer.values.size();
     if (level == 2 && (agree(J, richer) || is_too_large(solution.mesh, source.model, next))) break;
     const auto solved = solve_richer(source, next, options, fmt::format("error bar, mesh {}", level + 1), richer.why);
@@ -191,6 +201,230 @@ void add_bars(StaticSolution& solution, const model::Model& model, const RicherV
     }
 }
 
+/// Sets up the dual solution of the last increment of a run into `dual`.
+Options with_dual(const Options& options, const model::Quantity& quantity, const std::string& what,
+                  std::vector<Vector>& dual) {
+  Options with = quiet(options, what);
+  with.on_state = [&quantity, &dual](const Prepared& prepared, const State& state, const StaticSolution& solution) {
+    const IncrementResult& at = solution.increments.back();
+    if (at.step == static_cast<int>(solution.model.steps.size()) &&
+        at.increment == solution.model.steps.back().increments)
+      dual = dual_displacements(prepared, state, derivative_of(prepared, state, solution, quantity));
+  };
+  return with;
+}
+
+/// One pass: solutions, primal and dual, on the mesh and on the same elements with one order more.
+struct GoalPass {
+  StaticSolution solution;
+  std::optional<StaticSolution> wider;
+  std::vector<Vector> dual, wider_dual;
+  std::string why;  ///< why there is no `wider`
+};
+GoalPass solve_goal_pass(const model::Model& model, mesh::Mesh mesh, const Options& options, const std::string& name) {
+  GoalPass pass;
+  const model::Quantity& quantity = model.tolerance->of;
+  pass.solution = solve_on_mesh(model, std::move(mesh), with_dual(options, quantity, name, pass.dual));
+  if (pass.solution.outcome != Outcome::solved) return pass;
+  try {
+    mesh::Mesh wider = mesh::enriched(model, pass.solution.mesh, frozen_elements(pass.solution, false));
+    StaticSolution solution =
+        solve_on_mesh(model, std::move(wider), with_dual(options, quantity, name + ", error", pass.wider_dual));
+    if (solution.outcome == Outcome::solved)
+      pass.wider = std::move(solution);
+    else
+      pass.why = solution.reason;
+  } catch (const InputError& error) {
+    pass.why = error.diagnostics().empty() ? error.what() : error.diagnostics().front().message;
+  }
+  return pass;
+}
+
+/// Squared errors of the parts of a body (boundary elements or cells), force times length, of displacements `u` on the
+/// mesh and `U` on that of one order more.
+std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b, const Vector& u, const Vector& U,
+                                            bool loaded) {
+  const StaticSolution& solution = pass.solution;
+  const bool in_cells = model::is_divided_inside(solution.model.bodies[b]);
+  std::vector<double> squared;
+  for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
+    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *pass.wider->cells[b][c];
+    const Vector of_narrow = u(element::dofs_of(solution.mesh.bodies[b].cells[c])),
+                 of_wide = U(element::dofs_of(pass.wider->mesh.bodies[b].cells[c]));
+    const bool relaxed =
+        !loaded || element::loads_in(solution.increments.back().interior[b], c).loads.empty();
+    const double whole = element::squared_difference(
+        {narrow.ring.elements, narrow.solution.K, of_narrow, wide.ring.elements, wide.solution.K, of_wide, relaxed});
+    if (in_cells) {
+      squared.push_back(whole);
+      continue;
+    }
+    const std::vector<double> sectors =
+        element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), of_narrow},
+                                    {wide.ring, wide.solution, wide.modes(), of_wide}, wide.sectors.D);
+    const double sum = std::accumulate(sectors.begin(), sectors.end(), 0.0);
+    for (const double sector : sectors) squared.push_back(sum > 0.0 ? whole * std::max(sector, 0.0) / sum : 0.0);
+  }
+  return squared;
+}
+
+/// Products of the primal and dual errors of all parts; `sum`: their sum, force times length.
+MeshErrors goal_errors(const GoalPass& pass, double& sum) {
+  const StaticSolution& solution = pass.solution;
+  MeshErrors errors{solution.mesh, {}, frozen_elements(solution, false)};
+  errors.shares.resize(solution.model.bodies.size());
+  sum = 0.0;
+  for (std::size_t b = 0; b < errors.shares.size(); ++b) {
+    if (!has_estimate(solution, b)) continue;
+    const std::vector<double>
+        primal = squared_errors_of_parts(pass, b, solution.increments.back().displacements[b],
+                                         pass.wider->increments.back().displacements[b], true),
+        dual = squared_errors_of_parts(pass, b, pass.dual[b], pass.wider_dual[b], false);
+    for (std::size_t k = 0; k < primal.size(); ++k) {
+      const double product = std::sqrt(primal[k] * dual[k]);
+      sum += product;
+      if (solution.model.bodies[b].mesh.tolerance) errors.shares[b].push_back(product);
+    }
+  }
+  return errors;
+}
+
+/// Bodies that are refined get a tolerance, by which meshers and refinement recognise them.
+model::Model with_tolerances(model::Model model) {
+  for (model::Body& body : model.bodies) {
+    const model::MeshKind kind = body.mesh.kind;
+    if (!body.rigid && !body.imported && !body.image &&
+        (kind == model::MeshKind::superelement || kind == model::MeshKind::polygons ||
+         kind == model::MeshKind::quadtree))
+      body.mesh.tolerance = model.tolerance->relative;
+  }
+  return model;
+}
+
+/// Under a point force the displacement is infinite, and so is the energy: their values depend on the mesh.
+void warn_of_infinite_values(StaticSolution& solution) {
+  const model::Model& model = solution.model;
+  for (const model::Load& load : model.loads) {
+    if (!load.on || !std::holds_alternative<model::Force>(load.kind)) continue;
+    const model::Place& place = *load.on;
+    if (place.kind != model::Place::Kind::corner && place.kind != model::Place::Kind::near) continue;
+    const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
+    if (body.rigid) continue;
+    const Vec2 at = place.kind == model::Place::Kind::near
+                        ? place.near
+                        : body.outline.corners[static_cast<std::size_t>(place.index)].position;
+    for (const model::Quantity* quantity : quantities_of(model)) {
+      const bool there = quantity->kind == model::Quantity::Kind::displacement &&
+                         (quantity->index < 0 || quantity->index == place.body) &&
+                         (quantity->at - at).norm() <= 1e-9 * geometry::outline_size(body.outline);
+      if (there || quantity->kind == model::Quantity::Kind::elastic_energy)
+        solution.warnings.push_back(fmt::format("'{}' is infinite because of the point force at {}: its value and its "
+                                                "error bar depend on the mesh; distribute the force over an edge",
+                                                quantity->name, place.text));
+    }
+  }
+}
+
+int degrees_of_freedom(const mesh::Mesh& mesh) { return 2 * mesh.nodes(); }
+
+/// Why no further mesh is made; empty if one is.
+std::string obstacle_of(const std::vector<double>& sums, const ModelRefinement& next, const RefinementPass& refined,
+                        const mesh::Mesh& mesh, const RefinementLimits& limits) {
+  const auto back = static_cast<std::size_t>(limits.without_progress);
+  if (refined.raised + refined.divided == 0) return "no element can be refined further";
+  if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
+    return "further refinement does not reduce it";
+  if (static_cast<int>(sums.size()) >= limits.passes) return fmt::format("{} passes were made", limits.passes);
+  int present = 0;
+  for (const mesh::BodyMesh& body : mesh.bodies)
+    if (body.cells.size() == 1) present = std::max(present, 2 * static_cast<int>(body.nodes.size()));
+  if (next.boundaries.largest_body() > std::max(limits.dofs, present))
+    return fmt::format("a finer mesh would have {} degrees of freedom in one body, more than {}",
+                       next.boundaries.largest_body(), limits.dofs);
+  if (next.cells.largest_body() > limits.dofs_of_cells)
+    return fmt::format("a finer mesh would have about {} degrees of freedom in one body, more than {}",
+                       next.cells.largest_body(), limits.dofs_of_cells);
+  return {};
+}
+
+StaticSolution without_goal(StaticSolution solution, const model::Model& model, const std::string& why) {
+  const QuantityResult* found = nullptr;
+  if (!solution.increments.empty() && !solution.increments.back().quantities.empty())
+    found = &solution.increments.back().quantities.front();
+  solution.outcome = Outcome::not_converged;
+  solution.reason =
+      found ? fmt::format("the tolerance of {} was not reached: its bar is {:.3g} of its value with {} degrees of "
+                          "freedom, and {}",
+                          model.tolerance->of.name, found->relative(), degrees_of_freedom(solution.mesh), why)
+            : fmt::format("the tolerance of {} was not reached: {}", model.tolerance->of.name, why);
+  return solution;
+}
+
+/// Solve, estimate, mark and refine until the bar of Model::tolerance is small enough.
+StaticSolution refine_for_goal(const model::Model& given, const Options& options, const RefinementLimits& limits) {
+  const model::Model model = with_tolerances(given);
+  const model::Quantity& quantity = model.tolerance->of;
+  ModelRefinement refinement(model);
+  std::vector<RefinementPass> passes;
+  std::vector<double> sums;
+  std::optional<StaticSolution> last;
+  std::unique_ptr<const ModelRefinement> of_last;  // from which its mesh was made
+  const auto add_own_bars = [&](StaticSolution& solution, const ModelRefinement& from) {
+    if (solution.increments.back().quantities.empty())
+      add_bars(solution, model, richer_values({model, &from, nullptr}, solution, options));
+  };
+  const auto end = [&](StaticSolution solution) {
+    solution.model = given;
+    solution.passes = passes;
+    return solution;
+  };
+  while (true) {
+    GoalPass pass;
+    const std::string name = fmt::format("pass {}", passes.size() + 1);
+    try {
+      pass = solve_goal_pass(model, refinement.mesh(), options, name);
+    } catch (const InputError& error) {
+      if (!last) throw;
+      add_own_bars(*last, *of_last);
+      return end(without_goal(std::move(*last), model, error.diagnostics().front().message));
+    }
+    StaticSolution& solution = pass.solution;
+    if (solution.outcome != Outcome::solved) return end(std::move(solution));
+    if (!pass.wider) return end(without_goal(std::move(solution), model, "on the mesh of higher order, " + pass.why));
+    if (model.output.error)
+      for (std::size_t i = 0; i < solution.increments.size(); ++i)
+        solution.increments[i].error =
+            estimate(solution, solution.increments[i], *pass.wider, pass.wider->increments[i]);
+
+    const double J = value_of(solution, solution.increments.back(), quantity).value_or(0.0),
+                 wider = value_of(*pass.wider, pass.wider->increments.back(), quantity).value_or(0.0);
+    const double wanted = model.tolerance->relative * std::abs(J), quick = bar_factor * std::abs(wider - J);
+    double sum = 0.0;
+    MeshErrors errors = goal_errors(pass, sum);
+    sums.push_back(sum);
+    passes.push_back({degrees_of_freedom(solution.mesh), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
+    if (quick <= wanted) {
+      add_own_bars(solution, refinement);
+      const auto& quantities = solution.increments.back().quantities;
+      if (!quantities.empty()) passes.back().error = quantities.front().relative();
+      if (!quantities.empty() && quantities.front().reached()) return end(std::move(solution));
+    }
+
+    // Shares sum to about 1 when the bar is reached, which decides how much smaller polygons become.
+    for (std::vector<double>& of_body : errors.shares)
+      for (double& share : of_body) share *= wanted > 0.0 ? bar_factor / wanted : 1.0;
+    of_last = std::make_unique<const ModelRefinement>(refinement);
+    const RefinementPass refined = refinement.refine(errors, mark(refinement.parts(errors)));
+    passes.back().raised = refined.raised;
+    passes.back().divided = refined.divided;
+    if (const std::string obstacle = obstacle_of(sums, refinement, refined, solution.mesh, limits); !obstacle.empty()) {
+      add_own_bars(solution, *of_last);
+      return end(without_goal(std::move(solution), model, obstacle));
+    }
+    last = std::move(solution);
+  }
+}
+
 }  // namespace
 
 double QuantityResult::relative() const {
@@ -202,15 +436,28 @@ bool wants_bars(const model::Model& model) { return model.tolerance || !model.ou
 
 void check_bars(const model::Model& model, const mesh::Mesh& mesh) {
   if (wants_bars(model)) check_quantities(model, mesh);
+  if (!model.tolerance) return;
+  const model::Model refined = with_tolerances(model);
+  check_refinable(refined, mesh::make_mesh(refined));
 }
 
 StaticSolution solve_with_bars(model::Model model, mesh::Mesh mesh, const Options& options,
                                const RefinementLimits& limits) {
-  (void)limits;
   hold_near_places(model, mesh);
-  StaticSolution solution = solve_on_mesh(model, std::move(mesh), quiet(options, "mesh"));
-  if (solution.outcome == Outcome::solved)
-    add_bars(solution, model, richer_values({model}, solution, options));
+  StaticSolution solution;
+  if (model.tolerance) {
+    solution = refine_for_goal(model, options, limits);
+  } else {
+    const Options silent = quiet(options, "mesh");
+    const bool refined = wants_refinement(model);
+    solution = refined              ? solve_refined(model, silent, limits)
+               : model.output.error ? solve_with_error(model, std::move(mesh), silent)
+                                    : solve_on_mesh(model, std::move(mesh), silent);
+    if (solution.outcome == Outcome::solved)
+      add_bars(solution, model,
+               richer_values({model, nullptr, refined ? &solution.mesh : nullptr}, solution, options));
+  }
+  warn_of_infinite_values(solution);
   replay(solution, options);
   return solution;
 }

@@ -98,6 +98,196 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
   return std::nullopt;
 }
 
+namespace {
+
+/// Force of the contact on a pair, or its gap, as a function of p and u.
+void add_contact(const Prepared& prepared, const State& state, const model::Quantity& quantity, Functional& of) {
+  int widest = -1;  // the open pair with the largest gap
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    if (prepared.contact.pairs[i].contact != quantity.index) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    if (quantity.kind == Kind::normal_force) of.c_p[2 * k] = 1.0;
+    if (quantity.kind == Kind::tangential_force) of.c_p[2 * k + 1] = 1.0;
+    if (state.states[i] == contact::ContactState::open && (widest < 0 || state.gap[k] > state.gap[widest]))
+      widest = static_cast<int>(i);
+  }
+  if (quantity.kind != Kind::max_gap || widest < 0) return;
+  Vector gap = Vector::Zero(of.c_p.size());
+  gap[2 * widest] = 1.0;
+  for (std::size_t b = 0; b < of.c.size(); ++b) of.c[b] += prepared.contact.motion[b].transpose() * gap;
+}
+
+/// The displacement phi of every body with its support moved by 1. The reaction does the work of all other forces on
+/// phi, with the opposite sign.
+void add_reaction(const Prepared& prepared, const model::Quantity& quantity, Functional& of) {
+  for (std::size_t b = 0; b < of.c.size(); ++b) {
+    const system::BodySystem& body = *prepared.structure.bodies[b];
+    Vector moved = Vector::Zero(static_cast<Eigen::Index>(body.constraints().size()));
+    for (std::size_t c = 0; c < body.constraints().size(); ++c) {
+      const system::Constraint& constraint = body.constraints()[c];
+      if (constraint.support == quantity.index && constraint.component == quantity.component && !constraint.rotation)
+        moved[static_cast<Eigen::Index>(c)] = 1.0;
+    }
+    if (moved.isZero()) continue;
+    const Vector phi = body.displacement(Vector::Zero(body.size()), moved);
+    of.r[b] -= phi;
+    of.c_p -= prepared.contact.motion[b] * phi;
+  }
+}
+
+void add_displacement(const Prepared& prepared, const StaticSolution& solution, const model::Quantity& quantity,
+                      Functional& of) {
+  const auto b = static_cast<std::size_t>(bodies_of(solution.model, quantity).front());
+  if (solution.model.bodies[b].rigid) {
+    const system::BodySystem& body = *prepared.structure.bodies[b];
+    of.c[b] += system::rigid_point(quantity.at, body.reference(), body.lever()).row(quantity.component).transpose();
+    return;
+  }
+  const auto place = element::CellLocator(solution.mesh.bodies[b], solution.cells[b]).nearest(quantity.at);
+  const std::vector<int> dofs = dofs_at(solution, b, place.cell);
+  Vector unit = Vector::Zero(static_cast<Eigen::Index>(dofs.size()));
+  for (Eigen::Index k = 0; k < unit.size(); ++k) {
+    unit[k] = 1.0;
+    of.c[b][dofs[static_cast<std::size_t>(k)]] += displacement_at(solution, b, place, unit, {})[quantity.component];
+    unit[k] = 0.0;
+  }
+}
+
+void add_stress_intensity(const StaticSolution& solution, const model::Quantity& quantity, Functional& of) {
+  const auto b = static_cast<std::size_t>(quantity.index);
+  const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto& cell = solution.cells[b][c];
+    if (!cell || !cell->ring.is_open()) continue;
+    if (!is_named(name_of_tip(solution.model.bodies[b], mesh.cells[c].centre), solution.model, quantity)) continue;
+    const std::vector<int> dofs = element::dofs_of(mesh.cells[c]);
+    Vector unit = Vector::Zero(static_cast<Eigen::Index>(dofs.size()));
+    for (Eigen::Index k = 0; k < unit.size(); ++k) {
+      unit[k] = 1.0;
+      const element::StressIntensity factors = cell->corner().of(unit);
+      of.c[b][dofs[static_cast<std::size_t>(k)]] += quantity.component == 0 ? factors.K_I : factors.K_II;
+      unit[k] = 0.0;
+    }
+    return;
+  }
+}
+
+/// K u, the forces on all nodes.
+void add_energy(const Prepared& prepared, const State& state, Functional& of) {
+  for (std::size_t b = 0; b < of.c.size(); ++b) {
+    of.c[b] += state.forces[b] + prepared.contact.motion[b].transpose() * state.p;
+    const auto& constraints = prepared.structure.bodies[b]->constraints();
+    for (std::size_t c = 0; c < constraints.size(); ++c)
+      if (constraints[c].dof >= 0) of.c[b][constraints[c].dof] += state.reactions[b][static_cast<Eigen::Index>(c)];
+  }
+}
+
+/// T and S of eq. (2): forces that change and motions that do not, 2N x k.
+struct HeldPairs {
+  Eigen::SparseMatrix<double> T, S;
+};
+HeldPairs held_pairs(const Prepared& prepared, const State& state) {
+  std::vector<Eigen::Triplet<double>> of_T, of_S;
+  int column = 0;
+  for (std::size_t i = 0; i < state.states.size(); ++i) {
+    const int n = 2 * static_cast<int>(i), t = n + 1;
+    if (state.states[i] == contact::ContactState::open) continue;
+    of_T.emplace_back(n, column, 1.0);
+    of_S.emplace_back(n, column, 1.0);
+    if (state.states[i] == contact::ContactState::slip) {
+      const double mu = prepared.contact.laws.of_pair[i]->limits(state.history[i]).mu, p_t = state.p[t];
+      if (mu > 0.0 && p_t != 0.0) of_T.emplace_back(t, column, std::copysign(mu, p_t));
+    } else {
+      of_T.emplace_back(t, ++column, 1.0);
+      of_S.emplace_back(t, column, 1.0);
+    }
+    ++column;
+  }
+  HeldPairs held;
+  for (auto [matrix, entries] : {std::pair(&held.T, &of_T), std::pair(&held.S, &of_S)}) {
+    matrix->resize(state.p.size(), column);
+    matrix->setFromTriplets(entries->begin(), entries->end());
+  }
+  return held;
+}
+
+}  // namespace
+
+Functional derivative_of(const Prepared& prepared, const State& state, const StaticSolution& solution,
+                         const model::Quantity& quantity) {
+  Functional of;
+  for (const auto& body : prepared.structure.bodies) of.c.push_back(Vector::Zero(body->size()));
+  of.r = of.c;
+  of.c_p = Vector::Zero(state.p.size());
+  switch (quantity.kind) {
+    case Kind::normal_force:
+    case Kind::tangential_force:
+    case Kind::max_gap:
+      add_contact(prepared, state, quantity, of);
+      break;
+    case Kind::reaction:
+      add_reaction(prepared, quantity, of);
+      break;
+    case Kind::displacement:
+      add_displacement(prepared, solution, quantity, of);
+      break;
+    case Kind::stress_intensity:
+      add_stress_intensity(solution, quantity, of);
+      break;
+    case Kind::elastic_energy:
+      add_energy(prepared, state, of);
+      break;
+  }
+  return of;
+}
+
+std::vector<Vector> dual_displacements(const Prepared& prepared, const State& state, const Functional& functional) {
+  const system::ContactSystem& contact = prepared.contact;
+  const auto& bodies = prepared.structure.bodies;
+  const auto free = [&](std::size_t b, const Vector& forces) {
+    return bodies[b]->displacement(forces, Vector::Zero(static_cast<Eigen::Index>(bodies[b]->constraints().size())));
+  };
+  const HeldPairs held = held_pairs(prepared, state);
+  const Eigen::Index k = held.T.cols(), m = contact.rigid_motions();
+
+  // Right-hand side and matrix of eq. (2).
+  std::vector<Vector> z;
+  Vector on_pairs = functional.c_p, on_motions = Vector::Zero(m);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    z.push_back(free(b, functional.c[b]));
+    on_pairs += contact.motion[b] * z[b];
+    const Matrix& rigid = bodies[b]->rigid_motions();
+    on_motions.segment(contact.first_rigid[b], rigid.cols()) = rigid.transpose() * functional.c[b];
+  }
+  Vector w = Vector::Zero(k), v = Vector::Zero(m);
+  if (k + m > 0) {
+    Matrix matrix = Matrix::Zero(k + m, k + m);
+    const Matrix S(held.S);
+    matrix.topLeftCorner(k, k) = held.T.transpose() * contact.W.times(S);
+    const Matrix G(contact.G.sparse());
+    matrix.topRightCorner(k, m) = held.T.transpose() * G;
+    matrix.bottomLeftCorner(m, k) = G.transpose() * S;
+    // Pairs of three bodies at one point are redundant, and a motion that nothing determines has no row.
+    const double soft = k > 0 ? 1e-12 * matrix.diagonal().head(k).cwiseAbs().maxCoeff() : 0.0;
+    matrix.diagonal().head(k).array() += soft;
+    matrix.diagonal().tail(m).array() -= 1e-12 * (m > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0);
+    Vector x(k + m);
+    x << held.T.transpose() * on_pairs, on_motions;
+    linalg::GeneralSolver solver;
+    if (solver.factorise(matrix, k + m)) {
+      solver.solve_in_place(x);
+      w = x.head(k), v = x.tail(m);
+    }
+  }
+  const Vector forces = held.S * w;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    z[b] = free(b, functional.c[b] - contact.motion[b].transpose() * forces) + functional.r[b];
+    const Matrix& rigid = bodies[b]->rigid_motions();
+    if (rigid.cols() > 0) z[b] -= rigid * v.segment(contact.first_rigid[b], rigid.cols());
+  }
+  return z;
+}
+
 void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<const model::Quantity*> all;
   for (const model::Quantity& quantity : model.output.error_of) all.push_back(&quantity);
