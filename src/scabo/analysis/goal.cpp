@@ -289,7 +289,8 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
   return errors;
 }
 
-/// Bodies that are refined get a tolerance, by which meshers and refinement recognise them.
+/// Bodies that are refined get a tolerance, by which meshers and refinement recognise them. Where sides of contacts
+/// cannot be refined alike, they are matched anew in every mesh.
 model::Model with_tolerances(model::Model model) {
   for (model::Body& body : model.bodies) {
     const model::MeshKind kind = body.mesh.kind;
@@ -297,6 +298,11 @@ model::Model with_tolerances(model::Model model) {
         (kind == model::MeshKind::superelement || kind == model::MeshKind::polygons ||
          kind == model::MeshKind::quadtree))
       body.mesh.tolerance = model.tolerance->relative;
+  }
+  try {
+    check_refinable(model, mesh::make_mesh(model));
+  } catch (const InputError&) {
+    for (model::Body& body : model.bodies) body.mesh.matched_anew = true;
   }
   return model;
 }
@@ -436,9 +442,6 @@ bool wants_bars(const model::Model& model) { return model.tolerance || !model.ou
 
 void check_bars(const model::Model& model, const mesh::Mesh& mesh) {
   if (wants_bars(model)) check_quantities(model, mesh);
-  if (!model.tolerance) return;
-  const model::Model refined = with_tolerances(model);
-  check_refinable(refined, mesh::make_mesh(refined));
 }
 
 StaticSolution solve_with_bars(model::Model model, mesh::Mesh mesh, const Options& options,

@@ -26,8 +26,7 @@ namespace scabo::analysis {
 /// Whether any number gets an error bar.
 bool wants_bars(const model::Model& model);
 
-/// Throws InputError for numbers that the mesh does not have (quantities.hpp) and, with a tolerance, for contacts whose
-/// sides cannot be refined alike.
+/// Throws InputError for numbers that the mesh does not have (quantities.hpp).
 void check_bars(const model::Model& model, const mesh::Mesh& mesh);
 
 /// solve_static() with the bars of the requested numbers in every increment, IncrementResult::quantities. With

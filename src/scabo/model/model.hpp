@@ -89,6 +89,9 @@ struct MeshOptions {
   /// Tolerance of the estimated error in the energy norm, relative to that of the whole model. `size` and `order` are
   /// then those of the first mesh.
   std::optional<double> tolerance;
+  /// Sides of contacts are matched anew in every mesh that refinement makes, also where both bodies are one
+  /// super-element, whose sides are otherwise refined alike.
+  bool matched_anew = false;
   std::string file;  ///< that `Body::imported` comes from, for messages
   Source source;
 };
