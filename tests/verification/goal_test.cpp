@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "run.hpp"
+#include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/quantities.hpp"
 
 namespace scabo::verification {
@@ -270,7 +271,11 @@ contacts:
 
 // A number that cannot be reached within the limits keeps its bar.
 TEST(ErrorBars, ToleranceThatCannotBeReachedIsReported) {
-  const auto solution = run(corner("superelement", 0.5, 1) + "tolerance: {of: elastic_energy, relative: 1e-12}\n");
+  const model::Model model = input::parse_model(
+      corner("superelement", 0.5, 1) + "tolerance: {of: elastic_energy, relative: 1e-12}\n", "test.yaml");
+  analysis::RefinementLimits limits;
+  limits.passes = 3;
+  const auto solution = analysis::solve_with_bars(model, analysis::check(model), {}, limits);
   EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
   EXPECT_NE(solution.reason.find("the tolerance of elastic_energy was not reached"), std::string::npos)
       << solution.reason;
