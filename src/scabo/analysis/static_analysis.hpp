@@ -95,6 +95,18 @@ struct FieldState {
   std::vector<element::CellLoads> interior;  ///< [body][cell]: loads inside; empty for a body without any
 };
 
+/// A number with its error bar (goal.hpp).
+struct QuantityResult {
+  std::string of;           ///< its name, model::Quantity::name
+  double value = 0.0;       ///< on the mesh of the results
+  double bar = 0.0;         ///< the exact value is expected within value - bar and value + bar
+  double finer = 0.0;       ///< on the finest mesh from which the bar was computed
+  std::optional<double> wanted;  ///< largest bar that is wanted, relative to the value
+
+  double relative() const;  ///< bar / |value|; infinite of a value of 0
+  bool reached() const { return !wanted || relative() <= *wanted; }
+};
+
 struct IncrementResult {
   int step = 0;  ///< from 1
   std::string step_name;
@@ -114,6 +126,7 @@ struct IncrementResult {
   double lost_to_rounding = 0.0;  ///< estimated relative error of displacements, of the rounding of stiffness
   Energy energy;
   std::optional<ErrorEstimate> error;  ///< if requested
+  std::vector<QuantityResult> quantities;  ///< numbers with an error bar, if requested
   FieldState fields;
   std::vector<CrackResult> cracks;               ///< of all bounded open super-elements
   std::string reason;                            ///< why it did not converge
@@ -161,6 +174,9 @@ struct StaticSolution {
   Timing timing;
 };
 
+struct Prepared;  // increment.hpp
+struct State;
+
 struct Options {
   /// false: displacements and loads inside cells are kept of the last converged increment only, so that memory does not
   /// grow with the number of increments; `on_increment` sees those of every increment.
@@ -170,6 +186,8 @@ struct Options {
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
   /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.
   std::function<void(const IncrementResult&, const std::vector<DiscreteProblem>&)> on_problems;
+  /// After each converged increment, before `on_increment`: its accepted state.
+  std::function<void(const Prepared&, const State&, const StaticSolution&)> on_state;
   std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };
