@@ -1,9 +1,11 @@
 // Time and memory of dividing a plate with a hole, of the stiffness of all its cells, and of reading a mesh file:
 //
-//     meshes polygons|quadtree [cells = 1e6] [order = 1] [threads = 2]
+//     meshes polygons|quadtree|distinct [cells = 1e6] [order = 1] [threads = 2]
 //     meshes read FILE
 //
-// Every polygon is another one; of a quadtree only the cells beside the hole are, the others are solved once.
+// Where sizes are equal, polygons inside are equal, and are solved once like those of a quadtree. `distinct`: polygons
+// whose nodes are moved by up to a hundredth of their size, so that every one is another one; their stiffness also in a
+// batch (element/batch.hpp), which gives K alone.
 #include <sys/resource.h>
 
 #include <chrono>
@@ -12,9 +14,11 @@
 #include <cstdlib>
 #include <ctime>
 #include <numbers>
+#include <random>
 #include <set>
 #include <string>
 
+#include "scabo/element/batch.hpp"
 #include "scabo/element/cell_library.hpp"
 #include "scabo/files/read_mesh_file.hpp"
 #include "scabo/linalg/dense.hpp"
@@ -85,6 +89,11 @@ int divide(const std::string& kind, double cells, int order, int threads) {
   }
   mesh::Mesh mesh;
   mesh.bodies.push_back(std::get<mesh::BodyMesh>(std::move(divided)));
+  if (kind == "distinct") {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> move(-0.01 * model.bodies[0].mesh.size, 0.01 * model.bodies[0].mesh.size);
+    for (Vec2& node : mesh.bodies[0].nodes) node += Vec2(move(random), move(random));
+  }
   linalg::set_blas_threads(1);
   const Clock solving;
   const std::vector<element::SolvedCells> solved = element::solve_cells(model, mesh, threads);
@@ -94,6 +103,14 @@ int divide(const std::string& kind, double cells, int order, int threads) {
     for (const auto& cell : solved[0]) set.insert(cell.get());
     return set;
   }();
+  if (kind == "distinct") {
+    std::vector<element::BatchItem> items;
+    for (const auto& cell : solved[0]) items.push_back({cell->ring, cell->sectors.D, cell->thickness});
+    const Clock batch;
+    const element::BatchSolution K = element::solve_batch(items, {.threads = threads});
+    print("stiffness in a batch", batch);
+    std::printf("%d of the batch were solved one at a time\n", K.alone);
+  }
   std::printf("%zu cells, %zu distinct, %zu nodes\n", mesh.bodies[0].cells.size(), distinct.size(),
               mesh.bodies[0].nodes.size());
   return 0;
@@ -110,9 +127,9 @@ int main(int count, char** words) {
     std::printf("%zu cells, %zu nodes\n", mesh.cells.size(), mesh.nodes.size());
     return 0;
   }
-  if (what == "polygons" || what == "quadtree")
+  if (what == "polygons" || what == "quadtree" || what == "distinct")
     return divide(what, count > 2 ? std::atof(words[2]) : 1e6, count > 3 ? std::atoi(words[3]) : 1,
                   count > 4 ? std::atoi(words[4]) : 2);
-  std::fprintf(stderr, "meshes polygons|quadtree [cells] [order] [threads], or meshes read FILE\n");
+  std::fprintf(stderr, "meshes polygons|quadtree|distinct [cells] [order] [threads], or meshes read FILE\n");
   return 1;
 }
