@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -413,17 +414,37 @@ std::string too_large(const Prepared& prepared, const State& state) {
 }
 
 std::string describe_motions(const Prepared& prepared, const Vector& a) {
-  std::string text;
+  constexpr std::size_t most = 4;
+  struct Moving {
+    std::size_t part;
+    Eigen::Vector3d motion;
+  };
+  std::vector<Moving> moving;
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];
     const Eigen::Index m = part.rigid_motions().cols();
     if (m == 0) continue;
     const Eigen::Vector3d motion = part.rigid_coordinates() * a.segment(prepared.contact.first_rigid[p], m);
-    if (motion.norm() < 1e-6 * a.norm()) continue;
-    if (!text.empty()) text += "; ";
-    text += fmt::format("{}: {}", prepared.structure.dofs.name_of(p, prepared.model),
+    if (motion.norm() >= 1e-6 * a.norm()) moving.push_back({p, motion});
+  }
+  if (moving.size() > most)  // equal motions stay in the order of the parts: differences by rounding do not count
+    std::stable_sort(moving.begin(), moving.end(), [](const Moving& one, const Moving& other) {
+      return static_cast<float>(one.motion.norm()) > static_cast<float>(other.motion.norm());
+    });
+  const system::Dofs& dofs = prepared.structure.dofs;
+  std::string text;
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const auto& [p, motion] = moving[i];
+    if (i >= most) {
+      others += dofs.bodies_of(p).size();
+      continue;
+    }
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    text += fmt::format("{}{}: {}", i > 0 ? "; " : "", dofs.name_of(p, prepared.model),
                         system::describe_motion(motion, part.reference(), part.lever()));
   }
+  if (others > 0) text += fmt::format("; and {} more {}", others, others == 1 ? "body" : "bodies");
   return text;
 }
 

@@ -101,6 +101,7 @@ void read_sections(Reading& reading, const Value& root) {
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
   read_contacts_and_ties(reading, map.get("contacts"), map.get("ties"));
+  tell_of_pieces(reading);
   const std::size_t before_steps = reading.report.count();
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;

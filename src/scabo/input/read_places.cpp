@@ -51,17 +51,6 @@ void add_crack_places(const Crack& crack, int number, std::vector<std::pair<std:
   add(".mouth_right", Place::Kind::mouth, 0);
 }
 
-/// Warns once that an edge is only one of the pieces of its set.
-void tell_of_pieces(Reading& reading, int body, const std::string& part) {
-  std::vector<std::string>& pieces = reading.state(body).pieces;
-  if (const auto found = std::find(pieces.begin(), pieces.end(), part); found != pieces.end()) {
-    pieces.erase(found);
-    reading.model.warnings.push_back({WarningKind::input, reading.body(body).name + "." + part, fmt::format(
-        "the set '{0}' of the mesh file is not one edge of body '{1}': {1}.{0} is its first piece, and {1}.{0}_2 the next",
-        part, reading.body(body).name)});
-  }
-}
-
 ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_view part, const std::string& text) {
   ReadPlace result{{}, body};
   if (!reading.state(body).shape) return result;
@@ -83,7 +72,10 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
   }
   for (std::size_t i = 0; i < outline.edges.size(); ++i) {
     if (has_name(outline.edges[i].names, part)) {
-      tell_of_pieces(reading, body, std::string(part));
+      if (BodyState& state = reading.state(body); !state.pieces.empty()) {
+        state.edge_names_used.emplace(part);
+        state.edges_used.insert(static_cast<int>(i));
+      }
       const int face = face_of_edge(reading.body(body), static_cast<int>(i));
       result.place = Place{face >= 0 ? Place::Kind::face : Place::Kind::edge,
                            body,
@@ -146,6 +138,26 @@ ReadPlace read_place(Reading& reading, const Value& value) {
   if (!body) return {};
   if (dot != std::string::npos) return read_part(reading, value, *body, std::string_view(text).substr(dot + 1), text);
   return {Place{Place::Kind::body, *body, -1, Vec2::Zero(), text, value.source()}, *body};
+}
+
+void tell_of_pieces(Reading& reading) {
+  for (std::size_t b = 0; b < reading.bodies.size(); ++b) {
+    const BodyState& state = reading.bodies[b];
+    const Body& body = reading.body(static_cast<int>(b));
+    const auto is_used = [&](const std::string& name) {  // an edge may have several names
+      return std::any_of(state.edges_used.begin(), state.edges_used.end(), [&](int edge) {
+        return has_name(body.outline.edges[static_cast<std::size_t>(edge)].names, name);
+      });
+    };
+    for (const auto& [first, others] : state.pieces) {
+      if (!state.edge_names_used.contains(first) || std::any_of(others.begin(), others.end(), is_used)) continue;
+      reading.model.warnings.push_back(
+          {WarningKind::input, body.name + "." + first,
+           fmt::format("the set '{0}' of the mesh file is not one edge of body '{1}': {1}.{0} is its first piece, and "
+                       "{1}.{2} the next",
+                       first, body.name, others.front())});
+    }
+  }
 }
 
 }  // namespace scabo::input

@@ -27,7 +27,9 @@ struct BodyState {
   bool held = false;      ///< it has a support
   bool touched = false;   ///< it has a contact
   // Of a body from a mesh file (model/imported_body.hpp):
-  std::vector<std::string> pieces;          ///< edges that are the first of several pieces
+  std::map<std::string, std::vector<std::string>> pieces;  ///< of edges that are the first of several: the others
+  std::set<std::string> edge_names_used;    ///< by places, of a body with such edges
+  std::set<int> edges_used;
   std::map<std::string, Vec2> lost_points;  ///< named nodes that are no corners
 };
 
@@ -111,6 +113,8 @@ struct ReadPlace {
 };
 constexpr const char* place_example = "upper.top or {body: upper, near: [6, 3]}";
 ReadPlace read_place(Reading& reading, const Value& value);
+/// Warns of edges that are one of several pieces of a set while no place names another piece; after all places are read.
+void tell_of_pieces(Reading& reading);
 
 /// Stands for a number that is missing or could not be read, which has been reported.
 constexpr double unread = std::numeric_limits<double>::quiet_NaN();

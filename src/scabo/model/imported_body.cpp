@@ -249,9 +249,9 @@ class OutlineMaker {
   std::string piece_name(const std::string& name) {
     int& count = pieces_[name];
     if (++count == 1) return name;
-    if (count == 2) body_.pieces.push_back(name);
     std::string made = fmt::format("{}_{}", name, count);
     while (!used_.insert(made).second) made = fmt::format("{}_{}", name, ++count);
+    body_.pieces[name].push_back(made);
     return made;
   }
 

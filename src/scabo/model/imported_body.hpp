@@ -30,7 +30,8 @@ struct ImportedBody {
   /// sets are left out.
   std::shared_ptr<const files::ImportedMesh> mesh;
   geometry::Outline outline;                ///< the outer boundary, then the holes
-  std::vector<std::string> pieces;          ///< names of edges that are the first of several pieces
+  /// Of every edge that is the first of several pieces of a set: the names of the others.
+  std::map<std::string, std::vector<std::string>> pieces;
   std::map<std::string, Vec2> lost_points;  ///< names of nodes that are no corners because they lie within a named edge
 };
 

@@ -80,9 +80,11 @@ Dofs::Dofs(const model::Model& model, const mesh::Mesh& mesh)
 
 std::string Dofs::name_of(std::size_t part, const model::Model& model) const {
   const std::vector<int>& bodies = parts_[part].bodies;
+  constexpr std::size_t most = 4;
   std::string names;
-  for (const int body : bodies)
-    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", model.bodies[static_cast<std::size_t>(body)].name);
+  for (std::size_t i = 0; i < std::min(most, bodies.size()); ++i)
+    names += fmt::format("{}'{}'", i > 0 ? ", " : "", model.bodies[static_cast<std::size_t>(bodies[i])].name);
+  if (bodies.size() > most) names += fmt::format(" and {} more", bodies.size() - most);
   return (bodies.size() == 1 ? "body " : "the tied bodies ") + names;
 }
 

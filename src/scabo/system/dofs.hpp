@@ -29,7 +29,7 @@ class Dofs {
   Eigen::Index size(std::size_t part) const {
     return parts_[part].rigid ? 3 : static_cast<Eigen::Index>(2 * parts_[part].nodes.size());
   }
-  /// `body 'upper'`, or `the tied bodies 'wall', 'base'`.
+  /// `body 'upper'`, or `the tied bodies 'wall', 'base'`; of many the first four, and how many others.
   std::string name_of(std::size_t part, const model::Model& model) const;
 
   /// Number, in its part, of component 0 (x) or 1 (y) of a node of an elastic body.

@@ -97,5 +97,52 @@ TEST(Warnings, ContactsWithTheSameFaultShareOneSentence) {
               ElementsAre(HasSubstr("contacts 'floating_1', 'floating_2', 'floating_3' and 4 more never close")));
 }
 
+/// `count` blocks in a row.
+std::string row(int count, const std::string& other_bodies, const std::string& rest) {
+  return "scabo: 1\n"
+         "materials: {steel: {young: 210e9, poisson: 0.3, density: 7850}}\n"
+         "bodies:\n" +
+         other_bodies +
+         "  block: {material: steel, shape: {rectangle: {corner: [1, 0], size: [1, 1]}}, mesh: {size: 1}, "
+         "repeat: {count: " + std::to_string(count) + ", step: [1, 0]}}\n" + rest;
+}
+
+std::size_t times(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(Reasons, OfAMechanismNameTheFewBodiesThatMoveMost) {
+  const std::string floor = "  floor: {rigid: true, shape: {rectangle: {corner: [0, -1], size: [40, 1]}}}\n",
+                    held = "supports: [{on: floor, fix: [x, y]}]\nloads: {push: {gravity: [5, -9.81]}}\n";
+  const auto reason_of = [&](int count) {
+    std::string contacts = "contacts:\n";
+    for (int k = 1; k <= count; ++k) {
+      const std::string block = "block_" + std::to_string(k);
+      contacts += "  " + block + ": {between: [floor.top, " + block + ".bottom], friction: 0.1}\n";
+    }
+    return solve(row(count, floor, held + contacts)).reason;
+  };
+  EXPECT_EQ(times("translation along (1, 0)", reason_of(4)), 4u) << reason_of(4);
+  EXPECT_EQ(times("more bod", reason_of(4)), 0u);
+  EXPECT_EQ(times("translation along (1, 0)", reason_of(5)), 4u) << reason_of(5);
+  EXPECT_THAT(reason_of(5), HasSubstr("; and 1 more body, held neither by supports"));
+  EXPECT_THAT(reason_of(20), HasSubstr("; and 16 more bodies, held neither by supports"));
+}
+
+TEST(Reasons, NameFourOfManyTiedBodies) {
+  std::string ties = "loads: {push: {gravity: [5, -9.81]}}\nties:\n";
+  for (int k = 1; k < 7; ++k)
+    ties += "  tie_" + std::to_string(k) + ": {between: [block_" + std::to_string(k) + ".right, block_" + std::to_string(k + 1) + ".left]}\n";
+  try {
+    solve(row(7, "", ties));
+    FAIL() << "seven blocks that nothing supports";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the tied bodies 'block_1', 'block_2', 'block_3', 'block_4' and 3 more are "
+                                        "insufficiently supported"));
+  }
+}
+
 }  // namespace
 }  // namespace scabo::analysis

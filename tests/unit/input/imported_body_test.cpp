@@ -21,6 +21,8 @@ using test::mesh_of_rectangle;
 using test::MeshText;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
 
 files::ImportedMesh parsed(const MeshText& mesh) { return files::parse_mesh(mesh.vtu(), "mesh.vtu"); }
 
@@ -67,7 +69,7 @@ TEST(ImportedBody, NamesEdgesAndCornersBySets) {
   EXPECT_EQ(body.outline.edges[1].end, Vec2(3, 0));
   EXPECT_THAT(body.outline.corners[6].names, ElementsAre("vertex_7", "points_3"));
   EXPECT_EQ(body.outline.corners[6].position, Vec2(2, 1));
-  EXPECT_THAT(body.pieces, ElementsAre("boundary_8"));
+  EXPECT_THAT(body.pieces, ElementsAre(Pair("boundary_8", ElementsAre("boundary_8_2"))));
   ASSERT_EQ(body.lost_points.size(), 1u);
   EXPECT_EQ(body.lost_points.at("points_4"), Vec2(2, 0));
 }
@@ -173,15 +175,24 @@ TEST(ImportedBody, IsReadBesideTheModelFile) {
   EXPECT_THROW(parse_model(model, "/nowhere/model.yaml"), InputError);
 }
 
-TEST(ImportedBody, WarnsOfPieces) {
+TEST(ImportedBody, WarnsOfPiecesThatNoPlaceNames) {
   MeshText mesh = mesh_of_rectangle(9, 4.0, 1.0, 4, 1);
-  mesh.cells.push_back({3, {0, 1}, 1});
-  mesh.cells.push_back({3, {3, 4}, 1});
-  const auto read = parse_model(model_of("material: rock, mesh: {file: " + mesh.file() + "}",
-                                         "contacts: {}\noutput: {}\n# boundary_1 is used twice below\n"),
-                                "model.yaml", {parse_override("supports.0.on=part.boundary_1")});
-  ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_THAT(read.warnings[0].text, HasSubstr("part.boundary_1 is its first piece, and part.boundary_1_2 the next"));
+  for (const int i : {0, 3}) mesh.cells.push_back({3, {i, i + 1}, 1});  // the two ends of the bottom
+  mesh.cells.push_back({3, {3, 4}, 2});                                 // the second one by another name
+  const auto warnings = [&](const std::string& places, const std::string& more = "") {
+    return texts_of(parse_model("scabo: 1\nmaterials: {rock: {young: 1, poisson: 0}}\n"
+                                "bodies: {part: {material: rock, mesh: {file: " + mesh.file() + "}}}\n" + places +
+                                "loads: {down: {on: {body: part, near: [2, 1]}, force: [0, -1]}" + more + "}\n",
+                                "model.yaml").warnings);
+  };
+  const std::string support = "supports:\n  - {on: part.boundary_1, fix: [x, y]}\n";
+  const auto tells = ElementsAre(HasSubstr("part.boundary_1 is its first piece, and part.boundary_1_2 the next"));
+  EXPECT_THAT(warnings(support), tells);
+  EXPECT_THAT(warnings(support + "  - {on: part.boundary_1, fix: [x]}\n"), tells);
+  EXPECT_THAT(warnings(support + "  - {on: part.boundary_1_2, fix: [x]}\n"), IsEmpty());
+  EXPECT_THAT(warnings("supports:\n  - {on: part.boundary_1_2, fix: [x, y]}\n  - {on: part.boundary_1, fix: [x]}\n"), IsEmpty());
+  EXPECT_THAT(warnings(support, ", push: {on: part.boundary_2, pressure: 1}"), IsEmpty());
+  EXPECT_THAT(warnings("supports:\n  - {on: part.boundary_1_2, fix: [x, y]}\n"), IsEmpty());
 }
 
 }  // namespace
