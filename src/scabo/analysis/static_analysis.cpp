@@ -215,6 +215,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       if (!options.keep_fields && solution.increments.size() > 1) {
         IncrementResult& before = solution.increments[solution.increments.size() - 2];
         before.fields = {};
+        for (ContactResult& contact : before.contacts) contact.pairs = {};
       }
     }
   }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,6 +42,7 @@ struct ContactResult {
   int open = 0, stick = 0, slip = 0;
   std::optional<int> broken;  ///< pairs that lost cohesion and tensile strength; empty if the contact has none
   double max_gap = 0.0;       ///< of the open pairs; 0 if none is open
+  double min_gap = std::numeric_limits<double>::infinity();  ///< of all pairs; infinite without pairs
   double max_pressure = 0.0;
   std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; empty if all pairs are open
 };
@@ -178,8 +180,8 @@ struct Prepared;  // increment.hpp
 struct State;
 
 struct Options {
-  /// false: displacements and loads inside cells are kept of the last converged increment only, so that memory does not
-  /// grow with the number of increments; `on_increment` sees those of every increment.
+  /// false: displacements, loads inside cells and pairs are kept of the last converged increment only, so that memory
+  /// hardly grows with the number of increments; `on_increment` sees those of every increment.
   bool keep_fields = true;
   int threads = 1;                          ///< upper limit, for BLAS and for distinct super-elements
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
