@@ -1,5 +1,5 @@
 # SCABO_GMSH: Gmsh's library reads CAD (files/cad.hpp). AUTO: if libgmsh-dev is installed. The library is loaded when a CAD
-# file is read, not linked: with all that it needs it would add 60 ms to every start of the program (docs/decisions).
+# file is read, not linked: with all that it needs it would add 60 ms to every start of the program (docs/mesh_files.md).
 set(SCABO_GMSH AUTO CACHE STRING "Gmsh's library, which reads CAD (libgmsh-dev): AUTO, ON or OFF")
 set_property(CACHE SCABO_GMSH PROPERTY STRINGS AUTO ON OFF)
 set(SCABO_GMSH_FOUND NO)

@@ -24,6 +24,16 @@
 #ifdef SCABO_GMSH
 #include <dlfcn.h>
 #include <gmshc.h>
+
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+// What Gmsh and OpenCASCADE do not free is not reported as a leak of Scabo.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libgmsh\nleak:libTK\n"; }
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
+#endif
+#endif
 #endif
 
 namespace scabo::files {
@@ -106,9 +116,11 @@ class GeoTokens {
                                           command, what));
 }
 
-/// Throws if the file, or one that it includes, has a command that runs a program, writes a file or ends this program.
-void refuse_commands(const fs::path& path, std::set<fs::path>& known) {
-  if (!known.insert(path.lexically_normal()).second) return;
+/// Throws if the file, or one that it includes, has a command that runs a program, writes a file or ends this program, or
+/// includes itself. `outer`: the files around it.
+void refuse_commands(const fs::path& path, std::set<fs::path> outer) {
+  if (!outer.insert(path.lexically_normal()).second)
+    fail_in_file(path.string(), 0, 0, "the file includes itself, without end: remove the command");
   const std::string text = content_of(path);
   constexpr const char* runs = "runs other programs, which Scabo does not allow";
   constexpr const char* writes = "writes files, which Scabo does not allow";
@@ -128,7 +140,7 @@ void refuse_commands(const fs::path& path, std::set<fs::path>& known) {
     if (is("System")) refuse_command(path.string(), at.line, at.text, runs);
     if (is("Save") || is("Print") || is("CreateDir") || is("Plugin"))
       refuse_command(path.string(), at.line, at.text, writes);
-    if (is("Exit")) refuse_command(path.string(), at.line, at.text, "ends the program");
+    if (is("Exit") || is("AbortOnError")) refuse_command(path.string(), at.line, at.text, "ends the program");
     if (is("Open")) refuse_command(path.string(), at.line, at.text, "opens another model");
     if (is("Printf") && token.text == "(") {
       int depth = 0;
@@ -144,9 +156,20 @@ void refuse_commands(const fs::path& path, std::set<fs::path>& known) {
       const fs::path other = path.parent_path() / std::string(token.text);
       std::error_code error;
       if (extension_of(other) != ".geo" && is_cad_file(other.string())) continue;
-      if (fs::is_regular_file(other, error)) refuse_commands(other, known);
+      if (fs::is_regular_file(other, error)) refuse_commands(other, outer);
     }
   }
+}
+
+/// OpenCASCADE reads a truncated .brep file for ever. A whole one ends, after its shapes, with a line such as `+1 0`.
+void refuse_truncated_brep(const std::string& path) {
+  const std::string text = content_of(path);
+  const std::size_t shapes = text.find("\nTShapes ");
+  const std::size_t last = text.find_last_not_of(" \r\n");
+  const std::size_t line = last == std::string::npos ? last : text.find_last_of('\n', last);
+  const bool whole = shapes != std::string::npos && line != std::string::npos && line > shapes && line < last &&
+                     (text[line + 1] == '+' || text[line + 1] == '-') && text[last] != '*';
+  if (!whole) fail_in_file(path, 0, 0, "the file is no BREP file of OpenCASCADE, or it is truncated; write it again");
 }
 
 #ifdef SCABO_GMSH
@@ -163,6 +186,7 @@ struct GmshLibrary {
   decltype(&gmshOptionSetNumber) set_number;
   decltype(&gmshOptionSetString) set_string;
   decltype(&gmshLoggerStart) start_logger;
+  decltype(&gmshLoggerStop) stop_logger;
   decltype(&gmshLoggerGet) get_log;
   decltype(&gmshModelAdd) add_model;
   decltype(&gmshModelGetEntities) get_entities;
@@ -202,6 +226,7 @@ const GmshLibrary& gmsh_library() {
     find_symbol(handle, "gmshOptionSetNumber", found.set_number);
     find_symbol(handle, "gmshOptionSetString", found.set_string);
     find_symbol(handle, "gmshLoggerStart", found.start_logger);
+    find_symbol(handle, "gmshLoggerStop", found.stop_logger);
     find_symbol(handle, "gmshLoggerGet", found.get_log);
     find_symbol(handle, "gmshModelAdd", found.add_model);
     find_symbol(handle, "gmshModelGetEntities", found.get_entities);
@@ -281,6 +306,7 @@ class GmshSession {
   }
   ~GmshSession() {
     int error = 0;
+    gmsh_.stop_logger(&error);  // the log would outlive the session
     gmsh_.finalize(&error);
   }
   GmshSession(const GmshSession&) = delete;
@@ -302,6 +328,8 @@ class GmshSession {
 
   void mesh(const CadOptions& options) {
     check_count(options);
+    // An exception in one of Gmsh's threads would end the process; errors are in the log anyway.
+    set("General.AbortOnError", 1);
     int error = 0;
     gmsh_.clear_mesh(nullptr, 0, &error);
     set("Mesh.ElementOrder", 1);
@@ -513,10 +541,8 @@ ImportedMesh mesh_cad_file(const std::string& path, const CadOptions& options) {
   std::error_code error;
   if (!fs::is_regular_file(path, error) || !std::ifstream(path))
     fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
-  if (has_own_sizes(path)) {
-    std::set<fs::path> known;
-    refuse_commands(path, known);
-  }
+  if (has_own_sizes(path)) refuse_commands(path, {});
+  if (extension_of(path) == ".brep") refuse_truncated_brep(path);
   return mesh_by_gmsh(path, options);
 }
 
