@@ -14,6 +14,7 @@
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/mesh/approximate_nodes.hpp"
 #include "scabo/mesh/crack_net.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/domain_triangles.hpp"
@@ -100,31 +101,6 @@ std::vector<DomainLine> lines_of(const Sizing& sizing, const geometry::Edge& edg
   const std::size_t last = breaks.size() - 1;
   if (!edge.arc || std::abs(edge.arc->sweep) < std::numbers::pi) return {part_of(edge, breaks, 0, last)};
   return {part_of(edge, breaks, 0, last / 2), part_of(edge, breaks, last / 2, last)};
-}
-
-double approximate_nodes(const model::Body& body) {
-  // A cell of side h has an area of about h^2 as a square and 2.6 h^2 as a hexagon; each has about two inner sides.
-  const double area = std::abs(body.outline.area());
-  constexpr int samples = 200;  // the finest size counts in its own surroundings only
-  const geometry::Box box = geometry::box_of(body.outline);
-  // The squares of a quadtree are no larger than a thin body is wide.
-  const double largest = body.mesh.kind == model::MeshKind::quadtree
-                             ? std::min(body.mesh.size, 2.0 * (box.high - box.low).minCoeff())
-                             : body.mesh.size;
-  double cells = area / (largest * largest);
-  for (const model::LocalSize& local : body.mesh.refine) {
-    const double around = local.near ? 1.0 : body.outline.edges[static_cast<std::size_t>(local.edge)].length();
-    for (int i = 0; i < samples; ++i) {  // rings around the place
-      const double ratio = body.mesh.size / local.size;
-      if (ratio <= 1.0) break;
-      const double size = local.size * std::pow(ratio, (i + 0.5) / samples);
-      const double distance = (size - local.size) / model::mesh_growth;
-      const double width = size * std::log(ratio) / samples / model::mesh_growth;
-      const double ring = local.near ? 2.0 * std::numbers::pi * distance : 2.0 * around;
-      cells += std::min(area, ring * width) / (size * size);
-    }
-  }
-  return cells * (1.0 + 2.0 * (body.mesh.order - 1));
 }
 
 /// Points of a side at fractions of it, in the direction from `a` to `b`.

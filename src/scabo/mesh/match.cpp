@@ -232,7 +232,18 @@ class Union {
       limits.push_back({seen, *there});
     }
     for (const auto& limit : limits) {
+      // A break point that is not seen because of the rounding of its position only becomes the common one itself: a
+      // new one beside it would leave an element of no length.
+      const std::array<std::optional<std::size_t>, 2> there{break_at(0, limit[0]), break_at(1, limit[1])};
+      const auto is_common = [&](int s) { return there[s] && sides_[s].breaks[*there[s]].event >= 0; };
+      if (is_common(0) || is_common(1)) continue;
       for (const int s : {0, 1}) {
+        if (there[s]) {
+          Side& at_break = sides_[s];
+          at_break.breaks[*there[s]].event = events_;
+          if (at_break.closed && own(s, *there[s]) == 0) at_break.breaks.front().event = at_break.breaks.back().event = events_;
+          continue;
+        }
         Break at;
         at.t = limit[static_cast<std::size_t>(s)];
         at.point = sides_[s].edge->at(at.t);
@@ -245,6 +256,13 @@ class Union {
       }
       ++events_;
     }
+  }
+
+  /// The break point of side s that is at position t already.
+  std::optional<std::size_t> break_at(int s, double t) const {
+    const std::size_t i = sides_[s].nearest(t);
+    const double distance = std::abs(sides_[s].breaks[i].t - t) * sides_[s].length;
+    return distance <= coincidence * sides_[s].length_at(i) ? std::optional(i) : std::nullopt;
   }
 
   /// The point of the second side that is opposite a point of the first one.
