@@ -74,7 +74,7 @@ format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
 packages:
-	@cmake/install_packages.sh build test bench
+	@cmake/install_packages.sh build test cad bench
 
 install: build
 	@cmake --install build --prefix "$(PREFIX)"

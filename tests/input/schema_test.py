@@ -28,12 +28,13 @@ BEYOND_SCHEMA = re.compile(
     r"|shape_too_|centre_|mesh_(1e9|too_many|(quadtree|polygons)_of_a_sliver|min_size_(of|above)|refine_(of|on_un)|tolerance_of_a_body|quadtree_centre)"
     r"|tie_(with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named)|regions?_(of_unknown|of_the_same|outside|overlap|in_a_hole)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
+    r"|cad_runs_"
     r"|imported_(no_|folded|cut_off|empty|apart|unknown_(region|material|edge)|material_of|region_without|polygon_as|cell_without)"
     r"|support_(conflict|name_)|load_(on_unknown|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
     r"|contact_(with_itself|unknown_edge|twice|of_two_rigid|at_a_corner)"
     r"|crack_(across_a_hole|name_twice|of_no_length|on_a_border|on_a_crack|on_an_edge|out_of_its_body)"
     r"|crack_(and_centre|contact_|path_(face_|in_one|mouth|outside|point_twice)|two|face_|in_finite|mouth_(inside|on_a|unknown)|named_like|tip_)|face_(points_(twice|xi)|power_|powers_on)|notch_"
-    r"|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
+    r"|quantity_|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
     r"|temperature_(on_an|without)|body_force_on_a|law_(dynamic_above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names)|later_")
 
 

@@ -14,7 +14,7 @@ class Wall(support.OfExample):
         run = support.scabo("run", support.ROOT / "examples" / self.FOLDER / "model.yaml", "-o", self.directory / "results", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)  # it warns of contacts with a single pair
         summary = support.summary_of(self.directory / "results")
-        self.assertEqual(summary["model"]["super_elements"], check["bodies"])
+        self.assertEqual(summary["model"]["super_elements"], check["blocks"])
         for increment, push in zip(summary["increments"], check["push"], strict=True):
             x, y = increment["reactions"]["ground"]
             self.assertAlmostEqual(y / check["weight"], 1.0, delta=check["relative_tolerance"])

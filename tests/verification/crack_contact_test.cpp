@@ -102,7 +102,7 @@ Eigen::Vector3d force_along(const std::vector<Vec2>& path) {
 double deviation(const analysis::StaticSolution& solution, double sx, double sy, double sxy) {
   const double exx = (sx - 0.3 * sy) / 200.0, eyy = (sy - 0.3 * sx) / 200.0, gxy = 2.6 * sxy / 200.0;
   const auto& nodes = solution.mesh.bodies.front().nodes;
-  const Vector& u = last(solution).displacements.front();
+  const Vector& u = last(solution).fields.displacements.front();
   const Vec2 corner = solution.model.bodies.front().outline.edges.front().start;
   double largest = 0.0, worst = 0.0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -46,8 +46,8 @@ TEST(LayeredBlock, StretchedAlongItsLayers) {
         // The exact displacement u = strain x at every node says that strain and stress are exact everywhere.
         const mesh::BodyMesh& mesh = solution.mesh.bodies[0];
         for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-          ASSERT_NEAR(result.displacements[0](2 * static_cast<Eigen::Index>(i)), strain * mesh.nodes[i].x(), 1e-12);
-          ASSERT_NEAR(result.displacements[0](2 * static_cast<Eigen::Index>(i) + 1), 0.0, 1e-12);
+          ASSERT_NEAR(result.fields.displacements[0](2 * static_cast<Eigen::Index>(i)), strain * mesh.nodes[i].x(), 1e-12);
+          ASSERT_NEAR(result.fields.displacements[0](2 * static_cast<Eigen::Index>(i) + 1), 0.0, 1e-12);
         }
       }
 }
@@ -67,8 +67,8 @@ TEST(LayeredBlock, PressedAcrossItsLayers) {
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
       const double x = mesh.nodes[i].x(), y = mesh.nodes[i].y();
       const double down = std::min(y, 0.3) / 10 + std::clamp(y - 0.3, 0.0, 0.4) / 20 + std::max(y - 0.7, 0.0) / 40;
-      ASSERT_NEAR(result.displacements[0](2 * static_cast<Eigen::Index>(i)), 0.2 * 0.01 * x, 1e-12);
-      ASSERT_NEAR(result.displacements[0](2 * static_cast<Eigen::Index>(i) + 1), -0.2 * down, 1e-12);
+      ASSERT_NEAR(result.fields.displacements[0](2 * static_cast<Eigen::Index>(i)), 0.2 * 0.01 * x, 1e-12);
+      ASSERT_NEAR(result.fields.displacements[0](2 * static_cast<Eigen::Index>(i) + 1), -0.2 * down, 1e-12);
     }
   }
 }

@@ -58,8 +58,8 @@ loads: {{none: {{on: beam.right, traction: [1, 0]}}}}
       const double bending = P * (L - x.x()) * x.y() / I, shear = -P / (2 * I) * (D * D / 4 - x.y() * x.y());
       return Vec2(bending * n.x() + shear * n.y(), shear * n.x());
     });
-  const Vector u = structure.bodies[0]->displacement(forces, Eigen::Vector3d::Zero());
-  return {2.0 * nodes.size(), std::sqrt(std::abs(1.0 - structure.bodies[0]->elastic_energy(u) / energy))};
+  const Vector u = structure.parts[0]->displacement(forces, Eigen::Vector3d::Zero());
+  return {2.0 * nodes.size(), std::sqrt(std::abs(1.0 - structure.parts[0]->elastic_energy(u) / energy))};
 }
 
 TEST_P(RatesOfCells, TimoshenkosCantilever) {

@@ -24,12 +24,6 @@ constexpr double some_reaction = 1e-6;
 
 using Flags = std::vector<std::vector<bool>>;  // [body][cell], or [body][boundary element of all cells, in their order]
 
-/// Whether the body consists of super-elements, whose error can be estimated.
-bool has_estimate(const StaticSolution& solution, std::size_t body) {
-  const element::SolvedCells& cells = solution.cells[body];
-  return !cells.empty() && std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell != nullptr; });
-}
-
 /// Displacements of a cell's own nodes.
 Vector displacement_of(const StaticSolution& solution, const IncrementResult& increment, std::size_t body,
                        std::size_t cell) {
@@ -127,13 +121,19 @@ void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::
   }
 }
 
-/// Elements beside singular places, and those that cannot be changed without separating pairs of nodes.
-Flags frozen_elements(const StaticSolution& solution) {
+}  // namespace
+
+bool has_estimate(const StaticSolution& solution, std::size_t body) {
+  const element::SolvedCells& cells = solution.cells[body];
+  return !cells.empty() && std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell != nullptr; });
+}
+
+Flags frozen_elements(const StaticSolution& solution, bool at_singular_places) {
   const mesh::Mesh& mesh = solution.mesh;
   Flags frozen(mesh.bodies.size());
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
     if (has_estimate(solution, b)) frozen[b].assign(boundary_elements(mesh.bodies[b]), false);
-  for (const model::Place& place : singular_places(solution)) {
+  for (const model::Place& place : at_singular_places ? singular_places(solution) : std::vector<model::Place>{}) {
     const auto b = static_cast<std::size_t>(place.body);
     if (frozen[b].empty()) continue;
     const std::vector<int> nodes = mesh::nodes_of(place, mesh).nodes;
@@ -164,24 +164,6 @@ Flags frozen_elements(const StaticSolution& solution) {
   return frozen;
 }
 
-/// Elements of refined bodies of one super-element that end at the corner of a point force.
-std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, const mesh::Division& division) {
-  std::vector<mesh::EdgeElement> elements;
-  for (const model::Load& load : model.loads) {
-    if (!load.on || load.on->kind != model::Place::Kind::corner || !std::holds_alternative<model::Force>(load.kind))
-      continue;
-    const int b = load.on->body, corner = load.on->index;
-    const mesh::BodyDivision& body = division[static_cast<std::size_t>(b)];
-    if (!model.bodies[static_cast<std::size_t>(b)].mesh.tolerance || body.empty()) continue;
-    const int count = static_cast<int>(body.size()), before = (corner + count - 1) % count;
-    elements.push_back({b, corner, 0});
-    elements.push_back({b, before, static_cast<int>(body[static_cast<std::size_t>(before)].orders.size()) - 1});
-  }
-  return elements;
-}
-
-/// Replaces `near` places by the position of their nodes on this mesh, so that they refer to the same point on the next
-/// mesh.
 void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
   const auto hold = [&](model::Place& place) {
     if (place.kind != model::Place::Kind::near) return;
@@ -203,12 +185,40 @@ Options quiet(const Options& options, const std::string& what) {
   return silent;
 }
 
+void replay(StaticSolution& solution, const Options& options) {
+  if (options.on_mesh) options.on_mesh(solution);
+  std::vector<IncrementResult> increments = std::move(solution.increments);
+  solution.increments.clear();
+  for (IncrementResult& increment : increments) {
+    solution.increments.push_back(std::move(increment));
+    if (options.on_increment) options.on_increment(solution, solution.increments.back());
+  }
+}
+
+namespace {
+
+/// Elements of refined bodies of one super-element that end at the corner of a point force.
+std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, const mesh::Division& division) {
+  std::vector<mesh::EdgeElement> elements;
+  for (const model::Load& load : model.loads) {
+    if (!load.on || load.on->kind != model::Place::Kind::corner || !std::holds_alternative<model::Force>(load.kind))
+      continue;
+    const int b = load.on->body, corner = load.on->index;
+    const mesh::BodyDivision& body = division[static_cast<std::size_t>(b)];
+    if (!model.bodies[static_cast<std::size_t>(b)].mesh.tolerance || body.empty()) continue;
+    const int count = static_cast<int>(body.size()), before = (corner + count - 1) % count;
+    elements.push_back({b, corner, 0});
+    elements.push_back({b, before, static_cast<int>(body[static_cast<std::size_t>(before)].orders.size()) - 1});
+  }
+  return elements;
+}
+
 /// The analysis on the mesh of higher order; nothing, with the reason in `why`, if it does not have the same
 /// increments.
 std::optional<StaticSolution> solve_wider(const StaticSolution& solution, const Options& options,
                                           const std::string& what, std::string& why) {
   try {
-    mesh::Mesh mesh = mesh::enriched(solution.model, solution.mesh, frozen_elements(solution));
+    mesh::Mesh mesh = mesh::enriched(solution.model, solution.mesh, frozen_elements(solution, true));
     StaticSolution wider = solve_on_mesh(solution.model, std::move(mesh), quiet(options, what));
     if (wider.outcome == Outcome::solved) return wider;
     why = wider.reason;
@@ -231,17 +241,6 @@ void warn_of_point_forces(StaticSolution& solution) {
         fmt::format("stress under the point force at {} is infinite: for the estimated error {}", place,
                     in_cells ? "the adjacent cells are left out"
                              : "the force is distributed over the adjacent elements, which are not refined")});
-}
-
-/// Reports a complete solution as if its increments were computed one by one.
-void replay(StaticSolution& solution, const Options& options) {
-  if (options.on_mesh) options.on_mesh(solution);
-  std::vector<IncrementResult> increments = std::move(solution.increments);
-  solution.increments.clear();
-  for (IncrementResult& increment : increments) {
-    solution.increments.push_back(std::move(increment));
-    if (options.on_increment) options.on_increment(solution, solution.increments.back());
-  }
 }
 
 /// Error measures that control refinement.
@@ -287,7 +286,7 @@ std::vector<double> squared_errors(const StaticSolution& solution, const Increme
 
 /// Parts that boundary elements, or cells, have in the sum in the worst increment.
 MeshErrors errors_of(const StaticSolution& solution, const StaticSolution& wider, std::size_t worst) {
-  MeshErrors errors{solution.mesh, {}, frozen_elements(solution)};
+  MeshErrors errors{solution.mesh, {}, frozen_elements(solution, true)};
   errors.shares.resize(solution.model.bodies.size());
   const IncrementResult &increment = solution.increments[worst], &wider_increment = wider.increments[worst];
   for (std::size_t b = 0; b < errors.shares.size(); ++b) {

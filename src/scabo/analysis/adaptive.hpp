@@ -63,4 +63,19 @@ std::vector<double> element_errors(const StaticSolution& solution, const Increme
 std::vector<double> cell_errors(const StaticSolution& solution, const IncrementResult& increment,
                                 const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t body);
 
+// Steps that goal.hpp shares.
+
+/// Replaces `near` places by the position of their nodes on this mesh, so that they refer to the same point on the next
+/// mesh.
+void hold_near_places(model::Model& model, const mesh::Mesh& mesh);
+/// Options for a solve that reports nothing but its stages, as `what: stage`.
+Options quiet(const Options& options, const std::string& what);
+/// Reports a complete solution as if its increments were computed one by one.
+void replay(StaticSolution& solution, const Options& options);
+/// Whether the body consists of super-elements, whose error can be estimated.
+bool has_estimate(const StaticSolution& solution, std::size_t body);
+/// [body][boundary element of all cells]: elements that cannot be changed without separating pairs of nodes and, if
+/// `at_singular_places`, those beside point forces and the like.
+std::vector<std::vector<bool>> frozen_elements(const StaticSolution& solution, bool at_singular_places);
+
 }  // namespace scabo::analysis

@@ -14,21 +14,6 @@ namespace scabo::analysis {
 
 namespace {
 
-/// `plate.crack`; with both ends as tips `plate.crack.start` and `plate.crack.end`.
-std::string name_of(const model::Body& body, const Vec2& tip) {
-  for (const model::Crack& crack : body.cracks) {
-    if (crack.path.empty()) return body.name + "." + crack.name;
-    const double size = (crack.path.back() - crack.path.front()).norm();
-    const bool start = (crack.path.front() - tip).norm() <= 1e-9 * size;
-    if (start || (crack.path.back() - tip).norm() <= 1e-9 * size)
-      return body.name + "." + crack.name + (start ? ".start" : ".end");
-  }
-  if (!body.cracks.empty()) return body.name;
-  if (body.mesh.centre_corner < 0) return body.name;
-  const std::vector<std::string>& names = body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)].names;
-  return body.name + "." + (names.size() > 1 ? names[1] : names[0]);  // the name given by the user, if there is one
-}
-
 /// Distance from an exponent within which a load is in resonance with it.
 constexpr double resonance = 1e-4;
 /// The exponents of a crack are 1/2; larger deviations of the computed ones show that the boundary is too coarse.
@@ -75,6 +60,20 @@ bool resolved(const element::StressIntensity& factors) {
 
 }  // namespace
 
+std::string name_of_tip(const model::Body& body, const Vec2& tip) {
+  for (const model::Crack& crack : body.cracks) {
+    if (crack.path.empty()) return body.name + "." + crack.name;
+    const double size = (crack.path.back() - crack.path.front()).norm();
+    const bool start = (crack.path.front() - tip).norm() <= 1e-9 * size;
+    if (start || (crack.path.back() - tip).norm() <= 1e-9 * size)
+      return body.name + "." + crack.name + (start ? ".start" : ".end");
+  }
+  if (!body.cracks.empty()) return body.name;
+  if (body.mesh.centre_corner < 0) return body.name;
+  const std::vector<std::string>& names = body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)].names;
+  return body.name + "." + (names.size() > 1 ? names[1] : names[0]);  // the name given by the user, if there is one
+}
+
 std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
   std::vector<Warning> warnings;
   for (const CrackResult& crack : cracks) {
@@ -105,7 +104,7 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
       const std::vector<element::RadialLoad>& loads = element::loads_in(increment.fields.interior[b], c).loads;
       const Vector u = increment.fields.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
-      results.push_back({name_of(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre), super_element->corner().of(u, loads)});
+      results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre), super_element->corner().of(u, loads)});
       element::StressIntensity& factors = results.back().factors;
       if (touching.contains(c)) factors.T_left.reset(), factors.T_right.reset();
       if (in_resonance(factors, loads)) take_back(factors);

@@ -9,6 +9,9 @@ namespace scabo::analysis {
 /// not a number if a load has the exponent of a singular mode.
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment);
 
+/// `plate.crack`; of a crack given as a path `plate.crack.start` or `plate.crack.end`.
+std::string name_of_tip(const model::Body& body, const Vec2& tip);
+
 /// Warnings for users: undefined factors, exponents that the boundary does not resolve.
 std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks);
 

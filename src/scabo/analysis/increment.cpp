@@ -188,6 +188,7 @@ Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int
 
 void add_totals(ContactResult& result) {
   for (const PairResult& pair : result.pairs) {
+    result.min_gap = std::min(result.min_gap, pair.gap);
     result.normal_force += pair.normal_force;
     result.tangential_force += pair.tangential_force;
     result.open += pair.state == contact::ContactState::open;

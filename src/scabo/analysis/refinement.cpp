@@ -35,7 +35,7 @@ constexpr double aim_of_cells = 0.4;
 constexpr double growth_of_squares = 1.0;
 /// Cells smaller than this part of their body are not divided: coordinates of their nodes relative to their centre
 /// would lose too many digits.
-constexpr double smallest = 1e-8;
+constexpr double smallest_cell = 1e-8;
 
 /// Whether the cells of a body are refined.
 bool is_refined(const model::Body& body) {
@@ -235,6 +235,17 @@ int BoundaryRefinement::largest_body() const {
 
 CellRefinement::CellRefinement(const model::Model& model) : model_(model), sizes_(model.bodies.size()) {}
 
+mesh::Sizes CellRefinement::scaled_sizes(double factor) const {
+  mesh::Sizes scaled = sizes_;
+  for (std::size_t b = 0; b < scaled.size(); ++b) {
+    if (scaled[b].empty()) continue;
+    std::vector<mesh::SizeField::Sample> samples = scaled[b].samples();
+    for (mesh::SizeField::Sample& sample : samples) sample.size *= factor;
+    scaled[b] = mesh::SizeField(samples, growth_of(model_.bodies[b]));
+  }
+  return scaled;
+}
+
 std::vector<Part> CellRefinement::parts(const MeshErrors& errors) const {
   std::vector<Part> parts;
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
@@ -281,7 +292,7 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
         square ? 0.5
                : std::clamp(std::pow(target / part.share, 0.5 / (body.mesh.order + 1)), least_factor, largest_factor);
     const double next = factor * size;
-    if (next < smallest * geometry::outline_size(body.outline)) continue;
+    if (next < smallest_cell * geometry::outline_size(body.outline)) continue;
     samples[b].push_back({box.middle, next});
     cells[b] += size * size / (next * next) - 1.0;
     ++pass.divided;

@@ -79,6 +79,8 @@ class CellRefinement : public Refinement {
   explicit CellRefinement(const model::Model& model);
 
   const mesh::Sizes& sizes() const { return sizes_; }
+  /// All sizes multiplied by `factor`.
+  mesh::Sizes scaled_sizes(double factor) const;
 
   /// Cells at a point of a refined body become `part` of the size of the first mesh.
   void divide_at(const mesh::Mesh& mesh, const model::Place& point, double part);

@@ -7,6 +7,7 @@
 
 #include "scabo/analysis/adaptive.hpp"
 #include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/warnings.hpp"
@@ -209,10 +210,12 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
         return;
       }
       state = std::move(reached.state);
+      if (options.on_state) options.on_state(prepared, state, solution);
       if (options.on_increment) options.on_increment(solution, solution.increments.back());
       if (!options.keep_fields && solution.increments.size() > 1) {
         IncrementResult& before = solution.increments[solution.increments.size() - 2];
         before.fields = {};
+        for (ContactResult& contact : before.contacts) contact.pairs = {};
       }
     }
   }
@@ -242,6 +245,7 @@ mesh::Mesh check(const model::Model& model) {
   check_references(model, mesh);
   check_refinable(model, mesh);
   mesh::output_points(model);
+  check_bars(model, mesh);
   return mesh;
 }
 
@@ -249,7 +253,8 @@ StaticSolution solve_static(model::Model model, const Options& options) {
   double seconds = 0.0;
   if (options.on_stage) options.on_stage("mesh");
   mesh::Mesh mesh = timed(seconds, [&] { return check(model); });
-  StaticSolution solution = wants_refinement(model) ? solve_refined(std::move(model), options)
+  StaticSolution solution = wants_bars(model)         ? solve_with_bars(std::move(model), std::move(mesh), options)
+                            : wants_refinement(model) ? solve_refined(std::move(model), options)
                             : model.output.error    ? solve_with_error(std::move(model), std::move(mesh), options)
                                                     : solve_on_mesh(std::move(model), std::move(mesh), options);
   solution.timing.mesh += seconds;

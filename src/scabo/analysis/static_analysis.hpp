@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,6 +42,7 @@ struct ContactResult {
   int open = 0, stick = 0, slip = 0;
   std::optional<int> broken;  ///< pairs that lost cohesion and tensile strength; empty if the contact has none
   double max_gap = 0.0;       ///< of the open pairs; 0 if none is open
+  double min_gap = std::numeric_limits<double>::infinity();  ///< of all pairs; infinite without pairs
   double max_pressure = 0.0;
   std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; empty if all pairs are open
 };
@@ -95,6 +97,18 @@ struct FieldState {
   std::vector<element::CellLoads> interior;  ///< [body][cell]: loads inside; empty for a body without any
 };
 
+/// A number with its error bar (goal.hpp).
+struct QuantityResult {
+  std::string of;           ///< its name, model::Quantity::name
+  double value = 0.0;       ///< on the mesh of the results
+  double bar = 0.0;         ///< the exact value is expected within value - bar and value + bar
+  double finer = 0.0;       ///< on the finest mesh from which the bar was computed
+  std::optional<double> wanted;  ///< largest bar that is wanted, relative to the value
+
+  double relative() const;  ///< bar / |value|; infinite of a value of 0
+  bool reached() const { return !wanted || relative() <= *wanted; }
+};
+
 struct IncrementResult {
   int step = 0;  ///< from 1
   std::string step_name;
@@ -114,6 +128,7 @@ struct IncrementResult {
   double lost_to_rounding = 0.0;  ///< estimated relative error of displacements, of the rounding of stiffness
   Energy energy;
   std::optional<ErrorEstimate> error;  ///< if requested
+  std::vector<QuantityResult> quantities;  ///< numbers with an error bar, if requested
   FieldState fields;
   std::vector<CrackResult> cracks;               ///< of all bounded open super-elements
   std::string reason;                            ///< why it did not converge
@@ -161,15 +176,20 @@ struct StaticSolution {
   Timing timing;
 };
 
+struct Prepared;  // increment.hpp
+struct State;
+
 struct Options {
-  /// false: displacements and loads inside cells are kept of the last converged increment only, so that memory does not
-  /// grow with the number of increments; `on_increment` sees those of every increment.
+  /// false: displacements, loads inside cells and pairs are kept of the last converged increment only, so that memory
+  /// hardly grows with the number of increments; `on_increment` sees those of every increment.
   bool keep_fields = true;
   int threads = 1;                          ///< upper limit, for BLAS and for distinct super-elements
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
   /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.
   std::function<void(const IncrementResult&, const std::vector<DiscreteProblem>&)> on_problems;
+  /// After each converged increment, before `on_increment`: its accepted state.
+  std::function<void(const Prepared&, const State&, const StaticSolution&)> on_state;
   std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };

@@ -141,7 +141,7 @@ std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t c
     if (!increment.converged) continue;
     const ContactResult& of = increment.contacts[contact];
     if (of.first_in_contact) return {};
-    for (const PairResult& pair : of.pairs) smallest = std::min(smallest, pair.gap);
+    smallest = std::min(smallest, of.min_gap);
   }
   constexpr double rounding = 1e-9;  // of the size of a body
   const auto body = static_cast<std::size_t>(solution.model.contacts[contact].a.body);

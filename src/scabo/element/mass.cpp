@@ -23,10 +23,8 @@ Matrix solve_mixed(const ModalBlock& modes, const Matrix& right) {
 Matrix mass_between(const Block& k, const ModalBlock& modes_k, const Block& l, const ModalBlock& modes_l,
                     const Eigen::SparseMatrix<double>& M0) {
   const Matrix M0_kl = Eigen::SparseMatrix<double>(k.T.transpose() * M0 * l.T);
-  const Matrix M0_vv = M0_kl(k.I, l.I);
-  const Matrix M0_va = Matrix(M0_kl * l.R)(k.I, Eigen::all);
-  const Matrix M0_av = Matrix(k.R.transpose() * M0_kl)(Eigen::all, l.I);
-  const Matrix M0_aa = k.R.transpose() * M0_kl * l.R;
+  const Matrix M0_k = M0_kl * l.R, M0_l = M0_kl(Eigen::all, l.I);  // the sides of l: on a, on v
+  const Matrix M0_vv = k.on_v(M0_l), M0_va = k.on_v(M0_k), M0_av = k.on_a(M0_l), M0_aa = k.on_a(M0_k);
 
   const Matrix aa = 0.5 * M0_aa;                                         // eq. (3)
   const Matrix va = solve_mixed(modes_k, M0_va - k.A.transpose() * aa);  // eq. (4)
@@ -37,13 +35,12 @@ Matrix mass_between(const Block& k, const ModalBlock& modes_k, const Block& l, c
                                            linalg::multiply(linalg::multiply_transposed(U_k, right), U_l));
   const Matrix vv = linalg::multiply(linalg::multiply(U_k, Y), U_l.transpose());  // eq. (5)
 
-  // Back to displacements: v = u_I - R_I u_J, a = u_J.
-  const Matrix R_k = k.R(k.I, Eigen::all), R_l = l.R(l.I, Eigen::all);
-  Matrix M(M0_kl.rows(), M0_kl.cols());
-  M(k.I, l.I) = vv;
-  M(k.I, l.J) = va - vv * R_l;
-  M(k.J, l.I) = av - R_k.transpose() * vv;
-  M(k.J, l.J) = aa - R_k.transpose() * (va - vv * R_l) - av * R_l;
+  // Back to displacements: Q' and the rows J from both sides.
+  Matrix on_v = l.from_v(vv.transpose()).transpose(), on_a = l.from_v(av.transpose()).transpose();
+  on_v(Eigen::all, l.J) += va;
+  on_a(Eigen::all, l.J) += aa;
+  Matrix M = k.from_v(on_v);
+  M(k.J, Eigen::all) += on_a;
   return M;
 }
 

@@ -13,20 +13,18 @@ namespace {
 /// h of one load in one block, eq. (4), in its coordinates: with u = E v + R a the transposed problem is triangular by
 /// blocks.
 Vector equivalent_load(const Block& block, const RadialLoad& load) {
-  const Matrix R_I = block.R(block.I, Eigen::all);
   const auto of_block = [&](const Vector& F) { return Vector(block.T.transpose() * F); };
   const Vector g = of_block(load.g);
-  const Vector h_a = block.R.transpose() * g / load.power;
-  Vector right = Vector(g(block.I)) - block.A.transpose() * h_a;
+  const Vector h_a = block.on_a(g) / load.power;
+  Vector right = block.on_v(g) - block.A.transpose() * h_a;
   if (load.c.size() > 0) {
     const Vector c = of_block(load.c);
-    right += block.S.transpose() * Vector(c(block.I)) + block.A.transpose() * (block.R.transpose() * c);
+    right += block.S.transpose() * block.on_v(c) + block.A.transpose() * block.on_a(c);
   }
   const Matrix shifted = block.S.transpose() + load.power * Matrix::Identity(block.S.rows(), block.S.cols());
   const Vector h_v = shifted.partialPivLu().solve(right);
-  Vector h(g.size());
-  h(block.I) = h_v;
-  h(block.J) = h_a - R_I.transpose() * h_v;
+  Vector h = block.from_v(h_v);
+  h(block.J) += h_a;
   return h;
 }
 
@@ -52,8 +50,7 @@ ModalSolution modal_solution(const SuperElementSolution& solution, int threads) 
     const auto& modes = modal_block.modes;
     // A U T^-1 by the LU factors of T', which have no more fill-in than T itself.
     const Matrix moving = modes.T().transpose().partialPivLu().solve((block.A * modes.U()).transpose()).transpose();
-    modal_block.Phi = block.R * moving;  // eq. (2)
-    modal_block.Phi(block.I, Eigen::all) += modes.U();
+    modal_block.Phi = block.join(modes.U(), moving);  // eq. (2)
   };
   linalg::parallel_for(static_cast<int>(solution.blocks.size()), threads, solve);
   for (std::size_t k = 0; k < solution.blocks.size(); ++k) {
@@ -80,15 +77,14 @@ Vector equivalent_load(const SuperElementSolution& solution, const std::vector<R
 void RadialField::set_loads(const Block& block, const ModalBlock& modes, const std::vector<RadialLoad>& loads,
                             Part& part) const {
   if (loads.empty()) return;
-  const Matrix R_I = block.R(block.I, Eigen::all), a_of_psi = modes.Phi(block.J, Eigen::all);
+  const Matrix a_of_psi = block.a_of(modes.Phi);
   const Eigen::LLT<Matrix> E0(block.E0);
   for (const RadialLoad& load : loads) {
     Vector remaining = -equivalent_load(block, load);
     if (load.c.size() > 0) remaining += block.T.transpose() * load.c;
     const Vector w = E0.solve(remaining);
-    const Vector w_a = w(block.J);
-    linalg::Forcing forcing{load.power, modes.modes.U().transpose() * (Vector(w(block.I)) - R_I * w_a)};
-    Translation translation{load.power, (w_a - a_of_psi * forcing.w) / load.power};
+    linalg::Forcing forcing{load.power, modes.modes.U().transpose() * block.v_of(w)};
+    Translation translation{load.power, (block.a_of(w) - a_of_psi * forcing.w) / load.power};
     part.a0 -= translation.b;
     part.w.push_back(std::move(forcing));
     part.translations.push_back(std::move(translation));
@@ -104,13 +100,13 @@ RadialField::RadialField(const SuperElementSolution& solution, const ModalSoluti
     const Block& block = solution.blocks[k];
     const ModalBlock& modal_block = modal.blocks[k];
     const Vector u_k = block.T.transpose() * u;
-    const Vector a = u_k(block.J);
-    Vector v = Vector(u_k(block.I)) - Matrix(block.R(block.I, Eigen::all)) * a;
+    const Vector a = block.a_of(u_k);
+    Vector v = block.v_of(u_k);
     Part part;
-    const Matrix a_of_psi = modal_block.Phi(block.J, Eigen::all);  // A U T^-1, since R_J = 1
+    const Matrix a_of_psi = block.a_of(modal_block.Phi);  // A U T^-1, since R_J = 1
     if (solution.domain.unbounded && a.size() > 0) {
       // F from f = K u: stiffness.hpp, R'q = F.
-      const Vector F = -(block.R.transpose() * (block.T.transpose() * (solution.K * u)));
+      const Vector F = -block.on_a(block.T.transpose() * (solution.K * u));
       part.constant = block.V * F;
       part.growth = block.C * F;
       v -= part.constant;

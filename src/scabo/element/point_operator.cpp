@@ -61,7 +61,7 @@ PointOperator PointCondensation::at(const ScaledPoint& point) const {
     const Block& block = solution_.blocks[k];
     const Adjoint& adjoint = adjoints_[k];
     const Matrix r = block.T.transpose() * rows;
-    const Matrix r_v = r(block.I, Eigen::all), r_a = block.R.transpose() * r;
+    const Matrix r_v = block.on_v(r), r_a = block.on_a(r);
     const auto of = [](const Matrix& of_rows, Eigen::Index first, Eigen::Index count) {
       return of_rows.middleCols(first, count);
     };
@@ -77,9 +77,7 @@ PointOperator PointCondensation::at(const ScaledPoint& point) const {
       moved.col(column) = adjoint.modes.propagate(start.col(column), {}, s, adjoint.slowest);
     Matrix z = std::exp((adjoint.slowest - 1.0) * s) * (U * moved);
     z.leftCols(2) -= adjoint.A_over_S.transpose() * of(r_a, 0, 2);
-    Matrix of_block = Matrix::Zero(r.rows(), 5);
-    of_block(block.I, Eigen::all) = z;
-    of_block(block.J, Eigen::all) = -Matrix(block.R(block.I, Eigen::all)).transpose() * z;
+    Matrix of_block = block.from_v(z);
     for (std::size_t j = 0; j < block.J.size(); ++j)
       of_block.row(block.J[j]).leftCols(2) += r_a.row(static_cast<Eigen::Index>(j)).leftCols(2);
     condensed += block.T * of_block;

@@ -15,17 +15,11 @@ using std::numbers::pi;
 
 /// Modes of a subspace of S of one block, in the displacements of the whole super-element.
 ModeGroup group_of(const Block& block, const linalg::InvariantSubspace& subspace) {
-  const Matrix R_I = block.R(block.I, Eigen::all);
   ModeGroup group{Matrix(), subspace.T, Matrix(), subspace.eigenvalues, subspace.projection_norm};
   // xi a,xi = A v, v = V xi^T c: a = A V T^-1 xi^T c.
-  Matrix in_block =
-      block.R * subspace.T.transpose().partialPivLu().solve((block.A * subspace.V).transpose()).transpose();
-  in_block(block.I, Eigen::all) += subspace.V;
-  group.Phi = block.T * in_block;
-  Matrix coordinates = Matrix::Zero(subspace.Q.rows(), block.T.cols());  // of v = u_I - R_I u_J
-  coordinates(Eigen::all, block.I) = subspace.Q;
-  coordinates(Eigen::all, block.J) = -subspace.Q * R_I;
-  group.Q = coordinates * block.T.transpose();
+  const Matrix a = subspace.T.transpose().partialPivLu().solve((block.A * subspace.V).transpose()).transpose();
+  group.Phi = block.T * block.join(subspace.V, a);
+  group.Q = (block.T * block.from_v(subspace.Q.transpose())).transpose();
   return group;
 }
 

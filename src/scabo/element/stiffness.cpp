@@ -16,6 +16,21 @@
 
 namespace scabo::element {
 
+Matrix Block::join(const Matrix& v, const Matrix& a) const {
+  Matrix u = R * a;
+  u(I, Eigen::all) += v;
+  return u;
+}
+
+Matrix Block::v_of(const Matrix& u) const { return u(I, Eigen::all) - R(I, Eigen::all) * u(J, Eigen::all); }
+
+Matrix Block::from_v(const Matrix& f_v) const {
+  Matrix f(R.rows(), f_v.cols());
+  f(I, Eigen::all) = f_v;
+  f(J, Eigen::all) = -Matrix(R(I, Eigen::all)).transpose() * f_v;
+  return f;
+}
+
 namespace {
 
 /// Rows J, as many as R has columns, on which R is as well conditioned as can be had by greedy choice, measured by the
@@ -90,15 +105,6 @@ void find_translations(const Matrix& translations, Block& block) {
   block.R = block.R * Matrix(block.R(block.J, Eigen::all)).inverse();
 }
 
-/// v = Q u = u_I - R_I u_J.
-Matrix without_translations(const Block& block) {
-  const Matrix R_I = block.R(block.I, Eigen::all);
-  Matrix Q = Matrix::Zero(R_I.rows(), block.R.rows());
-  for (std::size_t i = 0; i < block.I.size(); ++i) Q(static_cast<Eigen::Index>(i), block.I[i]) = 1.0;
-  for (std::size_t j = 0; j < block.J.size(); ++j) Q.col(block.J[j]) = -R_I.col(static_cast<Eigen::Index>(j));
-  return Q;
-}
-
 /// K of a bounded block: K R = 0 and symmetry give the rows J.
 Matrix with_translations(const Block& block, const Matrix& K_I) {
   const Matrix R_I = block.R(block.I, Eigen::all), K_IJ = -(K_I * R_I);
@@ -113,7 +119,7 @@ Matrix with_translations(const Block& block, const Matrix& K_I) {
 /// Stiffness of an unbounded block, eqs. (5) and (6): forces f = -q for every u. `K`: of v_h.
 Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, double far) {
   const auto m = static_cast<Eigen::Index>(block.J.size());
-  const Matrix Q = without_translations(block);
+  const Matrix Q = block.v_of(Matrix::Identity(block.R.rows(), block.R.rows()));
   if (m == 0) return K;
   const Matrix H_I = d.H(Eigen::all, block.I);
   block.V = -d.E2.llt().solve(H_I.transpose());

@@ -38,6 +38,14 @@ struct Block {
   Matrix S;                       // (n_k - m) x (n_k - m): xi v,xi = S v
   Matrix A;                       // m x (n_k - m): xi a,xi = A v                                          (3)
   Matrix V, C;                    // unbounded: (n_k - m) x m, m x m                                       (5)
+
+  // Columns of displacements, u = E v + R a, so that v = Q u, a = u_J; of forces, the transposed of both.
+  Matrix join(const Matrix& v, const Matrix& a) const;  ///< E v + R a
+  Matrix v_of(const Matrix& u) const;                   ///< Q u = u_I - R_I u_J
+  Matrix a_of(const Matrix& u) const { return u(J, Eigen::all); }
+  Matrix on_v(const Matrix& f) const { return f(I, Eigen::all); }      ///< E'f
+  Matrix on_a(const Matrix& f) const { return R.transpose() * f; }     ///< R'f
+  Matrix from_v(const Matrix& f_v) const;                              ///< Q'f_v
 };
 
 /// The domain of a ring: inside it, or outside it to infinity.

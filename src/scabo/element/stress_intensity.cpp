@@ -145,10 +145,7 @@ void CornerAnalysis::prepare_energy() {
     const Eigen::Index m = modes.T().rows();
     Phi.middleCols(at, m) = block.T * modal.blocks[k].Phi;
     T.block(at, at, m, m) = modes.T();
-    Matrix coordinates = Matrix::Zero(m, block.T.cols());
-    coordinates(Eigen::all, block.I) = modes.U().transpose();
-    coordinates(Eigen::all, block.J) = -modes.U().transpose() * Matrix(block.R(block.I, Eigen::all));
-    Q.middleRows(at, m) = coordinates * block.T.transpose();
+    Q.middleRows(at, m) = (block.T * block.from_v(modes.U())).transpose();
     at += m;
   }
   const Matrix slope = linalg::multiply(Phi, T), mixed = linalg::multiply_transposed(Phi, Matrix(dE.E1 * slope));

@@ -1,10 +1,12 @@
-// `mesh: {file: part.msh}`: a body whose shape and cells come from a mesh file.
+// `mesh: {file: part.msh}`: a body whose shape and cells come from a mesh file, or from a CAD file that Gmsh's library
+// meshes: `mesh: {file: part.geo, size: 0.1}`.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <variant>
 
+#include "scabo/files/cad.hpp"
 #include "scabo/files/read_mesh_file.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
@@ -22,13 +24,15 @@ std::string as_given(std::string text, const std::string& path, const std::strin
   return text;
 }
 
-/// The content of a file, which is read once; null if it is broken.
-Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name) {
+/// The content of a file, which is read once, or meshed once for each choice of `cad`; null if it is broken.
+Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name,
+                  const std::optional<files::CadOptions>& cad) {
   const std::string path = (std::filesystem::path(reading.model.file).parent_path() / name).string();
-  const auto [found, is_new] = reading.mesh_files.try_emplace(path);
+  const auto [found, is_new] =
+      reading.mesh_files.try_emplace(cad ? fmt::format("{}, {}, {}", path, cad->size, cad->order) : path);
   if (!is_new) return found->second;
   try {
-    files::ImportedMesh mesh = files::read_mesh_file(path);
+    files::ImportedMesh mesh = cad ? files::mesh_cad_file(path, *cad) : files::read_mesh_file(path);
     for (const std::string& remark : mesh.remarks) reading.model.warnings.push_back({WarningKind::input, path, as_given(remark, path, name)});
     found->second = std::make_shared<const files::ImportedMesh>(std::move(mesh));
   } catch (const InputError& error) {
@@ -76,26 +80,54 @@ void read_region_materials(Reading& reading, const Value& value, Body& body) {
   }
 }
 
-void refuse_other_keys(const MapReader& body, const MapReader& mesh, bool fem) {
+/// `size` and `order` of a body from a CAD file; nothing if they are wrong.
+std::optional<files::CadOptions> read_cad_options(Report& report, const MapReader& mesh, const std::string& name, Body& body) {
+  const std::size_t before = report.count();
+  files::CadOptions options;
+  const auto size = files::has_own_sizes(name) ? mesh.get("size") : mesh.need("size");
+  if (size) {
+    body.mesh.size = options.size = read_number(report, *size).value_or(1.0);
+    if (!(options.size > 0.0)) report.error(*size, fmt::format("must be greater than 0, not {:g}", options.size));
+  }
+  const auto order = mesh.get("order");
+  long wanted = order ? read_integer(report, *order, limits::order).value_or(2) : 2;
+  if (body.mesh.kind == MeshKind::fem && wanted > 2)
+    report.error(*order, fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", wanted));
+  options.order = static_cast<int>(std::min(wanted, 2l));
+  // Finite elements have the nodes of the mesh; the sides of super-elements are raised from order 2.
+  body.mesh.order = body.mesh.kind == MeshKind::fem ? 1 : static_cast<int>(wanted);
+  if (report.count() > before) return {};
+  return options;
+}
+
+void refuse_other_keys(const MapReader& body, const MapReader& mesh, bool fem, bool cad) {
   for (const char* key : {"shape", "holes"})
     body.refuse(key, "the mesh file gives the shape of this body: leave it out, or 'file' in 'mesh'");
   body.refuse("regions", "the regions of this body are those of its mesh file: give them materials with 'materials'");
   for (const char* key : {"cracks", "sectors", "outside", "reference"})
     body.refuse(key, "is not available for a body from a mesh file: leave it out");
-  mesh.refuse("size", "the mesh file has its cells already: leave 'size' out");
-  mesh.refuse("min_size", "the mesh file has its cells already: leave 'min_size' out");
-  mesh.refuse("refine", "the mesh file has its cells already: leave 'refine' out");
+  const std::string why = cad ? "Gmsh's library meshes the file with one size, or the sizes that it has itself"
+                              : "the mesh file has its cells already";
+  if (!cad) mesh.refuse("size", why + ": leave 'size' out");
+  mesh.refuse("min_size", why + ": leave 'min_size' out");
+  mesh.refuse("refine", why + ": leave 'refine' out");
   mesh.refuse("kind", "cells of a mesh file are given by 'elements': superelement or fem");
   mesh.refuse("centre", "every cell has a scaling centre of its own: leave 'centre' out");
   mesh.refuse("tolerance", "the cells of a mesh file are not refined: leave 'tolerance' out");
-  if (fem) mesh.refuse("order", "finite elements keep the nodes of the mesh file: leave 'order' out");
+  if (fem && !cad) mesh.refuse("order", "finite elements keep the nodes of the mesh file: leave 'order' out");
 }
 
 /// The cells and the outline; false if they are not known.
 bool read_cells(Reading& reading, const MapReader& map, Body& body, BodyState& state) {
   const auto file = map.need("file");
   const auto name = file ? read_text(reading.report, *file) : std::nullopt;
-  const Mesh mesh = name ? mesh_of_file(reading, *file, *name) : nullptr;
+  if (!name) return false;
+  std::optional<files::CadOptions> cad;
+  if (files::is_cad_file(*name)) {
+    cad = read_cad_options(reading.report, map, *name, body);
+    if (!cad) return false;
+  }
+  const Mesh mesh = mesh_of_file(reading, *file, *name, cad);
   if (!mesh) return false;
   body.mesh.file = *name;
   const auto region = map.get("region");
@@ -112,6 +144,11 @@ bool read_cells(Reading& reading, const MapReader& map, Body& body, BodyState& s
   state.pieces = std::move(imported.pieces);
   state.lost_points = std::move(imported.lost_points);
   return true;
+}
+
+bool is_of_cad(const Value& mesh) {
+  const MapEntry* file = mesh.node->kind == Node::Kind::map ? mesh.node->find("file") : nullptr;
+  return file != nullptr && file->value->kind == Node::Kind::scalar && files::is_cad_file(file->value->text);
 }
 
 }  // namespace
@@ -133,8 +170,9 @@ void read_imported_body(Reading& reading, const MapReader& of_body, const Value&
     const auto choice = read_choice(report, *elements, {"superelement", "fem"});
     if (choice && *choice == "fem") body.mesh.kind = MeshKind::fem;
   }
-  refuse_other_keys(of_body, map, body.mesh.kind == MeshKind::fem);
-  if (const auto order = map.get("order"); order && body.mesh.kind != MeshKind::fem)
+  const bool cad = is_of_cad(value);
+  refuse_other_keys(of_body, map, body.mesh.kind == MeshKind::fem, cad);
+  if (const auto order = map.get("order"); order && !cad && body.mesh.kind != MeshKind::fem)
     body.mesh.order = static_cast<int>(read_integer(report, *order, limits::order).value_or(1));
   state.shape = read_cells(reading, map, body, state);
   const auto materials = of_body.get("materials");

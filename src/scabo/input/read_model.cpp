@@ -77,7 +77,7 @@ void check_version(Reading& reading, const MapReader& map) {
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
-                       "steps", "solver", "output"},
+                       "steps", "solver", "output", "tolerance"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
@@ -106,6 +106,7 @@ void read_sections(Reading& reading, const Value& root) {
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
   if (const auto output = map.get("output")) read_output(reading, *output);
+  if (const auto tolerance = map.get("tolerance")) read_tolerance(reading, *tolerance);
   // A misspelt section may be the missing one.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
 }
@@ -116,7 +117,7 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
   std::vector<std::string> parts;
-  for (const char* section : {"loads", "contacts", "steps", "solver", "output"}) {
+  for (const char* section : {"loads", "contacts", "steps", "solver", "output", "tolerance"}) {
     const MapEntry* entry = root.node->find(section);
     if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
   }

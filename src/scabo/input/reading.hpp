@@ -74,6 +74,10 @@ void read_contacts_and_ties(Reading& reading, const std::optional<Value>& contac
 /// If the section is absent, there is one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);
+/// `tolerance: {of, relative}`.
+void read_tolerance(Reading& reading, const Value& value);
+/// A list of numbers that get an error bar.
+void read_quantities(Reading& reading, const Value& value, std::vector<Quantity>& quantities);
 
 /// Contact law: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
 void read_law(Reading& reading, const MapReader& map, Contact& contact);

@@ -18,6 +18,7 @@
 #include "scabo/files/image.hpp"
 #include "scabo/files/imported_mesh.hpp"
 #include "scabo/geometry/outline.hpp"
+#include "scabo/model/quantity.hpp"
 
 namespace scabo::model {
 
@@ -89,6 +90,9 @@ struct MeshOptions {
   /// Tolerance of the estimated error in the energy norm, relative to that of the whole model. `size` and `order` are
   /// then those of the first mesh.
   std::optional<double> tolerance;
+  /// Sides of contacts are matched anew in every mesh that refinement makes, also where both bodies are one
+  /// super-element, whose sides are otherwise refined alike.
+  bool matched_anew = false;
   std::string file;  ///< that `Body::imported` comes from, for messages
   Source source;
 };
@@ -302,6 +306,7 @@ struct Output {
   std::vector<OutputLine> lines;
   std::optional<OutputGrid> grid;
   bool error = false;              ///< estimate the error of every increment
+  std::vector<Quantity> error_of;  ///< numbers that get an error bar
   bool discrete_problems = false;  ///< write the contact problem of every increment to a file
   int every = 1;                   ///< .vtu files of every so many increments, and of the last
   OutputFields fields;
@@ -321,6 +326,7 @@ struct Model {
   SolverOptions solver;
   std::vector<Warning> warnings;  ///< about input that has no effect in this analysis, or is named otherwise
   Output output;
+  std::optional<QuantityTolerance> tolerance;  ///< meshes are refined until the bar of a number is that small
 };
 
 }  // namespace scabo::model

@@ -190,6 +190,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   check_contacts_and_ties(checking);
   check_steps(checking);
   check_output(checking);
+  check_quantities(checking);
 
   check_density(checking);
   check_expansion(checking);

@@ -7,7 +7,7 @@
 namespace scabo::model {
 
 namespace {
-constexpr std::size_t most_names = 12;
+constexpr std::size_t most_names = 14;
 constexpr std::size_t longest_name = 60;
 }  // namespace
 

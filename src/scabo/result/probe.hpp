@@ -9,9 +9,12 @@
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/radial_table.hpp"
-#include "scabo/result/cell_locator.hpp"
+#include "scabo/element/cell_locator.hpp"
 
 namespace scabo::result {
+
+using element::CellLocator;
+using element::CellPlace;
 
 /// Values of one body in one state at any point (x, y) of its undeformed shape. Keeps references to the solution
 /// and the state.

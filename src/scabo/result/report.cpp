@@ -216,10 +216,26 @@ std::string report_cracks(const analysis::IncrementResult& increment) {
   return (rows.size() > 1 ? table(rows) : "") + (corners.size() > 1 ? table(corners) : "");
 }
 
+std::string report_quantities(const analysis::IncrementResult& increment) {
+  std::string text;
+  for (const analysis::QuantityResult& quantity : increment.quantities) {
+    // The value to one digit more than its bar has.
+    const double digits = quantity.bar > 0.0 && quantity.value != 0.0
+                              ? std::ceil(std::log10(std::abs(quantity.value) / quantity.bar)) + 2.0
+                              : 6.0;
+    text += fmt::format("quantity: {} = {:.{}g} +- {:.2g}", quantity.of, quantity.value,
+                        static_cast<int>(std::clamp(digits, 3.0, 15.0)), quantity.bar);
+    text += quantity.wanted ? fmt::format(" ({:g} wanted, {})\n", *quantity.wanted,
+                                          quantity.reached() ? "reached" : "not reached")
+                            : fmt::format(" ({:.1e})\n", quantity.relative());
+  }
+  return text;
+}
+
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
   std::string text;
   for (const std::string& part :
-       {report_contacts(increment), report_reactions(model, increment), report_cracks(increment)})
+       {report_contacts(increment), report_reactions(model, increment), report_cracks(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   return text;
 }

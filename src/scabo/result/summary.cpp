@@ -113,6 +113,16 @@ Json json_of(const analysis::ErrorEstimate& error, const model::Model& model) {
   return json;
 }
 
+Json json_of(const analysis::QuantityResult& quantity) {
+  return {{"of", quantity.of},
+          {"value", number_or_null(quantity.value)},
+          {"bar", number_or_null(quantity.bar)},
+          {"relative", number_or_null(quantity.relative())},
+          {"finer", number_or_null(quantity.finer)},
+          {"wanted", value_or_null(quantity.wanted)},
+          {"reached", quantity.wanted ? Json(quantity.reached()) : Json()}};
+}
+
 /// An increment that did not converge has no contacts, reactions, certificate or energy, because it is not a result.
 Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
   Json json = {{"step", increment.step}, {"increment", increment.increment}};
@@ -137,6 +147,11 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
   json["error"] = increment.error ? json_of(*increment.error, model) : Json();
+  if (!increment.quantities.empty()) {
+    json["quantities"] = Json::array();
+    for (const analysis::QuantityResult& quantity : increment.quantities)
+      json["quantities"].push_back(json_of(quantity));
+  }
   if (increment.uniqueness) json["uniqueness"] = json_of(*increment.uniqueness);
   return json;
 }

@@ -125,7 +125,7 @@ class Results : public testing::Test {
 TEST_F(Results, FilesOfARun) {
   const FinishedRun run(path_);
   EXPECT_THAT(names_in(path_), UnorderedElementsAre("summary.json", "contact.csv", "fields.pvd", "fields_0001.vtu",
-                                                    "fields_0002.vtu", "convergence.csv", "log.txt"));
+                                                    "fields_0002.vtu", "cells.vtu", "convergence.csv", "log.txt"));
   EXPECT_GT(run.directory.recover_seconds(), 0.0);
   EXPECT_GT(run.directory.write_seconds(), 0.0);
 }
@@ -152,7 +152,7 @@ TEST_F(Results, FieldsOfEveryThirdIncrementAndTheLast) {
   output.every = 3;
   EXPECT_THAT(field_files(path_, output, 4),
               UnorderedElementsAre("fields.pvd", "fields_0003.vtu", "fields_0004.vtu", "contact.pvd",
-                                   "contact_0003.vtu", "contact_0004.vtu"));
+                                   "contact_0003.vtu", "contact_0004.vtu", "cells.vtu"));
   const std::string collection = content_of(path_ / "fields.pvd");
   EXPECT_THAT(collection, HasSubstr("timestep=\"0.75\" part=\"0\" file=\"fields_0003.vtu\""));
   EXPECT_THAT(collection, HasSubstr("timestep=\"1\" part=\"0\" file=\"fields_0004.vtu\""));
@@ -162,7 +162,7 @@ TEST_F(Results, FieldsOfTheLastIncrementWhereTheRunEndedEarly) {
   model::Output output;
   output.every = 3;
   output.fields.contact = false;
-  EXPECT_THAT(field_files(path_, output, 2), UnorderedElementsAre("fields.pvd", "fields_0002.vtu"));
+  EXPECT_THAT(field_files(path_, output, 2), UnorderedElementsAre("fields.pvd", "fields_0002.vtu", "cells.vtu"));
 }
 
 TEST_F(Results, OnlyTheFieldsThatAreWanted) {

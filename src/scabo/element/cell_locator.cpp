@@ -1,11 +1,11 @@
-#include "scabo/result/cell_locator.hpp"
+#include "scabo/element/cell_locator.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace scabo::result {
+namespace scabo::element {
 
-CellLocator::CellLocator(const mesh::BodyMesh& mesh, const element::SolvedCells& cells) : mesh_(mesh), cells_(cells) {
+CellLocator::CellLocator(const mesh::BodyMesh& mesh, const SolvedCells& cells) : mesh_(mesh), cells_(cells) {
   ensure(!mesh.cells.empty(), "a rigid body has no cells");
   if (mesh.cells.size() == 1) {
     buckets_ = {{0}};
@@ -51,12 +51,12 @@ std::optional<CellPlace> CellLocator::in_cell(std::size_t cell, const Vec2& x) c
   place.cell = cell;
   if (const auto& super_element = cells_[cell]) {
     const auto scaled =
-        element::locate(super_element->ring, x - mesh_.cells[cell].centre, super_element->domain.unbounded);
+        locate(super_element->ring, x - mesh_.cells[cell].centre, super_element->domain.unbounded);
     if (!scaled) return std::nullopt;
     place.scaled = *scaled;
     return place;
   }
-  const auto natural = element::natural_coordinates(element::finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
+  const auto natural = natural_coordinates(finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
   if (!natural) return std::nullopt;
   place.natural = *natural;
   return place;
@@ -71,7 +71,7 @@ std::optional<CellPlace> CellLocator::find(const Vec2& x) const {
 
 std::optional<CellLocator::Candidate> CellLocator::nearest_in(std::size_t cell, const Vec2& x) const {
   if (!cells_[cell]) {
-    const auto nearest = element::nearest_on_sides(element::finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
+    const auto nearest = nearest_on_sides(finite_element_of(mesh_.cells[cell], mesh_.nodes), x);
     Candidate candidate{{}, nearest.distance};
     candidate.place.cell = cell;
     candidate.place.natural = nearest.natural;
@@ -114,4 +114,4 @@ CellPlace CellLocator::nearest(const Vec2& x) const {
   return best->place;
 }
 
-}  // namespace scabo::result
+}  // namespace scabo::element

@@ -4,23 +4,23 @@
 #include <optional>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/element/cell_library.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
 
-namespace scabo::result {
+namespace scabo::element {
 
 /// A point of a body: its cell, and scaled boundary coordinates or, in a finite element, natural coordinates.
 struct CellPlace {
   std::size_t cell = 0;
-  element::ScaledPoint scaled;
+  ScaledPoint scaled;
   Vec2 natural = Vec2::Zero();
 };
 
 /// Cells are found by the boxes that enclose them. Keeps references to the mesh and the cells.
 class CellLocator {
  public:
-  CellLocator(const mesh::BodyMesh& mesh, const element::SolvedCells& cells);
+  CellLocator(const mesh::BodyMesh& mesh, const SolvedCells& cells);
 
   /// Nothing if no cell holds the point. Between two cells, the first.
   std::optional<CellPlace> find(const Vec2& x) const;
@@ -40,10 +40,10 @@ class CellLocator {
   const std::vector<std::size_t>& bucket(int i, int j) const;
 
   const mesh::BodyMesh& mesh_;
-  const element::SolvedCells& cells_;
+  const SolvedCells& cells_;
   Vec2 low_ = Vec2::Zero(), step_ = Vec2::Ones();
   Eigen::Vector2i counts_ = Eigen::Vector2i::Ones();
   std::vector<std::vector<std::size_t>> buckets_;  // cells whose boxes overlap each; row by row; one for a single cell
 };
 
-}  // namespace scabo::result
+}  // namespace scabo::element

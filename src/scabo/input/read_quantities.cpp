@@ -1,0 +1,183 @@
+// `tolerance: {of: joint.normal_force, relative: 1e-4}` and `output: {error_of: [joint.normal_force, tip.uy]}`.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/input/reading.hpp"
+#include "scabo/input/suggestions.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+constexpr const char* tolerance_example = "{of: joint.normal_force, relative: 1e-4}";
+constexpr const char* quantities_example = "[joint.normal_force, floor.reaction_y]";
+
+/// What stands after the last dot.
+struct QuantityWord {
+  const char* word;
+  Quantity::Kind kind;
+  int component;
+};
+constexpr QuantityWord quantity_words[] = {{"normal_force", Quantity::Kind::normal_force, 0},
+                                           {"tangential_force", Quantity::Kind::tangential_force, 0},
+                                           {"max_gap", Quantity::Kind::max_gap, 0},
+                                           {"reaction_x", Quantity::Kind::reaction, 0},
+                                           {"reaction_y", Quantity::Kind::reaction, 1},
+                                           {"ux", Quantity::Kind::displacement, 0},
+                                           {"uy", Quantity::Kind::displacement, 1},
+                                           {"K_I", Quantity::Kind::stress_intensity, 0},
+                                           {"K_II", Quantity::Kind::stress_intensity, 1}};
+
+class QuantityReader {
+ public:
+  QuantityReader(Reading& reading, const Value& value) : reading_(reading), value_(value) {}
+
+  std::optional<Quantity> read() {
+    const auto text = read_text(reading_.report, value_);
+    if (!text) return {};
+    quantity_.name = *text;
+    quantity_.source = value_.source();
+    if (*text == "elastic_energy") return quantity_;
+    const auto dot = text->rfind('.');
+    const std::string word = dot == std::string::npos ? *text : text->substr(dot + 1);
+    const auto* found = std::find_if(std::begin(quantity_words), std::end(quantity_words),
+                                     [&](const QuantityWord& known) { return known.word == word; });
+    if (found == std::end(quantity_words)) {
+      std::vector<std::string> words{"elastic_energy"};
+      for (const QuantityWord& known : quantity_words) words.emplace_back(known.word);
+      const std::string near = nearest_name(word, words);
+      return refuse(fmt::format(
+          "'{}' is no number with an error bar: write elastic_energy, or a name and one of normal_force, "
+          "tangential_force, max_gap, reaction_x, reaction_y, ux, uy, K_I, K_II, as in joint.normal_force{}",
+          one_line(word), near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+    }
+    if (dot == std::string::npos || dot == 0)
+      return refuse(fmt::format("needs a name before '{0}', as in joint.{0}", word));
+    quantity_.kind = found->kind;
+    quantity_.component = found->component;
+    const std::string name = text->substr(0, dot);
+    switch (found->kind) {
+      case Quantity::Kind::reaction:
+        return of_support(name);
+      case Quantity::Kind::displacement:
+        return name.find('.') == std::string::npos ? of_point(name) : of_corner(name);
+      case Quantity::Kind::stress_intensity:
+        return of_crack(name);
+      default:
+        return of_contact(name);
+    }
+  }
+
+ private:
+  std::optional<Quantity> refuse(const std::string& message) {
+    reading_.report.error(value_, message);
+    return {};
+  }
+
+  /// The part named `name`, of parts with the names `known`; silent where one of them could not be read.
+  std::optional<Quantity> find(const char* what, const std::string& name, const std::vector<std::string>& known,
+                               bool all_known) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      return all_known ? refuse(fmt::format("there is no {} named {}{}", what, quoted_name(name),
+                                            reading_.report.full() ? "" : suggestion(name, known)))
+                       : std::nullopt;
+    quantity_.index = static_cast<int>(found - known.begin());
+    return quantity_;
+  }
+
+  std::optional<Quantity> of_contact(const std::string& name) {
+    std::vector<std::string> known;
+    for (const Contact& contact : reading_.model.contacts) known.push_back(contact.name);
+    return find("contact", name, known, reading_.conditions_known);
+  }
+
+  std::optional<Quantity> of_support(const std::string& name) {
+    std::vector<std::string> known;
+    for (const Support& support : reading_.model.supports) known.push_back(support.name);
+    return find("support", name, known, reading_.conditions_known);
+  }
+
+  std::optional<Quantity> of_point(const std::string& name) {
+    std::vector<std::string> known;
+    for (const OutputPoint& point : reading_.model.output.points) known.push_back(point.name);
+    if (!find("output point", name, known, true)) return {};
+    const OutputPoint& point = reading_.model.output.points[static_cast<std::size_t>(quantity_.index)];
+    quantity_.at = point.at;
+    quantity_.index = point.body;
+    return quantity_;
+  }
+
+  /// Sets the index of the body before the first dot. False if it is not known.
+  bool find_body(const std::string& name) {
+    const std::string body = name.substr(0, name.find('.'));
+    quantity_.index = reading_.body_index(body);
+    if (quantity_.index >= 0) return reading_.state(quantity_.index).shape;
+    std::vector<std::string> known;
+    if (!reading_.report.full())
+      for (const Body& of : reading_.model.bodies) known.push_back(of.name);
+    if (reading_.bodies_known)
+      refuse(fmt::format("there is no body named {}{}", quoted_name(body), suggestion(body, known)));
+    return false;
+  }
+
+  std::optional<Quantity> of_corner(const std::string& name) {
+    if (!find_body(name)) return {};
+    const std::string part = name.substr(name.find('.') + 1);
+    const Body& body = reading_.body(quantity_.index);
+    std::vector<std::string> known;
+    for (const Corner& corner : body.outline.corners) {
+      if (std::find(corner.names.begin(), corner.names.end(), part) != corner.names.end()) {
+        quantity_.at = corner.position;
+        return quantity_;
+      }
+      known.insert(known.end(), corner.names.rbegin(), corner.names.rend());
+    }
+    return refuse(fmt::format("body '{}' has no corner named {}{}", body.name, quoted_name(part),
+                              reading_.report.full() ? "" : suggestion(part, known)));
+  }
+
+  std::optional<Quantity> of_crack(const std::string& name) {
+    if (name.find('.') == std::string::npos) return refuse("needs a body and its crack, as in plate.flaw.K_I");
+    if (!find_body(name)) return {};
+    quantity_.crack = name.substr(name.find('.') + 1);
+    const Body& body = reading_.body(quantity_.index);
+    const std::string crack = quantity_.crack.substr(0, quantity_.crack.find('.'));
+    std::vector<std::string> known;
+    for (const Crack& of : body.cracks) known.push_back(of.name);
+    if (body.rigid || std::find(known.begin(), known.end(), crack) != known.end()) return quantity_;
+    return refuse(fmt::format("body '{}' has no crack named {}{}", body.name, quoted_name(crack),
+                              reading_.report.full() ? "" : suggestion(crack, known)));
+  }
+
+  Reading& reading_;
+  const Value& value_;
+  Quantity quantity_;
+};
+
+}  // namespace
+
+void read_quantities(Reading& reading, const Value& value, std::vector<Quantity>& quantities) {
+  const auto items = read_list(reading.report, value, quantities_example);
+  if (!items) return;
+  for (const Value& item : *items)
+    if (auto quantity = QuantityReader(reading, item).read()) quantities.push_back(std::move(*quantity));
+}
+
+void read_tolerance(Reading& reading, const Value& value) {
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"of", "relative"}, tolerance_example);
+  if (!map.is_map()) return;
+  QuantityTolerance tolerance;
+  tolerance.source = value.source();
+  const auto of = map.need("of");
+  const auto relative = map.need("relative");
+  const auto quantity = of ? QuantityReader(reading, *of).read() : std::nullopt;
+  if (relative) tolerance.relative = read_number(reading.report, *relative).value_or(0.0);
+  if (!quantity || reading.report.count() > before) return;
+  tolerance.of = *quantity;
+  reading.model.tolerance = std::move(tolerance);
+}
+
+}  // namespace scabo::input

@@ -1,0 +1,124 @@
+// Validation of numbers with an error bar, and of the tolerance of one.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/model/checking.hpp"
+
+namespace scabo::model {
+
+namespace {
+
+/// Whether meshes of the body can be refined for a tolerance.
+bool can_be_refined(const Body& body) {
+  const MeshKind kind = body.mesh.kind;
+  return !body.rigid && !body.imported && !body.image &&
+         (kind == MeshKind::superelement || kind == MeshKind::polygons || kind == MeshKind::quadtree);
+}
+
+/// Whether finer meshes than that of the body can be made, which show its error.
+bool has_finer_meshes(const Body& body) {
+  return !(body.imported && body.mesh.kind == MeshKind::fem);
+}
+
+bool check_number_of(Checking& checking, const std::string& path, const char* what, int index, std::size_t count) {
+  if (index >= 0 && static_cast<std::size_t>(index) < count) return true;
+  checking.error(path, "", fmt::format("there is no {} number {}: the model has {}, counted from 0", what, index, count));
+  return false;
+}
+
+void check_crack_of(Checking& checking, const std::string& path, const Quantity& quantity) {
+  if (!check_number_of(checking, path, "body", quantity.index, checking.model.bodies.size())) return;
+  const Body& body = checking.body(quantity.index);
+  if (body.rigid) {
+    checking.error(path, "", fmt::format("body '{}' is rigid, and has no stress intensity factors", body.name));
+    return;
+  }
+  if (body.mesh.kind == MeshKind::fem) {
+    checking.error(path, "", fmt::format("body '{}' is made of finite elements, which have no stress intensity "
+                                         "factors: use kind: superelement, polygons or quadtree",
+                                         body.name));
+    return;
+  }
+  const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')), end = quantity.crack.substr(crack.size());
+  const auto found = std::find_if(body.cracks.begin(), body.cracks.end(),
+                                  [&](const Crack& of) { return of.name == crack; });
+  if (found == body.cracks.end())
+    checking.error(path, "", fmt::format("body '{}' has no crack named '{}'", body.name, crack));
+  else if (!end.empty() && (found->path.empty() || (end != ".start" && end != ".end")))
+    checking.error(path, "", fmt::format("crack '{}' has no '{}': {}", crack, end.substr(1),
+                                         found->path.empty() ? fmt::format("write {}.{}.K_I", body.name, crack)
+                                                             : "its ends are start and end"));
+}
+
+void check_quantity(Checking& checking, const std::string& path, const Quantity& quantity) {
+  const Model& model = checking.model;
+  switch (quantity.kind) {
+    case Quantity::Kind::normal_force:
+    case Quantity::Kind::tangential_force:
+    case Quantity::Kind::max_gap:
+      check_number_of(checking, path, "contact", quantity.index, model.contacts.size());
+      break;
+    case Quantity::Kind::reaction:
+      check_number_of(checking, path, "support", quantity.index, model.supports.size());
+      break;
+    case Quantity::Kind::displacement:
+      if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, model.bodies.size());
+      checking.vector(path, "at", quantity.at);
+      break;
+    case Quantity::Kind::stress_intensity:
+      check_crack_of(checking, path, quantity);
+      break;
+    case Quantity::Kind::elastic_energy:
+      break;
+  }
+}
+
+void check_tolerance(Checking& checking, const QuantityTolerance& tolerance) {
+  checking.enter(tolerance.source);
+  if (checking.number("tolerance", "relative", tolerance.relative) &&
+      !(tolerance.relative > 0.0 && tolerance.relative < 1.0)) {
+    const std::string given = number_text(tolerance.relative);
+    checking.error("tolerance", "relative", fmt::format("must be greater than 0 and less than 1, not {}", given), given);
+  }
+  const auto& bodies = checking.model.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].mesh.tolerance) {
+      checking.error_of_key("tolerance", "", fmt::format("refines all bodies for one number, but body '{}' has a "
+                                                         "tolerance of its own: remove one of the two",
+                                                         bodies[b].name));
+      return;
+    }
+  if (!checking.gaps.bodies && std::none_of(bodies.begin(), bodies.end(), can_be_refined))
+    checking.error_of_key("tolerance", "",
+                          "no body of this model can be refined: give one a mesh of kind superelement, polygons or "
+                          "quadtree, or ask for the bar alone with output: {error_of: [...]}");
+}
+
+}  // namespace
+
+void check_quantities(Checking& checking) {
+  const Model& model = checking.model;
+  for (std::size_t i = 0; i < model.output.error_of.size(); ++i) {
+    const Quantity& quantity = model.output.error_of[i];
+    checking.enter(quantity.source);
+    check_quantity(checking, path_of("output.error_of", quantity.source, i), quantity);
+  }
+  if (model.tolerance) {
+    checking.enter(model.tolerance->of.source);
+    check_quantity(checking, "tolerance.of", model.tolerance->of);
+    check_tolerance(checking, *model.tolerance);
+  }
+  if (!model.tolerance && model.output.error_of.empty()) return;
+  for (const Body& body : model.bodies)
+    if (!has_finer_meshes(body)) {
+      checking.enter(model.tolerance ? model.tolerance->source : model.output.error_of.front().source);
+      checking.error_of_key(model.tolerance ? "tolerance" : "output.error_of", "",
+                            fmt::format("body '{}' has its finite elements from a file, of which no finer mesh can be "
+                                        "made to show their error: use its cells as super-elements",
+                                        body.name));
+      return;
+    }
+}
+
+}  // namespace scabo::model

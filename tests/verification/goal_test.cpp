@@ -1,0 +1,302 @@
+// Error bars of single numbers (analysis/goal.hpp): the exact number lies inside the bar, and the bar is at most five
+// times the error. Truths are closed forms, published numbers, or numbers of other methods; each says which.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "run.hpp"
+#include "scabo/analysis/goal.hpp"
+#include "scabo/analysis/quantities.hpp"
+
+namespace scabo::verification {
+namespace {
+
+using std::numbers::pi;
+
+/// A number of a model, with its exact value.
+struct GoalCase {
+  std::string name, model, of;
+  double exact = 0.0;
+  double relative = 0.0;  ///< tolerance; 0: bar without refinement
+};
+void PrintTo(const GoalCase& of, std::ostream* stream) { *stream << of.name; }
+
+class ErrorBar : public testing::TestWithParam<GoalCase> {};
+
+TEST_P(ErrorBar, HoldsTheExactNumberAndIsAtMostFiveErrors) {
+  const GoalCase& of = GetParam();
+  const bool refine = of.relative > 0.0;
+  const auto solution = run(of.model + (refine ? fmt::format("tolerance: {{of: {}, relative: {}}}\n", of.of, of.relative)
+                                               : fmt::format("output: {{error_of: [{}]}}\n", of.of)));
+  const auto& quantities = last(solution).quantities;
+  ASSERT_EQ(quantities.size(), 1u);
+  const analysis::QuantityResult& found = quantities.front();
+  const double error = std::abs(found.value - of.exact);
+  RecordProperty("bar_over_error", fmt::format("{:.2f}", found.bar / error));
+  EXPECT_EQ(found.of, of.of);
+  EXPECT_GE(found.bar, error) << found.value;
+  EXPECT_LE(found.bar, 5.0 * error) << found.value;
+  EXPECT_LE(std::abs(found.finer - of.exact), error);
+  if (refine) {
+    EXPECT_LE(found.bar, of.relative * std::abs(found.value));
+    EXPECT_TRUE(found.reached());
+  }
+}
+
+/// `superelement` or a kind of cells.
+std::string mesh_of(const std::string& kind, double size, int order) {
+  return fmt::format("{{{}size: {}, order: {}}}", kind == "superelement" ? "" : fmt::format("kind: {}, ", kind), size,
+                     order);
+}
+
+std::string beams(const std::string& kind, double size, int order) {
+  return fmt::format(R"(scabo: 1
+materials: {{concrete: {{young: 10e9, poisson: 0.3}}}}
+bodies:
+  lower: {{material: concrete, shape: {{rectangle: {{corner: [0, 0], size: [6, 1.5]}}}}, mesh: {0}}}
+  upper: {{material: concrete, shape: {{rectangle: {{corner: [0, 1.5], size: [6, 1.5]}}}}, mesh: {0}}}
+supports: [{{on: lower.left, fix: [x, y]}}, {{on: upper.left, fix: [x, y]}}]
+loads: {{tip: {{on: upper.top_right, force: [0, -100e3]}}}}
+contacts: {{joint: {{between: [lower.top, upper.bottom], friction: 0.2}}}}
+)",
+                     mesh_of(kind, size, order));
+}
+
+/// Plate with a crack from its edge, half height h, crack a, width 1.
+std::string edge_crack(const std::string& kind, double h, double a, double size, int order) {
+  const std::string crack = kind == "superelement" ? fmt::format("tip: [{}, 0], mouth: [0, 0]", a)
+                                                   : fmt::format("path: [[0, 0], [{}, 0]]", a);
+  return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 1, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{polygon: {{vertices: [[0, -{0}], [1, -{0}], [1, {0}], [0, {0}]]}}}}
+    cracks: [{{name: flaw, {1}}}]
+    mesh: {2}
+supports: [{{on: plate.vertex_1, fix: [x, y]}}, {{on: plate.vertex_2, fix: [y]}}]
+loads: {{up: {{on: plate.edge_3, traction: [0, 1]}}, down: {{on: plate.edge_1, traction: [0, -1]}}}}
+)",
+                     h, crack, mesh_of(kind, size, order));
+}
+
+/// Quarter of a shaft of radius 50 in a hub to 100, interference 0.05 (Lame).
+std::string press_fit(const std::string& kind, double size, int order) {
+  return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 210e3, poisson: 0.3}}}}
+bodies:
+  shaft:
+    material: steel
+    shape: {{outline: [{{line: {{from: [0, 0], to: [50, 0]}}, name: foot}}, {{arc: {{to: [0, 50], centre: [0, 0]}}, name: rim}}, {{line: {{to: [0, 0]}}, name: side}}]}}
+    mesh: {0}
+  hub:
+    material: steel
+    shape: {{outline: [{{line: {{from: [50, 0], to: [100, 0]}}, name: foot}}, {{arc: {{to: [0, 100], centre: [0, 0]}}, name: out}}, {{line: {{to: [0, 50]}}, name: side}}, {{arc: {{to: [50, 0], centre: [0, 0], direction: clockwise}}, name: bore}}]}}
+    mesh: {0}
+supports:
+  - {{on: shaft.foot, fix: [y], name: shaft_foot}}
+  - {{on: shaft.side, fix: [x]}}
+  - {{on: hub.foot, fix: [y], name: hub_foot}}
+  - {{on: hub.side, fix: [x]}}
+contacts: {{joint: {{between: [shaft.rim, hub.bore], friction: 0, gap: -0.05}}}}
+)",
+                     mesh_of(kind, size, order));
+}
+
+/// Quarter of a ring, radii 1 and 2, under an inner pressure of 1 (Lame).
+std::string ring(const std::string& kind, double size, int order) {
+  return fmt::format(R"(scabo: 1
+materials: {{m: {{young: 1000, poisson: 0.3}}}}
+bodies:
+  ring:
+    material: m
+    shape: {{outline: [{{line: {{from: [1, 0], to: [2, 0]}}, name: foot}}, {{arc: {{to: [0, 2], centre: [0, 0]}}, name: out}}, {{line: {{to: [0, 1]}}, name: side}}, {{arc: {{to: [1, 0], centre: [0, 0], direction: clockwise}}, name: bore}}]}}
+    mesh: {0}
+supports: [{{on: ring.foot, fix: [y], name: foot}}, {{on: ring.side, fix: [x]}}]
+loads: {{p: {{on: ring.bore, pressure: 1}}}}
+)",
+                     mesh_of(kind, size, order));
+}
+
+/// L-shaped body with free faces at its re-entrant corner.
+std::string corner(const std::string& kind, double size, int order) {
+  return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 1, poisson: 0.3}}}}
+bodies:
+  body:
+    material: steel
+    shape: {{polygon: {{vertices: [[0, 0], [0, -1], [1, -1], [1, 1], [-1, 1], [-1, 0]]}}}}
+    mesh: {}
+supports: [{{on: body.edge_5, fix: x}}, {{on: body.edge_2, fix: y}}]
+loads: {{right: {{on: body.edge_3, traction: [1, 0]}}, up: {{on: body.edge_4, traction: [0, 0.5]}}}}
+)",
+                     mesh_of(kind, size, order));
+}
+
+/// Half of a cylinder of radius 1, moved by 0.01 into a block.
+std::string hertz(const std::string& kind, double size, int order) {
+  const std::string mesh =
+      kind == "superelement"
+          ? mesh_of(kind, size, order)
+          : fmt::format("{{kind: {}, size: {}, order: {}, refine: [{{near: [0, 0], size: {}}}]}}", kind, size, order,
+                        0.125 * size);
+  return fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 210, poisson: 0.3}}, aluminium: {{young: 70, poisson: 0.3}}}}
+bodies:
+  block: {{material: aluminium, shape: {{rectangle: {{corner: [0, -2], size: [2, 2]}}}}, mesh: {0}}}
+  roller:
+    material: steel
+    shape: {{outline: [{{line: {{from: [1, 1], to: [0, 1]}}, name: top}}, {{line: {{to: [0, 0]}}, name: axis}}, {{arc: {{to: [1, 1], centre: [0, 1]}}, name: rim}}]}}
+    mesh: {0}
+supports:
+  - {{on: block.bottom, fix: [y]}}
+  - {{on: block.left, fix: [x]}}
+  - {{on: roller.axis, fix: [x]}}
+  - {{on: roller.top, displacement: [null, -0.01], name: press}}
+contacts: {{joint: {{between: [block.top, roller.rim], friction: 0}}}}
+)",
+                     mesh);
+}
+
+std::vector<GoalCase> goal_cases() {
+  // Double cantilever: three codes and meshes (docs/verification.md).
+  const double beam = 53669.36;
+  // Half a cylinder: quadtrees of orders 2, 3, 4 with cells of 0.002 and 0.001 along the contact, and polygons of order 3,
+  // agree to 2e-6; their largest pressure is within 0.2 % of Hertz's sqrt(P E* / (pi R)) = 2.0266.
+  const double cylinder = 0.1118264;
+  const double corner_energy = 4.98789291788;  // one super-element with its scaling centre there, order 16
+  const double fit = 78.75 * 50.0 * 0.5 * pi;  // Lame: pressure times length
+  const double widening = (5.0 / 3.0 + 0.3) / 1000.0;
+  std::vector<GoalCase> cases;
+  // Single-edge cracks: K_I / (sigma sqrt(pi a)) of two programs (fracture_test.cpp).
+  const double cracks[][3] = {{1, 0.5, 2.82546}, {0.5, 0.5, 3.00876}, {1, 0.4, 2.11276}, {1, 0.2, 1.36804}, {1, 0.6, 4.0333}};
+  for (const auto& [h, a, factor] : cracks)
+    cases.push_back({fmt::format("Crack_{:.0f}_{:.0f}", 10 * h, 10 * a), edge_crack("superelement", h, a, 0.25, 2),
+                     "plate.flaw.K_I", factor * std::sqrt(pi * a), 1e-3});
+  for (const char* kind : {"quadtree", "polygons"})
+    cases.push_back({fmt::format("Crack_{}", kind), edge_crack(kind, 1, 0.4, 0.25, 2), "plate.flaw.end.K_I",
+                     2.11276 * std::sqrt(0.4 * pi), 1e-3});
+  for (const char* kind : {"superelement", "quadtree", "polygons"}) {
+    cases.push_back({fmt::format("Beam_{}", kind), beams(kind, 0.375, 2), "joint.normal_force", beam});
+    cases.push_back({fmt::format("Beam_{}_refined", kind), beams(kind, 0.375, 2), "joint.normal_force", beam, 1e-3});
+  }
+  cases.push_back({"Beam_1e4", beams("superelement", 0.375, 2), "joint.normal_force", beam, 1e-4});
+  cases.push_back({"Beam_friction", beams("superelement", 0.375, 2), "joint.tangential_force", 0.2 * beam, 1e-3});
+  cases.push_back({"Beam_reaction", beams("superelement", 0.375, 2), "lower.left.reaction_y", beam, 1e-3});
+  cases.push_back({"Hertz_superelement", hertz("superelement", 0.1, 2), "joint.normal_force", cylinder, 1e-2});
+  cases.push_back({"Hertz_quadtree", hertz("quadtree", 0.1, 2), "joint.normal_force", cylinder, 1e-3});
+  cases.push_back({"Hertz_polygons", hertz("polygons", 0.1, 2), "joint.normal_force", cylinder, 1e-2});
+  cases.push_back({"PressFit_quadtree", press_fit("quadtree", 25, 2), "joint.normal_force", fit});
+  cases.push_back({"PressFit_polygons", press_fit("polygons", 25, 2), "joint.normal_force", fit});
+  cases.push_back({"PressFit_linear", press_fit("polygons", 25, 1), "hub_foot.reaction_y", -78.75 * 50.0});
+  cases.push_back({"Ring_quadtree", ring("quadtree", 0.25, 2), "ring.vertex_1.ux", widening});
+  cases.push_back({"Ring_polygons", ring("polygons", 0.25, 2), "ring.vertex_1.ux", widening});
+  cases.push_back({"Ring_linear", ring("quadtree", 0.25, 1), "ring.vertex_1.ux", widening});
+  cases.push_back({"Corner", corner("superelement", 0.25, 2), "elastic_energy", corner_energy});
+  cases.push_back({"Corner_superelement", corner("superelement", 0.25, 2), "elastic_energy", corner_energy, 1e-3});
+  cases.push_back({"Corner_quadtree", corner("quadtree", 0.25, 2), "elastic_energy", corner_energy, 1e-2});
+  cases.push_back({"Corner_polygons", corner("polygons", 0.25, 2), "elastic_energy", corner_energy, 1e-2});
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, ErrorBar, testing::ValuesIn(goal_cases()),
+                         [](const auto& of) { return of.param.name; });
+
+// dJ = z . df: the load of a model whose pairs stick, slip and are open is raised by 1e-6, which changes no state. Every
+// number changes as its dual displacement says.
+TEST(DualProblem, GivesTheChangeOfEveryNumber) {
+  const std::string text = R"(scabo: 1
+materials: {m: {young: 30, poisson: 0.2}}
+bodies:
+  lower:
+    material: m
+    shape: {rectangle: {corner: [0, 0], size: [3, 1]}}
+    cracks: [{name: flaw, path: [[0, 0.5], [0.4, 0.5]]}]
+    mesh: {kind: quadtree, size: 0.25}
+  upper: {material: m, shape: {rectangle: {corner: [0.9, 1], size: [1.2, 1]}}, mesh: {size: 0.15}}
+  cap: {rigid: true, shape: {rectangle: {corner: [1.6, 2], size: [0.6, 0.2]}}}
+supports: [{on: lower.bottom, fix: [x, y], name: floor}, {on: cap.bottom_left, fix: [x], name: guide}]
+loads:
+  weight: {on: cap, force: [0, -1e-3]}
+  push: {on: upper.left, traction: [1e-4, 0]}
+contacts:
+  joint: {between: [lower.top, upper.bottom], friction: 0.3}
+  top: {between: [upper.top, cap.bottom], friction: 0.1}
+)";
+  const char* numbers[] = {"joint.normal_force", "joint.tangential_force", "top.tangential_force", "joint.max_gap",
+                           "floor.reaction_x",   "guide.reaction_x",       "upper.bottom_left.ux", "cap.top_left.uy",
+                           "lower.top_right.uy", "lower.flaw.K_I",         "lower.flaw.K_II",      "elastic_energy"};
+  std::string list;
+  for (const char* number : numbers) list += fmt::format("{}{}", list.empty() ? "" : ", ", number);
+  model::Model model = input::parse_model(text + "output: {error_of: [" + list + "]}\n", "test.yaml");
+  const std::vector<model::Quantity> quantities = std::exchange(model.output.error_of, {});
+  ASSERT_EQ(model.loads.size(), 2u);
+
+  constexpr double step = 1e-6;
+  std::vector<double> before, after, rates;
+  int open = 0, stick = 0, slip = 0;
+  for (const bool raised : {false, true}) {
+    model.steps.front().load_factors = {1.0, raised ? 1.0 + step : 1.0};
+    analysis::Options options;
+    options.on_state = [&](const analysis::Prepared& prepared, const analysis::State& state,
+                           const analysis::StaticSolution& solution) {
+      for (const model::Quantity& quantity : quantities) {
+        const auto value = analysis::value_of(solution, solution.increments.back(), quantity);
+        ASSERT_TRUE(value.has_value()) << quantity.name;
+        (raised ? after : before).push_back(*value);
+        if (raised) continue;
+        const auto z = analysis::dual_displacements(
+            prepared, state, analysis::derivative_of(prepared, state, solution, quantity));
+        double rate = 0.0;
+        for (std::size_t b = 0; b < z.size(); ++b)
+          if (const Vector& force = prepared.structure.loads[1][b]; force.size() > 0) rate += z[b].dot(force);
+        rates.push_back(rate);
+      }
+      for (const auto& contact : solution.increments.back().contacts)
+        open += contact.open, stick += contact.stick, slip += contact.slip;
+    };
+    ASSERT_EQ(analysis::solve_static(model, options).outcome, analysis::Outcome::solved);
+  }
+  EXPECT_GT(open, 0);
+  EXPECT_GT(stick, 0);
+  EXPECT_GT(slip, 0);
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    const double change = (after[k] - before[k]) / step;
+    EXPECT_NEAR(rates[k], change, 1e-5 * std::abs(change) + 1e-7 * std::abs(before[k])) << quantities[k].name;
+  }
+}
+
+// A number that cannot be reached within the limits keeps its bar.
+TEST(ErrorBars, ToleranceThatCannotBeReachedIsReported) {
+  const model::Model model = input::parse_model(
+      corner("superelement", 0.5, 1) + "tolerance: {of: elastic_energy, relative: 1e-12}\n", "test.yaml");
+  analysis::RefinementLimits limits;
+  limits.passes = 3;
+  const auto solution = analysis::solve_with_bars(model, analysis::check(model), {}, limits);
+  EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
+  EXPECT_NE(solution.reason.find("the tolerance of elastic_energy was not reached"), std::string::npos)
+      << solution.reason;
+  ASSERT_FALSE(solution.increments.empty());
+  ASSERT_EQ(solution.increments.back().quantities.size(), 1u);
+  EXPECT_FALSE(solution.increments.back().quantities.front().reached());
+}
+
+// Every increment has its bars, which do not change the results.
+TEST(ErrorBars, OfEveryIncrement) {
+  const std::string steps = "steps: [{increments: 3}]\n";
+  const auto without = run(beams("superelement", 0.75, 2) + steps),
+             with = run(beams("superelement", 0.75, 2) + steps + "output: {error_of: [joint.normal_force, upper.left.reaction_y]}\n");
+  ASSERT_EQ(with.increments.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(with.increments[i].quantities.size(), 2u);
+    const double force = without.increments[i].contacts[0].normal_force;
+    EXPECT_EQ(with.increments[i].quantities[0].value, force);
+    EXPECT_GE(with.increments[i].quantities[0].bar, std::abs(force - 53669.36 * static_cast<double>(i + 1) / 3.0));
+  }
+}
+
+}  // namespace
+}  // namespace scabo::verification
