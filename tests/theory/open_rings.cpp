@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/decompositions.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "support/decompositions.hpp"
 
 namespace scabo::test {
 

@@ -1,4 +1,6 @@
 // Bodies from a CAD file that Gmsh's library meshes: uniform states of stress, and friction between two of its faces.
+#include "scabo/files/cad.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scabo/files/cad.hpp"
 #include "verification/run.hpp"
 
 namespace scabo::verification {

@@ -29,8 +29,8 @@ class CracksAnywhere : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Kinds, CracksAnywhere, testing::Values("polygons", "quadtree"),
                          [](const auto& kind) { return std::string(kind.param); });
 
-// Plate with a crack from its edge, h/W = 1, a/W = 1/2: 2.82546 (docs/verification.md). What counts is the order, not how
-// small the cell at the tip is.
+// Plate with a crack from its edge, h/W = 1, a/W = 1/2: 2.82546 (docs/verification.md). What counts is the order, not
+// how small the cell at the tip is.
 TEST_P(CracksAnywhere, SingleEdgeCrack) {
   for (const auto& [order, size, bound] :
        {std::tuple(2, 0.1, 1e-3), std::tuple(4, 0.25, 1e-5), std::tuple(8, 0.25, 1e-5)}) {
@@ -79,9 +79,9 @@ loads:
 TEST_P(CracksAnywhere, InclinedCrackInAWidePlate) {
   for (const double angle : {30.0, 60.0}) {
     const double c = std::cos(angle * degree), s = std::sin(angle * degree);
-    const auto solution = run(wide_plate(
-        kind(), fmt::format("{{name: flaw, path: [[{0}, {1}], [{2}, {3}]]}}", -c, -s, c, s),
-        fmt::format("{{near: [{0}, {1}], size: 0.3}}, {{near: [{2}, {3}], size: 0.3}}", -c, -s, c, s), 0.0));
+    const auto solution = run(
+        wide_plate(kind(), fmt::format("{{name: flaw, path: [[{0}, {1}], [{2}, {3}]]}}", -c, -s, c, s),
+                   fmt::format("{{near: [{0}, {1}], size: 0.3}}, {{near: [{2}, {3}], size: 0.3}}", -c, -s, c, s), 0.0));
     for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
       const element::StressIntensity& tip = tip_of(last(solution), end);
       EXPECT_NEAR(tip.K_I, std::sqrt(std::numbers::pi) * c * c, 3e-4);
@@ -173,9 +173,9 @@ TEST_P(CracksAnywhere, BrazilianDisc) {
   struct Case {
     double a, angle, first, second;
   };
-  for (const Case& of : {Case{0.2, 0, 1.060048, 0}, Case{0.2, 30, -0.084135, 1.834178}, Case{0.3, 27.217, 0, 1.866198},
-                         Case{0.5, 15, 0.692927, 1.670293}, Case{0.6, 20.144, 0, 2.352732},
-                         Case{0.6, 30, -0.977239, 2.490896}}) {
+  for (const Case& of :
+       {Case{0.2, 0, 1.060048, 0}, Case{0.2, 30, -0.084135, 1.834178}, Case{0.3, 27.217, 0, 1.866198},
+        Case{0.5, 15, 0.692927, 1.670293}, Case{0.6, 20.144, 0, 2.352732}, Case{0.6, 30, -0.977239, 2.490896}}) {
     const double x = of.a * std::sin(of.angle * degree), y = of.a * std::cos(of.angle * degree);
     const auto solution = run(fmt::format(R"(scabo: 1
 materials: {{rock: {{young: 200, poisson: 0.3}}}}
@@ -236,10 +236,9 @@ TEST_P(CracksAnywhere, ThatDivideTheirBodyAreRefused) {
 // NAFEMS CGS-4: a block drawn over a wedge of tan(alpha) = 0.1 with mu = 0.3 needs (tan a + mu) / (1 - mu tan a) of its
 // weight, over meshes that do not match.
 TEST(ManyCellsInContact, FrictionPatch) {
-  for (const auto& [wedge, block] :
-       {std::pair("kind: polygons, size: 0.2", "kind: polygons, size: 0.17"),
-        std::pair("kind: quadtree, size: 0.2, order: 3", "kind: polygons, size: 0.17"),
-        std::pair("kind: fem, size: 0.3", "kind: quadtree, size: 0.2, order: 1")}) {
+  for (const auto& [wedge, block] : {std::pair("kind: polygons, size: 0.2", "kind: polygons, size: 0.17"),
+                                     std::pair("kind: quadtree, size: 0.2, order: 3", "kind: polygons, size: 0.17"),
+                                     std::pair("kind: fem, size: 0.3", "kind: quadtree, size: 0.2, order: 1")}) {
     const auto solution = run(fmt::format(R"(scabo: 1
 materials: {{steel: {{young: 206e3, poisson: 0.3}}}}
 bodies:

@@ -50,8 +50,8 @@ loads: {tip: {on: beam.top_right, force: [0, -1]}}
                  figure = last(solution).certificate.equilibrium;
     std::cout << length << ": residual " << residual << ", certificate " << figure << "\n";
     EXPECT_GT(residual, 0.0);
-    // Both are sums of rounding errors. Slender bodies are solved in twice the working precision: the figure is that of the
-    // displacements before they are rounded to double, far below the residual of the rounded ones, and still not 0.
+    // Both are sums of rounding errors. Slender bodies are solved in twice the working precision: the figure is that of
+    // the displacements before they are rounded to double, far below the residual of the rounded ones, and still not 0.
     EXPECT_GT(figure, length < 5.0 ? 0.1 * residual : 0.0) << length;
     EXPECT_LT(figure, 10.0 * residual) << length;
   }

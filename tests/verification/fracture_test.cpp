@@ -4,8 +4,8 @@
 
 #include <Eigen/LU>
 
-#include "scabo/geometry/line_basis.hpp"
 #include "scabo/element/stress_intensity.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "support/decompositions.hpp"
 #include "theory/open_rings.hpp"
 

@@ -1,5 +1,7 @@
 // Error bars of single numbers (analysis/goal.hpp): the exact number lies inside the bar, and the bar is at most five
 // times the error. Truths are closed forms, published numbers, or numbers of other methods; each says which.
+#include "scabo/analysis/goal.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <utility>
 
 #include "run.hpp"
-#include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/quantities.hpp"
 
 namespace scabo::verification {
@@ -28,8 +29,9 @@ class ErrorBar : public testing::TestWithParam<GoalCase> {};
 TEST_P(ErrorBar, HoldsTheExactNumberAndIsAtMostFiveErrors) {
   const GoalCase& of = GetParam();
   const bool refine = of.relative > 0.0;
-  const auto solution = run(of.model + (refine ? fmt::format("tolerance: {{of: {}, relative: {}}}\n", of.of, of.relative)
-                                               : fmt::format("output: {{error_of: [{}]}}\n", of.of)));
+  const auto solution =
+      run(of.model + (refine ? fmt::format("tolerance: {{of: {}, relative: {}}}\n", of.of, of.relative)
+                             : fmt::format("output: {{error_of: [{}]}}\n", of.of)));
   const auto& quantities = last(solution).quantities;
   ASSERT_EQ(quantities.size(), 1u);
   const analysis::QuantityResult& found = quantities.front();
@@ -137,11 +139,10 @@ loads: {{right: {{on: body.edge_3, traction: [1, 0]}}, up: {{on: body.edge_4, tr
 
 /// Half of a cylinder of radius 1, moved by 0.01 into a block.
 std::string hertz(const std::string& kind, double size, int order) {
-  const std::string mesh =
-      kind == "superelement"
-          ? mesh_of(kind, size, order)
-          : fmt::format("{{kind: {}, size: {}, order: {}, refine: [{{near: [0, 0], size: {}}}]}}", kind, size, order,
-                        0.125 * size);
+  const std::string mesh = kind == "superelement"
+                               ? mesh_of(kind, size, order)
+                               : fmt::format("{{kind: {}, size: {}, order: {}, refine: [{{near: [0, 0], size: {}}}]}}",
+                                             kind, size, order, 0.125 * size);
   return fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: 210, poisson: 0.3}}, aluminium: {{young: 70, poisson: 0.3}}}}
@@ -164,15 +165,16 @@ contacts: {{joint: {{between: [block.top, roller.rim], friction: 0}}}}
 std::vector<GoalCase> goal_cases() {
   // Double cantilever: three codes and meshes (docs/verification.md).
   const double beam = 53669.36;
-  // Half a cylinder: quadtrees of orders 2, 3, 4 with cells of 0.002 and 0.001 along the contact, and polygons of order 3,
-  // agree to 2e-6; their largest pressure is within 0.2 % of Hertz's sqrt(P E* / (pi R)) = 2.0266.
+  // Half a cylinder: quadtrees of orders 2, 3, 4 with cells of 0.002 and 0.001 along the contact, and polygons of order
+  // 3, agree to 2e-6; their largest pressure is within 0.2 % of Hertz's sqrt(P E* / (pi R)) = 2.0266.
   const double cylinder = 0.1118264;
   const double corner_energy = 4.98789291788;  // one super-element with its scaling centre there, order 16
   const double fit = 78.75 * 50.0 * 0.5 * pi;  // Lame: pressure times length
   const double widening = (5.0 / 3.0 + 0.3) / 1000.0;
   std::vector<GoalCase> cases;
   // Single-edge cracks: K_I / (sigma sqrt(pi a)) of two programs (fracture_test.cpp).
-  const double cracks[][3] = {{1, 0.5, 2.82546}, {0.5, 0.5, 3.00876}, {1, 0.4, 2.11276}, {1, 0.2, 1.36804}, {1, 0.6, 4.0333}};
+  const double cracks[][3] = {
+      {1, 0.5, 2.82546}, {0.5, 0.5, 3.00876}, {1, 0.4, 2.11276}, {1, 0.2, 1.36804}, {1, 0.6, 4.0333}};
   for (const auto& [h, a, factor] : cracks)
     cases.push_back({fmt::format("Crack_{:.0f}_{:.0f}", 10 * h, 10 * a), edge_crack("superelement", h, a, 0.25, 2),
                      "plate.flaw.K_I", factor * std::sqrt(pi * a), 1e-3});
@@ -205,8 +207,8 @@ std::vector<GoalCase> goal_cases() {
 INSTANTIATE_TEST_SUITE_P(Cases, ErrorBar, testing::ValuesIn(goal_cases()),
                          [](const auto& of) { return of.param.name; });
 
-// dJ = z . df: the load of a model whose pairs stick, slip and are open is raised by 1e-6, which changes no state. Every
-// number changes as its dual displacement says.
+// dJ = z . df: the load of a model whose pairs stick, slip and are open is raised by 1e-6, which changes no state.
+// Every number changes as its dual displacement says.
 TEST(DualProblem, GivesTheChangeOfEveryNumber) {
   const std::string text = R"(scabo: 1
 materials: {m: {young: 30, poisson: 0.2}}
@@ -248,8 +250,8 @@ contacts:
         ASSERT_TRUE(value.has_value()) << quantity.name;
         (raised ? after : before).push_back(*value);
         if (raised) continue;
-        const auto z = analysis::dual_displacements(
-            prepared, state, analysis::derivative_of(prepared, state, solution, quantity));
+        const auto z =
+            analysis::dual_displacements(prepared, state, analysis::derivative_of(prepared, state, solution, quantity));
         double rate = 0.0;
         for (std::size_t b = 0; b < z.size(); ++b)
           if (const Vector& force = prepared.structure.loads[1][b]; force.size() > 0) rate += z[b].dot(force);
@@ -288,7 +290,8 @@ TEST(ErrorBars, ToleranceThatCannotBeReachedIsReported) {
 TEST(ErrorBars, OfEveryIncrement) {
   const std::string steps = "steps: [{increments: 3}]\n";
   const auto without = run(beams("superelement", 0.75, 2) + steps),
-             with = run(beams("superelement", 0.75, 2) + steps + "output: {error_of: [joint.normal_force, upper.left.reaction_y]}\n");
+             with = run(beams("superelement", 0.75, 2) + steps +
+                        "output: {error_of: [joint.normal_force, upper.left.reaction_y]}\n");
   ASSERT_EQ(with.increments.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     ASSERT_EQ(with.increments[i].quantities.size(), 2u);

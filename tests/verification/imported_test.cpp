@@ -30,17 +30,18 @@ struct Patch {
 };
 
 class ImportedPatch : public testing::TestWithParam<Patch> {};
-INSTANTIATE_TEST_SUITE_P(
-    Meshes, ImportedPatch,
-    testing::Values(Patch{5, "superelement"}, Patch{9, "superelement"}, Patch{7, "superelement"},
-                    Patch{22, "superelement"}, Patch{23, "superelement"}, Patch{36, "superelement"}, Patch{5, "fem"},
-                    Patch{9, "fem"}, Patch{22, "fem"}, Patch{23, "fem"}, Patch{9, "superelement, order: 2"},
-                    Patch{7, "superelement, order: 3"}, Patch{23, "superelement, order: 4"}),
-    [](const auto& patch) {
-      std::string name = fmt::format("{}_{}", patch.param.type, patch.param.mesh);
-      std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
-      return name;
-    });
+INSTANTIATE_TEST_SUITE_P(Meshes, ImportedPatch,
+                         testing::Values(Patch{5, "superelement"}, Patch{9, "superelement"}, Patch{7, "superelement"},
+                                         Patch{22, "superelement"}, Patch{23, "superelement"},
+                                         Patch{36, "superelement"}, Patch{5, "fem"}, Patch{9, "fem"}, Patch{22, "fem"},
+                                         Patch{23, "fem"}, Patch{9, "superelement, order: 2"},
+                                         Patch{7, "superelement, order: 3"}, Patch{23, "superelement, order: 4"}),
+                         [](const auto& patch) {
+                           std::string name = fmt::format("{}_{}", patch.param.type, patch.param.mesh);
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
+                           return name;
+                         });
 
 // A uniform state of stress in a plate of irregular cells.
 TEST_P(ImportedPatch, UniformStress) {
@@ -74,8 +75,10 @@ loads: {{right: {{on: plate.edge_2, traction: [1, 0]}}, top: {{on: plate.edge_3,
 
 // The same pressure through a contact with a body of another kind and another division.
 TEST_P(ImportedPatch, PressureOverAContactWithAnotherMesh) {
-  for (const char* upper : {"{size: 0.7, order: 2}", "{size: 0.45, kind: polygons, order: 1}", "{size: 0.7, kind: fem}"}) {
-    const auto solution = run(fmt::format(R"(scabo: 1
+  for (const char* upper :
+       {"{size: 0.7, order: 2}", "{size: 0.45, kind: polygons, order: 1}", "{size: 0.7, kind: fem}"}) {
+    const auto solution =
+        run(fmt::format(R"(scabo: 1
 materials: {{m: {{young: 30, poisson: 0.2}}}}
 bodies:
   lower: {{material: m, mesh: {{file: {}, elements: {}}}}}
@@ -86,8 +89,7 @@ supports:
 loads: {{weight: {{on: upper.top, pressure: 1}}}}
 contacts: {{joint: {{between: [lower.edge_3, upper.bottom], friction: 0.5}}}}
 )",
-                                          mesh_of_rectangle(GetParam().type, 3.0, 2.0, 6, 4).file(), GetParam().mesh,
-                                          upper));
+                        mesh_of_rectangle(GetParam().type, 3.0, 2.0, 6, 4).file(), GetParam().mesh, upper));
     const auto& increment = last(solution);
     for (const auto& pair : contact_of(increment).pairs) EXPECT_NEAR(pair.pressure, 1.0, 1e-10) << upper;
     for (std::size_t b = 0; b < 2; ++b)
@@ -100,8 +102,8 @@ contacts: {{joint: {{between: [lower.edge_3, upper.bottom], friction: 0.5}}}}
   }
 }
 
-// Two regions of one file in contact on the border between them, which is a closed curve: a disc in a ring under uniform
-// pressure is in a uniform state of stress, whatever the polygon.
+// Two regions of one file in contact on the border between them, which is a closed curve: a disc in a ring under
+// uniform pressure is in a uniform state of stress, whatever the polygon.
 TEST(Imported, ContactOfTwoRegionsOnAClosedCurve) {
   for (const bool quadratic : {false, true})
     for (const char* elements : {"superelement", "fem"}) {
@@ -133,8 +135,8 @@ contacts: {{joint: {{between: [disc.to_region_2, ring.to_region_1], friction: 0.
     }
 }
 
-// The same disc in a ring with a circular hole that is divided differently: nodes are inserted on both sides. Those of the
-// disc lie on its parabolas, so that the pressure is uniform up to their distance from the circle.
+// The same disc in a ring with a circular hole that is divided differently: nodes are inserted on both sides. Those of
+// the disc lie on its parabolas, so that the pressure is uniform up to their distance from the circle.
 TEST(Imported, ContactOfACurvedBoundaryWithAnotherMesh) {
   for (const double size : {0.19, 0.13}) {
     const auto solution = run(fmt::format(R"(scabo: 1
@@ -235,8 +237,8 @@ class Folder {
   fs::path path_;
 };
 
-/// Energy of the first region's connected body of a mesh file, clamped on its side furthest to the left and pulled on the
-/// one furthest to the right.
+/// Energy of the first region's connected body of a mesh file, clamped on its side furthest to the left and pulled on
+/// the one furthest to the right.
 class Pulled {
  public:
   explicit Pulled(std::string file) : file_(std::move(file)) {
@@ -284,9 +286,11 @@ void compare(const std::string& name, const std::string& file) {
   const Pulled pulled(file);
   const double super = pulled.energy("superelement"), fem = pulled.energy("fem"),
                fine = pulled.energy("superelement, order: 4");
-  std::printf("%-14s %6zu cells: super-elements %.8g, finite elements %.8g (%+.3f %%), order 4 %.8g; short of it by %.3f %% and %.3f %%\n",
-              name.c_str(), pulled.cells(), super, fem, 100.0 * (fem / super - 1.0), fine, 100.0 * (1.0 - super / fine),
-              100.0 * (1.0 - fem / fine));
+  std::printf(
+      "%-14s %6zu cells: super-elements %.8g, finite elements %.8g (%+.3f %%), order 4 %.8g; short of it by %.3f %% "
+      "and %.3f %%\n",
+      name.c_str(), pulled.cells(), super, fem, 100.0 * (fem / super - 1.0), fine, 100.0 * (1.0 - super / fine),
+      100.0 * (1.0 - fem / fine));
   EXPECT_LE(super, fine * (1.0 + 1e-10));
   EXPECT_LE(fem, fine * (1.0 + 1e-10));
 }
@@ -297,10 +301,10 @@ TEST(Imported, CalculixTestExamples) {
   const Folder unpacked;
   ASSERT_TRUE(
       runs("cp " + (folder / "*.inp*").string() + " " + unpacked.file("") + " && gunzip -f " + unpacked.file("*.gz")));
-  const std::vector<std::string> plane{"concretebeam", "dam",          "edgeload",     "leifer1",  "leifer2",  "oneel",
-                                       "planestrain",  "planestrain2", "planestress",  "planestress2", "planestress3", "plate",
-                                       "rot4",         "scheibe",      "shell1",       "shell1lin",    "shell3",       "shellf",
-                                       "shellf2",      "spring4",      "square"};
+  const std::vector<std::string> plane{
+      "concretebeam", "dam",         "edgeload",     "leifer1",      "leifer2", "oneel",   "planestrain",
+      "planestrain2", "planestress", "planestress2", "planestress3", "plate",   "rot4",    "scheibe",
+      "shell1",       "shell1lin",   "shell3",       "shellf",       "shellf2", "spring4", "square"};
   EXPECT_EQ(plane.size(), 21u);
   for (const std::string& name : plane) compare(name, unpacked.file(name + ".inp"));
 }
@@ -315,7 +319,8 @@ TEST(Imported, GmshTutorials) {
                                        : "zcat " + packed.string() + " > " + folder.file(name + ".geo")));
     for (const int order : {1, 2}) {
       const std::string file = folder.file(fmt::format("{}_{}.msh", name, order));
-      ASSERT_TRUE(runs(fmt::format("gmsh -2 {} -format msh41 -order {} -o {}", folder.file(name + ".geo"), order, file)));
+      ASSERT_TRUE(
+          runs(fmt::format("gmsh -2 {} -format msh41 -order {} -o {}", folder.file(name + ".geo"), order, file)));
       compare(fmt::format("{} order {}", name, order), file);
     }
   }

@@ -88,8 +88,8 @@ TEST(Invariance, TwiceAsThickUnderTwiceTheLoad) {
   EXPECT_NEAR(last(thick).contacts.front().max_pressure, last(thin).contacts.front().max_pressure, 1e-4);
 }
 
-// Two bodies of many cells, with a hole, a crack, a region and meshes that do not match: the mesh, and so every digit but
-// the last, does not know the unit of length or where the origin lies.
+// Two bodies of many cells, with a hole, a crack, a region and meshes that do not match: the mesh, and so every digit
+// but the last, does not know the unit of length or where the origin lies.
 struct Twin {
   const char* name;
   double length = 1.0;
@@ -101,10 +101,10 @@ std::string block_on_cracked_plate(const Twin& twin, const char* lower, const ch
     return fmt::format("[{:.17g}, {:.17g}]", twin.length * (x + twin.move.x()), twin.length * (y + twin.move.y()));
   };
   const double m = twin.length, pascal = 1.0 / (m * m);
-  const std::string crack =
-      std::string(lower) == "fem"
-          ? ""
-          : fmt::format("    cracks: [{{name: c, path: [{}, {}, {}]}}]\n", point(0.3, 0.3), point(0.6, 0.4), point(0.8, 0.3));
+  const std::string crack = std::string(lower) == "fem"
+                                ? ""
+                                : fmt::format("    cracks: [{{name: c, path: [{}, {}, {}]}}]\n", point(0.3, 0.3),
+                                              point(0.6, 0.4), point(0.8, 0.3));
   return fmt::format(
       "scabo: 1\nanalysis: {{plane: strain, thickness: {}}}\n"
       "materials: {{a: {{young: {}, poisson: 0.3}}, b: {{young: {}, poisson: 0.25}}}}\nbodies:\n  low:\n"
@@ -117,15 +117,17 @@ std::string block_on_cracked_plate(const Twin& twin, const char* lower, const ch
       "loads: {{p: {{on: up.edge_3, traction: [{:.17g}, {:.17g}]}}}}\n"
       "contacts: {{joint: {{between: [low.edge_3, up.edge_1], friction: 0.35}}}}\n",
       m, 200e9 * pascal, 70e9 * pascal, point(0, 0), point(3, 0), point(3, 1), point(0, 1), point(2.3, 0.5), 0.2 * m,
-      point(1.2, 0.3), point(1.8, 0.35), point(1.5, 0.8), crack, lower, 0.21 * m, point(1, 1), 0.05 * m,
-      point(0.5, 1), point(2.5, 1), point(2.5, 2), point(0.5, 2), upper, 0.17 * m, 3e5 * pascal, -1e6 * pascal);
+      point(1.2, 0.3), point(1.8, 0.35), point(1.5, 0.8), crack, lower, 0.21 * m, point(1, 1), 0.05 * m, point(0.5, 1),
+      point(2.5, 1), point(2.5, 2), point(0.5, 2), upper, 0.17 * m, 3e5 * pascal, -1e6 * pascal);
 }
 
 TEST(Invariance, MeshesOfManyCellsDoNotKnowTheUnitOfLength) {
-  for (const auto& [lower, upper] : {std::pair("polygons", "quadtree"), std::pair("quadtree", "fem"), std::pair("fem", "polygons")}) {
+  for (const auto& [lower, upper] :
+       {std::pair("polygons", "quadtree"), std::pair("quadtree", "fem"), std::pair("fem", "polygons")}) {
     const auto reference_solution = run(block_on_cracked_plate({"m"}, lower, upper));
     const analysis::IncrementResult& expected = last(reference_solution);
-    for (const Twin& twin : {Twin{"mm", 1e3}, Twin{"inches", 1.0 / 0.0254}, Twin{"km", 1e-3}, Twin{"far", 1.0, {3000, -2000}}}) {
+    for (const Twin& twin :
+         {Twin{"mm", 1e3}, Twin{"inches", 1.0 / 0.0254}, Twin{"km", 1e-3}, Twin{"far", 1.0, {3000, -2000}}}) {
       SCOPED_TRACE(fmt::format("{} on {}, {}", upper, lower, twin.name));
       const auto solution = run(block_on_cracked_plate(twin, lower, upper));
       const analysis::IncrementResult& told = last(solution);
@@ -141,16 +143,18 @@ TEST(Invariance, MeshesOfManyCellsDoNotKnowTheUnitOfLength) {
   }
 }
 
-// A block that only contact holds, ten million of its sizes away from the origin: its coordinates have nine digits left,
-// and the certificate, with balance of forces and moments, has all of its own.
+// A block that only contact holds, ten million of its sizes away from the origin: its coordinates have nine digits
+// left, and the certificate, with balance of forces and moments, has all of its own.
 TEST(Invariance, FarFromTheOrigin) {
   for (const char* kind : {"fem", "polygons", "quadtree", "superelement"})
     for (const double x : {1e6, 1e7}) {
       SCOPED_TRACE(fmt::format("{} at {}", kind, x));
       const auto solution = run(fmt::format(
           "scabo: 1\nmaterials: {{s: {{young: 200, poisson: 0.3}}}}\nbodies:\n"
-          "  low: {{material: s, shape: {{rectangle: {{corner: [{1:.17g}, 0], size: [1, 1]}}}}, mesh: {{kind: {0}, size: 0.125}}}}\n"
-          "  up: {{material: s, shape: {{rectangle: {{corner: [{1:.17g}, 1], size: [1, 1]}}}}, mesh: {{kind: {0}, size: 0.125}}}}\n"
+          "  low: {{material: s, shape: {{rectangle: {{corner: [{1:.17g}, 0], size: [1, 1]}}}}, mesh: {{kind: {0}, "
+          "size: 0.125}}}}\n"
+          "  up: {{material: s, shape: {{rectangle: {{corner: [{1:.17g}, 1], size: [1, 1]}}}}, mesh: {{kind: {0}, "
+          "size: 0.125}}}}\n"
           "supports: [{{on: low.bottom, fix: [x, y]}}]\nloads: {{p: {{on: up.top, traction: [0.05, -1]}}}}\n"
           "contacts: {{joint: {{between: [low.top, up.bottom], friction: 0.3}}}}\n",
           kind, x));

@@ -15,12 +15,12 @@ struct Layers {
 };
 
 std::string layer(const char* name, const char* material, double low, double height) {
-  return fmt::format("{}: {{material: {}, shape: {{rectangle: {{corner: [0, {}], size: [3, {}]}}}}}}", name, material, low,
-                     height);
+  return fmt::format("{}: {{material: {}, shape: {{rectangle: {{corner: [0, {}], size: [3, {}]}}}}}}", name, material,
+                     low, height);
 }
 
-/// Layers stretched along their borders, and with nu = 0: the strain is the same in all of them, and the stress constant
-/// in each.
+/// Layers stretched along their borders, and with nu = 0: the strain is the same in all of them, and the stress
+/// constant in each.
 TEST(LayeredBlock, StretchedAlongItsLayers) {
   const double strain = 0.01;
   for (const auto& [name, regions, stiffness] :
@@ -28,25 +28,30 @@ TEST(LayeredBlock, StretchedAlongItsLayers) {
         Layers{"two, given beyond the outline",
                "upper: {material: b, shape: {polygon: {vertices: [[-1, 0.4], [4, 0.4], [5, 7], [-1, 2]]}}}",
                10 * 0.4 + 20 * 0.6},
-        Layers{"three", layer("middle", "b", 0.3, 0.4) + ", " + layer("upper", "c", 0.7, 0.3), 10 * 0.3 + 20 * 0.4 + 50 * 0.3},
+        Layers{"three", layer("middle", "b", 0.3, 0.4) + ", " + layer("upper", "c", 0.7, 0.3),
+               10 * 0.3 + 20 * 0.4 + 50 * 0.3},
         Layers{"one in another", layer("upper", "b", 0.3, 0.7) + ", " + layer("roof", "c", 0.7, 0.3),
                10 * 0.3 + 20 * 0.4 + 50 * 0.3},
         Layers{"the whole body", layer("all", "c", 0, 1), 50}})
     for (const char* kind : {"polygons", "quadtree", "fem", "superelement"})
       for (const int order : {1, 2}) {
         SCOPED_TRACE(fmt::format("{}, {}, order {}", name, kind, order));
-        const auto solution = run(fmt::format(
-            "scabo: 1\nmaterials: {{a: {{young: 10, poisson: 0}}, b: {{young: 20, poisson: 0}}, c: {{young: 50, poisson: "
-            "0}}}}\nbodies: {{block: {{material: a, shape: {{rectangle: {{corner: [0, 0], size: [3, 1]}}}}, mesh: {{kind: "
-            "{}, size: 0.3, order: {}}}, regions: {{{}}}}}}}\nsupports: [{{on: block.left, fix: [x]}}, {{on: block.right, "
-            "displacement: [{}, null]}}, {{on: block.bottom_left, fix: [y]}}]\n",
-            kind, order, regions, 3.0 * strain));
+        const auto solution =
+            run(fmt::format("scabo: 1\nmaterials: {{a: {{young: 10, poisson: 0}}, b: {{young: 20, poisson: 0}}, c: "
+                            "{{young: 50, poisson: "
+                            "0}}}}\nbodies: {{block: {{material: a, shape: {{rectangle: {{corner: [0, 0], size: [3, "
+                            "1]}}}}, mesh: {{kind: "
+                            "{}, size: 0.3, order: {}}}, regions: {{{}}}}}}}\nsupports: [{{on: block.left, fix: [x]}}, "
+                            "{{on: block.right, "
+                            "displacement: [{}, null]}}, {{on: block.bottom_left, fix: [y]}}]\n",
+                            kind, order, regions, 3.0 * strain));
         const analysis::IncrementResult& result = last(solution);
         EXPECT_NEAR(result.energy.elastic, 0.5 * stiffness * 3.0 * strain * strain, 1e-12 * stiffness);
         // The exact displacement u = strain x at every node says that strain and stress are exact everywhere.
         const mesh::BodyMesh& mesh = solution.mesh.bodies[0];
         for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-          ASSERT_NEAR(result.fields.displacements[0](2 * static_cast<Eigen::Index>(i)), strain * mesh.nodes[i].x(), 1e-12);
+          ASSERT_NEAR(result.fields.displacements[0](2 * static_cast<Eigen::Index>(i)), strain * mesh.nodes[i].x(),
+                      1e-12);
           ASSERT_NEAR(result.fields.displacements[0](2 * static_cast<Eigen::Index>(i) + 1), 0.0, 1e-12);
         }
       }
@@ -56,12 +61,15 @@ TEST(LayeredBlock, StretchedAlongItsLayers) {
 TEST(LayeredBlock, PressedAcrossItsLayers) {
   for (const char* kind : {"polygons", "quadtree", "fem", "superelement"}) {
     SCOPED_TRACE(kind);
-    const auto solution = run(fmt::format(
-        "scabo: 1\nmaterials: {{a: {{young: 10, poisson: 0.1}}, b: {{young: 20, poisson: 0.2}}, c: {{young: 40, poisson: "
-        "0.4}}}}\nbodies: {{block: {{material: a, shape: {{rectangle: {{corner: [0, 0], size: [3, 1]}}}}, mesh: {{kind: {}, "
-        "size: 0.3}}, regions: {{{}, {}}}}}}}\nsupports: [{{on: block.bottom, fix: [y]}}, {{on: block.bottom_left, fix: "
-        "[x]}}]\nloads: {{press: {{on: block.top, pressure: 0.2}}}}\n",
-        kind, layer("middle", "b", 0.3, 0.4), layer("upper", "c", 0.7, 0.3)));
+    const auto solution =
+        run(fmt::format("scabo: 1\nmaterials: {{a: {{young: 10, poisson: 0.1}}, b: {{young: 20, poisson: 0.2}}, c: "
+                        "{{young: 40, poisson: "
+                        "0.4}}}}\nbodies: {{block: {{material: a, shape: {{rectangle: {{corner: [0, 0], size: [3, "
+                        "1]}}}}, mesh: {{kind: {}, "
+                        "size: 0.3}}, regions: {{{}, {}}}}}}}\nsupports: [{{on: block.bottom, fix: [y]}}, {{on: "
+                        "block.bottom_left, fix: "
+                        "[x]}}]\nloads: {{press: {{on: block.top, pressure: 0.2}}}}\n",
+                        kind, layer("middle", "b", 0.3, 0.4), layer("upper", "c", 0.7, 0.3)));
     const analysis::IncrementResult& result = last(solution);
     const mesh::BodyMesh& mesh = solution.mesh.bodies[0];
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
@@ -89,17 +97,21 @@ TEST(LayeredRing, LiningOfAHole) {
   const double inner = x[0] * a + x[1] / a;
   const auto quarter = [](double from, double to) {
     return fmt::format(
-        "{{outline: [{{arc: {{from: [{1}, 0], to: [0, {1}], centre: [0, 0]}}, name: out}}, {{line: {{to: [0, {0}]}}, name: "
-        "left}}, {{arc: {{to: [{0}, 0], centre: [0, 0], direction: clockwise}}, name: bore}}, {{line: {{to: [{1}, 0]}}, "
+        "{{outline: [{{arc: {{from: [{1}, 0], to: [0, {1}], centre: [0, 0]}}, name: out}}, {{line: {{to: [0, {0}]}}, "
+        "name: "
+        "left}}, {{arc: {{to: [{0}, 0], centre: [0, 0], direction: clockwise}}, name: bore}}, {{line: {{to: [{1}, "
+        "0]}}, "
         "name: bottom}}]}}",
         from, to);
   };
   for (const char* kind : {"polygons", "quadtree", "fem"}) {
     SCOPED_TRACE(kind);
     const auto solution = run(fmt::format(
-        "scabo: 1\nmaterials: {{stone: {{young: {}, poisson: 0.3}}, steel: {{young: {}, poisson: 0.3}}}}\nbodies: {{ring: "
+        "scabo: 1\nmaterials: {{stone: {{young: {}, poisson: 0.3}}, steel: {{young: {}, poisson: 0.3}}}}\nbodies: "
+        "{{ring: "
         "{{material: stone, shape: {}, mesh: {{kind: {}, size: 0.1}}, regions: {{lining: {{material: steel, shape: "
-        "{}}}}}}}}}\nsupports: [{{on: ring.left, fix: [x]}}, {{on: ring.bottom, fix: [y]}}]\nloads: {{p: {{on: ring.bore, "
+        "{}}}}}}}}}\nsupports: [{{on: ring.left, fix: [x]}}, {{on: ring.bottom, fix: [y]}}]\nloads: {{p: {{on: "
+        "ring.bore, "
         "pressure: {}}}}}\n",
         Eb, Ea, quarter(a, b), kind, quarter(a, c), p));
     const analysis::IncrementResult& result = last(solution);
@@ -141,10 +153,13 @@ TEST(ThinRing, UnderPressure) {
   for (const char* kind : {"polygons", "quadtree", "fem"}) {
     SCOPED_TRACE(kind);
     const auto solution = run(fmt::format(
-        "scabo: 1\nmaterials: {{m: {{young: 200, poisson: 0.3}}}}\nbodies:\n  ring:\n    material: m\n    shape: {{outline: "
-        "[{{arc: {{from: [1, 0], to: [-1, 0], centre: [0, 0]}}}}, {{line: {{to: [-0.999, 0]}}, name: left}}, {{arc: {{to: "
+        "scabo: 1\nmaterials: {{m: {{young: 200, poisson: 0.3}}}}\nbodies:\n  ring:\n    material: m\n    shape: "
+        "{{outline: "
+        "[{{arc: {{from: [1, 0], to: [-1, 0], centre: [0, 0]}}}}, {{line: {{to: [-0.999, 0]}}, name: left}}, {{arc: "
+        "{{to: "
         "[0.999, 0], centre: [0, 0], direction: clockwise}}, name: bore}}, {{line: {{to: [1, 0]}}, name: right}}]}}\n"
-        "    mesh: {{kind: {}, size: 0.2}}\nsupports: [{{on: ring.left, fix: [y]}}, {{on: ring.right, fix: [y]}}, {{on: "
+        "    mesh: {{kind: {}, size: 0.2}}\nsupports: [{{on: ring.left, fix: [y]}}, {{on: ring.right, fix: [y]}}, "
+        "{{on: "
         "{{body: ring, near: [-1, 0]}}, fix: [x]}}]\nloads: {{p: {{on: ring.bore, pressure: 1e-3}}}}\n",
         kind));
     const double work = 0.5 * 1e-6 * inner * pi * a;

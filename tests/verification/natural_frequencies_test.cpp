@@ -218,7 +218,8 @@ contacts: {joint: {between: [beam.top, other.bottom]}}
     EXPECT_EQ(two.modes[k].bodies, std::vector<int>{static_cast<int>(k % 2)});
   }
   ASSERT_EQ(two.warnings.size(), 2u);
-  EXPECT_EQ(two.warnings[0].text, "a modal analysis ignores the model's loads and contacts: each body vibrates by itself");
+  EXPECT_EQ(two.warnings[0].text,
+            "a modal analysis ignores the model's loads and contacts: each body vibrates by itself");
   EXPECT_NE(two.warnings[1].text.find("'settle'"), std::string::npos);
 }
 

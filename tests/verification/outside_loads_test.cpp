@@ -38,7 +38,8 @@ TEST(OutsideBody, HasNoWeightAndNoTemperatureOfItsOwn) {
   EXPECT_FALSE(with.fields.interior[1].at(0).loads.empty());
   ASSERT_EQ(with.fields.displacements.size(), 2u);
   for (std::size_t b = 0; b < 2; ++b)
-    EXPECT_LT((with.fields.displacements[b] - without.fields.displacements[b]).norm(), 1e-12 * without.fields.displacements[b].norm());
+    EXPECT_LT((with.fields.displacements[b] - without.fields.displacements[b]).norm(),
+              1e-12 * without.fields.displacements[b].norm());
   EXPECT_NEAR(with.energy.external, without.energy.external, 1e-12 * std::abs(without.energy.external));
 }
 

@@ -41,9 +41,8 @@ TEST(LeaningStrut, StaysOnTheBranchOfItsHistoryAndIsToldToHaveOthers) {
   EXPECT_GE(end.uniqueness->others, 2);
   EXPECT_TRUE(end.uniqueness->complete);
   EXPECT_EQ(end.uniqueness->index, 1);
-  EXPECT_TRUE(std::any_of(jammed.warnings.begin(), jammed.warnings.end(), [](const Warning& warning) {
-    return warning.kind == WarningKind::several_solutions;
-  }));
+  EXPECT_TRUE(std::any_of(jammed.warnings.begin(), jammed.warnings.end(),
+                          [](const Warning& warning) { return warning.kind == WarningKind::several_solutions; }));
   double before = jammed.increments.front().contacts.front().normal_force;
   double step = 0.0;  // the thrust goes on in equal steps: no jump to another branch
   for (std::size_t k = 1; k < jammed.increments.size(); ++k) {

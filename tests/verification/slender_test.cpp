@@ -28,7 +28,8 @@ loads: {{tip: {{on: beam.right, force: [0, {4}]}}}}
 double deflection(double ratio) { return (4.0 * std::pow(ratio, 3) + ratio * 1.2 * 2.0) / 1e9; }
 
 double tip(const analysis::StaticSolution& solution, double ratio, double length = 1.0) {
-  return -result::Probe(solution, last(solution).fields, 0).at({ratio * length, 0.5 * length})->displacement.y() / length;
+  return -result::Probe(solution, last(solution).fields, 0).at({ratio * length, 0.5 * length})->displacement.y() /
+         length;
 }
 
 struct Beam {
@@ -90,7 +91,8 @@ loads: {{tip: {{on: beam.edge_2, force: [{:.17g}, {:.17g}]}}}}
 TEST(SlenderBeam, SaysWhatRoundingOfItsStiffnessCosts) {
   for (const double ratio : {2000.0, 3000.0}) {
     const auto solution = run(cantilever(ratio, fmt::format("{{order: 3, size: {}}}", ratio / 20.0)));
-    EXPECT_THAT(texts_of(solution.warnings), testing::Contains(testing::HasSubstr("rounding of the stiffness"))) << ratio;
+    EXPECT_THAT(texts_of(solution.warnings), testing::Contains(testing::HasSubstr("rounding of the stiffness")))
+        << ratio;
     const double error = std::abs(tip(solution, ratio) / deflection(ratio) - 1.0);
     EXPECT_LE(error, 6.0 * last(solution).lost_to_rounding) << ratio;
     EXPECT_LE(last(solution).lost_to_rounding, 1e-2) << ratio;

@@ -37,7 +37,8 @@ steps: [{name: press, increments: 7}]
   EXPECT_EQ(last(streamed).contacts[0].pairs.size(), 9u);
   EXPECT_EQ(streamed.increments[3].contacts[0].max_pressure, kept.increments[3].contacts[0].max_pressure);
   ASSERT_EQ(last(streamed).fields.displacements.size(), 2u);
-  for (std::size_t b = 0; b < 2; ++b) EXPECT_EQ(last(streamed).fields.displacements[b], last(kept).fields.displacements[b]);
+  for (std::size_t b = 0; b < 2; ++b)
+    EXPECT_EQ(last(streamed).fields.displacements[b], last(kept).fields.displacements[b]);
   EXPECT_EQ(streamed.increments[3].contacts[0].normal_force, kept.increments[3].contacts[0].normal_force);
 }
 

@@ -13,11 +13,9 @@ namespace scabo::verification {
 namespace {
 
 const std::vector<std::string>& tied_meshes() {
-  static const std::vector<std::string> all{"{size: 0.25, order: 1}",
-                                            "{size: 0.35, order: 3}",
+  static const std::vector<std::string> all{"{size: 0.25, order: 1}", "{size: 0.35, order: 3}",
                                             "{size: 0.27, kind: polygons, order: 2}",
-                                            "{size: 0.35, kind: quadtree, order: 1}",
-                                            "{size: 0.23, kind: fem}"};
+                                            "{size: 0.35, kind: quadtree, order: 1}", "{size: 0.23, kind: fem}"};
   return all;
 }
 
@@ -118,8 +116,8 @@ ties: {all: {between: all}}
     for (std::size_t i = 0; i < solution.mesh.bodies[static_cast<std::size_t>(b)].nodes.size(); ++i) {
       const Vec2& x = solution.mesh.bodies[static_cast<std::size_t>(b)].nodes[i];
       if ((x - Vec2(1, 1)).norm() < 1e-9) at_centre.insert(dofs.of(b, static_cast<int>(i), 0));
-      const Vec2 u = last(solution).fields.displacements[static_cast<std::size_t>(b)].segment<2>(
-          static_cast<Eigen::Index>(2 * i));
+      const Vec2 u =
+          last(solution).fields.displacements[static_cast<std::size_t>(b)].segment<2>(static_cast<Eigen::Index>(2 * i));
       EXPECT_NEAR(u.x(), x.x() / 1000, 1e-14);
       EXPECT_NEAR(u.y(), -0.3 * x.y() / 1000, 1e-14);
     }

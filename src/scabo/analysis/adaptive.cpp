@@ -105,10 +105,12 @@ Flags left_out_cells(const StaticSolution& solution) {
 }
 
 /// Elements of the faces of cracks in contact that face each other are frozen together.
-void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::size_t body, std::vector<bool>& frozen) {
+void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::size_t body,
+                        std::vector<bool>& frozen) {
   const std::vector<int> cracks = mesh::cracks_in_contact(model, static_cast<int>(body));
   if (cracks.empty() || frozen.empty()) return;
-  std::map<std::vector<int>, std::size_t> number;  // of an element, by its nodes; faces run as the boundaries of cells do
+  std::map<std::vector<int>, std::size_t>
+      number;  // of an element, by its nodes; faces run as the boundaries of cells do
   for (const mesh::Cell& cell : mesh.bodies[body].cells)
     for (const mesh::LineElement& element : cell.boundary) number.emplace(element.nodes, number.size());
   for (const int crack : cracks) {
@@ -237,10 +239,11 @@ void warn_of_point_forces(StaticSolution& solution) {
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) add(*load.on);
   for (const auto& [place, in_cells] : places)
-    solution.warnings.push_back({WarningKind::infinite_stress, place,
-        fmt::format("stress under the point force at {} is infinite: for the estimated error {}", place,
-                    in_cells ? "the adjacent cells are left out"
-                             : "the force is distributed over the adjacent elements, which are not refined")});
+    solution.warnings.push_back(
+        {WarningKind::infinite_stress, place,
+         fmt::format("stress under the point force at {} is infinite: for the estimated error {}", place,
+                     in_cells ? "the adjacent cells are left out"
+                              : "the force is distributed over the adjacent elements, which are not refined")});
 }
 
 /// Error measures that control refinement.
@@ -330,10 +333,11 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
     const std::string edge = body.name + "." + body.outline.edges[static_cast<std::size_t>(at.edge)].names.back();
     mistakes.push_back(
         {body.mesh.source,
-         fmt::format("element {} of {} has no matching element on the other side of its contact or tie, so that the two sides "
-                     "cannot be refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
-                     "shorter edge fall on ends of elements of the longer one",
-                     at.element + 1, edge)});
+         fmt::format(
+             "element {} of {} has no matching element on the other side of its contact or tie, so that the two sides "
+             "cannot be refined alike: give both bodies the same 'size' and 'order', and let the ends of the "
+             "shorter edge fall on ends of elements of the longer one",
+             at.element + 1, edge)});
   }
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
 }
@@ -414,8 +418,8 @@ StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Optio
     if (const auto wider = solve_wider(solution, options, "error", why))
       estimate_all(solution, *wider);
     else
-      solution.warnings.push_back({WarningKind::no_estimate, "",
-                                   fmt::format("no error was estimated: on the mesh of higher order, {}", why)});
+      solution.warnings.push_back(
+          {WarningKind::no_estimate, "", fmt::format("no error was estimated: on the mesh of higher order, {}", why)});
     warn_of_point_forces(solution);
   }
   replay(solution, options);

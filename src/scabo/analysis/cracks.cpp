@@ -30,8 +30,8 @@ bool in_resonance(const element::StressIntensity& factors, const std::vector<ele
   });
 }
 
-/// Cells at the tips of cracks whose faces are in contact. They are the innermost of many rings, so small that T is lost
-/// in the discretised singular field, and without the contact's tractions on their own faces.
+/// Cells at the tips of cracks whose faces are in contact. They are the innermost of many rings, so small that T is
+/// lost in the discretised singular field, and without the contact's tractions on their own faces.
 std::set<std::size_t> tips_in_contact(const StaticSolution& solution, std::size_t body) {
   std::set<std::size_t> cells;
   const std::vector<int> cracks = mesh::cracks_in_contact(solution.model, static_cast<int>(body));
@@ -78,19 +78,22 @@ std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
   std::vector<Warning> warnings;
   for (const CrackResult& crack : cracks) {
     if (std::isnan(crack.factors.K_I))
-      warnings.push_back({WarningKind::crack, crack.name + " resonance",
-          fmt::format("the load on the faces of '{}' has the same singularity at the tip as the stress (resonance), so "
-                      "that the stress has an additional factor ln(r): the stress intensity factors are undefined",
-                      crack.name)});
+      warnings.push_back(
+          {WarningKind::crack, crack.name + " resonance",
+           fmt::format(
+               "the load on the faces of '{}' has the same singularity at the tip as the stress (resonance), so "
+               "that the stress has an additional factor ln(r): the stress intensity factors are undefined",
+               crack.name)});
     if (resolved(crack.factors)) continue;
     std::string list;
     for (const std::complex<double>& exponent : crack.factors.exponents)
       list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
-    warnings.push_back({WarningKind::crack, crack.name,
-        fmt::format("the boundary of '{}' is too coarse to resolve its singular stress: the computed exponents are {} "
-                    "instead of 0.5 twice, and the stress intensity factors have errors of the same size; use a "
-                    "smaller mesh size, a higher order, or a tip farther from the boundary",
-                    crack.name, list)});
+    warnings.push_back(
+        {WarningKind::crack, crack.name,
+         fmt::format("the boundary of '{}' is too coarse to resolve its singular stress: the computed exponents are {} "
+                     "instead of 0.5 twice, and the stress intensity factors have errors of the same size; use a "
+                     "smaller mesh size, a higher order, or a tip farther from the boundary",
+                     crack.name, list)});
   }
   return warnings;
 }
@@ -104,7 +107,8 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
       const std::vector<element::RadialLoad>& loads = element::loads_in(increment.fields.interior[b], c).loads;
       const Vector u = increment.fields.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
-      results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre), super_element->corner().of(u, loads)});
+      results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre),
+                         super_element->corner().of(u, loads)});
       element::StressIntensity& factors = results.back().factors;
       if (touching.contains(c)) factors.T_left.reset(), factors.T_right.reset();
       if (in_resonance(factors, loads)) take_back(factors);

@@ -69,9 +69,9 @@ mesh::Division enriched_division(mesh::Division division, const Richer& richer) 
       fine.breaks = {edge.breaks.front()};
       for (std::size_t k = 0; k < edge.orders.size(); ++k)
         for (int part = 1; part <= parts; ++part) {
-          fine.breaks.push_back(part == parts ? edge.breaks[k + 1]
-                                              : std::lerp(edge.breaks[k], edge.breaks[k + 1],
-                                                          static_cast<double>(part) / parts));
+          fine.breaks.push_back(part == parts
+                                    ? edge.breaks[k + 1]
+                                    : std::lerp(edge.breaks[k], edge.breaks[k + 1], static_cast<double>(part) / parts));
           fine.orders.push_back(std::min(edge.orders[k] + richer.raised, highest_order));
         }
       edge = std::move(fine);
@@ -180,8 +180,8 @@ double bar_of(double J, const std::vector<double>& richer) {
 
 void add_bars(StaticSolution& solution, const model::Model& model, const RicherValues& richer) {
   if (richer.values.empty()) {
-    solution.warnings.push_back(
-        {WarningKind::no_estimate, "bars", fmt::format("no error bars were computed: on a finer mesh, {}", richer.why)});
+    solution.warnings.push_back({WarningKind::no_estimate, "bars",
+                                 fmt::format("no error bars were computed: on a finer mesh, {}", richer.why)});
     return;
   }
   if (richer.values.size() < 2)
@@ -220,7 +220,8 @@ Options with_dual(const Options& options, const model::Quantity& quantity, const
     const IncrementResult& at = solution.increments.back();
     if (at.step == static_cast<int>(solution.model.steps.size()) &&
         at.increment == solution.model.steps.back().increments)
-      dual = of_bodies(prepared, dual_displacements(prepared, state, derivative_of(prepared, state, solution, quantity)));
+      dual =
+          of_bodies(prepared, dual_displacements(prepared, state, derivative_of(prepared, state, solution, quantity)));
   };
   return with;
 }
@@ -262,8 +263,7 @@ std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b,
     const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *pass.wider->cells[b][c];
     const Vector of_narrow = u(element::dofs_of(solution.mesh.bodies[b].cells[c])),
                  of_wide = U(element::dofs_of(pass.wider->mesh.bodies[b].cells[c]));
-    const bool relaxed =
-        !loaded || element::loads_in(solution.increments.back().fields.interior[b], c).loads.empty();
+    const bool relaxed = !loaded || element::loads_in(solution.increments.back().fields.interior[b], c).loads.empty();
     const double whole = element::squared_difference(
         {narrow.ring.elements, narrow.solution.K, of_narrow, wide.ring.elements, wide.solution.K, of_wide, relaxed});
     if (in_cells) {
@@ -287,10 +287,10 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
   sum = 0.0;
   for (std::size_t b = 0; b < errors.shares.size(); ++b) {
     if (!has_estimate(solution, b)) continue;
-    const std::vector<double>
-        primal = squared_errors_of_parts(pass, b, solution.increments.back().fields.displacements[b],
-                                         pass.wider->increments.back().fields.displacements[b], true),
-        dual = squared_errors_of_parts(pass, b, pass.dual[b], pass.wider_dual[b], false);
+    const std::vector<double> primal =
+                                  squared_errors_of_parts(pass, b, solution.increments.back().fields.displacements[b],
+                                                          pass.wider->increments.back().fields.displacements[b], true),
+                              dual = squared_errors_of_parts(pass, b, pass.dual[b], pass.wider_dual[b], false);
     for (std::size_t k = 0; k < primal.size(); ++k) {
       const double product = std::sqrt(primal[k] * dual[k]);
       sum += product;
@@ -371,11 +371,12 @@ StaticSolution without_goal(StaticSolution solution, const model::Model& model, 
   if (!solution.increments.empty() && !solution.increments.back().quantities.empty())
     found = &solution.increments.back().quantities.front();
   solution.outcome = Outcome::not_converged;
-  solution.reason =
-      found ? fmt::format("the tolerance of {} was not reached: its bar is {:.3g} of its value with {} degrees of "
-                          "freedom, and {}",
-                          model.tolerance->of.name, found->relative(), degrees_of_freedom(solution.mesh), why)
-            : fmt::format("the tolerance of {} was not reached: {}", model.tolerance->of.name, why);
+  solution.reason = found
+                        ? fmt::format(
+                              "the tolerance of {} was not reached: its bar is {:.3g} of its value with {} degrees of "
+                              "freedom, and {}",
+                              model.tolerance->of.name, found->relative(), degrees_of_freedom(solution.mesh), why)
+                        : fmt::format("the tolerance of {} was not reached: {}", model.tolerance->of.name, why);
   return solution;
 }
 
@@ -470,8 +471,7 @@ StaticSolution solve_with_bars(model::Model model, mesh::Mesh mesh, const Option
                : model.output.error ? solve_with_error(model, std::move(mesh), silent)
                                     : solve_on_mesh(model, std::move(mesh), silent);
     if (solution.outcome == Outcome::solved)
-      add_bars(solution, model,
-               richer_values({model, nullptr, refined ? &solution.mesh : nullptr}, solution, options));
+      add_bars(solution, model, richer_values({model, nullptr, refined ? &solution.mesh : nullptr}, solution, options));
   }
   warn_of_infinite_values(solution);
   replay(solution, options);

@@ -64,8 +64,8 @@ IncrementResult describe(const Prepared& prepared, const State& state);
 /// displacements is not valid; empty if there is none.
 std::string too_large(const Prepared& prepared, const State& state);
 
-/// `body 'upper': translation along (1, 0)` for rigid motions `a`; of many bodies the four parts that move most, and how
-/// many others.
+/// `body 'upper': translation along (1, 0)` for rigid motions `a`; of many bodies the four parts that move most, and
+/// how many others.
 std::string describe_motions(const Prepared& prepared, const Vector& a);
 
 }  // namespace scabo::analysis

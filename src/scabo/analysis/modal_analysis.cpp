@@ -113,10 +113,9 @@ ModalResult solve_modal(model::Model model, const Options& options) {
                    [](const NaturalMode& a, const NaturalMode& b) { return a.frequency < b.frequency; });
   if (static_cast<int>(result.modes.size()) > count) result.modes.resize(static_cast<std::size_t>(count));
   if (static_cast<int>(result.modes.size()) < count)
-    result.warnings.push_back(
-        {WarningKind::few_modes, "",
-         fmt::format("the model has {} modes only, not the {} asked for: use a smaller mesh size", result.modes.size(),
-                     count)});
+    result.warnings.push_back({WarningKind::few_modes, "",
+                               fmt::format("the model has {} modes only, not the {} asked for: use a smaller mesh size",
+                                           result.modes.size(), count)});
   for (const NaturalMode& mode : result.modes)
     ensure(mode.residual < 1e-10, "a natural mode does not satisfy its equation");
   return result;

@@ -1,5 +1,6 @@
 // Natural frequencies and modes of the elastic bodies of a model: Model -> Mesh -> stiffness and mass -> modes. Bodies
-// that are not tied do not interact: contacts, loads and steps are ignored, prescribed displacements are 0 (Model::warnings says so).
+// that are not tied do not interact: contacts, loads and steps are ignored, prescribed displacements are 0
+// (Model::warnings says so).
 #pragma once
 
 #include "scabo/analysis/static_analysis.hpp"

@@ -326,12 +326,12 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
             tips.push_back(std::move(name));
       if (tips.size() == 1) continue;
       const std::string word = quantity->component == 0 ? "K_I" : "K_II";
-      mistakes.push_back({quantity->source,
-                          tips.empty() ? fmt::format("'{}' is no crack tip: this end lies on the boundary or on another "
-                                                     "crack",
-                                                     quantity->crack)
-                                       : fmt::format("the crack has two tips: write {1}.{0} or {2}.{0}", word, tips[0],
-                                                     tips[1])});
+      mistakes.push_back(
+          {quantity->source,
+           tips.empty() ? fmt::format("'{}' is no crack tip: this end lies on the boundary or on another "
+                                      "crack",
+                                      quantity->crack)
+                        : fmt::format("the crack has two tips: write {1}.{0} or {2}.{0}", word, tips[0], tips[1])});
     }
   }
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));

@@ -35,8 +35,8 @@ Functional derivative_of(const Prepared& prepared, const State& state, const Sta
 ///
 ///     z = A (c - B'S w) - N v + r                                                                               (2)
 ///
-/// A, N: flexibility and rigid motions of the bodies (system/body_system.hpp), B: motion of the pairs. The second matrix
-/// is the transpose of the first, which is not symmetric where pairs slip with friction.
+/// A, N: flexibility and rigid motions of the bodies (system/body_system.hpp), B: motion of the pairs. The second
+/// matrix is the transpose of the first, which is not symmetric where pairs slip with friction.
 std::vector<Vector> dual_displacements(const Prepared& prepared, const State& state, const Functional& functional);
 
 }  // namespace scabo::analysis

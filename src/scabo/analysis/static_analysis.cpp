@@ -123,21 +123,20 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   const auto add = [&](WarningKind kind, const std::string& subject, const std::string& sentence) {
     for (const Warning& warning : warnings)
       if (warning.kind == kind && warning.subject == subject) return;
-    warnings.push_back(
-        {kind, subject, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
+    warnings.push_back({kind, subject, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
   };
   for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
     const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
     add(WarningKind::undetermined_motion, motion,
         fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
-                            "add a support if the position matters",
-                            motion));
+                    "add a support if the position matters",
+                    motion));
   }
   if (reached.uniqueness && reached.uniqueness->others > 0)
     add(WarningKind::several_solutions, "",
         fmt::format("other solutions exist ({} found); the one closest to the previous "
-                                             "increment was chosen: see 'uniqueness' in summary.json",
-                                             reached.uniqueness->others));
+                    "increment was chosen: see 'uniqueness' in summary.json",
+                    reached.uniqueness->others));
   for (std::size_t c = 0; c < at.contacts.size(); ++c) {
     if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
     if (at.contacts[c].open > 0)
@@ -255,8 +254,8 @@ StaticSolution solve_static(model::Model model, const Options& options) {
   mesh::Mesh mesh = timed(seconds, [&] { return check(model); });
   StaticSolution solution = wants_bars(model)         ? solve_with_bars(std::move(model), std::move(mesh), options)
                             : wants_refinement(model) ? solve_refined(std::move(model), options)
-                            : model.output.error    ? solve_with_error(std::move(model), std::move(mesh), options)
-                                                    : solve_on_mesh(std::move(model), std::move(mesh), options);
+                            : model.output.error      ? solve_with_error(std::move(model), std::move(mesh), options)
+                                                      : solve_on_mesh(std::move(model), std::move(mesh), options);
   solution.timing.mesh += seconds;
   return solution;
 }

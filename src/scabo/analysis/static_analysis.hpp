@@ -99,10 +99,10 @@ struct FieldState {
 
 /// A number with its error bar (goal.hpp).
 struct QuantityResult {
-  std::string of;           ///< its name, model::Quantity::name
-  double value = 0.0;       ///< on the mesh of the results
-  double bar = 0.0;         ///< the exact value is expected within value - bar and value + bar
-  double finer = 0.0;       ///< on the finest mesh from which the bar was computed
+  std::string of;                ///< its name, model::Quantity::name
+  double value = 0.0;            ///< on the mesh of the results
+  double bar = 0.0;              ///< the exact value is expected within value - bar and value + bar
+  double finer = 0.0;            ///< on the finest mesh from which the bar was computed
   std::optional<double> wanted;  ///< largest bar that is wanted, relative to the value
 
   double relative() const;  ///< bar / |value|; infinite of a value of 0
@@ -127,13 +127,13 @@ struct IncrementResult {
   contact::Certificate certificate;
   double lost_to_rounding = 0.0;  ///< estimated relative error of displacements, of the rounding of stiffness
   Energy energy;
-  std::optional<ErrorEstimate> error;  ///< if requested
+  std::optional<ErrorEstimate> error;      ///< if requested
   std::vector<QuantityResult> quantities;  ///< numbers with an error bar, if requested
   FieldState fields;
-  std::vector<CrackResult> cracks;               ///< of all bounded open super-elements
-  std::string reason;                            ///< why it did not converge
-  std::optional<UniquenessResult> uniqueness;    ///< if requested
-  std::vector<AttemptResult> attempts;           ///< one, or more if the increment was halved
+  std::vector<CrackResult> cracks;             ///< of all bounded open super-elements
+  std::string reason;                          ///< why it did not converge
+  std::optional<UniquenessResult> uniqueness;  ///< if requested
+  std::vector<AttemptResult> attempts;         ///< one, or more if the increment was halved
 };
 
 /// The discrete problem of one attempt, as a value that can be saved and solved separately (contact/fclib.hpp).
@@ -194,8 +194,8 @@ struct Options {
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };
 
-/// Validates the model (model/validate.hpp), meshes it and checks, without solving anything, that every body is held (not required for a modal analysis)
-/// and that every output point lies in a body. Throws InputError.
+/// Validates the model (model/validate.hpp), meshes it and checks, without solving anything, that every body is held
+/// (not required for a modal analysis) and that every output point lies in a body. Throws InputError.
 mesh::Mesh check(const model::Model& model);
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of

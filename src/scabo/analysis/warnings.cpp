@@ -115,25 +115,27 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<Warning>&
     double pressure = 0.0;
     pressure_strain(solution, worst.contact, pressure);
     const std::string pressing = pressure > 0.0 ? fmt::format(", which presses with {:.3g} there", pressure) : "";
-    warnings.push_back({WarningKind::overlap, contacts_of(solution, overlapping), fmt::format(
-        "{}: the bodies overlap at the start by up to {:.3g}{}, {:.3g} % of the smaller body's size{}; small strains "
-        "are assumed: check the shapes, 'gap' and the units",
-        contacts_of(solution, overlapping), overlap_of(solution, worst.contact).depth, in_worst(solution, overlapping),
-        100.0 * worst.figure, pressing)});
+    warnings.push_back({WarningKind::overlap, contacts_of(solution, overlapping),
+                        fmt::format("{}: the bodies overlap at the start by up to {:.3g}{}, {:.3g} % of the smaller "
+                                    "body's size{}; small strains "
+                                    "are assumed: check the shapes, 'gap' and the units",
+                                    contacts_of(solution, overlapping), overlap_of(solution, worst.contact).depth,
+                                    in_worst(solution, overlapping), 100.0 * worst.figure, pressing)});
   }
   if (!pressed.empty()) {
     const Finding& worst = worst_of(pressed);
     double pressure = 0.0;
     pressure_strain(solution, worst.contact, pressure);
-    warnings.push_back({WarningKind::pressure, contacts_of(solution, pressed),
-        fmt::format("{}: the pressure reaches {:.3g}{}, {:.3g} % of Young's modulus; small strains are assumed: check "
-                    "loads, stiffness and their units",
-                    contacts_of(solution, pressed), pressure, in_worst(solution, pressed), 100.0 * worst.figure)});
+    warnings.push_back(
+        {WarningKind::pressure, contacts_of(solution, pressed),
+         fmt::format("{}: the pressure reaches {:.3g}{}, {:.3g} % of Young's modulus; small strains are assumed: check "
+                     "loads, stiffness and their units",
+                     contacts_of(solution, pressed), pressure, in_worst(solution, pressed), 100.0 * worst.figure)});
   }
 }
 
-/// Smallest gap of a contact that is open at every pair in every increment; nothing for other contacts, and where the two
-/// sides touch without a force.
+/// Smallest gap of a contact that is open at every pair in every increment; nothing for other contacts, and where the
+/// two sides touch without a force.
 std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t contact) {
   if (solution.model.contacts[contact].a.kind == model::Place::Kind::face) return {};  // a crack may well be open
   double smallest = std::numeric_limits<double>::infinity();
@@ -155,10 +157,10 @@ void warn_of_open_contacts(const StaticSolution& solution, std::vector<Warning>&
     if (const auto gap = smallest_gap(solution, c)) open.push_back({c, -*gap});
   if (open.empty()) return;
   warnings.push_back({WarningKind::open_contact, contacts_of(solution, open),
-      fmt::format("{} never {}: the smallest gap is {:.3g}{}; check 'between', 'gap' and the direction "
-                  "of the loads, or leave {} out",
-                  contacts_of(solution, open), open.size() == 1 ? "closes" : "close", -worst_of(open).figure,
-                  in_worst(solution, open), open.size() == 1 ? "it" : "them")});
+                      fmt::format("{} never {}: the smallest gap is {:.3g}{}; check 'between', 'gap' and the direction "
+                                  "of the loads, or leave {} out",
+                                  contacts_of(solution, open), open.size() == 1 ? "closes" : "close",
+                                  -worst_of(open).figure, in_worst(solution, open), open.size() == 1 ? "it" : "them")});
 }
 
 void warn_of_coarse_zones(const StaticSolution& solution, std::vector<Warning>& warnings) {
@@ -172,11 +174,13 @@ void warn_of_coarse_zones(const StaticSolution& solution, std::vector<Warning>& 
   }
   if (coarse.empty()) return;
   const auto fewest = static_cast<int>(-worst_of(coarse).figure);
-  warnings.push_back({WarningKind::few_pairs, contacts_of(solution, coarse), fmt::format(
-      "{}: only {} pair{} {} in contact at the end{}, too few for a reliable pressure (total forces are not affected): "
-      "use a smaller mesh.size or a higher mesh.order, so that five or more pairs are in contact",
-      contacts_of(solution, coarse), fewest, fewest == 1 ? "" : "s", fewest == 1 ? "is" : "are",
-      in_worst(solution, coarse))});
+  warnings.push_back(
+      {WarningKind::few_pairs, contacts_of(solution, coarse),
+       fmt::format("{}: only {} pair{} {} in contact at the end{}, too few for a reliable pressure (total forces are "
+                   "not affected): "
+                   "use a smaller mesh.size or a higher mesh.order, so that five or more pairs are in contact",
+                   contacts_of(solution, coarse), fewest, fewest == 1 ? "" : "s", fewest == 1 ? "is" : "are",
+                   in_worst(solution, coarse))});
 }
 
 }  // namespace
@@ -203,10 +207,11 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
       moving = std::max(moving, forces.lpNorm<Eigen::Infinity>());
     }
     if (inside || moving > 1e-12 * largest) continue;
-    warnings.push_back({WarningKind::load_without_effect, model.loads[load].name, largest == 0.0 ? fmt::format("load '{}' is zero and has no effect", model.loads[load].name)
-                                      : fmt::format("load '{}' has no effect because all its forces act on supported "
-                                                    "nodes: move the load, or free the support there",
-                                                    model.loads[load].name)});
+    warnings.push_back({WarningKind::load_without_effect, model.loads[load].name,
+                        largest == 0.0 ? fmt::format("load '{}' is zero and has no effect", model.loads[load].name)
+                                       : fmt::format("load '{}' has no effect because all its forces act on supported "
+                                                     "nodes: move the load, or free the support there",
+                                                     model.loads[load].name)});
   }
   return warnings;
 }

@@ -7,21 +7,21 @@
 namespace scabo {
 
 enum class WarningKind {
-  input,                ///< a part of the input that has no effect, or is named otherwise than expected
+  input,  ///< a part of the input that has no effect, or is named otherwise than expected
   load_without_effect,
-  overlap,              ///< bodies overlap at the start by more than small strains cover
-  pressure,             ///< a pressure beyond small strains
-  open_contact,         ///< never closes
-  few_pairs,            ///< too few pairs in contact for a reliable pressure
-  open_shear,           ///< open pairs carry a prescribed shear strength
+  overlap,       ///< bodies overlap at the start by more than small strains cover
+  pressure,      ///< a pressure beyond small strains
+  open_contact,  ///< never closes
+  few_pairs,     ///< too few pairs in contact for a reliable pressure
+  open_shear,    ///< open pairs carry a prescribed shear strength
   undetermined_motion,
   several_solutions,
-  rounding,             ///< of the stiffness of a slender body
+  rounding,  ///< of the stiffness of a slender body
   large_displacement,
-  no_reference,         ///< an unbounded body under a resultant, without a reference point
-  crack,                ///< stress intensity factors that are undefined or not resolved; overlapping faces
+  no_reference,  ///< an unbounded body under a resultant, without a reference point
+  crack,         ///< stress intensity factors that are undefined or not resolved; overlapping faces
   infinite_stress,
-  no_estimate,          ///< of the error
+  no_estimate,  ///< of the error
   few_modes
 };
 

@@ -6,8 +6,8 @@
 
 #include "scabo/element/batch_kernel.hpp"
 #include "scabo/element/exact_riccati.hpp"
-#include "scabo/geometry/line_basis.hpp"
 #include "scabo/element/stiffness.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/instruction_sets.hpp"
 #include "scabo/linalg/parallel.hpp"
 

@@ -50,8 +50,7 @@ std::optional<CellPlace> CellLocator::in_cell(std::size_t cell, const Vec2& x) c
   CellPlace place;
   place.cell = cell;
   if (const auto& super_element = cells_[cell]) {
-    const auto scaled =
-        locate(super_element->ring, x - mesh_.cells[cell].centre, super_element->domain.unbounded);
+    const auto scaled = locate(super_element->ring, x - mesh_.cells[cell].centre, super_element->domain.unbounded);
     if (!scaled) return std::nullopt;
     place.scaled = *scaled;
     return place;

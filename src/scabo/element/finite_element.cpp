@@ -95,8 +95,8 @@ Shape<size_of(kind)> natural_shape(double r, double s) {
   return shape;
 }
 
-/// J(a, b) = d x_a / d natural_b. The gradients add to zero: positions relative to a node of the element do not lose the
-/// digits of large coordinates.
+/// J(a, b) = d x_a / d natural_b. The gradients add to zero: positions relative to a node of the element do not lose
+/// the digits of large coordinates.
 template <int n>
 Mat2 jacobian_matrix(const Shape<n>& shape, const FiniteElement& element) {
   Mat2 J = Mat2::Zero();

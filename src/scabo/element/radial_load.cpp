@@ -12,7 +12,8 @@ namespace {
 template <typename Visit>
 void for_each_rule_point(const Ring& ring, Visit visit) {
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
-    const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(ring.elements[e].nodes.size()) - 1);
+    const geometry::LineBasis& basis =
+        geometry::LineBasis::of_order(static_cast<int>(ring.elements[e].nodes.size()) - 1);
     for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
       const auto row = static_cast<Eigen::Index>(q);
       visit(e, Vector(basis.values_at_rule().row(row)), Vector(basis.derivatives_at_rule().row(row)),

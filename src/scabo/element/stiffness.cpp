@@ -140,8 +140,8 @@ Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, dou
 
 /// K of a bounded block must be positive definite but for the rigid motions r in it: K + sum of D r (D r)' / r'D r, D =
 /// diag K, is (its Cholesky factor exists). Where stiff sectors hang together by soft ones only, rounding can make it
-/// indefinite. A row that only a translation moves, as in a rectangle of four nodes, has no stiffness at all, and counts as the
-/// stiffest one.
+/// indefinite. A row that only a translation moves, as in a rectangle of four nodes, has no stiffness at all, and
+/// counts as the stiffest one.
 bool is_definite(const Block& block, const Matrix& K, const Matrix& motions) {
   Vector D = K.diagonal();
   const double largest = D.maxCoeff();

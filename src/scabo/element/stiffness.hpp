@@ -43,9 +43,9 @@ struct Block {
   Matrix join(const Matrix& v, const Matrix& a) const;  ///< E v + R a
   Matrix v_of(const Matrix& u) const;                   ///< Q u = u_I - R_I u_J
   Matrix a_of(const Matrix& u) const { return u(J, Eigen::all); }
-  Matrix on_v(const Matrix& f) const { return f(I, Eigen::all); }      ///< E'f
-  Matrix on_a(const Matrix& f) const { return R.transpose() * f; }     ///< R'f
-  Matrix from_v(const Matrix& f_v) const;                              ///< Q'f_v
+  Matrix on_v(const Matrix& f) const { return f(I, Eigen::all); }   ///< E'f
+  Matrix on_a(const Matrix& f) const { return R.transpose() * f; }  ///< R'f
+  Matrix from_v(const Matrix& f_v) const;                           ///< Q'f_v
 };
 
 /// The domain of a ring: inside it, or outside it to infinity.

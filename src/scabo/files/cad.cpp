@@ -112,12 +112,13 @@ class GeoTokens {
 };
 
 [[noreturn]] void refuse_command(const std::string& file, int line, std::string_view command, const char* what) {
-  fail_in_file(file, line, 1, fmt::format("the command {} {}: remove it, or mesh the file with gmsh -2 and use the .msh",
-                                          command, what));
+  fail_in_file(
+      file, line, 1,
+      fmt::format("the command {} {}: remove it, or mesh the file with gmsh -2 and use the .msh", command, what));
 }
 
-/// Throws if the file, or one that it includes, has a command that runs a program, writes a file or ends this program, or
-/// includes itself. `outer`: the files around it.
+/// Throws if the file, or one that it includes, has a command that runs a program, writes a file or ends this program,
+/// or includes itself. `outer`: the files around it.
 void refuse_commands(const fs::path& path, std::set<fs::path> outer) {
   if (!outer.insert(path.lexically_normal()).second)
     fail_in_file(path.string(), 0, 0, "the file includes itself, without end: remove the command");
@@ -379,7 +380,8 @@ class GmshSession {
       const std::size_t colon = message.find(": ", head.size());
       if (colon != std::string::npos) message.erase(0, colon + 2);
     }
-    fail_in_file(path_, line, line > 0 ? 1 : 0, fmt::format("{}: {}", what, message.empty() ? "it gives no reason" : message));
+    fail_in_file(path_, line, line > 0 ? 1 : 0,
+                 fmt::format("{}: {}", what, message.empty() ? "it gives no reason" : message));
   }
 
   /// The first error in Gmsh's log, without its level.
@@ -431,10 +433,11 @@ class GmshSession {
       const double size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
       const double allowed = 1e-6 * size + 2e-7;  // OpenCASCADE widens boxes by 1e-7
       if (low[2] < -allowed || high[2] > allowed)
-        fail_in_file(path_, 0, 0,
-                     fmt::format("surface {} is not in the plane z = 0: it lies between z = {:.4g} and z = {:.4g}; move "
-                                 "it there",
-                                 tag, low[2], high[2]));
+        fail_in_file(
+            path_, 0, 0,
+            fmt::format("surface {} is not in the plane z = 0: it lies between z = {:.4g} and z = {:.4g}; move "
+                        "it there",
+                        tag, low[2], high[2]));
     }
   }
 
@@ -481,10 +484,11 @@ class GmshSession {
       nodes += (1.15 * std::abs(area) / sizes + 0.5 * length / options.size) * options.order * options.order;
     }
     if (!(nodes <= most_cad_nodes))
-      fail_in_file(path_, 0, 0,
-                   fmt::format("with 'size' {:g} the mesh would have about {:.2g} nodes, more than the {:.7g} allowed: use a "
-                               "larger 'size'",
-                               options.size, nodes, most_cad_nodes));
+      fail_in_file(
+          path_, 0, 0,
+          fmt::format("with 'size' {:g} the mesh would have about {:.2g} nodes, more than the {:.7g} allowed: use a "
+                      "larger 'size'",
+                      options.size, nodes, most_cad_nodes));
   }
 
   const GmshLibrary& gmsh_;
@@ -511,10 +515,11 @@ ImportedMesh mesh_by_gmsh(const std::string& path, const CadOptions& options) {
 #else
 
 ImportedMesh mesh_by_gmsh(const std::string& path, const CadOptions&) {
-  fail_in_file(path, 0, 0,
-               fmt::format("this program was built without Gmsh's library, which reads .geo and .step: install libgmsh-dev "
-                           "and build again, or write a .msh with gmsh -2 {}",
-                           fs::path(path).filename().string()));
+  fail_in_file(
+      path, 0, 0,
+      fmt::format("this program was built without Gmsh's library, which reads .geo and .step: install libgmsh-dev "
+                  "and build again, or write a .msh with gmsh -2 {}",
+                  fs::path(path).filename().string()));
 }
 
 #endif

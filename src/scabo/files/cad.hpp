@@ -1,9 +1,9 @@
 // CAD files, meshed by Gmsh's library: geometries of Gmsh (.geo), STEP (.step, .stp) and BREP of OpenCASCADE (.brep).
 //
-// The faces lie in the plane z = 0. Gmsh divides them into triangles (or what a .geo file asks for), and the mesh is what
-// Scabo reads from the .msh file that Gmsh writes: physical groups become regions and sets; without physical surfaces
-// the regions are `surface_1`, ... and the edges `curve_1`, ... (files/gmsh.hpp). Lengths of STEP files, which have a unit, become
-// metres; those of .geo and .brep files stay as they are.
+// The faces lie in the plane z = 0. Gmsh divides them into triangles (or what a .geo file asks for), and the mesh is
+// what Scabo reads from the .msh file that Gmsh writes: physical groups become regions and sets; without physical
+// surfaces the regions are `surface_1`, ... and the edges `curve_1`, ... (files/gmsh.hpp). Lengths of STEP files, which
+// have a unit, become metres; those of .geo and .brep files stay as they are.
 //
 // A .geo file is a program. It may not run other programs, write files or end this one.
 #pragma once
@@ -32,8 +32,8 @@ struct CadOptions {
 constexpr double most_cad_nodes = 1e6;
 
 /// The mesh of all faces of a CAD file. Throws InputError, with Gmsh's message and the line of a .geo file where it has
-/// one: the file cannot be read, has no faces, a solid, faces outside of the plane z = 0, cannot be meshed, would have more
-/// than most_cad_nodes nodes, has forbidden commands; or Gmsh's library is not there.
+/// one: the file cannot be read, has no faces, a solid, faces outside of the plane z = 0, cannot be meshed, would have
+/// more than most_cad_nodes nodes, has forbidden commands; or Gmsh's library is not there.
 ///
 /// Calls from several threads wait for each other. Gmsh's library has one state for the whole process: the caller must
 /// not use it at the same time. The stream std::cout is silent meanwhile, as OpenCASCADE writes to it.

@@ -44,8 +44,8 @@ bool add_position(std::vector<double>& positions, const Edge& edge, const Vec2& 
   return !known;
 }
 
-/// Where two edges meet. Curves that touch, or meet tangentially at a corner, are closer than the tolerance over a length
-/// in which they must not be cut.
+/// Where two edges meet. Curves that touch, or meet tangentially at a corner, are closer than the tolerance over a
+/// length in which they must not be cut.
 std::vector<Vec2> meetings_of(const Edge& a, const Edge& b, double tolerance) {
   std::vector<Vec2> shared = shared_points(a, b, tolerance);
   if (shared.size() < 2 || (!a.arc && !b.arc)) return shared;
@@ -116,9 +116,8 @@ Overlap overlap_of(const Outline& a, const Outline& b, double tolerance) {
     for (std::size_t k = 0; k + 1 < positions[e].size(); ++k) {
       const Edge part = part_of(*edges[e], positions[e][k], positions[e][k + 1]);
       const Vec2 middle = part.at(0.5);
-      const auto on = std::find_if(other.edges.begin(), other.edges.end(), [&](const Edge& edge) {
-        return distance_to(edge, middle) <= 4.0 * tolerance;
-      });
+      const auto on = std::find_if(other.edges.begin(), other.edges.end(),
+                                   [&](const Edge& edge) { return distance_to(edge, middle) <= 4.0 * tolerance; });
       bool &own = of_a ? overlap.first_beyond : overlap.second_beyond,
            &of_other = of_a ? overlap.second_beyond : overlap.first_beyond;
       if (on != other.edges.end()) {

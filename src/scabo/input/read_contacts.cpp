@@ -70,8 +70,10 @@ std::optional<Between> read_partners(Reading& reading, const Value& value) {
 class Taken {
  public:
   bool insert(const Place& a, const Place& b) {
-    return pairs_.insert(a.body < b.body ? std::array{a.body, a.index, b.body, b.index}
-                                         : std::array{b.body, b.index, a.body, a.index}).second;
+    return pairs_
+        .insert(a.body < b.body ? std::array{a.body, a.index, b.body, b.index}
+                                : std::array{b.body, b.index, a.body, a.index})
+        .second;
   }
 
  private:
@@ -96,21 +98,23 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
     place.kind = Place::Kind::edge;
     place.body = body;
     place.index = edge;
-    place.text = reading.body(body).name + "." + shown_name(reading.body(body).outline.edges[static_cast<std::size_t>(edge)]);
+    place.text =
+        reading.body(body).name + "." + shown_name(reading.body(body).outline.edges[static_cast<std::size_t>(edge)]);
     place.source = entry.value.source();
     return place;
   };
   std::vector<const Outline*> outlines;
   for (std::size_t b = 0; b < reading.model.bodies.size(); ++b) {
-    const bool named = !between.bodies || (*between.bodies)[0] == static_cast<int>(b) ||
-                       (*between.bodies)[1] == static_cast<int>(b);
+    const bool named =
+        !between.bodies || (*between.bodies)[0] == static_cast<int>(b) || (*between.bodies)[1] == static_cast<int>(b);
     outlines.push_back(named && reading.bodies[b].shape ? &reading.model.bodies[b].outline : nullptr);
   }
   int number = 0;
   for (const geometry::TouchingEdges& pair : geometry::touching_edges(outlines, touching.reach)) {
     const int rigid = reading.body(pair.body_a).rigid + reading.body(pair.body_b).rigid;
     if (rigid == 2 || (is_tie && rigid > 0)) continue;
-    if (model::is_side_face(reading.body(pair.body_a), pair.edge_a) || model::is_side_face(reading.body(pair.body_b), pair.edge_b))
+    if (model::is_side_face(reading.body(pair.body_a), pair.edge_a) ||
+        model::is_side_face(reading.body(pair.body_b), pair.edge_b))
       continue;
     const bool swapped = between.bodies && (*between.bodies)[0] == pair.body_b;
     const Place a = edge_place(swapped ? pair.body_b : pair.body_a, swapped ? pair.edge_b : pair.edge_a);
@@ -156,8 +160,7 @@ std::optional<Contact> read_contact(Reading& reading, const Entry& entry, Betwee
   }
   read_law(reading, map, contact);
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
-  if (contact.bond && map.has("gap"))
-    map.refuse("gap", no_gap_beside_bond);
+  if (contact.bond && map.has("gap")) map.refuse("gap", no_gap_beside_bond);
   if (report.count() > before || !between) return {};
   between_of = *between;
   if (between->many) return contact;

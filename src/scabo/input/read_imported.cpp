@@ -33,7 +33,8 @@ Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name,
   if (!is_new) return found->second;
   try {
     files::ImportedMesh mesh = cad ? files::mesh_cad_file(path, *cad) : files::read_mesh_file(path);
-    for (const std::string& remark : mesh.remarks) reading.model.warnings.push_back({WarningKind::input, path, as_given(remark, path, name)});
+    for (const std::string& remark : mesh.remarks)
+      reading.model.warnings.push_back({WarningKind::input, path, as_given(remark, path, name)});
     found->second = std::make_shared<const files::ImportedMesh>(std::move(mesh));
   } catch (const InputError& error) {
     reading.report.error(value, as_given(format_diagnostic(error.file(), error.diagnostics().front()), path, name));
@@ -61,7 +62,8 @@ std::optional<std::variant<ImportedBody, std::string>> read_region(Reading& read
   if (const int set = index_of_region(names, *name); set >= 0) return imported_body_of_set(mesh, set);
   for (std::string& set : names)
     if (std::find(known.begin(), known.end(), set) == known.end()) known.push_back(std::move(set));
-  reading.report.error(value, fmt::format("the file has no region named {}{}", quoted_name(*name), suggestion(*name, known)));
+  reading.report.error(value,
+                       fmt::format("the file has no region named {}{}", quoted_name(*name), suggestion(*name, known)));
   return {};
 }
 
@@ -81,7 +83,8 @@ void read_region_materials(Reading& reading, const Value& value, Body& body) {
 }
 
 /// `size` and `order` of a body from a CAD file; nothing if they are wrong.
-std::optional<files::CadOptions> read_cad_options(Report& report, const MapReader& mesh, const std::string& name, Body& body) {
+std::optional<files::CadOptions> read_cad_options(Report& report, const MapReader& mesh, const std::string& name,
+                                                  Body& body) {
   const std::size_t before = report.count();
   files::CadOptions options;
   const auto size = files::has_own_sizes(name) ? mesh.get("size") : mesh.need("size");
@@ -186,9 +189,10 @@ void read_imported_body(Reading& reading, const MapReader& of_body, const Value&
     int& of_region = body.region_materials[i];
     if (of_region >= 0) continue;
     if (!material && materials && report.count() == before)
-      report.error(*materials, fmt::format("region '{}' has no material: add it here, or give the body a 'material' for "
-                                           "all regions that are not named here",
-                                           body.imported->regions[i]));
+      report.error(*materials,
+                   fmt::format("region '{}' has no material: add it here, or give the body a 'material' for "
+                               "all regions that are not named here",
+                               body.imported->regions[i]));
     of_region = body.material;
   }
   if (!material) body.material = body.region_materials.front();

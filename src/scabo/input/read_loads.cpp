@@ -84,9 +84,7 @@ void read_loads(Reading& reading, const Value& value) {
     reading.load_names.push_back(entry.key);
     int& index = reading.index_of_load[entry.key] = -1;
     if (reading.own_support_names.contains(entry.key)) {
-      reading.report.error(
-          entry.key_source,
-          named_like_a_support(entry.key));
+      reading.report.error(entry.key_source, named_like_a_support(entry.key));
     }
     if (auto load = read_load(reading, entry)) {
       index = static_cast<int>(reading.model.loads.size());

@@ -157,7 +157,8 @@ void read_fields(Reading& reading, const Value& value) {
 
 void read_output(Reading& reading, const Value& value) {
   const MapReader map(reading.report, value,
-                      {"points", "lines", "grid", "fields", "every", "error", "error_of", "discrete_problems"}, output_example);
+                      {"points", "lines", "grid", "fields", "every", "error", "error_of", "discrete_problems"},
+                      output_example);
   if (const auto points = map.get("points")) read_points(reading, *points);
   if (const auto lines = map.get("lines")) read_lines(reading, *lines);
   if (const auto grid = map.get("grid")) read_grid(reading, *grid);
@@ -166,8 +167,7 @@ void read_output(Reading& reading, const Value& value) {
     reading.model.output.every = static_cast<int>(read_integer(reading.report, *every, limits::every).value_or(1));
   if (const auto error = map.get("error"))
     reading.model.output.error = read_flag(reading.report, *error).value_or(false);
-  if (const auto quantities = map.get("error_of"))
-    read_quantities(reading, *quantities, reading.model.output.error_of);
+  if (const auto quantities = map.get("error_of")) read_quantities(reading, *quantities, reading.model.output.error_of);
   if (const auto problems = map.get("discrete_problems"))
     reading.model.output.discrete_problems = read_flag(reading.report, *problems).value_or(false);
 }

@@ -19,15 +19,12 @@ struct QuantityWord {
   Quantity::Kind kind;
   int component;
 };
-constexpr QuantityWord quantity_words[] = {{"normal_force", Quantity::Kind::normal_force, 0},
-                                           {"tangential_force", Quantity::Kind::tangential_force, 0},
-                                           {"max_gap", Quantity::Kind::max_gap, 0},
-                                           {"reaction_x", Quantity::Kind::reaction, 0},
-                                           {"reaction_y", Quantity::Kind::reaction, 1},
-                                           {"ux", Quantity::Kind::displacement, 0},
-                                           {"uy", Quantity::Kind::displacement, 1},
-                                           {"K_I", Quantity::Kind::stress_intensity, 0},
-                                           {"K_II", Quantity::Kind::stress_intensity, 1}};
+constexpr QuantityWord quantity_words[] = {
+    {"normal_force", Quantity::Kind::normal_force, 0}, {"tangential_force", Quantity::Kind::tangential_force, 0},
+    {"max_gap", Quantity::Kind::max_gap, 0},           {"reaction_x", Quantity::Kind::reaction, 0},
+    {"reaction_y", Quantity::Kind::reaction, 1},       {"ux", Quantity::Kind::displacement, 0},
+    {"uy", Quantity::Kind::displacement, 1},           {"K_I", Quantity::Kind::stress_intensity, 0},
+    {"K_II", Quantity::Kind::stress_intensity, 1}};
 
 class QuantityReader {
  public:

@@ -23,12 +23,12 @@ using namespace model;
 /// What the reader knows about a body besides the Body itself. Functions that need a part that could not be read stay
 /// silent, because the mistake has been reported.
 struct BodyState {
-  bool shape = false;     ///< the outline has been read, so that names can be looked up in it
-  bool held = false;      ///< it has a support
-  bool touched = false;   ///< it has a contact
+  bool shape = false;    ///< the outline has been read, so that names can be looked up in it
+  bool held = false;     ///< it has a support
+  bool touched = false;  ///< it has a contact
   // Of a body from a mesh file (model/imported_body.hpp):
   std::map<std::string, std::vector<std::string>> pieces;  ///< of edges that are the first of several: the others
-  std::set<std::string> edge_names_used;    ///< by places, of a body with such edges
+  std::set<std::string> edge_names_used;                   ///< by places, of a body with such edges
   std::set<int> edges_used;
   std::map<std::string, Vec2> lost_points;  ///< named nodes that are no corners
 };
@@ -113,7 +113,8 @@ struct ReadPlace {
 };
 constexpr const char* place_example = "upper.top or {body: upper, near: [6, 3]}";
 ReadPlace read_place(Reading& reading, const Value& value);
-/// Warns of edges that are one of several pieces of a set while no place names another piece; after all places are read.
+/// Warns of edges that are one of several pieces of a set while no place names another piece; after all places are
+/// read.
 void tell_of_pieces(Reading& reading);
 
 /// Stands for a number that is missing or could not be read, which has been reported.

@@ -153,7 +153,9 @@ BodyMesh divide_boundary(const model::Body& body, const BodyDivision& division) 
     const auto e = static_cast<std::size_t>(run.edge);
     const std::vector<LineElement> line = divide_run(body.outline.edges[e], division[e], run, total, mesh.nodes);
     add_to_edge(run, line, mesh.edges[e]);
-    const auto corner_at = [&](double end) -> int& { return mesh.corners[static_cast<std::size_t>(end == 1.0 ? body.outline.next(run.edge) : run.edge)]; };
+    const auto corner_at = [&](double end) -> int& {
+      return mesh.corners[static_cast<std::size_t>(end == 1.0 ? body.outline.next(run.edge) : run.edge)];
+    };
     if (run.from == 0.0 || run.from == 1.0) corner_at(run.from) = line.front().nodes.front();
     if (run.to == 0.0 || run.to == 1.0) corner_at(run.to) = line.back().nodes.back();
     whole.boundary.insert(whole.boundary.end(), line.begin(), line.end());

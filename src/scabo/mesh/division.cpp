@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/interface.hpp"
-#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::mesh {
 
@@ -81,8 +81,7 @@ BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
 }
 
 /// Pairs the elements of one contact.
-void pair_elements(const Joint& contact, const Interface& interface, const Mesh& mesh,
-                   PairedElements& paired) {
+void pair_elements(const Joint& contact, const Interface& interface, const Mesh& mesh, PairedElements& paired) {
   if (contact.a.kind == model::Place::Kind::face) return;  // of no edge
   std::map<int, int> b_of, a_of;
   for (const ContactPair& pair : interface.pairs) {
@@ -149,8 +148,7 @@ PairedElements paired_elements(const model::Model& model, const Mesh& mesh) {
   PairedElements paired;
   for (const Interface& interface : mesh.interfaces)
     pair_elements(joint_of(model.contacts[static_cast<std::size_t>(interface.contact)]), interface, mesh, paired);
-  for (std::size_t t = 0; t < mesh.ties.size(); ++t)
-    pair_elements(joint_of(model.ties[t]), mesh.ties[t], mesh, paired);
+  for (std::size_t t = 0; t < mesh.ties.size(); ++t) pair_elements(joint_of(model.ties[t]), mesh.ties[t], mesh, paired);
   return paired;
 }
 

@@ -112,7 +112,8 @@ std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices,
       if (!triangles[t].constrained[i]) continue;
       const int a = triangles[t].vertices[(i + 1) % 3], b = triangles[t].vertices[(i + 2) % 3];
       const auto found = vertices.piece_edges.find(DualVertices::pair_key(a, b));
-      if (found == vertices.piece_edges.end()) throw Refusal("a line of the shape touches another one between its ends");
+      if (found == vertices.piece_edges.end())
+        throw Refusal("a line of the shape touches another one between its ends");
       const LinePiece& piece = vertices.pieces[index_of(found->second.piece)];
       const bool on_left = piece.vertices[index_of(found->second.edge)] == a;
       const DomainLine& line = domain.lines[index_of(piece.line)];

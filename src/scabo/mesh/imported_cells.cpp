@@ -90,13 +90,15 @@ class FileCells {
       if (from.kind == files::CellKind::polygon || from.kind == files::CellKind::quadratic_polygon)
         return fmt::format("{} is no finite element, which has three or four sides: use elements: superelement",
                            label(from));
-      for (int i = 0; i < from.corners(); ++i) cell.centre += at(from.nodes[static_cast<std::size_t>(i)]) / from.corners();
+      for (int i = 0; i < from.corners(); ++i)
+        cell.centre += at(from.nodes[static_cast<std::size_t>(i)]) / from.corners();
     } else if (const auto centre = centre_of(from)) {
       cell.centre = *centre;
     } else {
-      return fmt::format("{}: not all of its boundary is visible from one point, so that it cannot be a super-element: "
-                         "mesh again, or divide it",
-                         label(from));
+      return fmt::format(
+          "{}: not all of its boundary is visible from one point, so that it cannot be a super-element: "
+          "mesh again, or divide it",
+          label(from));
     }
     for (int i = 0; i < from.corners(); ++i) cell.boundary.push_back(line_element(files::side_of(from, i)));
     made_.cells.push_back(std::move(cell));
@@ -137,7 +139,8 @@ class FileCells {
     if (order == own) return {{side.start, side.middle, side.end}};
     const auto [found, is_new] = inner_.try_emplace(key_of(side.start, side.end));
     const bool forwards = side.start < side.end;
-    if (is_new) add_inner_nodes(forwards ? side : files::Facet{side.end, side.start, side.middle}, order, found->second);
+    if (is_new)
+      add_inner_nodes(forwards ? side : files::Facet{side.end, side.start, side.middle}, order, found->second);
     const std::vector<int>& inner = found->second;
     LineElement element{{side.start}};
     if (forwards)

@@ -103,7 +103,7 @@ class Matching {
                                   .point_a = a.points[i],
                                   .point_b = b.points[j],
                                   .normal = weighted ? common_normal(a.normals[i], b.normals[j])
-                                                   : common_normal(a.true_normals[i], b.true_normals[j])});
+                                                     : common_normal(a.true_normals[i], b.true_normals[j])});
     }
     return std::nullopt;
   }

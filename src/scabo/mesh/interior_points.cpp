@@ -233,7 +233,8 @@ class Growth {
       if (segment.left_inside) seeds.push_back({i, wanted, true});
       if (segment.right_inside) seeds.push_back({i, wanted, false});
     }
-    std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return rounded(a.spacing) < rounded(b.spacing); });
+    std::stable_sort(seeds.begin(), seeds.end(),
+                     [](const Seed& a, const Seed& b) { return rounded(a.spacing) < rounded(b.spacing); });
     for (const Seed& seed : seeds)
       for (const double height : {0.87, 0.55}) {
         const BorderSegment& segment = segments_[seed.segment];

@@ -23,7 +23,8 @@ class NetPoints {
 
   int number(Vec2& point) {
     const Vec2 place = point / (4.0 * tolerance_);
-    const auto i = static_cast<std::int64_t>(std::floor(place.x())), j = static_cast<std::int64_t>(std::floor(place.y()));
+    const auto i = static_cast<std::int64_t>(std::floor(place.x())),
+               j = static_cast<std::int64_t>(std::floor(place.y()));
     for (std::int64_t a = i - 1; a <= i + 1; ++a)
       for (std::int64_t b = j - 1; b <= j + 1; ++b)
         if (const auto found = boxes_.find({a, b}); found != boxes_.end())
@@ -59,7 +60,10 @@ struct Shared {
 class Builder {
  public:
   Builder(const model::Body& body, const CrackNet& cracks)
-      : body_(body), cracks_(cracks), tolerance_(1e-9 * geometry::outline_size(body.outline)), points_(4.0 * tolerance_) {
+      : body_(body),
+        cracks_(cracks),
+        tolerance_(1e-9 * geometry::outline_size(body.outline)),
+        points_(4.0 * tolerance_) {
     for (const model::Region& region : body.regions) {
       areas_.push_back(region.outline.area());
       boxes_.push_back(geometry::box_of(region.outline));

@@ -25,8 +25,8 @@ constexpr double most_nodes = 1e6;
 std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) {
   const bool fem = body.mesh.kind == model::MeshKind::fem;
   if (fem && body.mesh.order > 2) {
-    return {{body.mesh.source, fmt::format("'kind: fem' uses elements of order 1 or 2, not {}: use one of these",
-                                           body.mesh.order)}};
+    return {{body.mesh.source,
+             fmt::format("'kind: fem' uses elements of order 1 or 2, not {}: use one of these", body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
   if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {

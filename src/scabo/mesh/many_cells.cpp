@@ -34,7 +34,9 @@ namespace {
 constexpr double largest_turn_of_side = std::numbers::pi / 12;
 
 /// Part of an element by which the length of an edge, in elements of a size, may be rounded: its ends are (UnitFree).
-double rounding_of(double size) { return std::min(1e-6 + 2.0 * rounding_of_points(model::MeshKind::polygons) / size, 0.1); }
+double rounding_of(double size) {
+  return std::min(1e-6 + 2.0 * rounding_of_points(model::MeshKind::polygons) / size, 0.1);
+}
 
 /// The wanted sizes of cells of a body.
 struct Sizing {
@@ -69,8 +71,7 @@ std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge) 
       ends.push_back(high);
       sum.push_back(sum.back() + step / size);
     };
-    for (int i = 0; i < samples; ++i)
-      add(add, double(i) / samples, (i + 1.0) / samples);
+    for (int i = 0; i < samples; ++i) add(add, double(i) / samples, (i + 1.0) / samples);
     const double count = std::max(1.0, std::ceil(sum.back() - rounding));
     std::size_t i = 0;
     for (int k = 1; k < count; ++k) {
@@ -199,7 +200,8 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
       line.right = of.right;
       line.crack = of.crack;
       if (of.of_edge >= 0) made.lines_of_edge[static_cast<std::size_t>(of.of_edge)].push_back(made.domain.lines.size());
-      if (of.of_crack >= 0) made.lines_of_crack[static_cast<std::size_t>(of.of_crack)].push_back(made.domain.lines.size());
+      if (of.of_crack >= 0)
+        made.lines_of_crack[static_cast<std::size_t>(of.of_crack)].push_back(made.domain.lines.size());
       made.domain.lines.push_back(std::move(line));
       made.sources.push_back(of);
     }
@@ -408,13 +410,14 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
   const double thickness = (box.high - box.low).minCoeff();
   const bool thin = body.mesh.kind == model::MeshKind::quadtree && thickness < body.mesh.size;
   if (!(nodes <= most_nodes))
-    return Diagnostic{body.mesh.source, thin ? fmt::format("the squares of a quadtree are not larger than the body is thick, "
-                                                           "{:.3g}, which makes about {:.2g} nodes, more than the {:.7g} "
-                                                           "allowed: make the body thicker or shorter",
-                                                           thickness, nodes, most_nodes)
-                                             : fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
-                                                           "allowed: use a larger 'size'",
-                                                           body.mesh.size, nodes, most_nodes)};
+    return Diagnostic{body.mesh.source,
+                      thin ? fmt::format("the squares of a quadtree are not larger than the body is thick, "
+                                         "{:.3g}, which makes about {:.2g} nodes, more than the {:.7g} "
+                                         "allowed: make the body thicker or shorter",
+                                         thickness, nodes, most_nodes)
+                           : fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
+                                         "allowed: use a larger 'size'",
+                                         body.mesh.size, nodes, most_nodes)};
   const UnitFree own(body, sizes);
   // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places.
   constexpr std::array<double, 3> turns{0.5, 0.25, 0.125}, sizes_per_width{2.0, 1.4, 1.0};
@@ -424,13 +427,17 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                      .gaps = attempt > 0,
                                      .arcs = attempt > 0 && body.mesh.kind == model::MeshKind::quadtree,
                                      .most = most_nodes});
-    const auto in_words = [&](const Vec2& x) { const Vec2 real = own.real(x); return fmt::format("({:.6g}, {:.6g})", real.x(), real.y()); };
+    const auto in_words = [&](const Vec2& x) {
+      const Vec2 real = own.real(x);
+      return fmt::format("({:.6g}, {:.6g})", real.x(), real.y());
+    };
     const double width = own.scale() * of.narrow.width;
     if (of.narrow.cells > most_nodes)
-      return Diagnostic{body.mesh.source,
-                        fmt::format("body '{}' is only {:.3g} wide near {}: cells that fit there make more than the {:.7g} "
-                                    "nodes allowed; make it wider there, or leave the narrow part out",
-                                    body.name, width, in_words(of.narrow.narrowest), most_nodes)};
+      return Diagnostic{
+          body.mesh.source,
+          fmt::format("body '{}' is only {:.3g} wide near {}: cells that fit there make more than the {:.7g} "
+                      "nodes allowed; make it wider there, or leave the narrow part out",
+                      body.name, width, in_words(of.narrow.narrowest), most_nodes)};
     try {
       const PolygonMesh polygons = polygons_of(of.domain, own.body(), turns[attempt]);
       std::vector<BorderNodes> borders;
@@ -449,13 +456,13 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
       if (attempt + 1 < turns.size()) continue;
       std::optional<Vec2> place;
       if (refusal.near()) place = own.real(*refusal.near());
-      const std::string narrow =
-          of.narrow.width > 0.0
-              ? fmt::format("; its lines are {:.3g} apart near {}", width, in_words(of.narrow.narrowest))
-              : "";
-      return Diagnostic{body.mesh.source, fmt::format("this shape could not be divided ({}{}): use a smaller 'size' there, "
-                                                      "with 'refine', or another kind",
-                                                      refusal_text(refusal.reason(), place), narrow)};
+      const std::string narrow = of.narrow.width > 0.0 ? fmt::format("; its lines are {:.3g} apart near {}", width,
+                                                                     in_words(of.narrow.narrowest))
+                                                       : "";
+      return Diagnostic{body.mesh.source,
+                        fmt::format("this shape could not be divided ({}{}): use a smaller 'size' there, "
+                                    "with 'refine', or another kind",
+                                    refusal_text(refusal.reason(), place), narrow)};
     }
   }
 }

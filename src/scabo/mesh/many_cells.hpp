@@ -14,13 +14,13 @@ namespace scabo::mesh {
 /// than `sizes`.
 double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x);
 
-/// The outline, the regions and the cracks of a body as lines, divided by wanted_size or less in narrow places. It holds
-/// on to `body` and to `sizes`. If the cells in narrow places are too many (NarrowOptions), it has no lines.
+/// The outline, the regions and the cracks of a body as lines, divided by wanted_size or less in narrow places. It
+/// holds on to `body` and to `sizes`. If the cells in narrow places are too many (NarrowOptions), it has no lines.
 struct BodyDomain {
   Domain domain;  ///< region 0 is the body outside of its regions, and region k + 1 is body.regions[k]
-  std::vector<std::vector<std::size_t>> lines_of_edge;  ///< the lines of each edge of the outline, in its direction
+  std::vector<std::vector<std::size_t>> lines_of_edge;   ///< the lines of each edge of the outline, in its direction
   std::vector<std::vector<std::size_t>> lines_of_crack;  ///< the lines of each crack, in the direction of its path
-  std::vector<NetLine> sources;  ///< what each line is a part of
+  std::vector<NetLine> sources;                          ///< what each line is a part of
   NarrowPlaces narrow;
 };
 BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options);
@@ -30,8 +30,8 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes,
                                                      double most_nodes);
 
-/// Line elements of the given order on the sides of polygons; sides on arcs are curved. `of`: the domain of the body, in
-/// which polygons were made.
+/// Line elements of the given order on the sides of polygons; sides on arcs are curved. `of`: the domain of the body,
+/// in which polygons were made.
 BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const model::Body& body);
 
 }  // namespace scabo::mesh

@@ -241,7 +241,8 @@ class Union {
         if (there[s]) {
           Side& at_break = sides_[s];
           at_break.breaks[*there[s]].event = events_;
-          if (at_break.closed && own(s, *there[s]) == 0) at_break.breaks.front().event = at_break.breaks.back().event = events_;
+          if (at_break.closed && own(s, *there[s]) == 0)
+            at_break.breaks.front().event = at_break.breaks.back().event = events_;
           continue;
         }
         Break at;
@@ -464,7 +465,8 @@ bool matches(const model::Model& model, const Sides& sides, const std::vector<Bo
 bool is_refined_alike(const model::Model& model, const Joint& joint) {
   const auto is_refined = [&](const model::Place& place) {
     const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
-    return !body.rigid && body.mesh.tolerance && !body.mesh.matched_anew && body.mesh.kind == model::MeshKind::superelement;
+    return !body.rigid && body.mesh.tolerance && !body.mesh.matched_anew &&
+           body.mesh.kind == model::MeshKind::superelement;
   };
   return is_refined(joint.a) && is_refined(joint.b);
 }

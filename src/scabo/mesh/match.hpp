@@ -5,8 +5,8 @@
 // both sides get the union of them:
 //  - A break point that sees one of the other side nearer than 1/10 of the adjacent elements does not make a new one:
 //    the two become opposite each other. Ends of edges, crack mouths, nodes that other contacts already pair, and nodes
-//    at which materials meet or a support or load is placed (`near`) stay, and the other point moves to them; otherwise both move to the
-//    ray halfway between. Two points that both have to stay are two break points, however near.
+//    at which materials meet or a support or load is placed (`near`) stay, and the other point moves to them; otherwise
+//    both move to the ray halfway between. Two points that both have to stay are two break points, however near.
 //  - Elsewhere the element is divided. Ends of the shorter edge thereby become break points of the longer one.
 //  - Of two opposite elements the lower order is raised to the higher one.
 // New and moved nodes lie on the exact edge, line or arc, at the Gauss-Lobatto-Legendre points of their element,
@@ -30,8 +30,8 @@ namespace scabo::mesh {
 /// alike are left alone.
 std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies);
 
-/// Whether refinement changes the elements of both sides of a contact or tie alike, so that they must match from the beginning:
-/// both bodies are one super-element with a mesh.tolerance.
+/// Whether refinement changes the elements of both sides of a contact or tie alike, so that they must match from the
+/// beginning: both bodies are one super-element with a mesh.tolerance.
 bool is_refined_alike(const model::Model& model, const Joint& joint);
 
 }  // namespace scabo::mesh

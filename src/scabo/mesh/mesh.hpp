@@ -46,8 +46,8 @@ struct BodyMesh {
   /// left; they run as a boundary does, the left face along the path of the crack and the right one against it.
   /// (crack_faces.hpp)
   std::vector<std::vector<LineElement>> faces;
-  std::vector<int> corners;           ///< node of every corner of the outline; -1 at the scaling centre
-  std::array<int, 2> mouth{-1, -1};   ///< the nodes of an open super-element at its first and last side face
+  std::vector<int> corners;          ///< node of every corner of the outline; -1 at the scaling centre
+  std::array<int, 2> mouth{-1, -1};  ///< the nodes of an open super-element at its first and last side face
 
   int count(CellKind kind) const;
 };
@@ -82,8 +82,8 @@ struct Mesh {
   int nodes() const;                  ///< number of nodes of all bodies
 };
 
-/// Divides every body and matches the two sides of every contact and tie. Throws InputError, with file and lines of the model,
-/// for contacts and ties whose nodes do not match and for meshes that are too large.
+/// Divides every body and matches the two sides of every contact and tie. Throws InputError, with file and lines of the
+/// model, for contacts and ties whose nodes do not match and for meshes that are too large.
 Mesh make_mesh(const model::Model& model);
 
 /// The nodes of `place`.

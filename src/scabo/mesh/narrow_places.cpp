@@ -131,7 +131,8 @@ class Finder {
     if (!foot) return;
     tree_.within(middle, reach, [&](std::size_t i) {
       const NetLine& other = lines_[i];
-      if (other.start == line.start || other.start == line.end || other.end == line.start || other.end == line.end) return;
+      if (other.start == line.start || other.start == line.end || other.end == line.start || other.end == line.end)
+        return;
       const Vec2 way = geometry::closest_point(other.edge, middle) - middle;
       const double distance = way.norm(), right = foot->normal.dot(way);
       nearest = std::min(nearest, distance);

@@ -20,8 +20,8 @@ struct NarrowOptions {
 struct NarrowPlaces {
   /// Where less than the wanted size is needed, with the size.
   std::vector<SizeField::Sample> samples;
-  double cells = 0.0;     ///< about as many lie there; if more than allowed, samples are not complete
-  double width = 0.0;     ///< of the narrowest place between lines, 0: there is none
+  double cells = 0.0;  ///< about as many lie there; if more than allowed, samples are not complete
+  double width = 0.0;  ///< of the narrowest place between lines, 0: there is none
   Vec2 narrowest = Vec2::Zero();
 };
 

@@ -215,8 +215,7 @@ class Dual {
     is_centre_.assign(at(vertices_.corners), false);
     for (const Vec2& centre : domain_.centres) {
       const int corner = corner_at(vertices_, centre);
-      if (corner < 0)
-        throw Refusal("a scaling centre is not the end of a line", centre);
+      if (corner < 0) throw Refusal("a scaling centre is not the end of a line", centre);
       is_centre_[at(corner)] = true;
     }
     std::vector<bool> seen(wedges_.size(), false);

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "scabo/mesh/refusal.hpp"
 #include "scabo/mesh/quadtree/curves.hpp"
 #include "scabo/mesh/quadtree/cut.hpp"
 #include "scabo/mesh/quadtree/forest.hpp"
 #include "scabo/mesh/quadtree/pieces.hpp"
+#include "scabo/mesh/refusal.hpp"
 
 namespace scabo::mesh {
 
@@ -62,9 +62,7 @@ class Grower {
   }
 
  private:
-  [[noreturn]] void give_up(const char* reason) const {
-    throw Refusal(reason, last_trouble_);
-  }
+  [[noreturn]] void give_up(const char* reason) const { throw Refusal(reason, last_trouble_); }
 
   Forest make_forest() {
     const Vec2 extent = curves_.box.upper - curves_.box.lower;

@@ -11,8 +11,8 @@ namespace scabo::mesh {
 /// For the nodes of a line element, the elements that take its place, in its direction and from end to end.
 using Replacements = std::map<std::vector<int>, std::vector<LineElement>>;
 
-/// Replaces line elements in edges, faces of cracks and cells, in whichever direction they run there. Finite elements that would no
-/// longer be ones become super-elements.
+/// Replaces line elements in edges, faces of cracks and cells, in whichever direction they run there. Finite elements
+/// that would no longer be ones become super-elements.
 void replace_elements(BodyMesh& mesh, const Replacements& replacements);
 
 /// Moves end nodes of line elements (node -> new position). Line elements of cells that end there, except the

@@ -53,8 +53,7 @@ std::vector<Triangle> triangulate(const std::vector<Vec2>& points, const std::ve
     vertices[i]->info() = static_cast<int>(i);
     near = vertices[i]->face();
   }
-  if (delaunay.number_of_vertices() != points.size())
-    throw Refusal("two lines of the shape touch between their ends");
+  if (delaunay.number_of_vertices() != points.size()) throw Refusal("two lines of the shape touch between their ends");
   try {
     for (const auto& [a, b] : segments)
       delaunay.insert_constraint(vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)]);

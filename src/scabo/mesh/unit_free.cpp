@@ -99,7 +99,8 @@ BodyMesh UnitFree::real(BodyMesh mesh, const std::vector<BorderNodes>& borders) 
   for (std::size_t c = 0; !sides.empty() && c < mesh.cells.size(); ++c)
     for (const LineElement& element : mesh.cells[c].boundary)
       if (const auto side = sides.find(std::minmax(element.nodes.front(), element.nodes.back())); side != sides.end()) {
-        const auto region = static_cast<std::size_t>(side->second->region), e = static_cast<std::size_t>(side->second->edge);
+        const auto region = static_cast<std::size_t>(side->second->region),
+                   e = static_cast<std::size_t>(side->second->edge);
         for (const int node : element.nodes)
           put(node, given_.regions[region].outline.edges[e], made_.regions[region].outline.edges[e], on_border);
       }
@@ -107,8 +108,7 @@ BodyMesh UnitFree::real(BodyMesh mesh, const std::vector<BorderNodes>& borders) 
     for (const LineElement& element : mesh.edges[e])
       for (const int node : element.nodes) put(node, given_.outline.edges[e], made_.outline.edges[e], on_outline);
   for (std::size_t e = 0; e < mesh.corners.size(); ++e)
-    if (mesh.corners[e] >= 0)
-      mesh.nodes[static_cast<std::size_t>(mesh.corners[e])] = given_.outline.edges[e].start;
+    if (mesh.corners[e] >= 0) mesh.nodes[static_cast<std::size_t>(mesh.corners[e])] = given_.outline.edges[e].start;
   for (Cell& cell : mesh.cells) {
     const Vec2 tip = cell.centre;
     cell.centre = real(tip);
@@ -120,7 +120,8 @@ BodyMesh UnitFree::real(BodyMesh mesh, const std::vector<BorderNodes>& borders) 
     if (given_.mesh.order == 1) continue;
     // Nodes inside a side go with its ends.
     for (const LineElement& element : cell.boundary) {
-      const auto a = static_cast<std::size_t>(element.nodes.front()), b = static_cast<std::size_t>(element.nodes.back());
+      const auto a = static_cast<std::size_t>(element.nodes.front()),
+                 b = static_cast<std::size_t>(element.nodes.back());
       if (where[a] == inside && where[b] == inside) continue;
       const Vec2 along = own[b] - own[a], at_a = mesh.nodes[a] - real(own[a]), at_b = mesh.nodes[b] - real(own[b]);
       for (std::size_t k = 1; k + 1 < element.nodes.size(); ++k) {

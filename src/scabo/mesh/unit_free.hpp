@@ -4,10 +4,10 @@
 //
 //     x' = (x - o) / L, rounded to multiples of epsilon                                                      (1)
 //
-// with epsilon of rounding_of_points, and lengths l' = l / L rounded to 40 binary digits. The same body in metres and in
-// millimetres differs in last digits of x only, which eq. (1) removes: a mesher sees the same numbers, and makes the same
-// cells. Nodes on the outline are put on the outline as given afterwards, at the same fractions of its edges, and those
-// on borders of regions likewise; crack tips are where they were given, and all other points at o + L x'.
+// with epsilon of rounding_of_points, and lengths l' = l / L rounded to 40 binary digits. The same body in metres and
+// in millimetres differs in last digits of x only, which eq. (1) removes: a mesher sees the same numbers, and makes the
+// same cells. Nodes on the outline are put on the outline as given afterwards, at the same fractions of its edges, and
+// those on borders of regions likewise; crack tips are where they were given, and all other points at o + L x'.
 #pragma once
 
 #include "scabo/mesh/mesh.hpp"
@@ -17,9 +17,9 @@ namespace scabo::mesh {
 
 /// Multiples of it are the coordinates of the points that describe a body. A body a thousand of its sizes away from the
 /// origin has an error of 1e-13 there. With 2^-40, one coordinate in ten is then rounded to another multiple than near
-/// the origin, and one mesh of polygons in six is another one (60 plates tried); with 2^-34 one coordinate in a thousand
-/// is. A quadtree was the same in all 60, and has rows of nodes on one line, which 2^-34 would move by more than the
-/// rounding that results allow for.
+/// the origin, and one mesh of polygons in six is another one (60 plates tried); with 2^-34 one coordinate in a
+/// thousand is. A quadtree was the same in all 60, and has rows of nodes on one line, which 2^-34 would move by more
+/// than the rounding that results allow for.
 constexpr double rounding_of_points(model::MeshKind kind) {
   return kind == model::MeshKind::quadtree ? 0x1p-40 : 0x1p-34;
 }

@@ -173,14 +173,16 @@ bool check_paths(const BodyCheck& of) {
     const Crack& crack = of.body.cracks[c];
     const std::string path = fmt::format("{}.cracks.{}", of.path, c);
     if (!is_name(crack.name)) {
-      of.checking.error(path, "name", fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin "
-                                                  "with a letter or _",
-                                                  crack.name));
+      of.checking.error(path, "name",
+                        fmt::format("'{}' is not a valid name: use letters, digits, _ and -, and begin "
+                                    "with a letter or _",
+                                    crack.name));
       good = false;
     } else if (!names.insert(crack.name).second) {
-      of.checking.error(path, "name", fmt::format("there is already a crack named '{}': give every crack a name of its "
-                                                  "own",
-                                                  crack.name));
+      of.checking.error(path, "name",
+                        fmt::format("there is already a crack named '{}': give every crack a name of its "
+                                    "own",
+                                    crack.name));
       good = false;
     }
     if (!check_points_of_path(of, path, crack, tolerance) || !check_boundary_of_path(of, path, crack, tolerance)) {
@@ -191,18 +193,20 @@ bool check_paths(const BodyCheck& of) {
       const auto lies_on = [&](const Edge& other) { return shared_points(segment, other, tolerance).size() > 1; };
       const auto other = std::find_if(before.begin(), before.end(), [&](const auto& b) { return lies_on(b.first); });
       if (other != before.end() && good) {
-        of.checking.error(path, "path", fmt::format("lies on {} near {}: cracks may cross, but not lie on each other",
-                                                    other->second == crack.name ? "itself" : "crack '" + other->second + "'",
-                                                    point_text(segment.start)));
+        of.checking.error(path, "path",
+                          fmt::format("lies on {} near {}: cracks may cross, but not lie on each other",
+                                      other->second == crack.name ? "itself" : "crack '" + other->second + "'",
+                                      point_text(segment.start)));
         good = false;
       }
       before.emplace_back(segment, crack.name);
       for (const Region& region : of.body.regions)
         for (const Edge& edge : region.outline.edges)
           if (good && !edge.arc && lies_on(edge)) {
-            of.checking.error(path, "path", fmt::format("lies on the border of region '{}' near {}: cracks may cross "
-                                                        "borders of regions, but not lie on them",
-                                                        region.name, point_text(segment.start)));
+            of.checking.error(path, "path",
+                              fmt::format("lies on the border of region '{}' near {}: cracks may cross "
+                                          "borders of regions, but not lie on them",
+                                          region.name, point_text(segment.start)));
             good = false;
           }
     }
@@ -322,10 +326,11 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
   const auto refuse = [&](bool given, const char* key, const char* why) {
     if (given) checking.error_of_key(path, key, why), good = false;
   };
-  refuse(body.mesh.tolerance.has_value() && (body.mesh.kind == MeshKind::parts || body.imported || body.image),
-         "mesh.tolerance",
-         "is available only for a body that is one super-element, and with kind: polygons or kind: quadtree of a shape: "
-         "leave it out");
+  refuse(
+      body.mesh.tolerance.has_value() && (body.mesh.kind == MeshKind::parts || body.imported || body.image),
+      "mesh.tolerance",
+      "is available only for a body that is one super-element, and with kind: polygons or kind: quadtree of a shape: "
+      "leave it out");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
   refuse(body.imported && !body.cracks.empty(), "cracks", "is not available for a body from a mesh file: leave it out");
@@ -406,8 +411,9 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
       checking.error_of_key(path, "mesh.tolerance", "only super-elements are refined: leave 'tolerance' out for fem"),
           good = false;
     if (!body.cracks.empty())
-      checking.error(path, "cracks.0",
-                     "finite elements cannot have a crack: use polygons, quadtree or superelement, or leave the crack out"),
+      checking.error(
+          path, "cracks.0",
+          "finite elements cannot have a crack: use polygons, quadtree or superelement, or leave the crack out"),
           good = false;
     if (body.outside)
       checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
@@ -487,7 +493,8 @@ void check_regions(const BodyCheck& of) {
     check_material(of.checking, path, "material", region.material);
     if (!check_outline(of.checking, path + ".shape", region.outline)) continue;
     if (!geometry::overlap_of(of.outline, region.outline, tolerance).share_area) {
-      of.checking.error(path, "shape", fmt::format("region '{}' lies outside of the body: move it inside", region.name));
+      of.checking.error(path, "shape",
+                        fmt::format("region '{}' lies outside of the body: move it inside", region.name));
       continue;
     }
     bool good = true;
@@ -511,8 +518,9 @@ void check_regions(const BodyCheck& of) {
 bool check_region_materials(Checking& checking, const std::string& path, const Body& body) {
   const auto& regions = body.imported->regions;
   if (body.region_materials.size() != regions.size()) {
-    checking.error(path, "materials", fmt::format("gives {} materials for {} regions of the mesh: one for each is needed",
-                                                  body.region_materials.size(), regions.size()));
+    checking.error(path, "materials",
+                   fmt::format("gives {} materials for {} regions of the mesh: one for each is needed",
+                               body.region_materials.size(), regions.size()));
     return false;
   }
   for (std::size_t i = 0; i < regions.size(); ++i)

@@ -18,15 +18,16 @@ bool check_side(Checking& checking, const std::string& path, const char* what, c
   const std::string text = text_of(checking.model, place);
   if (place.kind == Place::Kind::face) {
     if (has_divided_faces(checking.body(place.body))) return true;
-    checking.error(path, "",
-                   checking.body(place.body).cracks.empty()
-                       ? fmt::format("'{}' is a side face, which has no nodes between its ends: move the scaling centre "
-                                     "away from its end",
-                                     text)
-                       : fmt::format("'{}' is a side face, which has no nodes between its ends: for contact between "
-                                     "the faces of a crack, write mesh: {{kind: polygons, ...}}, and give the crack as "
-                                     "a path: [mouth, tip]",
-                                     text));
+    checking.error(
+        path, "",
+        checking.body(place.body).cracks.empty()
+            ? fmt::format("'{}' is a side face, which has no nodes between its ends: move the scaling centre "
+                          "away from its end",
+                          text)
+            : fmt::format("'{}' is a side face, which has no nodes between its ends: for contact between "
+                          "the faces of a crack, write mesh: {{kind: polygons, ...}}, and give the crack as "
+                          "a path: [mouth, tip]",
+                          text));
     return false;
   }
   if (place.kind != Place::Kind::edge) {
@@ -57,8 +58,8 @@ bool check_faces(Checking& checking, const std::string& path, const char* what, 
   const Place& face = a.kind == Place::Kind::face ? a : b;
   const std::string crack = checking.body(face.body).name + "." +
                             checking.body(face.body).cracks[static_cast<std::size_t>(face.index / 2)].name;
-  const char* wrong = a.kind != b.kind                          ? "a face of a crack and an edge are not in contact"
-                     : a.body == b.body && a.index == b.index ? "both sides are the same face of a crack"
+  const char* wrong = a.kind != b.kind                         ? "a face of a crack and an edge are not in contact"
+                      : a.body == b.body && a.index == b.index ? "both sides are the same face of a crack"
                                                                : "faces of different cracks are not in contact";
   checking.error(path, "between", fmt::format("{}: write [{}.left, {}.right]", wrong, crack, crack));
   return false;
@@ -75,10 +76,10 @@ bool check_sides(Checking& checking, const std::string& path, const char* what, 
   if (!checking.is_body(side_a.body) || !checking.is_body(side_b.body)) return false;
   if (is_face(side_a) || is_face(side_b)) return a && b && check_faces(checking, path, what, side_a, side_b);
   if (side_a.body == side_b.body) {
-    checking.error(path, "between",
-                   fmt::format("a body cannot be {} itself: both edges belong to '{}'",
-                               std::string_view(what) == "tie" ? "tied to" : "in contact with",
-                               checking.body(side_a.body).name));
+    checking.error(
+        path, "between",
+        fmt::format("a body cannot be {} itself: both edges belong to '{}'",
+                    std::string_view(what) == "tie" ? "tied to" : "in contact with", checking.body(side_a.body).name));
     return false;
   }
   return a && b;
@@ -98,9 +99,9 @@ bool check_one_elastic(Checking& checking, const std::string& path, const Contac
 bool check_both_elastic(Checking& checking, const std::string& path, const Tie& tie) {
   for (const Place* side : {&tie.a, &tie.b})
     if (const Body& body = checking.body(side->body); body.rigid) {
-      checking.error(path, "between",
-                     fmt::format("'{}' is rigid, but a tie joins elastic bodies: use a contact with 'bond: true'",
-                                 body.name));
+      checking.error(
+          path, "between",
+          fmt::format("'{}' is rigid, but a tie joins elastic bodies: use a contact with 'bond: true'", body.name));
       return false;
     }
   return true;

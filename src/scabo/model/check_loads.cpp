@@ -62,8 +62,9 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
     if (of.outside)
       return fmt::format("'{}' is unbounded: loads can act only on its inner boundary, not on its side faces", body);
     if (kind == "force")
-      return fmt::format("a force cannot act on a {}: use a traction, which is the force divided by length and thickness",
-                         has_divided_faces(of) ? "face of a crack" : "side face");
+      return fmt::format(
+          "a force cannot act on a {}: use a traction, which is the force divided by length and thickness",
+          has_divided_faces(of) ? "face of a crack" : "side face");
     return "";
   }
   if (kind == "force") {

@@ -17,13 +17,12 @@ bool can_be_refined(const Body& body) {
 }
 
 /// Whether finer meshes than that of the body can be made, which show its error.
-bool has_finer_meshes(const Body& body) {
-  return !(body.imported && body.mesh.kind == MeshKind::fem);
-}
+bool has_finer_meshes(const Body& body) { return !(body.imported && body.mesh.kind == MeshKind::fem); }
 
 bool check_number_of(Checking& checking, const std::string& path, const char* what, int index, std::size_t count) {
   if (index >= 0 && static_cast<std::size_t>(index) < count) return true;
-  checking.error(path, "", fmt::format("there is no {} number {}: the model has {}, counted from 0", what, index, count));
+  checking.error(path, "",
+                 fmt::format("there is no {} number {}: the model has {}, counted from 0", what, index, count));
   return false;
 }
 
@@ -35,20 +34,23 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
     return;
   }
   if (body.mesh.kind == MeshKind::fem) {
-    checking.error(path, "", fmt::format("body '{}' is made of finite elements, which have no stress intensity "
-                                         "factors: use kind: superelement, polygons or quadtree",
-                                         body.name));
+    checking.error(path, "",
+                   fmt::format("body '{}' is made of finite elements, which have no stress intensity "
+                               "factors: use kind: superelement, polygons or quadtree",
+                               body.name));
     return;
   }
-  const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')), end = quantity.crack.substr(crack.size());
-  const auto found = std::find_if(body.cracks.begin(), body.cracks.end(),
-                                  [&](const Crack& of) { return of.name == crack; });
+  const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')),
+                    end = quantity.crack.substr(crack.size());
+  const auto found =
+      std::find_if(body.cracks.begin(), body.cracks.end(), [&](const Crack& of) { return of.name == crack; });
   if (found == body.cracks.end())
     checking.error(path, "", fmt::format("body '{}' has no crack named '{}'", body.name, crack));
   else if (!end.empty() && (found->path.empty() || (end != ".start" && end != ".end")))
-    checking.error(path, "", fmt::format("crack '{}' has no '{}': {}", crack, end.substr(1),
-                                         found->path.empty() ? fmt::format("write {}.{}.K_I", body.name, crack)
-                                                             : "its ends are start and end"));
+    checking.error(path, "",
+                   fmt::format("crack '{}' has no '{}': {}", crack, end.substr(1),
+                               found->path.empty() ? fmt::format("write {}.{}.K_I", body.name, crack)
+                                                   : "its ends are start and end"));
 }
 
 void check_quantity(Checking& checking, const std::string& path, const Quantity& quantity) {
@@ -79,14 +81,16 @@ void check_tolerance(Checking& checking, const QuantityTolerance& tolerance) {
   if (checking.number("tolerance", "relative", tolerance.relative) &&
       !(tolerance.relative > 0.0 && tolerance.relative < 1.0)) {
     const std::string given = number_text(tolerance.relative);
-    checking.error("tolerance", "relative", fmt::format("must be greater than 0 and less than 1, not {}", given), given);
+    checking.error("tolerance", "relative", fmt::format("must be greater than 0 and less than 1, not {}", given),
+                   given);
   }
   const auto& bodies = checking.model.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies[b].mesh.tolerance) {
-      checking.error_of_key("tolerance", "", fmt::format("refines all bodies for one number, but body '{}' has a "
-                                                         "tolerance of its own: remove one of the two",
-                                                         bodies[b].name));
+      checking.error_of_key("tolerance", "",
+                            fmt::format("refines all bodies for one number, but body '{}' has a "
+                                        "tolerance of its own: remove one of the two",
+                                        bodies[b].name));
       return;
     }
   if (!checking.gaps.bodies && std::none_of(bodies.begin(), bodies.end(), can_be_refined))

@@ -85,8 +85,8 @@ void check_conflicting_supports(Checking& checking);
 /// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes
 /// inside.
 bool check_outline(Checking& checking, const std::string& path, const Outline& outline);
-/// Whether the mesh of a body and its outline belong together. The outline is closed, and named; it may touch itself, as at
-/// a crack between cells.
+/// Whether the mesh of a body and its outline belong together. The outline is closed, and named; it may touch itself,
+/// as at a crack between cells.
 bool check_imported(Checking& checking, const std::string& path, const Body& body);
 /// The first point that the edges of two outlines share, if there is one; edges of `b` are numbered after those of `a`.
 std::optional<geometry::Crossing> crossing_between(const Outline& a, const Outline& b);

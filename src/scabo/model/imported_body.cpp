@@ -25,8 +25,8 @@ using files::ImportedMesh;
 
 /// A boundary without a set is cut where it turns by more than this.
 constexpr double corner_turn = std::numbers::pi / 6;
-/// Straight segments for a curved side. Nodes that a contact inserts lie on them: with 8, the pressure of a disc in a ring of
-/// another division deviates by 12 % from a uniform one, with 32 by 0.7 %.
+/// Straight segments for a curved side. Nodes that a contact inserts lie on them: with 8, the pressure of a disc in a
+/// ring of another division deviates by 12 % from a uniform one, with 32 by 0.7 %.
 constexpr int segments_of_side = 32;
 /// Distance from a line, relative to its length, of points that lie on it.
 constexpr double on_line = 1e-10;
@@ -116,7 +116,8 @@ bool on_one_line(const std::vector<Vec2>& points) {
 /// Makes the outline of a part.
 class OutlineMaker {
  public:
-  OutlineMaker(const ImportedMesh& whole, const Chosen& chosen, const ImportedMesh& part, const std::vector<int>& original)
+  OutlineMaker(const ImportedMesh& whole, const Chosen& chosen, const ImportedMesh& part,
+               const std::vector<int>& original)
       : part_(part), original_(original) {
     for (BoundaryLoop& loop : files::boundary_facets(part)) {
       const bool outer = loop.area > 0.0;
@@ -238,7 +239,8 @@ class OutlineMaker {
     for (const int name : label) edge.names.push_back(piece_name(names_[static_cast<std::size_t>(name)]));
     if (!label.empty())
       for (std::size_t i = 1; i < run.size(); ++i)
-        if (const std::string* name = point_name(run[i].start)) body_.lost_points.emplace(*name, at(part_, run[i].start));
+        if (const std::string* name = point_name(run[i].start))
+          body_.lost_points.emplace(*name, at(part_, run[i].start));
     corner_nodes_.push_back(run.front().start);
     body_.outline.corners.push_back({{}, edge.start});
     sides_.push_back({edge.names.front(), std::move(run)});
@@ -292,13 +294,14 @@ std::string quoted_list(const std::vector<std::string>& names) {
 }
 
 /// `what`: the chosen cells, as in `the file`.
-std::variant<ImportedBody, std::string> body_of(const ImportedMesh& mesh, const Chosen& chosen, const std::string& what) {
+std::variant<ImportedBody, std::string> body_of(const ImportedMesh& mesh, const Chosen& chosen,
+                                                const std::string& what) {
   std::vector<int> original;
   ImportedMesh part = part_of(mesh, chosen, original);
   OutlineMaker maker(mesh, chosen, part, original);
   if (maker.outer_loops() != 1) {
-    const std::string parts = fmt::format("{} has {} parts that have no side in common, but a body is connected", what,
-                                          maker.outer_loops());
+    const std::string parts =
+        fmt::format("{} has {} parts that have no side in common, but a body is connected", what, maker.outer_loops());
     if (part.cells.size() == mesh.cells.size() && mesh.regions.size() > 1)
       return fmt::format("{}: give one of the regions with 'region': {}", parts, quoted_list(mesh.regions));
     std::vector<std::string> sets;

@@ -1,7 +1,8 @@
 // The part of a mesh file that is one body, with an outline made from the sides of its cells.
 //
 // Sides that belong to one cell of the part only are its boundary. It is cut into edges:
-//     sides of a facet set                   an edge with the name of the set; where a set has several pieces, or begins
+//     sides of a facet set                   an edge with the name of the set; where a set has several pieces, or
+//     begins
 //                                            within another one, the pieces are NAME, NAME_2, ...
 //     sides with a cell of another part      likewise, `to_NAME` with the name of the region of that cell
 //     all other sides                        edge_1, edge_2, ... from corner to corner
@@ -29,7 +30,7 @@ struct ImportedBody {
   /// The cells of the part and their nodes. facet_sets[i]: the sides along edge i of the outline, in their order; other
   /// sets are left out.
   std::shared_ptr<const files::ImportedMesh> mesh;
-  geometry::Outline outline;                ///< the outer boundary, then the holes
+  geometry::Outline outline;  ///< the outer boundary, then the holes
   /// Of every edge that is the first of several pieces of a set: the names of the others.
   std::map<std::string, std::vector<std::string>> pieces;
   std::map<std::string, Vec2> lost_points;  ///< names of nodes that are no corners because they lie within a named edge

@@ -81,8 +81,8 @@ constexpr double mesh_growth = 0.3;
 
 struct MeshOptions {
   MeshKind kind = MeshKind::superelement;
-  double size = 0.0;           ///< longest boundary element; largest side of a cell, > 0
-  double min_size = 0.0;       ///< quadtree: cells are not halved below it on account of lines; 0: 1/32 of their size
+  double size = 0.0;      ///< longest boundary element; largest side of a cell, > 0
+  double min_size = 0.0;  ///< quadtree: cells are not halved below it on account of lines; 0: 1/32 of their size
   std::vector<LocalSize> refine;
   int order = 2;               ///< polynomial order of a boundary element, 1 to 16; of cells of a file: at least
   Vec2 centre = Vec2::Zero();  ///< scaling centre: given by the user, a crack's tip, or the centroid
@@ -104,8 +104,8 @@ struct Crack {
   int edge = -1;    ///< edge with the mouth
   double at = 0.0;  ///< mouth = edge.at(at), 0 <= at < 1; 0 is the corner at the start of the edge
   Source source;
-  /// In a body of many cells: its points from one end to the other, two or more; then `tip` and `mouth` are not used. An
-  /// end on the boundary or on another crack is open, any other end is a tip.
+  /// In a body of many cells: its points from one end to the other, two or more; then `tip` and `mouth` are not used.
+  /// An end on the boundary or on another crack is open, any other end is a tip.
   std::vector<Vec2> path;
 };
 
@@ -120,8 +120,8 @@ struct Region {
 /// A body that an image shows: labels of pixels stand for materials.
 struct ImageShape {
   std::shared_ptr<const files::Image> image;
-  double pixel = 0.0;             ///< length of the side of a pixel, > 0
-  std::map<int, int> materials;   ///< index into Model::materials of each label; other labels are empty
+  double pixel = 0.0;            ///< length of the side of a pixel, > 0
+  std::map<int, int> materials;  ///< index into Model::materials of each label; other labels are empty
 };
 
 struct Body {
@@ -149,8 +149,9 @@ struct Body {
 /// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
 /// of finite elements in a rectangle.
 inline bool is_divided_inside(const Body& body) {
-  return body.image || (body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
-                                                       body.regions.empty() && body.mesh.refine.empty()));
+  return body.image ||
+         (body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
+                                                        body.regions.empty() && body.mesh.refine.empty()));
 }
 
 /// Whether the cracks of a body lie between its cells: both faces of each consist of boundary elements.
@@ -162,8 +163,8 @@ struct Place {
   enum class Kind { body, edge, corner, near, face, mouth };
   Kind kind = Kind::body;
   int body = -1;
-  /// Edge or corner; side face, mouth: 0 at the start of the boundary, 1 at its end; face of Body::cracks[k] with a path:
-  /// 2 k on its right, 2 k + 1 on its left, looking along the path.
+  /// Edge or corner; side face, mouth: 0 at the start of the boundary, 1 at its end; face of Body::cracks[k] with a
+  /// path: 2 k on its right, 2 k + 1 on its left, looking along the path.
   int index = -1;
   Vec2 near = Vec2::Zero();  ///< `near`: stands for the boundary node closest to this point
   std::string text;          ///< as given by the user, `upper.top_right`
@@ -224,8 +225,8 @@ struct FrictionPoint {
   double position = 0.0, friction = 0.0;
 };
 
-/// Unilateral contact between two edges, or the two faces of a crack, A (named first) and B. Either friction, cohesion and tension, or `bond`, or a
-/// shear strength.
+/// Unilateral contact between two edges, or the two faces of a crack, A (named first) and B. Either friction, cohesion
+/// and tension, or `bond`, or a shear strength.
 struct Contact {
   std::string name;
   Place a, b;

@@ -10,6 +10,8 @@ inline bool is_side_face(const Outline& outline, int corner, int edge) {
   const int count = static_cast<int>(outline.edges.size());
   return corner >= 0 && (edge == corner || edge == (corner + count - 1) % count);
 }
-inline bool is_side_face(const Body& body, int edge) { return is_side_face(body.outline, body.mesh.centre_corner, edge); }
+inline bool is_side_face(const Body& body, int edge) {
+  return is_side_face(body.outline, body.mesh.centre_corner, edge);
+}
 
 }  // namespace scabo::model

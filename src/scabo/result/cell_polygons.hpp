@@ -17,8 +17,8 @@ struct CellPolygons {
   std::vector<std::int32_t> offsets;       // one per cell: end of its points in `connectivity`
   std::vector<std::uint8_t> types;         // one per cell: VTK cell type
   // One per cell
-  std::vector<std::int32_t> body;      // number from 1, in the order of the model
-  std::vector<std::int32_t> material;  // number from 1, of its first side
+  std::vector<std::int32_t> body;            // number from 1, in the order of the model
+  std::vector<std::int32_t> material;        // number from 1, of its first side
   std::vector<std::uint8_t> finite_element;  // 1, or 0 for a super-element
 };
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <optional>
 
-#include "scabo/element/point_operator.hpp"
 #include "scabo/element/cell_locator.hpp"
+#include "scabo/element/point_operator.hpp"
 #include "scabo/result/probe.hpp"
 #include "scabo/result/stress.hpp"
 
@@ -90,16 +90,18 @@ void PointEvaluation::prepare(const analysis::StaticSolution& solution, Group& g
   for (const Vec2& x : super_element.ring.nodes) size = std::max(size, x.norm());
   for (const std::size_t row : group.rows) {
     const mesh::OutputPoint& point = points_[row];
-    const bool infinite = (point.at - cell.centre).norm() <= on_centre * size && singular_at_centre(super_element.modes());
+    const bool infinite =
+        (point.at - cell.centre).norm() <= on_centre * size && singular_at_centre(super_element.modes());
     group.infinite.push_back(infinite);
     if (infinite)
-      warnings_.push_back(
-          fmt::format("stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
-                      solution.model.bodies[b].name, point.at.x(), point.at.y(), point.name));
+      warnings_.push_back(fmt::format(
+          "stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
+          solution.model.bodies[b].name, point.at.x(), point.at.y(), point.name));
   }
   const double bytes =
       40.0 * static_cast<double>(super_element.solution.K.rows()) * static_cast<double>(group.rows.size());
-  if (super_element.domain.unbounded || !worth_condensing(group.rows.size(), increments) || bytes > most_condensed_bytes)
+  if (super_element.domain.unbounded || !worth_condensing(group.rows.size(), increments) ||
+      bytes > most_condensed_bytes)
     return;
   std::vector<element::ScaledPoint> places;
   for (const CellPlace& place : group.places) places.push_back(place.scaled);

@@ -21,8 +21,8 @@ Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
   return {motion[0] - motion[2] * arm.y(), motion[1] + motion[2] * arm.x()};
 }
 
-FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution,
-                                       const analysis::FieldState& state, std::size_t body, std::size_t cell) {
+FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution, const analysis::FieldState& state,
+                                       std::size_t body, std::size_t cell) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   element_ = element::finite_element_of(mesh.cells[cell], mesh.nodes);
   u_ = state.displacements[body](element::dofs_of(element_));

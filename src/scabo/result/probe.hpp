@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/element/cell_locator.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/radial_table.hpp"
-#include "scabo/element/cell_locator.hpp"
 
 namespace scabo::result {
 
@@ -59,8 +59,8 @@ std::optional<element::PointValues> value_at(const analysis::StaticSolution& sol
 /// A finite element with its material and its values in one state.
 class FiniteElementState {
  public:
-  FiniteElementState(const analysis::StaticSolution& solution, const analysis::FieldState& state,
-                     std::size_t body, std::size_t cell);
+  FiniteElementState(const analysis::StaticSolution& solution, const analysis::FieldState& state, std::size_t body,
+                     std::size_t cell);
   const element::FiniteElement& element() const { return element_; }
   /// Without the reference displacement; the change of temperature is taken out of the stress.
   element::PointValues at(const Vec2& natural) const;

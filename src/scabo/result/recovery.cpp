@@ -100,8 +100,7 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
     const mesh::Cell& cell = body.cells[c];
     if (!cells[c]) {
       const element::FiniteElement element = element::finite_element_of(cell, body.nodes);
-      for (const int node : element.nodes())
-        made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
+      for (const int node : element.nodes()) made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
       continue;
     }
     made.cells[c].sampling = library.of_cell(*cells[c]);
@@ -127,9 +126,9 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
     const auto rings = static_cast<std::int32_t>(sampling.levels.size());
     for (std::int32_t ring = 1; ring < rings; ++ring)
       for (const int node : sampling.nodes)
-        grid.add_point(on_ring(body, cell, nodes[static_cast<std::size_t>(node)],
-                               sampling.levels[static_cast<std::size_t>(ring)]),
-                       number);
+        grid.add_point(
+            on_ring(body, cell, nodes[static_cast<std::size_t>(node)], sampling.levels[static_cast<std::size_t>(ring)]),
+            number);
     const std::int32_t centre = first + of_cell.inner + (rings - 1) * n;
     for (int k = 0; k <= sampling.centre.back(); ++k) grid.add_point(cell.centre, number);
     const auto point = [&](std::int32_t ring, std::int32_t k) {
@@ -278,8 +277,9 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
   for (std::size_t point = 0; point < made.nodes.size(); ++point) {
     const int node = made.nodes[point];
     const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(point)) / cells_at[point];
-    fields.set(first + point, u.segment<2>(2 * node), stress,
-               zz_of(solution, made.materials[point], stress, temperature.at(mesh.nodes[static_cast<std::size_t>(node)])));
+    fields.set(
+        first + point, u.segment<2>(2 * node), stress,
+        zz_of(solution, made.materials[point], stress, temperature.at(mesh.nodes[static_cast<std::size_t>(node)])));
   }
 }
 
@@ -419,8 +419,7 @@ Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis
       recover_super_element(fields, point, solution, state, b, *super_element->sampling);
     } else if (const auto* rigid = std::get_if<RigidBody>(&bodies_[b])) {
       for (std::size_t i = 0; i < rigid->arms.size(); ++i)
-        fields.set(point + i, rigid_displacement(state.displacements[b], rigid->arms[i]), element::Vec3::Zero(),
-                   0.0);
+        fields.set(point + i, rigid_displacement(state.displacements[b], rigid->arms[i]), element::Vec3::Zero(), 0.0);
     } else {
       recover_cells(fields, point, solution, state, b, std::get<CellsBody>(bodies_[b]));
     }

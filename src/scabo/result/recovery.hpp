@@ -41,7 +41,8 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
 struct SuperElementBody {
   std::shared_ptr<const RingSampling> sampling;
 };
-/// A body of many cells. Points are numbered within the body: first those on the sides, which cells of one material share.
+/// A body of many cells. Points are numbered within the body: first those on the sides, which cells of one material
+/// share.
 struct CellsBody {
   struct OfCell {
     std::shared_ptr<const RingSampling> sampling;  // null: a finite element

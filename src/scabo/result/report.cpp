@@ -225,17 +225,17 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
                               : 6.0;
     text += fmt::format("quantity: {} = {:.{}g} +- {:.2g}", quantity.of, quantity.value,
                         static_cast<int>(std::clamp(digits, 3.0, 15.0)), quantity.bar);
-    text += quantity.wanted ? fmt::format(" ({:g} wanted, {})\n", *quantity.wanted,
-                                          quantity.reached() ? "reached" : "not reached")
-                            : fmt::format(" ({:.1e})\n", quantity.relative());
+    text += quantity.wanted
+                ? fmt::format(" ({:g} wanted, {})\n", *quantity.wanted, quantity.reached() ? "reached" : "not reached")
+                : fmt::format(" ({:.1e})\n", quantity.relative());
   }
   return text;
 }
 
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
   std::string text;
-  for (const std::string& part :
-       {report_contacts(increment), report_reactions(model, increment), report_cracks(increment), report_quantities(increment)})
+  for (const std::string& part : {report_contacts(increment), report_reactions(model, increment),
+                                  report_cracks(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   return text;
 }

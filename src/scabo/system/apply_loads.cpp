@@ -23,7 +23,7 @@ class Applied {
         cells_(cells[body]),
         place_(place) {}
 
-  Vector nodal = Vector();     // in the numbering of the body
+  Vector nodal = Vector();      // in the numbering of the body
   element::CellLoads interior;  // empty: none
 
   void operator()(const model::Force& force) {

@@ -1,5 +1,5 @@
-// Stiffness and mass of a body, or of a part of tied bodies, from those of its cells, super-elements and finite elements
-// alike.
+// Stiffness and mass of a body, or of a part of tied bodies, from those of its cells, super-elements and finite
+// elements alike.
 #pragma once
 
 #include <functional>

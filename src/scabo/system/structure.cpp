@@ -112,8 +112,7 @@ std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh, 
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     if (!mesh.interfaces[c].pairs.empty() &&
         dofs.part_of(model.contacts[c].a.body) != dofs.part_of(model.contacts[c].b.body))
-      for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body})
-        found[dofs.part_of(body)] = true;
+      for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body}) found[dofs.part_of(body)] = true;
   return found;
 }
 

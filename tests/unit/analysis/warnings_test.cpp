@@ -56,12 +56,14 @@ TEST(Warnings, OfADeepOverlapWithItsPressure) {
 
 TEST(Warnings, OfPressureThatTheTheoryDoesNotCover) {
   const StaticSolution solution = solve(stack(0.0, "steps: [{loads: {roller: 2e8}}]\n"));  // 0.2 m as well
-  EXPECT_THAT(texts_of(solution.warnings), Contains(HasSubstr("contact 'joint': the pressure reaches 2.1e+10, 10 % of Young's")));
+  EXPECT_THAT(texts_of(solution.warnings),
+              Contains(HasSubstr("contact 'joint': the pressure reaches 2.1e+10, 10 % of Young's")));
 }
 
 TEST(Warnings, OfAContactThatNeverCloses) {
   const StaticSolution solution = solve(stack(-1e-3));
-  EXPECT_THAT(texts_of(solution.warnings), ElementsAre(HasSubstr("contact 'joint' never closes: the smallest gap is 0.001")));
+  EXPECT_THAT(texts_of(solution.warnings),
+              ElementsAre(HasSubstr("contact 'joint' never closes: the smallest gap is 0.001")));
 }
 
 TEST(Warnings, OfAContactZoneOfThreePairs) {
@@ -77,7 +79,8 @@ TEST(Warnings, OfLoadsThatMoveNothing) {
                                               "  down: {on: lower.bottom_left, force: [5, -3]}\n"
                                               "  none: {on: upper.left, pressure: 0}\n"
                                               "  some: {on: lower.bottom, force: [1, -3]}\n"));
-  EXPECT_THAT(texts_of(solution.warnings), ElementsAre(HasSubstr("load 'down' has no effect"), HasSubstr("load 'none' is zero")));
+  EXPECT_THAT(texts_of(solution.warnings),
+              ElementsAre(HasSubstr("load 'down' has no effect"), HasSubstr("load 'none' is zero")));
 }
 
 TEST(Warnings, ContactsWithTheSameFaultShareOneSentence) {
@@ -104,7 +107,8 @@ std::string row(int count, const std::string& other_bodies, const std::string& r
          "bodies:\n" +
          other_bodies +
          "  block: {material: steel, shape: {rectangle: {corner: [1, 0], size: [1, 1]}}, mesh: {size: 1}, "
-         "repeat: {count: " + std::to_string(count) + ", step: [1, 0]}}\n" + rest;
+         "repeat: {count: " +
+         std::to_string(count) + ", step: [1, 0]}}\n" + rest;
 }
 
 std::size_t times(const std::string& part, const std::string& text) {
@@ -134,7 +138,8 @@ TEST(Reasons, OfAMechanismNameTheFewBodiesThatMoveMost) {
 TEST(Reasons, NameFourOfManyTiedBodies) {
   std::string ties = "loads: {push: {gravity: [5, -9.81]}}\nties:\n";
   for (int k = 1; k < 7; ++k)
-    ties += "  tie_" + std::to_string(k) + ": {between: [block_" + std::to_string(k) + ".right, block_" + std::to_string(k + 1) + ".left]}\n";
+    ties += "  tie_" + std::to_string(k) + ": {between: [block_" + std::to_string(k) + ".right, block_" +
+            std::to_string(k + 1) + ".left]}\n";
   try {
     solve(row(7, "", ties));
     FAIL() << "seven blocks that nothing supports";

@@ -1,4 +1,6 @@
 // CAD files that Gmsh's library meshes, and the messages for those that it cannot.
+#include "scabo/files/cad.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +14,6 @@
 #include <thread>
 
 #include "scabo/base/error.hpp"
-#include "scabo/files/cad.hpp"
 
 namespace {
 
@@ -102,7 +103,8 @@ TEST_F(Cad, StepAndBrepFiles) {
 }
 
 TEST_F(Cad, PhysicalGroupsAreRegionsAndEdges) {
-  const std::string groups = std::string(square) + "Physical Surface(\"rock\") = {1}; Physical Curve(\"base\") = {1};\n";
+  const std::string groups =
+      std::string(square) + "Physical Surface(\"rock\") = {1}; Physical Curve(\"base\") = {1};\n";
   const ImportedMesh mesh = mesh_cad_file(file("a.geo", groups), {0.25, 1});
   EXPECT_EQ(mesh.regions, std::vector<std::string>{"rock"});
   ASSERT_EQ(mesh.facet_sets.size(), 1u);
@@ -112,7 +114,8 @@ TEST_F(Cad, PhysicalGroupsAreRegionsAndEdges) {
 
 // Options of one file do not reach the next, also after a broken one; threads wait for each other.
 TEST_F(Cad, FilesDoNotInfluenceEachOther) {
-  const std::string quads = file("quads.geo", "Mesh.RecombineAll = 1; Mesh.MeshSizeFactor = 0.5;\n" + std::string(square));
+  const std::string quads =
+      file("quads.geo", "Mesh.RecombineAll = 1; Mesh.MeshSizeFactor = 0.5;\n" + std::string(square));
   const std::string plain = file("plain.geo", square);
   const std::size_t cells = mesh_cad_file(plain, {0.25, 1}).cells.size();
   std::vector<std::thread> threads;
@@ -154,14 +157,18 @@ TEST_F(Cad, SignalsAndTemporaryFilesAreLeftAlone) {
 }
 
 TEST_F(Cad, Messages) {
-  EXPECT_THAT(message("a.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1, 0, 0;\n"), HasSubstr("a.geo:2:1: Gmsh cannot read the file: syntax error"));
+  EXPECT_THAT(message("a.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1, 0, 0;\n"),
+              HasSubstr("a.geo:2:1: Gmsh cannot read the file: syntax error"));
   EXPECT_THAT(message("a.geo", "Point(1) = {0, 0, 0};\n"), HasSubstr("the file has no surface"));
-  EXPECT_THAT(message("a.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"), HasSubstr("the file has a solid"));
+  EXPECT_THAT(message("a.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"),
+              HasSubstr("the file has a solid"));
   EXPECT_THAT(message("a.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0.5, 2, 1};\n"),
               HasSubstr("surface 1 is not in the plane z = 0: it lies between z = 0.5 and z = 0.5"));
-  EXPECT_THAT(message("a.geo", std::string(square), {1e-9, 1}), HasSubstr("about 1.2e+18 nodes, more than the 1000000 allowed"));
-  EXPECT_THAT(message("a.geo", "Point(1) = {0, 0, 0}; Point(2) = {1, 1, 0}; Point(3) = {1, 0, 0};\n"
-                               "Line(1) = {1, 2}; Line(2) = {2, 3};\nCurve Loop(1) = {1, 2}; Plane Surface(1) = {1};\n"),
+  EXPECT_THAT(message("a.geo", std::string(square), {1e-9, 1}),
+              HasSubstr("about 1.2e+18 nodes, more than the 1000000 allowed"));
+  EXPECT_THAT(message("a.geo",
+                      "Point(1) = {0, 0, 0}; Point(2) = {1, 1, 0}; Point(3) = {1, 0, 0};\n"
+                      "Line(1) = {1, 2}; Line(2) = {2, 3};\nCurve Loop(1) = {1, 2}; Plane Surface(1) = {1};\n"),
               HasSubstr("Gmsh cannot"));
   EXPECT_THAT(message("a.step", "ISO-10303-21;\nHEADER;\nfoo"), HasSubstr("Gmsh cannot read the file"));
   EXPECT_THAT(message("a.brep", "DBRep_DrawableShape\n"), HasSubstr("truncated"));
@@ -183,8 +190,8 @@ TEST(CadCommands, AreRefused) {
   for (const char* command : {"SystemCall \"touch x\";", "NonBlockingSystemCall \"touch x\";", "// SystemCall \"x\";",
                               "OnelabRun(\"a\", \"b\");", "System \"touch x\";"})
     EXPECT_THAT(message(std::string("a = 1;\n") + command), HasSubstr("a.geo:2:1: the command ")) << command;
-  for (const char* command : {"Save \"x.msh\";", "Print \"x.png\";", "Printf(\"%g\", (1)) > \"x\";", "CreateDir \"x\";",
-                              "Plugin(Skin).Run;"})
+  for (const char* command :
+       {"Save \"x.msh\";", "Print \"x.png\";", "Printf(\"%g\", (1)) > \"x\";", "CreateDir \"x\";", "Plugin(Skin).Run;"})
     EXPECT_THAT(message(std::string("a = 1;\n") + command), HasSubstr("writes files")) << command;
   EXPECT_THAT(message("Exit;"), HasSubstr("ends the program"));
   EXPECT_THAT(message("Include StrCat(\"a\", \"b\");"), HasSubstr("computed"));

@@ -1,10 +1,9 @@
-#include "scabo/geometry/line_basis.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "scabo/base/error.hpp"
+#include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::geometry {
 namespace {

@@ -1,10 +1,10 @@
 // Edges that cross, touch or lie on each other, and outlines that overlap.
+#include "scabo/geometry/pieces.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "scabo/geometry/pieces.hpp"
 
 namespace scabo::geometry {
 namespace {
@@ -33,7 +33,8 @@ Outline box(double x, double y, double width, double height) {
 }
 
 TEST(MeetingPositions, OfCrossingLinesAndOfLinesOnEachOther) {
-  const Edge a = segment({0, 0}, {4, 0}), b = segment({1, -1}, {1, 3}), c = segment({3, 0}, {2, 0}), d = segment({0, 5}, {4, 5});
+  const Edge a = segment({0, 0}, {4, 0}), b = segment({1, -1}, {1, 3}), c = segment({3, 0}, {2, 0}),
+             d = segment({0, 5}, {4, 5});
   const auto positions = meeting_positions({&a, &b, &c, &d}, tolerance);
   EXPECT_EQ(positions[0], (std::vector<double>{0.0, 0.25, 0.5, 0.75, 1.0}));
   EXPECT_EQ(positions[1], (std::vector<double>{0.0, 0.25, 1.0}));

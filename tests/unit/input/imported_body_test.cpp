@@ -1,4 +1,6 @@
 // Outlines made of mesh files, and the keys around `mesh: {file: ...}`.
+#include "scabo/model/imported_body.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +11,6 @@
 #include "scabo/files/read_mesh_file.hpp"
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/input/read_model.hpp"
-#include "scabo/model/imported_body.hpp"
 #include "support/mesh_text.hpp"
 
 namespace scabo::input {
@@ -56,12 +57,12 @@ TEST(ImportedBody, OfARectangleHasFourStraightEdges) {
 TEST(ImportedBody, NamesEdgesAndCornersBySets) {
   MeshText mesh = mesh_of_rectangle(9, 4.0, 1.0, 4, 1);  // nodes 0 to 4 at the bottom, 5 to 9 at the top
   mesh.cells.push_back({3, {1, 2}, 7});
-  mesh.cells.push_back({3, {2, 3}, 7});   // x from 1 to 3 of the bottom
+  mesh.cells.push_back({3, {2, 3}, 7});  // x from 1 to 3 of the bottom
   mesh.cells.push_back({3, {9, 8}, 8});
-  mesh.cells.push_back({3, {6, 5}, 8});   // the two ends of the top
-  mesh.cells.push_back({3, {8, 3}, 9});   // between two cells: no edge
-  mesh.cells.push_back({1, {7}, 3});      // cuts the middle of the top
-  mesh.cells.push_back({1, {2}, 4});      // within a named edge
+  mesh.cells.push_back({3, {6, 5}, 8});  // the two ends of the top
+  mesh.cells.push_back({3, {8, 3}, 9});  // between two cells: no edge
+  mesh.cells.push_back({1, {7}, 3});     // cuts the middle of the top
+  mesh.cells.push_back({1, {2}, 4});     // within a named edge
   const ImportedBody body = body_of(mesh);
   EXPECT_THAT(edge_names(body.outline), ElementsAre("edge_1", "boundary_7", "edge_2", "edge_3", "boundary_8", "edge_4",
                                                     "edge_5", "boundary_8_2", "edge_6"));
@@ -80,8 +81,8 @@ TEST(ImportedBody, CutsEdgesWhereSetsOverlap) {
   mesh.cells.push_back({3, {1, 2}, 2});
   const ImportedBody body = body_of(mesh);
   // boundary_2 is also the second piece of boundary_1.
-  EXPECT_THAT(edge_names(body.outline), ElementsAre("boundary_1", "boundary_1_2", "boundary_2", "boundary_1_3", "edge_1",
-                                                    "edge_2", "edge_3"));
+  EXPECT_THAT(edge_names(body.outline),
+              ElementsAre("boundary_1", "boundary_1_2", "boundary_2", "boundary_1_3", "edge_1", "edge_2", "edge_3"));
 }
 
 TEST(ImportedBody, OfARegionNamesItsBorders) {
@@ -154,8 +155,9 @@ TEST(ImportedBody, NamesAreMadeValid) {
 }
 
 std::string model_of(const std::string& body, const std::string& rest = "") {
-  return "scabo: 1\nmaterials: {rock: {young: 1, poisson: 0.3}, steel: {young: 2, poisson: 0.3}}\nbodies: {part: {" + body +
-         "}}\nsupports: [{on: part.edge_1, fix: [x, y]}]\nloads: {pull: {on: part.edge_3, force: [0, 1]}}\n" + rest;
+  return "scabo: 1\nmaterials: {rock: {young: 1, poisson: 0.3}, steel: {young: 2, poisson: 0.3}}\nbodies: {part: {" +
+         body + "}}\nsupports: [{on: part.edge_1, fix: [x, y]}]\nloads: {pull: {on: part.edge_3, force: [0, 1]}}\n" +
+         rest;
 }
 
 TEST(ImportedBody, MaterialsOfRegions) {
@@ -181,16 +183,19 @@ TEST(ImportedBody, WarnsOfPiecesThatNoPlaceNames) {
   mesh.cells.push_back({3, {3, 4}, 2});                                 // the second one by another name
   const auto warnings = [&](const std::string& places, const std::string& more = "") {
     return texts_of(parse_model("scabo: 1\nmaterials: {rock: {young: 1, poisson: 0}}\n"
-                                "bodies: {part: {material: rock, mesh: {file: " + mesh.file() + "}}}\n" + places +
-                                "loads: {down: {on: {body: part, near: [2, 1]}, force: [0, -1]}" + more + "}\n",
-                                "model.yaml").warnings);
+                                "bodies: {part: {material: rock, mesh: {file: " +
+                                    mesh.file() + "}}}\n" + places +
+                                    "loads: {down: {on: {body: part, near: [2, 1]}, force: [0, -1]}" + more + "}\n",
+                                "model.yaml")
+                        .warnings);
   };
   const std::string support = "supports:\n  - {on: part.boundary_1, fix: [x, y]}\n";
   const auto tells = ElementsAre(HasSubstr("part.boundary_1 is its first piece, and part.boundary_1_2 the next"));
   EXPECT_THAT(warnings(support), tells);
   EXPECT_THAT(warnings(support + "  - {on: part.boundary_1, fix: [x]}\n"), tells);
   EXPECT_THAT(warnings(support + "  - {on: part.boundary_1_2, fix: [x]}\n"), IsEmpty());
-  EXPECT_THAT(warnings("supports:\n  - {on: part.boundary_1_2, fix: [x, y]}\n  - {on: part.boundary_1, fix: [x]}\n"), IsEmpty());
+  EXPECT_THAT(warnings("supports:\n  - {on: part.boundary_1_2, fix: [x, y]}\n  - {on: part.boundary_1, fix: [x]}\n"),
+              IsEmpty());
   EXPECT_THAT(warnings(support, ", push: {on: part.boundary_2, pressure: 1}"), IsEmpty());
   EXPECT_THAT(warnings("supports:\n  - {on: part.boundary_1_2, fix: [x, y]}\n"), IsEmpty());
 }

@@ -465,14 +465,16 @@ TEST(Matching, ManyElements) {
   EXPECT_GT(mesh.interfaces[0].pairs.size(), 20000u);
 }
 
-/// A half disc of radius r on a plane, both of squares: the row of nodes at a height of 3 r / 4 lies where the normals of the
-/// sides have the angle at which sight ends, and is seen or not by rounding.
+/// A half disc of radius r on a plane, both of squares: the row of nodes at a height of 3 r / 4 lies where the normals
+/// of the sides have the angle at which sight ends, and is seen or not by rounding.
 TEST(Match, NodesWhereSightEndsAreNotDoubled) {
   for (int k = 0; k < 100; ++k) {
     const double r = 0.05 * (1.0 + 0.37 * k), x = k % 3 == 0 ? 0.0 : 0.1 * k;
-    model::Model model = pair_of(elastic("block", rectangle({x - 4.0 * r, -4.0 * r}, {8.0 * r, 4.0 * r}), r, 2), "top",
-                                 elastic("roller", test::outline({line("top", {x + r, r}, {x - r, r}), arc("rim", {x, r}, r, pi, pi)}),
-                                         0.25 * r, 2), "rim");
+    model::Model model =
+        pair_of(elastic("block", rectangle({x - 4.0 * r, -4.0 * r}, {8.0 * r, 4.0 * r}), r, 2), "top",
+                elastic("roller", test::outline({line("top", {x + r, r}, {x - r, r}), arc("rim", {x, r}, r, pi, pi)}),
+                        0.25 * r, 2),
+                "rim");
     std::vector<BodyMesh> bodies;
     for (model::Body& body : model.bodies) {
       body.mesh.kind = model::MeshKind::quadtree;
@@ -483,7 +485,8 @@ TEST(Match, NodesWhereSightEndsAreNotDoubled) {
     for (std::size_t b = 0; b < 2; ++b) {
       const int edge = edge_of(model, b == 0 ? "block" : "roller", b == 0 ? "top" : "rim").index;
       const std::vector<double> breaks = breaks_of((*matched)[b], edge);
-      for (std::size_t i = 1; i < breaks.size(); ++i) EXPECT_GT(breaks[i] - breaks[i - 1], 0.02 * r) << k << ", body " << b;
+      for (std::size_t i = 1; i < breaks.size(); ++i)
+        EXPECT_GT(breaks[i] - breaks[i - 1], 0.02 * r) << k << ", body " << b;
     }
   }
 }
@@ -492,9 +495,10 @@ TEST(Match, NodesWhereSightEndsAreNotDoubled) {
 /// however its sides are divided: (0, 2 r).
 TEST(Match, NormalsOfADiscOnAPlanePassThroughOnePoint) {
   const double r = 0.05;
-  model::Model model = pair_of(elastic("block", rectangle({-4.0 * r, -4.0 * r}, {8.0 * r, 4.0 * r}), r, 2), "top",
-                               elastic("roller", test::outline({line("top", {r, r}, {-r, r}), arc("rim", {0, r}, r, pi, pi)}),
-                                       0.25 * r, 2), "rim");
+  model::Model model = pair_of(
+      elastic("block", rectangle({-4.0 * r, -4.0 * r}, {8.0 * r, 4.0 * r}), r, 2), "top",
+      elastic("roller", test::outline({line("top", {r, r}, {-r, r}), arc("rim", {0, r}, r, pi, pi)}), 0.25 * r, 2),
+      "rim");
   std::vector<BodyMesh> bodies;
   for (model::Body& body : model.bodies) {
     body.mesh.kind = model::MeshKind::quadtree;

@@ -50,7 +50,8 @@ TEST(NarrowPlaces, AThinRingIsDividedAlongItsLength) {
   for (const Kind kind : {Kind::polygons, Kind::fem, Kind::quadtree, Kind::parts}) {
     const model::Body ring =
         body_of(test::outline({test::arc("top", {0, 0}, 1.0, 0.0, test::pi), test::line("left", {-1, 0}, {-inner, 0}),
-                               test::arc("bottom", {0, 0}, inner, test::pi, -test::pi), test::line("right", {inner, 0}, {1, 0})}),
+                               test::arc("bottom", {0, 0}, inner, test::pi, -test::pi),
+                               test::line("right", {inner, 0}, {1, 0})}),
                 kind, 0.2);
     const auto made = divide_into_cells(ring, {}, 1e6);
     const BodyMesh* mesh = mesh_in(made);
@@ -97,14 +98,16 @@ TEST(NarrowPlaces, EveryCrackTipHasACellOfItsOwn) {
       const auto made = divide_into_cells(body, {}, 1e6);
       const BodyMesh* mesh = mesh_in(made);
       if (mesh == nullptr) continue;
-      EXPECT_EQ(std::count_if(mesh->cells.begin(), mesh->cells.end(), [](const Cell& cell) { return cell.is_open(); }), 6);
+      EXPECT_EQ(std::count_if(mesh->cells.begin(), mesh->cells.end(), [](const Cell& cell) { return cell.is_open(); }),
+                6);
       for (const Cell& cell : mesh->cells) {
         if (!cell.is_open()) continue;
         double radius = 0.0;
         for (const int node : cell.nodes())
           radius = std::max(radius, (mesh->nodes[static_cast<std::size_t>(node)] - cell.centre).norm());
-        const double to_gap = std::min({(cell.centre - Vec2(0.9, 0.5)).norm(), (cell.centre - Vec2(0.9 + gap, 0.5)).norm(),
-                                        (cell.centre - Vec2(1.8, 1.0 - gap)).norm()});
+        const double to_gap =
+            std::min({(cell.centre - Vec2(0.9, 0.5)).norm(), (cell.centre - Vec2(0.9 + gap, 0.5)).norm(),
+                      (cell.centre - Vec2(1.8, 1.0 - gap)).norm()});
         if (to_gap < 1e-9) EXPECT_LT(radius, gap);
       }
     }

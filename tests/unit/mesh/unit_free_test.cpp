@@ -93,8 +93,9 @@ TEST(UnitFreeMesh, DividesAnEdgeThatIsAMultipleOfTheSizeAsOftenAsThat) {
   for (const double scale : {1.0, 1e-3, 0.0254, 7.0})
     for (const int count : {3, 10, 97, 1000}) {  // the top is a hundredth of the body, which rounding must not see
       model::Body body = test::elastic(
-          "wedge", test::polygon({scale * Vec2(0, 0), scale * Vec2(1, 0), scale * Vec2(0.01, 0.3), scale * Vec2(0, 0.3)},
-                                 {"bottom", "right", "top", "left"}),
+          "wedge",
+          test::polygon({scale * Vec2(0, 0), scale * Vec2(1, 0), scale * Vec2(0.01, 0.3), scale * Vec2(0, 0.3)},
+                        {"bottom", "right", "top", "left"}),
           scale * 0.01 / count, 1);
       body.mesh.kind = model::MeshKind::parts;
       const auto mesh = divide_into_cells(body, {}, 1e7);

@@ -114,8 +114,7 @@ TEST(Recovery, CellsCoverTheBodyOnce) {
 TEST(Recovery, RingsAreNarrowAtTheBoundary) {
   for (const double size : {2.0, 0.3, 0.02}) {
     const mesh::Mesh mesh = mesh::make_mesh(model_of({elastic("body", pentagon(), size, 1)}, model::Plane::stress));
-    const std::vector<double> levels =
-        ring_levels(element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes));
+    const std::vector<double> levels = ring_levels(element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes));
     EXPECT_EQ(levels.front(), 1.0);
     for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
       EXPECT_GT(levels[i], levels[i + 1]);
@@ -131,7 +130,8 @@ TEST(Recovery, RigidBodyIsItsMovedOutline) {
   const auto solution = solution_of(model_of({rigid("punch", disc)}, model::Plane::strain));
   const Recovery recovery(solution);
   const Grid& grid = recovery.grid();
-  const Fields fields = recovery.fields(solution, increment_of(solution, linear_field(gradient), {0.01, -0.02, 0.003}).fields);
+  const Fields fields =
+      recovery.fields(solution, increment_of(solution, linear_field(gradient), {0.01, -0.02, 0.003}).fields);
   EXPECT_EQ(grid.cell_count(), 1U);
   EXPECT_EQ(grid.point_count(), 120U);
   for (std::size_t i = 0; i < grid.point_count(); ++i) {

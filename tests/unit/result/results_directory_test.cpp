@@ -199,8 +199,8 @@ TEST_F(Results, ContactTable) {
 TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const FinishedRun run(path_);
   const Json summary = Json::parse(content_of(path_ / "summary.json"));
-  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "warning_kinds", "model", "passes",
-                                            "increments", "timing", "peak_memory_bytes"));
+  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "warning_kinds", "model",
+                                            "passes", "increments", "timing", "peak_memory_bytes"));
   EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs"));
   EXPECT_THAT(keys_of(summary["timing"]), ElementsAre("read", "mesh", "super_elements", "assemble", "factorise",
                                                       "condense", "newton", "recover", "write", "total"));

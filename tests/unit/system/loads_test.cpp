@@ -133,7 +133,7 @@ TEST(Condensation, IsTheMotionOfThePairsUnderUnitPairForces) {
   }
   for (Eigen::Index k = 0; k < 3; ++k)
     EXPECT_LT(test::largest(system.G.dense().col(k) - motion(Vector::Zero(blocks.structure.parts[0]->size()),
-                                                     blocks.structure.parts[1]->rigid_motions().col(k))),
+                                                             blocks.structure.parts[1]->rigid_motions().col(k))),
               1e-14);
 }
 
