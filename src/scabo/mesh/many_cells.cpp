@@ -9,8 +9,8 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <numeric>
 
+#include "scabo/base/disjoint_sets.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
@@ -375,23 +375,14 @@ BodyMesh divide_image(const model::Body& body) {
 
 /// Number of pieces that share no side with each other.
 std::size_t pieces_of(const BodyMesh& mesh) {
-  std::vector<std::size_t> piece(mesh.cells.size());
-  std::iota(piece.begin(), piece.end(), std::size_t{0});
-  const auto root = [&](std::size_t c) {
-    while (piece[c] != c) c = piece[c] = piece[piece[c]];
-    return c;
-  };
+  DisjointSets pieces(mesh.cells.size());
   std::map<std::pair<int, int>, std::size_t> of_side;
-  std::size_t count = mesh.cells.size();
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const LineElement& element : mesh.cells[c].boundary) {
       const auto [other, is_new] = of_side.emplace(std::minmax(element.nodes.front(), element.nodes.back()), c);
-      const std::size_t a = root(c), b = root(other->second);
-      if (a == b) continue;
-      piece[a] = b;
-      --count;
+      pieces.join(c, other->second);
     }
-  return count;
+  return pieces.sets();
 }
 
 }  // namespace

@@ -3,72 +3,42 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+
+#include "scabo/base/disjoint_sets.hpp"
 
 namespace scabo::system {
-
-namespace {
-
-/// Sets that are joined two by two; the representative of a set is its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    int& parent = parent_[static_cast<std::size_t>(i)];
-    while (parent != i) {
-      const int above = parent_[static_cast<std::size_t>(parent)];
-      if (above == parent) return parent;
-      parent = above;
-    }
-    return i;
-  }
-  void join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
-}  // namespace
 
 Dofs::Dofs(const model::Model& model, const mesh::Mesh& mesh)
     : part_of_(model.bodies.size()), numbers_(model.bodies.size()) {
   DisjointSets bodies(model.bodies.size());
-  for (const model::Tie& tie : model.ties) bodies.join(tie.a.body, tie.b.body);
+  for (const model::Tie& tie : model.ties) bodies.join(static_cast<std::size_t>(tie.a.body), static_cast<std::size_t>(tie.b.body));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const int first = bodies.root(static_cast<int>(b));
-    if (first == static_cast<int>(b)) {
-      part_of_[b] = parts_.size();
-      parts_.push_back({});
-    } else {
-      part_of_[b] = part_of_[static_cast<std::size_t>(first)];
-    }
+    const std::size_t first = bodies.root(b);
+    if (first == b) parts_.push_back({});
+    part_of_[b] = first == b ? parts_.size() - 1 : part_of_[first];
     Part& part = parts_[part_of_[b]];
     part.bodies.push_back(static_cast<int>(b));
     part.rigid = model.bodies[b].rigid;
     part.unbounded = part.unbounded || model.bodies[b].outside;
   }
 
-  std::vector<int> first_node{0};  // of every body, among the nodes of all
-  for (const mesh::BodyMesh& body : mesh.bodies)
-    first_node.push_back(first_node.back() + static_cast<int>(body.nodes.size()));
-  DisjointSets nodes(static_cast<std::size_t>(first_node.back()));
+  std::vector<std::size_t> first_node{0};  // of every body, among the nodes of all
+  for (const mesh::BodyMesh& body : mesh.bodies) first_node.push_back(first_node.back() + body.nodes.size());
+  DisjointSets nodes(first_node.back());
+  const auto among_all = [&](int body, int node) {
+    return first_node[static_cast<std::size_t>(body)] + static_cast<std::size_t>(node);
+  };
   for (std::size_t t = 0; t < mesh.ties.size(); ++t)
     for (const mesh::ContactPair& pair : mesh.ties[t].pairs)
-      nodes.join(first_node[static_cast<std::size_t>(model.ties[t].a.body)] + pair.node_a,
-                 first_node[static_cast<std::size_t>(model.ties[t].b.body)] + pair.node_b);
+      nodes.join(among_all(model.ties[t].a.body, pair.node_a), among_all(model.ties[t].b.body, pair.node_b));
 
-  std::vector<int> number(static_cast<std::size_t>(first_node.back()), -1);  // in its part, of every node of all
+  std::vector<int> number(first_node.back(), -1);  // in its part, of every node of all
   for (Part& part : parts_)
     for (const int body : part.bodies) {
       const auto b = static_cast<std::size_t>(body);
       const std::vector<Vec2>& own = mesh.bodies[b].nodes;
       for (std::size_t i = 0; i < own.size(); ++i) {
-        const auto all = static_cast<std::size_t>(first_node[b]) + i;
-        int& of_root = number[static_cast<std::size_t>(nodes.root(static_cast<int>(all)))];
+        int& of_root = number[nodes.root(first_node[b] + i)];
         if (of_root < 0) {
           of_root = static_cast<int>(part.nodes.size());
           part.nodes.push_back(own[i]);
