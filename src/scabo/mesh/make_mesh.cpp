@@ -19,7 +19,7 @@ namespace scabo::mesh {
 namespace {
 
 /// A larger number in one model is taken as a mistyped size.
-constexpr double most_nodes = 1e6;
+constexpr double most_nodes_of_model = 1e6;
 
 /// Reason why the body cannot be divided, found before memory is allocated.
 std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) {
@@ -29,15 +29,15 @@ std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) 
              fmt::format("'kind: fem' uses elements of order 1 or 2, not {}: use one of these", body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
-  if (nodes <= most_nodes && nodes_before + nodes > most_nodes) {
+  if (nodes <= most_nodes_of_model && nodes_before + nodes > most_nodes_of_model) {
     return {{body.mesh.source, fmt::format("with this body the model would have {:.3g} nodes, more than the {:.7g} "
                                            "allowed: use larger mesh sizes",
-                                           nodes_before + nodes, most_nodes)}};
+                                           nodes_before + nodes, most_nodes_of_model)}};
   }
-  if (!(nodes <= most_nodes)) {
+  if (!(nodes <= most_nodes_of_model)) {
     return {{body.mesh.source,
              fmt::format("size {:.6g} would give {:.3g} nodes, more than the {:.7g} allowed: use a larger 'size'",
-                         body.mesh.size, nodes, most_nodes)}};
+                         body.mesh.size, nodes, most_nodes_of_model)}};
   }
   return {};
 }
@@ -82,8 +82,9 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
     const model::Body& body = model.bodies[b];
     if (body.rigid) continue;
     if (model::is_divided_inside(body)) {
-      auto divided = body.imported ? cells_of_file(body, most_nodes - nodes)
-                                   : divide_into_cells(body, sizes.empty() ? no_limit : sizes[b], most_nodes - nodes);
+      auto divided = body.imported
+                         ? cells_of_file(body, most_nodes_of_model - nodes)
+                         : divide_into_cells(body, sizes.empty() ? no_limit : sizes[b], most_nodes_of_model - nodes);
       if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
         mistakes.push_back(*wrong);
         continue;
