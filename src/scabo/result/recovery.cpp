@@ -264,25 +264,17 @@ Eigen::Matrix3Xd recover_cell(Fields& fields, std::size_t first, const analysis:
   return ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior.temperature);
 }
 
-int threads_of(const element::SolvedCells& cells) {
-  int threads = 1;
-  for (const auto& cell : cells)
-    if (cell) threads = std::max(threads, cell->threads);
-  return threads;
-}
-
 /// Stress on the sides of cells is the mean of the cells that share the point.
 void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
                    const analysis::FieldState& state, std::size_t body, const CellsBody& made) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(made.nodes.size()));
   std::vector<int> cells_at(made.nodes.size(), 0);
-  const int threads = threads_of(solution.cells[body]);
   constexpr std::size_t at_once = 4096;  // the sums are made in the order of the cells, whatever the threads
   std::vector<Eigen::Matrix3Xd> of_part(std::min(at_once, mesh.cells.size()));
   for (std::size_t begin = 0; begin < mesh.cells.size(); begin += at_once) {
     const std::size_t count = std::min(at_once, mesh.cells.size() - begin);
-    linalg::parallel_for(static_cast<int>(count), threads, [&](int k) {
+    linalg::parallel_for(static_cast<int>(count), solution.threads, [&](int k) {
       const auto at = static_cast<std::size_t>(k);
       of_part[at] = recover_cell(fields, first, solution, state, body, begin + at, made.cells[begin + at]);
     });
