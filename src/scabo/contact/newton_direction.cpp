@@ -26,7 +26,8 @@ struct NewtonDirection::Workspace {
 
 namespace {
 
-constexpr Eigen::Index most_direct = 2500;  // unknowns of a dense factorisation
+constexpr Eigen::Index most_direct = 2500;       // unknowns of a dense factorisation, where there is a choice,
+constexpr Eigen::Index most_after_gmres = 6000;   // and where GMRES has failed
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
 constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
 
@@ -200,10 +201,11 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   bool solved = false;
   if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = solve_sparse(regularisation);
-  else if (size + m <= most_direct && (m > 0 || problem.W.is_dense() || forces <= most_direct))
+  else if (size + m <= most_direct && (problem.W.is_dense() || forces <= most_direct))
     solved = solve_dense(regularisation);
   else
-    solved = m == 0 && solve_iteratively(regularisation);
+    solved = solve_iteratively(regularisation) ||
+             (problem.W.is_dense() && size + m <= most_after_gmres && solve_dense(regularisation));
   if (!solved) return false;
   d.resize(forces + m);
   expand(y_, known_);
@@ -369,30 +371,33 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   return y_.allFinite() && left <= descending;
 }
 
-void NewtonDirection::apply(const Vector& y, double regularisation, Vector& result) {
+void NewtonDirection::apply(const Vector& x, double regularisation, Vector& result) {
   Workspace& work = *work_;
-  work.full.setZero(equations_.problem().W.size());
-  expand(y, work.full);
-  work.image = equations_.problem().W * work.full;
-  result.resize(y.size());
+  const Problem& problem = equations_.problem();
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  work.full.setZero(problem.W.size());
+  expand(x, work.full);
+  work.image = problem.W * work.full;
+  problem.G.add_motion(x.tail(problem.G.cols()), work.image);
+  result.resize(x.size());
   gather(work.image, result);
-  for (std::size_t j = 0; j < unknowns_.size(); ++j) {
-    const Unknown& unknown = unknowns_[j];
-    const auto k = static_cast<Eigen::Index>(j);
-    result[k] = unknown.scale * result[k] + (regularisation * (1.0 - unknown.own) + unknown.own) * y[k];
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    result[j] = unknown.scale * result[j] + (regularisation * (1.0 - unknown.own) + unknown.own) * x[j];
   }
+  result.tail(problem.G.cols()) = problem.G.transpose() * work.full;
 }
 
-bool NewtonDirection::solve_iteratively(double regularisation) {
-  const int d = equations_.problem().dimension;
-  Workspace& work = *work_;
-  if (work.blocks.size() == 0) work.blocks = equations_.problem().W.diagonal_blocks(d);
-  // The pairs on themselves, inverted.
-  std::vector<Eigen::Matrix3d> inverse(first_of_pair_.size() - 1);
-  for (std::size_t i = 0; i + 1 < first_of_pair_.size(); ++i) {
+NewtonDirection::PairBlocks NewtonDirection::pair_blocks(double regularisation) {
+  const Problem& problem = equations_.problem();
+  const int d = problem.dimension;
+  if (work_->blocks.size() == 0) work_->blocks = problem.W.diagonal_blocks(d);
+  PairBlocks blocks;
+  blocks.inverse.resize(first_of_pair_.size() - 1);
+  for (std::size_t i = 0; i < blocks.inverse.size(); ++i) {
     const int first = first_of_pair_[i], count = first_of_pair_[i + 1] - first;
     Eigen::Matrix3d block = Eigen::Matrix3d::Identity(), W = Eigen::Matrix3d::Zero();
-    W.topLeftCorner(d, d) = work.blocks.middleCols(d * static_cast<Eigen::Index>(i), d);
+    W.topLeftCorner(d, d) = work_->blocks.middleCols(d * static_cast<Eigen::Index>(i), d);
     for (int row = 0; row < count; ++row)
       for (int column = 0; column < count; ++column) {
         const Unknown& to = unknowns_[static_cast<std::size_t>(first + row)];
@@ -400,18 +405,58 @@ bool NewtonDirection::solve_iteratively(double regularisation) {
         block(row, column) = to.scale * to.row.dot(W * from.column) +
                              (row == column ? regularisation * (1.0 - from.own) + from.own : 0.0);
       }
-    inverse[i] = block.inverse();
-    if (!inverse[i].allFinite()) inverse[i].setIdentity();
+    blocks.inverse[i] = block.inverse();
+    if (!blocks.inverse[i].allFinite()) blocks.inverse[i].setIdentity();
   }
-  const auto precondition = [&](const Vector& x, Vector& result) {
-    result.resize(x.size());
-    for (std::size_t i = 0; i + 1 < first_of_pair_.size(); ++i) {
-      const int first = first_of_pair_[i], count = first_of_pair_[i + 1] - first;
-      result.segment(first, count).noalias() = inverse[i].topLeftCorner(count, count) * x.segment(first, count);
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index m = problem.G.cols();
+  if (m == 0) return blocks;
+  const Matrix& G = problem.G.dense();
+  blocks.motion.setZero(size, m);
+  blocks.force.setZero(m, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    for (Eigen::Index k = 0; k < d; ++k) {
+      blocks.motion.row(j) += unknown.scale * unknown.row[k] * G.row(d * unknown.pair + k);
+      blocks.force.col(j) += unknown.column[k] * G.row(d * unknown.pair + k).transpose();
     }
+  }
+  Matrix solved(size, m);
+  for (Eigen::Index g = 0; g < m; ++g) {
+    Vector column;
+    solve_pairs(blocks, blocks.motion.col(g), column);
+    solved.col(g) = column;
+  }
+  blocks.balance.compute(blocks.force * solved);
+  return blocks;
+}
+
+void NewtonDirection::solve_pairs(const PairBlocks& blocks, const Eigen::Ref<const Vector>& x, Vector& y) const {
+  y.resize(x.size());
+  for (std::size_t i = 0; i < blocks.inverse.size(); ++i) {
+    const int first = first_of_pair_[i], count = first_of_pair_[i + 1] - first;
+    y.segment(first, count).noalias() = blocks.inverse[i].topLeftCorner(count, count) * x.segment(first, count);
+  }
+}
+
+bool NewtonDirection::solve_iteratively(double regularisation) {
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index m = equations_.problem().G.cols();
+  const PairBlocks blocks = pair_blocks(regularisation);
+  if (m > 0 && !(blocks.balance.rcond() > 1e-13)) return false;  // too few pairs hold the bodies
+  Vector y, da;
+  const auto precondition = [&](const Vector& x, Vector& result) {
+    solve_pairs(blocks, x.head(size), y);
+    result.resize(size + m);
+    if (m > 0) {
+      da = blocks.balance.solve(Vector(blocks.force * y - x.tail(m)));
+      solve_pairs(blocks, x.head(size) - blocks.motion * da, y);
+      result.tail(m) = da;
+    }
+    result.head(size) = y;
   };
   const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
-  const Vector right = right_.head(static_cast<Eigen::Index>(unknowns_.size()));
+  const Vector right = right_.head(size + m);
   y_.setZero(right.size());
   return gmres(multiply, precondition, right, y_, {1e-11, 80, 400}) <= 1e-8;
 }

@@ -13,11 +13,12 @@
 // At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the
 // branches of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
 //
-// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES with the blocks of the pairs
-// as preconditioner otherwise. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions
+// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Its preconditioner
+// is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da = ..., then y from D. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions
 // GMRES on the matrix itself.
 #pragma once
 
+#include <Eigen/LU>
 #include <memory>
 #include <vector>
 
@@ -53,7 +54,16 @@ class NewtonDirection {
   void lay_out_sparse(double regularisation);
   bool solve_sparse(double regularisation);
   bool solve_iteratively(double regularisation);
-  void apply(const Vector& y, double regularisation, Vector& result);
+  /// The matrix above times x = [y; da].
+  void apply(const Vector& x, double regularisation, Vector& result);
+  /// The preconditioner of GMRES.
+  struct PairBlocks {
+    std::vector<Eigen::Matrix3d> inverse;  // of D, for each pair
+    Matrix motion, force;                  // L'R G, G'C
+    Eigen::PartialPivLU<Matrix> balance;   // of G'C D^-1 L'R G
+  };
+  PairBlocks pair_blocks(double regularisation);
+  void solve_pairs(const PairBlocks& blocks, const Eigen::Ref<const Vector>& x, Vector& y) const;
   void expand(const Vector& y, Vector& dp) const;
   void gather(const Vector& motion, Vector& rows) const;
 

@@ -41,5 +41,45 @@ TEST(IterativeDirections, AgreeWithDenseOnesOnTwoThousandPairs) {
   }
 }
 
+/// The layer under a free rigid plate of weight `weight`, which may rise, move along and turn about its middle; it is
+/// pulled along.
+Problem plate_on_layer(int pairs, double weight) {
+  Problem problem = test::layer_problem(pairs, 6, 0.5);
+  Matrix G = Matrix::Zero(2 * pairs, 3);
+  for (int i = 0; i < pairs; ++i) {
+    G(2 * i, 0) = 1.0;
+    G(2 * i + 1, 1) = 1.0;
+    G(2 * i, 2) = 2.0 * i / (pairs - 1.0) - 1.0;
+  }
+  problem.G = G;
+  problem.f = Eigen::Vector3d(-weight, 0.2 * weight, 0.1 * weight);
+  return problem;
+}
+
+// A body that contact alone holds, above the size of a dense factorisation: it had no direction at all.
+TEST(IterativeDirections, OfAFreeBodyHoldIt) {
+  constexpr int pairs = 1300;
+  const Problem by_products = plate_on_layer(pairs, 300.0);
+  const Solution solution = solve(by_products);
+  ASSERT_EQ(solution.status, Status::solved) << solution.reason;
+  EXPECT_LE(solution.certificate.worst(), 1e-10);
+  EXPECT_LE(solution.iterations, 25);
+  // Equilibrium of the plate, outside of Scabo's own judge.
+  Eigen::Vector3d resultant = Eigen::Vector3d::Zero();
+  int open = 0;
+  for (int i = 0; i < pairs; ++i) {
+    resultant += Eigen::Vector3d(solution.p[2 * i], solution.p[2 * i + 1],
+                                 solution.p[2 * i] * (2.0 * i / (pairs - 1.0) - 1.0));
+    open += solution.states[static_cast<std::size_t>(i)] == ContactState::open;
+  }
+  EXPECT_LT((resultant - Eigen::Vector3d(300.0, -60.0, -30.0)).norm(), 1e-8 * 300.0);
+  ASSERT_GT(open, 100);  // so that the matrix itself, of fewer than 2,500 unknowns, is factorised
+  Problem dense = by_products;
+  dense.W = Delassus(by_products.W.dense());
+  const Solution direct = solve(dense);
+  ASSERT_EQ(direct.status, Status::solved) << direct.reason;
+  EXPECT_LT((solution.p - direct.p).lpNorm<Eigen::Infinity>(), 1e-9 * direct.p.lpNorm<Eigen::Infinity>());
+}
+
 }  // namespace
 }  // namespace scabo::contact
