@@ -1,26 +1,9 @@
 // Raous, Chabrand, Lebon (1988), also code_aster SSNV128: a block pressed down and aside on a rigid floor.
+#include "models.hpp"
 #include "run.hpp"
 
 namespace scabo::verification {
 namespace {
-
-const char* const raous = R"(
-scabo: 1
-title: Raous, Chabrand, Lebon (1988), half model
-analysis: {plane: strain}
-materials: {steel: {young: 130e9, poisson: 0.2}}
-bodies:
-  block: {material: steel, shape: {rectangle: {corner: [0, 0], size: [0.04, 0.04]}}, mesh: {size: 1.25e-3}}
-  floor: {rigid: true, shape: {rectangle: {corner: [-0.02, -0.02], size: [0.08, 0.02]}}}
-supports:
-  - {on: floor, fix: [x, y]}
-  - {on: block.right, fix: [x]}
-loads:
-  down: {on: block.top, pressure: 50e6}
-  aside: {on: block.left, pressure: 150e6}
-contacts:
-  joint: {between: [floor.top, block.bottom], friction: 1.0}
-)";
 
 /// Slip of B (the block) along t = +x is its displacement, since the floor stands still.
 double displacement_at(const analysis::ContactResult& contact, double x) {
@@ -30,19 +13,14 @@ double displacement_at(const analysis::ContactResult& contact, double x) {
   return 0.0;
 }
 
-struct Value {
-  double x, displacement;  // m
-};
-const Value published[] = {
-    {0.0, 28.60e-6}, {1.25e-3, 27.23e-6}, {5e-3, 22.87e-6}, {7.5e-3, 19.81e-6}, {11.25e-3, 15.41e-6}};
-
 class Raous : public testing::TestWithParam<const char*> {};
 
 TEST_P(Raous, DisplacementsOfTheFloorAndExtentOfTheZones) {
-  const auto solution = run(raous, {std::string("bodies.block.mesh.kind=") + GetParam()});
+  const auto solution = run(block_of_raous(std::string("size: 1.25e-3, kind: ") + GetParam()));
   const auto& increment = last(solution);
   const analysis::ContactResult& contact = increment.contacts.front();
-  for (const Value& value : published) EXPECT_NEAR(displacement_at(contact, value.x), value.displacement, 0.01e-6);
+  for (const auto& [x, displacement] : displacements_of_raous)
+    EXPECT_NEAR(displacement_at(contact, x), displacement, 0.01e-6);
   EXPECT_LE(increment.newton_iterations, 10);
 
   double open_to = 0.0, slip_to = 0.0;

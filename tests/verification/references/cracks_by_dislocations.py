@@ -226,6 +226,15 @@ def branches(*tips):
     return [Segment(0j, complex(*tip), "joint", "tip") for tip in tips]
 
 
+def around_arc(pieces):
+    """Points of a path that touches the arc of radius 2, 90 degrees, symmetric about the y axis, from right to left: at its
+    ends and between its corners."""
+    step = 0.5 * PI / pieces
+    angles = 0.25 * PI + np.concatenate([[0.0], step * (np.arange(pieces) + 0.5), [0.5 * PI]])
+    z = 2.0 * np.exp(1j * angles) / np.cos(np.where(np.isin(angles, angles[[0, -1]]), 0.0, 0.5 * step))
+    return [(x.real, x.imag) for x in z]
+
+
 def elliptic(k2):
     """E / K of the squared modulus, by the arithmetic and geometric mean."""
     a, b, total, power = 1.0, np.sqrt(1 - k2), 0.5 * k2, 1.0
@@ -271,8 +280,8 @@ def show(name, found, other, expected=None):
         print(text)
 
 
-def show_joined(name, cracks, remote, expected=None):
-    show(name, joined(cracks, remote, *FINE), joined(cracks, remote, *COARSE), expected)
+def show_joined(name, cracks, remote, expected=None, fine=FINE, coarse=COARSE):
+    show(name, joined(cracks, remote, *fine), joined(cracks, remote, *coarse), expected)
 
 
 def show_smooth(name, paths, remote, expected=None):
@@ -302,6 +311,7 @@ def main():
 
     print("\nReference numbers")
     show_smooth("arc, radius 2, 90 degrees about the y axis, tension along y: right end, left end", [arc(2.0, PI / 4)], UP)
+    show_joined("five straight pieces that touch it", [path(*around_arc(4))], UP, fine=(12, 9), coarse=(9, 7))
     show_smooth("two cracks, (-1, 0) to (1, 0) and (0.4, 0.5) to (1.6, 1.3), tension along y",
                 [line(-1 + 0j, 1 + 0j), line(0.4 + 0.5j, 1.6 + 1.3j)], UP)
     show_joined("bent crack, (-1, 0), (0, 0), (0.6, 0.6), tension along y", [path((-1, 0), (0, 0), (0.6, 0.6))], UP)

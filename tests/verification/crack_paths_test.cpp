@@ -1,0 +1,146 @@
+// Stress intensity factors of cracks of many shapes in bodies of polygons and quadtrees, in a plate of 1000 half
+// lengths, which changes them by about 2e-6. Numbers without a closed form are those of
+// references/cracks_by_dislocations.py: two discretisations of it differ by less than 1e-8. "Relative" means to the
+// vector of K_I and K_II.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numbers>
+
+#include "verification/models.hpp"
+#include "verification/run.hpp"
+
+namespace scabo::verification {
+namespace {
+
+using std::numbers::pi;
+
+struct Tip {
+  const char* name;
+  Vec2 at, K;  // place; K_I, K_II
+};
+
+/// A plate with cracks; `joints`: corners and branches, where stress is singular too.
+struct Paths {
+  CrackedPlate plate = {};
+  std::vector<Tip> tips = {};
+  std::vector<Vec2> joints = {};
+};
+
+class CrackPaths : public testing::TestWithParam<const char*> {
+ protected:
+  /// Largest relative difference of the factors from those of the tips.
+  double difference(const Paths& paths, int order, double tip_size, double joint_size = 0.1) const {
+    CrackedPlate plate = paths.plate;
+    plate.kind = GetParam();
+    plate.half_width = 1000;
+    plate.size = 200;
+    plate.order = order;
+    for (const Tip& tip : paths.tips) plate.refine_at({tip.at}, tip_size);
+    const auto solution = run(plate.refine_at(paths.joints, joint_size).text());
+    EXPECT_EQ(last(solution).cracks.size(), paths.tips.size());
+    double worst = 0.0;
+    for (const Tip& tip : paths.tips) {
+      const element::StressIntensity& found = factors_at(last(solution), std::string("plate.") + tip.name);
+      worst = std::max(worst, (Vec2(found.K_I, found.K_II) - tip.K).norm() / tip.K.norm());
+    }
+    std::cout << GetParam() << ", order " << order << ", cells of " << tip_size << " at the tips, "
+              << 2 * solution.mesh.nodes() << " dofs: " << worst << "\n";
+    return worst;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, CrackPaths, testing::Values("polygons", "quadtree"),
+                         [](const auto& kind) { return std::string(kind.param); });
+
+// Straight: one crack at 0.6 to the x axis; two in line, 0.2 apart, with elliptic integrals of Muskhelishvili (the
+// program evaluates them); two of different length and direction. One large cell at each tip.
+TEST_P(CrackPaths, StraightCracks) {
+  const Vec2 end(std::cos(0.6), std::sin(0.6));
+  const Vec2 K = std::sqrt(pi) * end.x() * end;
+  Paths inclined{.tips = {{"flaw.start", -end, K}, {"flaw.end", end, K}}};
+  inclined.plate.crack("flaw", {-end, end});
+  const Vec2 inner(2.6434879, 0), outer(1.9887595, 0);
+  Paths collinear{.tips = {{"l.start", {-2.1, 0}, outer},
+                           {"l.end", {-0.1, 0}, inner},
+                           {"r.start", {0.1, 0}, inner},
+                           {"r.end", {2.1, 0}, outer}}};
+  collinear.plate.crack("l", {{-2.1, 0}, {-0.1, 0}}).crack("r", {{0.1, 0}, {2.1, 0}});
+  Paths two{.tips = {{"long.start", {-1, 0}, {1.9096200, -0.0484256}},
+                     {"long.end", {1, 0}, {1.3629149, -0.1783965}},
+                     {"short.start", {0.4, 0.5}, {1.0666456, 0.2967494}},
+                     {"short.end", {1.6, 1.3}, {1.3327702, 0.7117755}}}};
+  two.plate.crack("long", {{-1, 0}, {1, 0}}).crack("short", {{0.4, 0.5}, {1.6, 1.3}});
+  for (const Paths& paths : {inclined, collinear, two}) {
+    EXPECT_LT(difference(paths, 2, 0.1), 1e-3);
+    EXPECT_LT(difference(paths, 4, 0.5), 1e-5);
+  }
+}
+
+// Bent once, by 45 degrees; bent twice.
+TEST_P(CrackPaths, BentCracks) {
+  Paths once{
+      .tips = {{"flaw.start", {-1, 0}, {1.5610494, -0.0349547}}, {"flaw.end", {0.6, 0.6}, {0.9004453, 1.0124248}}},
+      .joints = {{0, 0}}};
+  once.plate.crack("flaw", {{-1, 0}, {0, 0}, {0.6, 0.6}});
+  Paths twice{
+      .tips = {{"flaw.start", {-1, -0.4}, {1.4378543, 0.7839445}}, {"flaw.end", {1, 0.6}, {1.1712653, 1.0074761}}},
+      .joints = {{-0.3, 0}, {0.3, 0}}};
+  twice.plate.crack("flaw", {{-1, -0.4}, {-0.3, 0}, {0.3, 0}, {1, 0.6}});
+  for (const Paths& paths : {once, twice}) {
+    EXPECT_LT(difference(paths, 2, 0.1), 1e-3);
+    EXPECT_LT(difference(paths, 4, 0.3), 1e-4);
+    EXPECT_LT(difference(paths, 4, 0.3, 0.01), 1e-5);
+  }
+}
+
+// A crack with two branches, under tension along y and from all sides; the star of three equal ones.
+TEST_P(CrackPaths, BranchedCracks) {
+  for (const bool all : {false, true}) {
+    const double stem = all ? 1.6748554 : 1.6278638;
+    const Vec2 K = all ? Vec2(1.3637967, -0.1481513) : Vec2(0.9898821, 0.5960116);
+    Paths fork{.tips = {{"flaw.start", {-1, 0}, {stem, 0}},
+                        {"flaw.end", {0.6, 0.4}, K},
+                        {"branch.end", {0.6, -0.4}, {K.x(), -K.y()}}},
+               .joints = {{0, 0}}};
+    fork.plate.xx = all ? 1.0 : 0.0;
+    fork.plate.crack("flaw", {{-1, 0}, {0, 0}, {0.6, 0.4}}).crack("branch", {{0, 0}, {0.6, -0.4}});
+    EXPECT_LT(difference(fork, 2, 0.1), 1e-3);
+    EXPECT_LT(difference(fork, 4, 0.3), 1e-5);
+  }
+  const double h = std::sqrt(0.75);
+  const Vec2 K(1.6687634, 0);
+  Paths star{.tips = {{"bent.start", {0, 1}, K}, {"bent.end", {h, -0.5}, K}, {"branch.end", {-h, -0.5}, K}},
+             .joints = {{0, 0}}};
+  star.plate.xx = 1.0;
+  star.plate.crack("bent", {{0, 1}, {0, 0}, {h, -0.5}}).crack("branch", {{0, 0}, {-h, -0.5}});
+  EXPECT_LT(difference(star, 2, 0.1), 1e-3);
+  EXPECT_LT(difference(star, 4, 0.3), 1e-5);
+}
+
+// An arc of radius 2, 90 degrees, symmetric about the y axis, as straight pieces that touch it at its ends and between
+// its corners. Under tension from all sides K_I and K_II are sigma sqrt(pi R sin a) / (1 + sin^2(a/2)) times cos(a/2)
+// and sin(a/2), 2 a the angle (Muskhelishvili).
+TEST_P(CrackPaths, CircularArc) {
+  const auto arc = [](int pieces, bool all, const Vec2& K) {
+    const double step = 0.5 * pi / pieces;
+    std::vector<Vec2> path{2.0 * Vec2(std::sqrt(0.5), std::sqrt(0.5))};
+    for (int i = 0; i < pieces; ++i) {
+      const double angle = 0.25 * pi + step * (i + 0.5);
+      path.push_back(2.0 / std::cos(0.5 * step) * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    path.emplace_back(-path.front().x(), path.front().y());
+    Paths paths{.tips = {{"arc.start", path.front(), {K.x(), -K.y()}}, {"arc.end", path.back(), K}},
+                .joints = {path.begin() + 1, path.end() - 1}};
+    paths.plate.xx = all ? 1.0 : 0.0;
+    paths.plate.crack("arc", path);
+    return paths;
+  };
+  const double a = 0.25 * pi, s = std::sin(0.5 * a), K = std::sqrt(2.0 * pi * std::sin(a)) / (1.0 + s * s);
+  EXPECT_LT(difference(arc(32, true, {K * std::cos(0.5 * a), K * s}), 4, 0.2, 0.05), 3e-4);
+  EXPECT_LT(difference(arc(32, false, {1.1464552, 1.2815031}), 4, 0.2, 0.05), 3e-4);
+  EXPECT_LT(difference(arc(16, false, {1.1464552, 1.2815031}), 2, 0.1, 0.1), 1e-3);
+}
+
+}  // namespace
+}  // namespace scabo::verification
