@@ -4,6 +4,7 @@
 // vector of K_I and K_II.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -140,6 +141,88 @@ TEST_P(CrackPaths, CircularArc) {
   EXPECT_LT(difference(arc(32, true, {K * std::cos(0.5 * a), K * s}), 4, 0.2, 0.05), 3e-4);
   EXPECT_LT(difference(arc(32, false, {1.1464552, 1.2815031}), 4, 0.2, 0.05), 3e-4);
   EXPECT_LT(difference(arc(16, false, {1.1464552, 1.2815031}), 2, 0.1, 0.1), 1e-3);
+}
+
+// ---- Brazilian disc ----------------------------------------------------------------------------------------
+
+/// A disc of radius 1 under a diametral load P with a central crack 2 a at an angle in degrees to it. All numbers are N
+/// = K / (P / (pi R t) sqrt(pi a)), by dislocations with the image kernel of the disc; mode I as Atkinson et al. 1982.
+std::string brazilian_disc(const char* kind, double a, double angle, int order, const std::string& contacts = "") {
+  const Vec2 end(a * std::sin(angle * pi / 180), a * std::cos(angle * pi / 180));
+  CrackedPlate cracks;
+  cracks.crack("flaw", {-end, end}).refine_at({-end, end}, 0.1);
+  return fmt::format(R"(scabo: 1
+materials: {{rock: {{young: 200, poisson: 0.3}}}}
+bodies:
+  disc:
+    material: rock
+    shape: {{outline: [{{arc: {{from: [0, -1], to: [0, 1], centre: [0, 0]}}}}, {{arc: {{to: [0, -1], centre: [0, 0]}}}}]}}
+    cracks: [{}]
+    mesh: {{kind: {}, size: 0.15, order: {}, refine: [{}]}}
+supports: [{{on: disc.vertex_1, fix: [x, y]}}, {{on: disc.vertex_2, fix: x}}]
+loads: {{press: {{on: disc.vertex_2, force: [0, -1]}}}}
+contacts: {{{}}}
+)",
+                     cracks.cracks, kind, order, cracks.refine, contacts);
+}
+
+/// Largest difference of N_I and |N_II| at both tips.
+double difference_of_disc(const std::string& text, double a, const Vec2& N) {
+  const auto solution = run(text);
+  double worst = 0.0;
+  for (const char* end : {"disc.flaw.start", "disc.flaw.end"}) {
+    const element::StressIntensity& tip = factors_at(last(solution), end);
+    const double unit = std::sqrt(pi * a) / pi;
+    worst = std::max(worst, (Vec2(tip.K_I, std::abs(tip.K_II)) / unit - N).norm());
+  }
+  return worst;
+}
+
+// Free faces, at 0, 15 and 30 degrees and where N_I is 0 (at 30 degrees the load presses the faces together, and they
+// overlap).
+TEST_P(CrackPaths, BrazilianDisc) {
+  struct Row {
+    double a, N_0;
+    Vec2 N_15, N_30;
+    double shear_angle, N_shear;
+  };
+  const std::array<Row, 5> rows{{{0.2, 1.060048, {0.743934, 1.091682}, {-0.084135, 1.834178}, 28.719, 1.790581},
+                                 {0.3, 1.135551, {0.750456, 1.213626}, {-0.200438, 1.956369}, 27.217, 1.866198},
+                                 {0.4, 1.243134, {0.741702, 1.399975}, {-0.381884, 2.115884}, 25.254, 1.977657},
+                                 {0.5, 1.387238, {0.692927, 1.670293}, {-0.640288, 2.299050}, 22.891, 2.133723},
+                                 {0.6, 1.578258, {0.558776, 2.052897}, {-0.977239, 2.490896}, 20.144, 2.352732}}};
+  double worst = 0.0;
+  for (const Row& row : rows)
+    for (const auto& [angle, N] : {std::pair(0.0, Vec2(row.N_0, 0)), std::pair(15.0, row.N_15),
+                                   std::pair(30.0, row.N_30), std::pair(row.shear_angle, Vec2(0, row.N_shear))}) {
+      const double difference = difference_of_disc(brazilian_disc(GetParam(), row.a, angle, 4), row.a, N);
+      EXPECT_LT(difference, 1e-4) << row.a << " " << angle;
+      worst = std::max(worst, difference);
+    }
+  std::cout << GetParam() << ", Brazilian disc: " << worst << "\n";
+}
+
+// Faces in contact, closed by the load, which slide with friction: N_I = 0.
+TEST_P(CrackPaths, BrazilianDiscWithAClosedCrack) {
+  struct Row {
+    double a, angle;
+    std::array<double, 3> N;  // friction 0, 0.2, 0.3
+  };
+  const std::array<Row, 4> rows{{{0.3, 45, {2.068200, 1.816743, 1.691014}},
+                                 {0.3, 60, {1.655363, 1.224556, 1.009153}},
+                                 {0.5, 45, {2.119720, 1.791597, 1.627536}},
+                                 {0.5, 60, {1.554562, 1.085551, 0.851045}}}};
+  double worst = 0.0;
+  for (const Row& row : rows)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string contact = fmt::format("faces: {{between: [disc.flaw.left, disc.flaw.right], friction: {}}}",
+                                              std::array{0.0, 0.2, 0.3}[k]);
+      const double difference =
+          difference_of_disc(brazilian_disc(GetParam(), row.a, row.angle, 3, contact), row.a, Vec2(0, row.N[k]));
+      EXPECT_LT(difference / row.N[k], 1e-3) << row.a << " " << row.angle << " " << k;
+      worst = std::max(worst, difference / row.N[k]);
+    }
+  std::cout << GetParam() << ", Brazilian disc, closed crack: " << worst << "\n";
 }
 
 }  // namespace

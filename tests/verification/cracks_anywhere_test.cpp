@@ -146,37 +146,6 @@ TEST_P(CracksAnywhere, ThroughTheBorderOfARegion) {
   }
 }
 
-// Brazilian disc of radius 1 under a diametral load P with a central crack 2a at the angle b to it:
-// N = K / (P / (pi R t) sqrt(pi a)), by dislocations with the image kernel of the disc; mode I as Atkinson et al. 1982.
-TEST_P(CracksAnywhere, BrazilianDisc) {
-  struct Case {
-    double a, angle, first, second;
-  };
-  for (const Case& of :
-       {Case{0.2, 0, 1.060048, 0}, Case{0.2, 30, -0.084135, 1.834178}, Case{0.3, 27.217, 0, 1.866198},
-        Case{0.5, 15, 0.692927, 1.670293}, Case{0.6, 20.144, 0, 2.352732}, Case{0.6, 30, -0.977239, 2.490896}}) {
-    const double x = of.a * std::sin(of.angle * degree), y = of.a * std::cos(of.angle * degree);
-    const auto solution = run(fmt::format(R"(scabo: 1
-materials: {{rock: {{young: 200, poisson: 0.3}}}}
-bodies:
-  disc:
-    material: rock
-    shape: {{outline: [{{arc: {{from: [0, -1], to: [0, 1], centre: [0, 0]}}}}, {{arc: {{to: [0, -1], centre: [0, 0]}}}}]}}
-    cracks: [{{name: flaw, path: [[{0}, {1}], [{2}, {3}]]}}]
-    mesh: {{kind: {4}, size: 0.15, order: 4, refine: [{{near: [{0}, {1}], size: 0.1}}, {{near: [{2}, {3}], size: 0.1}}]}}
-supports: [{{on: disc.vertex_1, fix: [x, y]}}, {{on: disc.vertex_2, fix: x}}]
-loads: {{press: {{on: disc.vertex_2, force: [0, -1]}}}}
-)",
-                                          -x, -y, x, y, kind()));
-    for (const char* end : {"disc.flaw.start", "disc.flaw.end"}) {
-      const element::StressIntensity& tip = factors_at(last(solution), end);
-      const double unit = std::sqrt(std::numbers::pi * of.a) / std::numbers::pi;
-      EXPECT_NEAR(tip.K_I / unit, of.first, 1e-4) << of.a << " " << of.angle;
-      EXPECT_NEAR(std::abs(tip.K_II / unit), of.second, 1e-4) << of.a << " " << of.angle;
-    }
-  }
-}
-
 // L-shaped body, re-entrant corner at the origin; energy by one super-element with that corner as its scaling centre,
 // order 14 and 16: 4.98789291788. Cells near the corner are as small as `refine` says, on straight edges of any length.
 TEST_P(CracksAnywhere, CellsNearAPointReachTheirSize) {
