@@ -34,19 +34,28 @@ inline constexpr double double_cantilever_force = 53669.36;
 
 // ---- Raous, Chabrand, Lebon (1988), code_aster SSNV128 ---------------------------------------------------
 
-/// Half a block, pressed down and aside on a rigid floor.
-inline std::string block_of_raous(const std::string& mesh, double friction = 1.0) {
+/// Half a block, pressed down and aside on a rigid floor. `body`: of the block besides its material; `sides`: the names
+/// of its sides, from the bottom counter-clockwise.
+inline std::string block_of_raous(const std::string& body, const std::array<const char*, 4>& sides, double friction) {
   return fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: 130e9, poisson: 0.2}}}}
 bodies:
-  block: {{material: steel, shape: {{rectangle: {{corner: [0, 0], size: [0.04, 0.04]}}}}, mesh: {{{}}}}}
+  block: {{material: steel, {}}}
   floor: {{rigid: true, shape: {{rectangle: {{corner: [-0.02, -0.02], size: [0.08, 0.02]}}}}}}
-supports: [{{on: floor, fix: [x, y]}}, {{on: block.right, fix: [x]}}]
-loads: {{down: {{on: block.top, pressure: 50e6}}, aside: {{on: block.left, pressure: 150e6}}}}
-contacts: {{joint: {{between: [floor.top, block.bottom], friction: {}}}}}
+supports: [{{on: floor, fix: [x, y]}}, {{on: block.{}, fix: [x]}}]
+loads: {{down: {{on: block.{}, pressure: 50e6}}, aside: {{on: block.{}, pressure: 150e6}}}}
+contacts: {{joint: {{between: [floor.top, block.{}], friction: {}}}}}
 )",
-                     mesh, friction);
+                     body, sides[1], sides[2], sides[3], sides[0], friction);
+}
+inline std::string block_of_raous(const std::string& mesh, double friction = 1.0) {
+  return block_of_raous("shape: {rectangle: {corner: [0, 0], size: [0.04, 0.04]}}, mesh: {" + mesh + "}",
+                        {"bottom", "right", "top", "left"}, friction);
+}
+/// From a mesh file.
+inline std::string block_of_raous_from_file(const std::string& mesh) {
+  return block_of_raous("mesh: {" + mesh + "}", {"edge_1", "edge_2", "edge_3", "edge_4"}, 1.0);
 }
 
 /// x and the displacement along x there with friction 1, m: the slip of the block, since the floor stands still.
