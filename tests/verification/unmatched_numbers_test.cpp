@@ -96,12 +96,12 @@ INSTANTIATE_TEST_SUITE_P(
                     CattaneoCase{"quadtree", "quadtree", 6.24e-3, 0.198, usual, 13000}));
 
 TEST_P(CattaneoMindlin, ShearTractionAndStickZone) {
-  const auto& [low, up, sideways, stick, sizes, most] = GetParam();
+  const CattaneoCase& of = GetParam();
   const double a = 0.2804;
   const auto mesh = [&](const std::string& kind, double factor) {
     if (kind == "superelement") return whole;
     return fmt::format("{{kind: {}, size: 8, refine: [{}]}}", kind,
-                       graded(a, stick, {factor * sizes[0], factor * sizes[1], factor * sizes[2]}));
+                       graded(a, of.stick, {factor * of.sizes[0], factor * of.sizes[1], factor * of.sizes[2]}));
   };
   const auto solution = run(fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
@@ -122,7 +122,7 @@ supports:
 contacts: {{touch: {{between: [low.rim, up.rim], friction: 0.2}}}}
 steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
 )",
-                                        mesh(low, 1.0), mesh(up, 0.8), sideways));
+                                        mesh(of.low, 1.0), mesh(of.up, 0.8), of.sideways));
   const analysis::ContactResult& touch = contact_of(last(solution));
   const Cattaneo exact(touch.normal_force, std::abs(touch.tangential_force));
   std::vector<std::array<double, 2>> pressure, shear;
@@ -138,12 +138,12 @@ steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
   const auto p = [&](double x) { return exact.pressure(x); };
   const auto q = [&](double x) { return exact.shear(x); };
   const double of_pressure = difference(pressure, exact.a, p), of_shear = difference(shear, exact.a, q);
-  std::cout << low << " and " << up << ", Q/(mu P) " << exact.Q / (exact.mu * exact.P) << ", "
+  std::cout << of.low << " and " << of.up << ", Q/(mu P) " << exact.Q / (exact.mu * exact.P) << ", "
             << 2 * solution.mesh.nodes() << " dofs: pressure " << of_pressure << ", shear " << of_shear
             << " in L2; exact values at the pairs " << difference_of_lines(pressure, exact.a, p) << ", "
             << difference_of_lines(shear, exact.a, q) << "; stick c/a " << exact.c / exact.a << ", between "
             << sticks / exact.a << " and " << slips / exact.a << "\n";
-  EXPECT_LT(2 * solution.mesh.nodes(), most);
+  EXPECT_LT(2 * solution.mesh.nodes(), of.most);
   EXPECT_LT(of_pressure, 5e-3);
   EXPECT_LT(of_shear, 1e-2);
   EXPECT_NEAR(0.5 * (sticks + slips), exact.c, 0.015 * exact.a);

@@ -4,7 +4,7 @@ dislocations: the reference of tests/verification/crack_paths_test.cpp. It share
     /usr/bin/python3 tests/verification/references/cracks_by_dislocations.py
 
 prints closed forms beside what is computed, and the reference numbers for two discretisations, whose difference tells
-what they are good for. Takes about a minute.
+what they are good for. Takes a minute or two.
 
 Equation (Savruk 1981; Muskhelishvili's functions Phi, Psi of a density of dislocations g' on paths t): for all t' on
 the paths
