@@ -5,25 +5,16 @@
 #include <cmath>
 #include <iostream>
 
+#include "models.hpp"
 #include "run.hpp"
 
 namespace scabo::verification {
 namespace {
 
-constexpr double converged_force = 53669.36, converged_end = 5.1514;
+constexpr double converged_force = double_cantilever_force, converged_end = 5.1514;
 
 std::string refined_beams(double size, double friction) {
-  return fmt::format(R"(
-scabo: 1
-materials: {{concrete: {{young: 10e9, poisson: 0.3}}}}
-bodies:
-  lower: {{material: concrete, shape: {{rectangle: {{corner: [0, 0], size: [6, 1.5]}}}}, mesh: {{size: {0}}}}}
-  upper: {{material: concrete, shape: {{rectangle: {{corner: [0, 1.5], size: [6, 1.5]}}}}, mesh: {{size: {0}}}}}
-supports: [{{on: lower.left, fix: [x, y]}}, {{on: upper.left, fix: [x, y]}}]
-loads: {{tip: {{on: upper.top_right, force: [0, -100e3]}}}}
-contacts: {{joint: {{between: [lower.top, upper.bottom], friction: {1}}}}}
-)",
-                     size, friction);
+  return double_cantilever(fmt::format("size: {}", size), fmt::format("size: {}", size), friction);
 }
 
 /// The last open and the first closed pair; all pairs left of the one are open, all right of the other are closed.

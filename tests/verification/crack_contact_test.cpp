@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
+#include "verification/models.hpp"
 #include "verification/run.hpp"
 
 namespace scabo::verification {
@@ -15,61 +15,40 @@ namespace {
 constexpr double degrees = std::numbers::pi / 180.0;
 const double root_pi = std::sqrt(std::numbers::pi);
 
-const element::StressIntensity& factors_at(const analysis::IncrementResult& increment, const std::string& name) {
-  for (const analysis::CrackResult& crack : increment.cracks)
-    if (crack.name == name) return crack.factors;
-  throw std::runtime_error("there is no crack tip " + name);
-}
-
 class CrackContact : public testing::TestWithParam<const char*> {
  protected:
   std::string kind() const { return GetParam(); }
 
-  /// A square plate of half width 100 under uniform stress, with a crack of half length 1 at an angle at its centre:
-  /// the finite width adds 1.4e-4 to the factors.
-  std::string plate(double angle, double vertical, const std::string& more, int order = 3) const {
-    const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
-    return fmt::format(R"(scabo: 1
-materials: {{steel: {{young: 200, poisson: 0.3}}}}
-bodies:
-  plate:
-    material: steel
-    shape: {{rectangle: {{corner: [-100, -100], size: [200, 200]}}}}
-    cracks: [{{name: flaw, path: [[{0}, {1}], [{2}, {3}]]}}]
-    mesh: {{kind: {4}, size: 20, order: {5}, refine: [{{near: [{0}, {1}], size: 0.2}}, {{near: [{2}, {3}], size: 0.2}}]}}
-supports: [{{on: plate.bottom_left, fix: [x, y]}}, {{on: plate.bottom_right, fix: [y]}}]
-loads:
-  up: {{on: plate.top, traction: [0, {6}]}}
-  down: {{on: plate.bottom, traction: [0, {7}]}}
-{8}
-)",
-                       -c, -s, c, s, kind(), order, vertical, -vertical, more);
+  /// Half width 100, with a crack of half length 1 at an angle at its centre: the finite width adds 1.4e-4 to the
+  /// factors.
+  CrackedPlate plate(double angle, double vertical) const {
+    const Vec2 end(std::cos(angle * degrees), std::sin(angle * degrees));
+    CrackedPlate plate{.kind = kind(), .order = 3, .yy = vertical};
+    return plate.crack("flaw", {-end, end}).refine_at({-end, end}, 0.2);
   }
-
-  static std::string contact(double friction, const std::string& more = "") {
-    return fmt::format("contacts: {{faces: {{between: [plate.flaw.left, plate.flaw.right], friction: {}{}}}}}",
-                       friction, more);
+  CrackedPlate with_loads(CrackedPlate plate, const std::string& loads) const {
+    plate.loads = loads;
+    return plate;
+  }
+  CrackedPlate with_contact(CrackedPlate plate, double friction, const std::string& more = "") const {
+    plate.contacts =
+        fmt::format("faces: {{between: [plate.flaw.left, plate.flaw.right], friction: {}{}}}", friction, more);
+    return plate;
   }
 
   /// A square of side 6 under the uniform stress (-0.5, -1, 0.2), with cracks; all friction high enough to stick.
   std::string square(const std::string& cracks, const std::string& contacts) const {
-    return fmt::format(R"(scabo: 1
-materials: {{steel: {{young: 200, poisson: 0.3}}}}
-bodies:
-  plate:
-    material: steel
-    shape: {{rectangle: {{corner: [-3, -3], size: [6, 6]}}}}
-    cracks: [{}]
-    mesh: {{kind: {}, size: 0.5, order: 2, refine: [{{near: [0, 0], size: 0.2}}]}}
-supports: [{{on: plate.bottom_left, fix: [x, y]}}, {{on: plate.bottom_right, fix: [y]}}]
-loads:
-  up: {{on: plate.top, traction: [0.2, -1]}}
-  down: {{on: plate.bottom, traction: [-0.2, 1]}}
-  right: {{on: plate.right, traction: [-0.5, 0.2]}}
-  left: {{on: plate.left, traction: [0.5, -0.2]}}
-contacts: {{{}}}
-)",
-                       cracks, kind(), contacts);
+    const CrackedPlate plate{.kind = kind(),
+                             .half_width = 3,
+                             .size = 0.5,
+                             .order = 2,
+                             .xx = -0.5,
+                             .yy = -1,
+                             .xy = 0.2,
+                             .cracks = cracks,
+                             .refine = "{near: [0, 0], size: 0.2}",
+                             .contacts = contacts};
+    return plate.text();
   }
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, CrackContact, testing::Values("polygons", "quadtree"),
@@ -117,14 +96,16 @@ double deviation(const analysis::StaticSolution& solution, double sx, double sy,
 // K_I = p sqrt(pi a) of an inner pressure, K_II = q sqrt(pi a) of an inner shear: the cells at the tips take the load
 // on their side faces exactly.
 TEST_P(CrackContact, LoadsOnFaces) {
-  const auto inside = run(plate(30, 0,
-                                "  left: {on: plate.flaw.left, pressure: 2}\n"
-                                "  right: {on: plate.flaw.right, pressure: 2}"));
+  const auto inside = run(with_loads(plate(30, 0),
+                                     "left_face: {on: plate.flaw.left, pressure: 2}\n"
+                                     "  right_face: {on: plate.flaw.right, pressure: 2}")
+                              .text());
   const double c = 2.0 * std::cos(30 * degrees), s = 2.0 * std::sin(30 * degrees);
-  const auto shear = run(plate(30, 0,
-                               fmt::format("  left: {{on: plate.flaw.left, traction: [{0}, {1}]}}\n"
-                                           "  right: {{on: plate.flaw.right, traction: [-{0}, -{1}]}}",
-                                           c, s)));
+  const auto shear =
+      run(with_loads(plate(30, 0), fmt::format("left_face: {{on: plate.flaw.left, traction: [{0}, {1}]}}\n"
+                                               "  right_face: {{on: plate.flaw.right, traction: [-{0}, -{1}]}}",
+                                               c, s))
+              .text());
   for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
     EXPECT_NEAR(factors_at(last(inside), end).K_I, 2.0 * root_pi, 3e-4 * 2.0 * root_pi);
     EXPECT_NEAR(factors_at(last(inside), end).K_II, 0.0, 1e-4);
@@ -136,10 +117,11 @@ TEST_P(CrackContact, LoadsOnFaces) {
 // A pressure from inside that is larger than that from outside opens the crack, and one that is smaller does not.
 TEST_P(CrackContact, PressureInAContact) {
   for (const auto& [inside, exact] : {std::pair(1.5, 0.5), std::pair(0.5, 0.0)}) {
-    const auto solution = run(plate(0, -1,
-                                    fmt::format("  left: {{on: plate.flaw.left, pressure: {0}}}\n"
-                                                "  right: {{on: plate.flaw.right, pressure: {0}}}\n{1}",
-                                                inside, contact(0.3))));
+    const CrackedPlate pressed =
+        with_loads(plate(0, -1), fmt::format("left_face: {{on: plate.flaw.left, pressure: {0}}}\n"
+                                             "  right_face: {{on: plate.flaw.right, pressure: {0}}}",
+                                             inside));
+    const auto solution = run(with_contact(pressed, 0.3).text());
     for (const char* end : {"plate.flaw.start", "plate.flaw.end"})
       EXPECT_NEAR(factors_at(last(solution), end).K_I, exact * root_pi, 4e-4) << inside;
     const analysis::ContactResult& faces = contact_of(last(solution));
@@ -154,7 +136,7 @@ TEST_P(CrackContact, ClosedCrackSlides) {
     for (const double friction : {0.0, 0.3}) {
       const double c = std::cos(angle * degrees), s = std::sin(angle * degrees);
       const double exact = -(s * c - friction * c * c) * root_pi;
-      const auto solution = run(plate(angle, -1, contact(friction)));
+      const auto solution = run(with_contact(plate(angle, -1), friction).text());
       for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
         const element::StressIntensity& tip = factors_at(last(solution), end);
         EXPECT_NEAR(tip.K_II / exact, 1.0, 6e-4) << angle << " " << friction;
@@ -175,7 +157,9 @@ TEST_P(CrackContact, ClosedCrackSlides) {
 // The same with linear and quadratic elements of the body: the rings have a higher order than these.
 TEST_P(CrackContact, LowOrdersSlideToo) {
   for (const auto& [order, bound] : {std::pair(1, 1e-2), std::pair(2, 1e-3)}) {
-    const auto solution = run(plate(45, -1, contact(0.3), order));
+    CrackedPlate plate = with_contact(this->plate(45, -1), 0.3);
+    plate.order = order;
+    const auto solution = run(plate.text());
     for (const char* end : {"plate.flaw.start", "plate.flaw.end"})
       EXPECT_NEAR(factors_at(last(solution), end).K_II / (-0.35 * root_pi), 1.0, bound) << order;
   }
@@ -183,7 +167,7 @@ TEST_P(CrackContact, LowOrdersSlideToo) {
 
 // Friction above tan(angle): no slip, and the displacement of the plate without a crack.
 TEST_P(CrackContact, CrackThatSticksIsNoCrack) {
-  const auto solution = run(plate(30, -1, contact(1.0)));
+  const auto solution = run(with_contact(plate(30, -1), 1.0).text());
   for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
     EXPECT_NEAR(factors_at(last(solution), end).K_I, 0.0, 3e-4);
     EXPECT_NEAR(factors_at(last(solution), end).K_II, 0.0, 3e-4);
@@ -198,8 +182,8 @@ TEST_P(CrackContact, CrackThatSticksIsNoCrack) {
 
 // An open crack: as if there were no contact. Contact faces with a large gap have the same mesh.
 TEST_P(CrackContact, OpenCrackIsFree) {
-  const auto free = run(plate(30, 1, "")), open = run(plate(30, 1, contact(0.3))),
-             apart = run(plate(30, 1, contact(0.3, ", gap: 1")));
+  const auto free = run(plate(30, 1).text()), open = run(with_contact(plate(30, 1), 0.3).text()),
+             apart = run(with_contact(plate(30, 1), 0.3, ", gap: 1").text());
   for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
     const element::StressIntensity &of = factors_at(last(open), end), &same = factors_at(last(apart), end),
                                    &other = factors_at(last(free), end);

@@ -3,6 +3,7 @@
 // discrete problem with r over six decades: the same answer.
 #include <fmt/format.h>
 
+#include "models.hpp"
 #include "run.hpp"
 #include "scabo/contact/solve.hpp"
 
@@ -10,23 +11,7 @@ namespace scabo::verification {
 namespace {
 
 std::string block(int pairs, double friction, const char* kind) {
-  return fmt::format(R"(
-scabo: 1
-analysis: {{plane: strain}}
-materials: {{steel: {{young: 130e9, poisson: 0.2}}}}
-bodies:
-  block: {{material: steel, shape: {{rectangle: {{corner: [0, 0], size: [0.04, 0.04]}}}}, mesh: {{size: {}, kind: {}}}}}
-  floor: {{rigid: true, shape: {{rectangle: {{corner: [-0.02, -0.02], size: [0.08, 0.02]}}}}}}
-supports:
-  - {{on: floor, fix: [x, y]}}
-  - {{on: block.right, fix: [x]}}
-loads:
-  down: {{on: block.top, pressure: 50e6}}
-  aside: {{on: block.left, pressure: 150e6}}
-contacts:
-  joint: {{between: [floor.top, block.bottom], friction: {}}}
-)",
-                     0.08 / pairs, kind, friction);
+  return block_of_raous(fmt::format("size: {}, kind: {}", 0.08 / pairs, kind), friction);
 }
 
 struct Solved {

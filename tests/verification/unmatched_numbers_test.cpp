@@ -8,6 +8,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "verification/models.hpp"
 #include "verification/run.hpp"
 
 namespace scabo::verification {
@@ -41,51 +42,87 @@ double interpolated(const std::vector<std::array<double, 2>>& values, double x) 
   return std::lerp(y0, y1, (x - x0) / (x1 - x0));
 }
 
-/// Sizes relative to the half width `a` at the middle, at the ends of the stick zone and at the ends of the contact.
-std::string graded(double a, double c, double middle, double stick, double end) {
+/// Where the curve through points (x, value), sorted along x, differs from a pressure or shear in L2, relative, to 1.3
+/// a.
+template <typename Exact>
+double difference(const std::vector<std::array<double, 2>>& values, double a, const Exact& exact) {
+  double sum = 0.0, whole = 0.0;
+  for (int i = -2600; i <= 2600; ++i) {
+    const double x = 5e-4 * i * a;
+    sum += std::pow(interpolated(values, x) - exact(x), 2);
+    whole += std::pow(exact(x), 2);
+  }
+  return std::sqrt(sum / whole);
+}
+
+/// The same of the exact values at these points: what straight lines between the pairs differ by.
+template <typename Exact>
+double difference_of_lines(std::vector<std::array<double, 2>> values, double a, const Exact& exact) {
+  for (auto& [x, value] : values) value = exact(x);
+  return difference(values, a, exact);
+}
+
+/// Sizes relative to the half width `a` at the middle (0: none), at the ends of the stick zone and at the ends of the
+/// contact.
+std::string graded(double a, double c, const std::array<double, 3>& sizes) {
   std::string places;
-  for (const auto& [x, size] : {std::pair(0.0, middle), std::pair(-0.5 * a, middle), std::pair(0.5 * a, middle),
-                                std::pair(-c, stick), std::pair(c, stick), std::pair(-a, end), std::pair(a, end)})
-    places += fmt::format("{}{{near: [{}, 0], size: {}}}", places.empty() ? "" : ", ", x, a * size);
+  for (const auto& [x, size] :
+       {std::pair(0.0, sizes[0]), std::pair(-0.5 * a, sizes[0]), std::pair(0.5 * a, sizes[0]), std::pair(-c, sizes[1]),
+        std::pair(c, sizes[1]), std::pair(-a, sizes[2]), std::pair(a, sizes[2])})
+    if (size > 0.0) places += fmt::format("{}{{near: [{}, 0], size: {}}}", places.empty() ? "" : ", ", x, a * size);
   return places;
 }
 
+/// One super-element, whose boundary has the nodes of the other body along the contact.
+const std::string whole = "{size: 1}";
+
 struct CattaneoCase {
-  const char* kind;
+  const char *low, *up;    // kinds of mesh
   double sideways, stick;  // displacement; the half width of stick that it gives, where the mesh is graded
+  std::array<double, 3> sizes;
+  int most;  // degrees of freedom
 };
 
 class CattaneoMindlin : public testing::TestWithParam<CattaneoCase> {};
-INSTANTIATE_TEST_SUITE_P(Loads, CattaneoMindlin,
-                         testing::Values(CattaneoCase{"polygons", 3.12e-3, 0.243},
-                                         CattaneoCase{"polygons", 6.24e-3, 0.198},
-                                         CattaneoCase{"polygons", 9.35e-3, 0.140},
-                                         CattaneoCase{"quadtree", 6.24e-3, 0.198}));
+constexpr std::array usual{0.5, 0.03, 0.02};
+INSTANTIATE_TEST_SUITE_P(
+    Loads, CattaneoMindlin,
+    testing::Values(CattaneoCase{"polygons", "superelement", 3.12e-3, 0.2426, {0, 0.01, 0.006}, 5000},
+                    CattaneoCase{"polygons", "superelement", 6.24e-3, 0.199, {0.3, 0.015, 0.01}, 5000},
+                    CattaneoCase{"polygons", "superelement", 9.35e-3, 0.145, {0.4, 0.02, 0.015}, 5000},
+                    CattaneoCase{"polygons", "polygons", 3.12e-3, 0.243, usual, 8000},
+                    CattaneoCase{"polygons", "polygons", 6.24e-3, 0.198, usual, 8000},
+                    CattaneoCase{"polygons", "polygons", 9.35e-3, 0.140, usual, 8000},
+                    CattaneoCase{"quadtree", "quadtree", 6.24e-3, 0.198, usual, 13000}));
 
 TEST_P(CattaneoMindlin, ShearTractionAndStickZone) {
-  const auto& [kind, sideways, stick] = GetParam();
+  const CattaneoCase& of = GetParam();
   const double a = 0.2804;
-  const auto solution =
-      run(fmt::format(R"(scabo: 1
+  const auto mesh = [&](const std::string& kind, double factor) {
+    if (kind == "superelement") return whole;
+    return fmt::format("{{kind: {}, size: 8, refine: [{}]}}", kind,
+                       graded(a, of.stick, {factor * of.sizes[0], factor * of.sizes[1], factor * of.sizes[2]}));
+  };
+  const auto solution = run(fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: 200, poisson: 0.3}}}}
 bodies:
   low:
     material: steel
     shape: {{outline: [{{line: {{from: [-8, -8], to: [8, -8]}}, name: base}}, {{arc: {{to: [-8, -8], centre: [0, -8]}}, name: rim}}]}}
-    mesh: {{kind: {0}, size: 8, refine: [{1}]}}
+    mesh: {0}
   up:
     material: steel
     shape: {{outline: [{{line: {{from: [8, 8], to: [-8, 8]}}, name: top}}, {{arc: {{to: [8, 8], centre: [0, 8]}}, name: rim}}]}}
-    mesh: {{kind: {0}, size: 8, refine: [{2}]}}
+    mesh: {1}
 supports:
   - {{on: low.base, fix: [x, y]}}
   - {{on: up.top, displacement: [null, -0.04], name: down}}
-  - {{on: up.top, displacement: [{3}, null], name: aside}}
+  - {{on: up.top, displacement: [{2}, null], name: aside}}
 contacts: {{touch: {{between: [low.rim, up.rim], friction: 0.2}}}}
 steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
 )",
-                      kind, graded(a, stick, 0.5, 0.03, 0.02), graded(a, stick, 0.4, 0.024, 0.016), sideways));
+                                        mesh(of.low, 1.0), mesh(of.up, 0.8), of.sideways));
   const analysis::ContactResult& touch = contact_of(last(solution));
   const Cattaneo exact(touch.normal_force, std::abs(touch.tangential_force));
   std::vector<std::array<double, 2>> pressure, shear;
@@ -98,21 +135,64 @@ steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
   }
   std::sort(pressure.begin(), pressure.end());
   std::sort(shear.begin(), shear.end());
-  std::array<double, 4> sums{};
-  for (int i = -2600; i <= 2600; ++i) {
-    const double x = 5e-4 * i * exact.a, p = exact.pressure(x), q = exact.shear(x);
-    sums[0] += std::pow(interpolated(pressure, x) - p, 2);
-    sums[1] += p * p;
-    sums[2] += std::pow(interpolated(shear, x) - q, 2);
-    sums[3] += q * q;
-  }
-  const double of_pressure = std::sqrt(sums[0] / sums[1]), of_shear = std::sqrt(sums[2] / sums[3]);
-  std::cout << kind << ", Q/(mu P) " << exact.Q / (exact.mu * exact.P) << ", " << 2 * solution.mesh.nodes()
-            << " dofs: pressure " << of_pressure << ", shear " << of_shear << " in L2; stick c/a " << exact.c / exact.a
-            << ", between " << sticks / exact.a << " and " << slips / exact.a << "\n";
+  const auto p = [&](double x) { return exact.pressure(x); };
+  const auto q = [&](double x) { return exact.shear(x); };
+  const double of_pressure = difference(pressure, exact.a, p), of_shear = difference(shear, exact.a, q);
+  std::cout << of.low << " and " << of.up << ", Q/(mu P) " << exact.Q / (exact.mu * exact.P) << ", "
+            << 2 * solution.mesh.nodes() << " dofs: pressure " << of_pressure << ", shear " << of_shear
+            << " in L2; exact values at the pairs " << difference_of_lines(pressure, exact.a, p) << ", "
+            << difference_of_lines(shear, exact.a, q) << "; stick c/a " << exact.c / exact.a << ", between "
+            << sticks / exact.a << " and " << slips / exact.a << "\n";
+  EXPECT_LT(2 * solution.mesh.nodes(), of.most);
   EXPECT_LT(of_pressure, 5e-3);
   EXPECT_LT(of_shear, 1e-2);
   EXPECT_NEAR(0.5 * (sticks + slips), exact.c, 0.015 * exact.a);
+}
+
+// ---- Hertz -----------------------------------------------------------------------------------------------
+
+// A steel roller of radius 50 mm on an aluminium block under 1 MN/m, as examples/12: pressure in L2, and it converges.
+TEST(Hertz, PressureOfFewDegreesOfFreedom) {
+  const double P = 1e6, R = 0.05, E = 1.0 / (0.91 / 210e9 + 0.91 / 70e9),
+               a = std::sqrt(4.0 * P * R / (std::numbers::pi * E)), largest = 2.0 * P / (std::numbers::pi * a);
+  const auto exact = [&](double x) { return largest * std::sqrt(std::max(0.0, 1.0 - x * x / (a * a))); };
+  const auto error = [&](const std::string& block, const std::string& roller, int most) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 210e9, poisson: 0.3}}, aluminium: {{young: 70e9, poisson: 0.3}}}}
+bodies:
+  block: {{material: aluminium, shape: {{rectangle: {{corner: [-0.2, -0.2], size: [0.4, 0.2]}}}}, mesh: {}}}
+  roller:
+    material: steel
+    shape: {{outline: [{{line: {{from: [0.05, 0.05], to: [-0.05, 0.05]}}, name: top}}, {{arc: {{to: [0.05, 0.05], centre: [0, 0.05]}}, name: rim}}]}}
+    mesh: {}
+supports: [{{on: block.bottom, fix: [x, y]}}, {{on: roller.top, fix: x}}]
+loads: {{press: {{on: roller.top, pressure: 10e6}}}}
+contacts: {{touch: {{between: [block.top, roller.rim]}}}}
+)",
+                                          block, roller));
+    std::vector<std::array<double, 2>> pressure;
+    for (const analysis::PairResult& pair : contact_of(last(solution)).pairs)
+      pressure.push_back({pair.position.x(), pair.pressure});
+    std::sort(pressure.begin(), pressure.end());
+    const double found = difference(pressure, a, exact);
+    std::cout << "Hertz, " << 2 * solution.mesh.nodes() << " dofs: " << found << " in L2, exact values at the pairs "
+              << difference_of_lines(pressure, a, exact) << "\n";
+    EXPECT_LT(2 * solution.mesh.nodes(), most);
+    return found;
+  };
+  const auto cells = [&](const char* kind, double size, double end) {
+    return fmt::format(
+        "{{kind: {0}, size: {1}, refine: [{{near: [-{2}, 0], size: {3}}}, {{near: [{2}, 0], size: {3}}}]}}", kind, size,
+        a, a * end);
+  };
+  const double coarse = error(cells("polygons", 0.2, 0.16), "{size: 0.01}", 3500),
+               fine = error(cells("polygons", 0.2, 0.02), "{size: 0.01}", 5000);
+  EXPECT_LT(fine, 5e-3);
+  EXPECT_LT(fine, 0.5 * coarse);
+  EXPECT_LT(error("{size: 0.1}", cells("polygons", 0.05, 0.04), 3500), 1e-2);
+  EXPECT_LT(error("{size: 0.1}", cells("quadtree", 0.05, 0.04), 5500), 1e-2);
+  EXPECT_LT(error(cells("polygons", 0.2, 0.1), cells("polygons", 0.05, 0.08), 6000), 1e-2);
 }
 
 // ---- Persson -------------------------------------------------------------------------------------------
@@ -213,25 +293,18 @@ contacts: {{fit: {{between: [shaft.rim, hub.bore], friction: 0.1, gap: -0.05}}}}
 
 // ---- double cantilever beam ----------------------------------------------------------------------------
 
-// The beams of examples/01 as 2,000 and 3,500 polygons: 53.66936 kN (docs/verification.md), the same with A and B
+// The beams of examples/01 as 2,000 and 3,500 polygons: the converged force, the same with A and B
 // swapped.
 TEST(DoubleCantileverBeam, OfThousandsOfPolygonsThatDoNotMatch) {
-  const std::string text = R"(scabo: 1
-materials: {concrete: {young: 10e9, poisson: 0.3}}
-bodies:
-  lower: {material: concrete, shape: {rectangle: {corner: [0, 0], size: [6.0, 1.5]}}, mesh: {kind: polygons, size: 0.0698, order: 1}}
-  upper: {material: concrete, shape: {rectangle: {corner: [0, 1.5], size: [6.0, 1.5]}}, mesh: {kind: polygons, size: 0.0518, order: 1}}
-supports: [{on: lower.left, fix: [x, y]}, {on: upper.left, fix: [x, y]}]
-loads: {tip: {on: upper.top_right, force: [0, -100e3]}}
-contacts: {joint: {between: [lower.top, upper.bottom], friction: 0.2}}
-output: {fields: []}
-)";
+  const std::string text =
+      double_cantilever("kind: polygons, size: 0.0698, order: 1", "kind: polygons, size: 0.0518, order: 1") +
+      "output: {fields: []}\n";
   const auto solution = run(text), swapped = run(text, {"contacts.joint.between=[upper.bottom, lower.top]"});
   const double force = contact_of(last(solution)).normal_force;
   std::cout << solution.cells[0].size() << " and " << solution.cells[1].size() << " polygons: " << force << " N\n";
   EXPECT_NEAR(static_cast<double>(solution.cells[0].size()), 2000.0, 50.0);
   EXPECT_NEAR(static_cast<double>(solution.cells[1].size()), 3500.0, 100.0);
-  EXPECT_NEAR(force / 53669.36, 1.0, 1e-3);
+  EXPECT_NEAR(force / double_cantilever_force, 1.0, 1e-3);
   EXPECT_NEAR(contact_of(last(swapped)).normal_force / force, 1.0, 1e-12);
 }
 

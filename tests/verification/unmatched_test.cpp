@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models.hpp"
 #include "run.hpp"
 
 namespace scabo::verification {
@@ -164,20 +165,7 @@ contacts:
 // The double cantilever beam of examples/01, 20 against 29 elements. Total force 53.669 kN; pressures of 240 quadratic
 // elements on each side (which differ from those of 120 by at most 0.02 % at these places), in kPa.
 TEST(Unmatched, DoubleCantileverBeam) {
-  const std::string text = R"(
-scabo: 1
-materials: {concrete: {young: 10e9, poisson: 0.3}}
-bodies:
-  lower: {material: concrete, shape: {rectangle: {corner: [0, 0], size: [6.0, 1.5]}}, mesh: {size: 0.3}}
-  upper: {material: concrete, shape: {rectangle: {corner: [0, 1.5], size: [6.0, 1.5]}}, mesh: {size: 0.2068965517241379}}
-supports:
-  - {on: lower.left, fix: [x, y]}
-  - {on: upper.left, fix: [x, y]}
-loads:
-  tip: {on: upper.top_right, force: [0, -100e3]}
-contacts:
-  joint: {between: [lower.top, upper.bottom], friction: 0.2}
-)";
+  const std::string text = double_cantilever("size: 0.3", "size: 0.2068965517241379");
   const std::vector<std::array<double, 2>> fine{
       {5.45, 49022},  {5.475, 52200}, {5.5, 55377},   {5.525, 58539}, {5.55, 61698},  {5.575, 64830}, {5.6, 67954},
       {5.625, 71035}, {5.65, 74104},  {5.675, 77109}, {5.7, 80097},   {5.725, 83000}, {5.75, 85879},  {5.775, 88652},
