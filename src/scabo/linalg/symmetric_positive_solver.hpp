@@ -12,6 +12,12 @@ namespace scabo::linalg {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  // compressed columns
 
+/// Seconds and size of a sparse factorisation; all zero for a dense one.
+struct FactorisationCosts {
+  double order = 0.0, analyse = 0.0, factorise = 0.0;  ///< s: elimination order, structure of L, its entries
+  double entries = 0.0, operations = 0.0;              ///< nonzero entries of L, floating point operations
+};
+
 /// A = L L'. Dense Cholesky factorisation (LAPACK) if a quarter of the entries or more is nonzero, supernodal CHOLMOD
 /// otherwise: the stiffness of one super-element is full, that of a finite element mesh is sparse.
 class SymmetricPositiveSolver {
@@ -30,6 +36,8 @@ class SymmetricPositiveSolver {
 
   /// E' A^-1 E, symmetric, where the columns of E are those columns of the identity given by `indices`.
   Matrix inverse_block(const std::vector<int>& indices) const;
+
+  const FactorisationCosts& costs() const;
 
  private:
   struct Factor;

@@ -1,0 +1,134 @@
+// Time and memory of a large sparse factorisation and of the flexibility of contact degrees of freedom:
+//
+//     large_sparse [degrees of freedom = 100000] [threads = 1]
+//
+// A square of n x n eight-node elements in plane strain, held statically determinate; 32, 300, 1,000 and 3,000 of its
+// boundary nodes, consecutive from the middle of the upper side, are contact pairs against something rigid. X is the
+// processor time of factorisation, condensation and one solve over that of factorisation and one solve.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <vector>
+
+#include "scabo/element/elasticity.hpp"
+#include "scabo/element/finite_element.hpp"
+#include "scabo/linalg/dense.hpp"
+#include "scabo/linalg/symmetric_positive_solver.hpp"
+
+using namespace scabo;
+
+namespace {
+
+/// Nodes of a grid of n x n eight-node elements: grid points (i, j) of half the spacing, except the middles of
+/// elements.
+class Grid {
+ public:
+  explicit Grid(int n) : n_(n), number_(static_cast<std::size_t>(side() * side()), -1) {
+    for (int j = 0; j < side(); ++j)
+      for (int i = 0; i < side(); ++i)
+        if (i % 2 == 0 || j % 2 == 0) number_[static_cast<std::size_t>(i + j * side())] = nodes_++;
+  }
+  int side() const { return 2 * n_ + 1; }
+  int nodes() const { return nodes_; }
+  int node(int i, int j) const { return number_[static_cast<std::size_t>(i + j * side())]; }
+
+  /// Boundary nodes, clockwise from the middle of the upper side.
+  std::vector<int> boundary() const {
+    std::vector<int> around;
+    const int m = side() - 1;
+    for (int i = m / 2; i < m; ++i) around.push_back(node(i, m));
+    for (int j = m; j > 0; --j) around.push_back(node(m, j));
+    for (int i = m; i > 0; --i) around.push_back(node(i, 0));
+    for (int j = 0; j < m; ++j) around.push_back(node(0, j));
+    for (int i = 0; i < m / 2; ++i) around.push_back(node(i, m));
+    return around;
+  }
+
+  linalg::SparseMatrix stiffness() const {
+    element::FiniteElement square;
+    square.x = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1), Vec2(0.5, 0), Vec2(1, 0.5), Vec2(0.5, 1), Vec2(0, 0.5)};
+    model::Material material;
+    material.young = 30e9;
+    material.poisson = 0.2;
+    const element::ElementMatrix K =
+        element::finite_element_stiffness(square, element::elasticity_matrix(material, model::Plane::strain), 1.0);
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) * 256);
+    for (int j = 0; j < 2 * n_; j += 2)
+      for (int i = 0; i < 2 * n_; i += 2) {
+        const int of[8] = {node(i, j),     node(i + 2, j),     node(i + 2, j + 2), node(i, j + 2),
+                           node(i + 1, j), node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)};
+        for (int b = 0; b < 16; ++b)
+          for (int a = 0; a < 16; ++a)
+            if (const int row = place(2 * of[a / 2] + a % 2), column = place(2 * of[b / 2] + b % 2);
+                row >= 0 && column >= 0)
+              entries.emplace_back(row, column, K(a, b));
+      }
+    linalg::SparseMatrix A(2 * nodes_ - 3, 2 * nodes_ - 3);
+    A.setFromTriplets(entries.begin(), entries.end());
+    return A;
+  }
+  /// Three components are held: both of the first node of the lower side, the vertical one of its last node.
+  int place(int dof) const {
+    const int last = 2 * node(side() - 1, 0) + 1;
+    return dof < 2 || dof == last ? -1 : dof - 2 - (dof > last ? 1 : 0);
+  }
+
+ private:
+  int n_, nodes_ = 0;
+  std::vector<int> number_;
+};
+
+/// Processor seconds of the process, all threads together: other work on the machine does not count.
+template <typename Function>
+auto processor_time(double& seconds, Function function) {
+  const std::clock_t begin = std::clock();
+  auto result = function();
+  seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return result;
+}
+
+double peak_gigabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1048576.0;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const double wanted = count > 1 ? std::atof(words[1]) : 1e5;
+  linalg::set_blas_threads(count > 2 ? std::atoi(words[2]) : 1);
+  const Grid grid(static_cast<int>(std::lround(std::sqrt(wanted / 6.0))));
+  const linalg::SparseMatrix A = grid.stiffness();
+  const double memory_before = peak_gigabytes();
+
+  double factorise = 0.0, solve = 0.0;
+  const auto solver = processor_time(factorise, [&] { return linalg::SymmetricPositiveSolver(A); });
+  const Vector f = Vector::Ones(A.rows());
+  const Vector u = processor_time(solve, [&] { return Vector(solver.solve(f)); });
+  const linalg::FactorisationCosts& costs = solver.costs();
+  std::printf("%ld degrees of freedom: order %.3f s, analyse %.3f s, factorise %.3f s, together %.3f s; solve %.4f s\n",
+              static_cast<long>(A.rows()), costs.order, costs.analyse, costs.factorise, factorise, solve);
+  std::printf("%.3g entries of L, %.3g operations, residual %.1e; peak memory %.2f GB (matrix %.2f)\n", costs.entries,
+              costs.operations, (A * u - f).norm() / f.norm(), peak_gigabytes(), memory_before);
+
+  const std::vector<int> boundary = grid.boundary();
+  for (const std::size_t pairs : {32u, 300u, 1000u, 3000u}) {
+    if (pairs > boundary.size()) break;
+    std::vector<int> dofs;
+    for (std::size_t i = 0; i < pairs; ++i)
+      for (int k = 0; k < 2; ++k)
+        if (const int at = grid.place(2 * boundary[i] + k); at >= 0) dofs.push_back(at);
+    double condense = 0.0;
+    const Matrix W = processor_time(condense, [&] { return solver.inverse_block(dofs); });
+    const double T1 = factorise + solve;
+    std::printf("%5zu pairs: condensation %.3f s, %.3f T1, X = %.3f, peak memory %.2f GB, trace %.12e\n", pairs,
+                condense, condense / T1, (factorise + condense + solve) / T1, peak_gigabytes(), W.trace());
+    std::fflush(stdout);
+  }
+}
