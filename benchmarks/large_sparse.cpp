@@ -1,23 +1,28 @@
 // Time and memory of a large sparse factorisation and of the flexibility of contact degrees of freedom:
 //
-//     large_sparse [degrees of freedom = 100000] [threads = 1]
+//     large_sparse [degrees of freedom = 100000] [threads = 1] [cholmod | mumps] [automatic | amd | metis] [grid |
+//     polygons | quadtree]
 //
-// A square of n x n eight-node elements in plane strain, held statically determinate; 32, 300, 1,000 and 3,000 of its
-// boundary nodes, consecutive from the middle of the upper side, are contact pairs against something rigid. X is the
-// processor time of factorisation, condensation and one solve over that of factorisation and one solve.
+// grid: a square of n x n eight-node elements in plane strain, held statically determinate; 32, 300, 1,000 and 3,000 of
+// its boundary nodes, consecutive from the middle of the upper side, are contact pairs against something rigid. X is
+// the processor time of factorisation, condensation and one solve over that of factorisation and one solve.
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <vector>
 
+#include "scabo/element/cell_library.hpp"
 #include "scabo/element/elasticity.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
+#include "scabo/mesh/many_cells.hpp"
+#include "scabo/system/assembly.hpp"
 
 using namespace scabo;
 
@@ -92,6 +97,44 @@ auto processor_time(double& seconds, Function function) {
   return result;
 }
 
+/// The same square divided into polygons or by a quadtree, held by its first two nodes.
+struct Divided {
+  linalg::SparseMatrix stiffness;
+  std::vector<int> boundary;  // its nodes, in order, beginning with the upper side
+};
+Divided divided(model::MeshKind kind, double dofs) {
+  model::Model model;
+  model.materials.resize(1);
+  model.materials[0].young = 30e9;
+  model.materials[0].poisson = 0.2;
+  model::Body& body = model.bodies.emplace_back();
+  body.name = "square";
+  body.material = 0;
+  const Vec2 corners[4] = {{1, 1}, {0, 1}, {0, 0}, {1, 0}};
+  for (int i = 0; i < 4; ++i) {
+    model::Edge edge;
+    edge.names = {"edge"};
+    edge.start = corners[i];
+    edge.end = corners[(i + 1) % 4];
+    body.outline.edges.push_back(edge);
+    body.outline.corners.push_back({{"corner"}, corners[i]});
+  }
+  body.mesh.kind = kind;
+  body.mesh.order = 1;
+  body.mesh.size = std::sqrt((kind == model::MeshKind::polygons ? 4.0 : 2.0) / dofs);
+  mesh::Mesh mesh;
+  mesh.bodies.push_back(std::get<mesh::BodyMesh>(mesh::divide_into_cells(body, {}, 1e9)));
+  const auto cells = element::solve_cells(model, mesh, 1);
+  const system::Stiffness K = system::body_stiffness(model, mesh.bodies[0], cells[0]);
+  const auto size = static_cast<int>(K.sparse.rows()) - 3;
+  Divided result;
+  result.stiffness = K.sparse.bottomRightCorner(size, size);
+  result.stiffness.makeCompressed();
+  for (const auto& edge : mesh.bodies[0].edges)
+    for (const mesh::LineElement& element : edge) result.boundary.push_back(element.nodes.front());
+  return result;
+}
+
 double peak_gigabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -103,12 +146,24 @@ double peak_gigabytes() {
 int main(int count, char** words) {
   const double wanted = count > 1 ? std::atof(words[1]) : 1e5;
   linalg::set_blas_threads(count > 2 ? std::atoi(words[2]) : 1);
+  const auto is_word = [&](int at, const char* word) { return count > at && std::strcmp(words[at], word) == 0; };
+  linalg::SparseOptions options;
+  if (is_word(3, "mumps")) options.library = linalg::SparseLibrary::mumps;
+  if (is_word(4, "amd")) options.ordering = linalg::Ordering::minimum_degree;
+  if (is_word(4, "metis")) options.ordering = linalg::Ordering::nested_dissection;
   const Grid grid(static_cast<int>(std::lround(std::sqrt(wanted / 6.0))));
-  const linalg::SparseMatrix A = grid.stiffness();
+  const bool is_grid = !is_word(5, "polygons") && !is_word(5, "quadtree");
+  Divided square;
+  if (is_grid)
+    square = {grid.stiffness(), grid.boundary()};
+  else
+    square = divided(is_word(5, "polygons") ? model::MeshKind::polygons : model::MeshKind::quadtree, wanted);
+  const linalg::SparseMatrix& A = square.stiffness;
+  const auto place = [&](int dof) { return is_grid ? grid.place(dof) : dof - 3; };
   const double memory_before = peak_gigabytes();
 
   double factorise = 0.0, solve = 0.0;
-  const auto solver = processor_time(factorise, [&] { return linalg::SymmetricPositiveSolver(A); });
+  const auto solver = processor_time(factorise, [&] { return linalg::SymmetricPositiveSolver(A, options); });
   const Vector f = Vector::Ones(A.rows());
   const Vector u = processor_time(solve, [&] { return Vector(solver.solve(f)); });
   const linalg::FactorisationCosts& costs = solver.costs();
@@ -117,13 +172,12 @@ int main(int count, char** words) {
   std::printf("%.3g entries of L, %.3g operations, residual %.1e; peak memory %.2f GB (matrix %.2f)\n", costs.entries,
               costs.operations, (A * u - f).norm() / f.norm(), peak_gigabytes(), memory_before);
 
-  const std::vector<int> boundary = grid.boundary();
   for (const std::size_t pairs : {32u, 300u, 1000u, 3000u}) {
-    if (pairs > boundary.size()) break;
+    if (pairs > square.boundary.size()) break;
     std::vector<int> dofs;
     for (std::size_t i = 0; i < pairs; ++i)
       for (int k = 0; k < 2; ++k)
-        if (const int at = grid.place(2 * boundary[i] + k); at >= 0) dofs.push_back(at);
+        if (const int at = place(2 * square.boundary[i] + k); at >= 0) dofs.push_back(at);
     double condense = 0.0;
     const Matrix W = processor_time(condense, [&] { return solver.inverse_block(dofs); });
     const double T1 = factorise + solve;

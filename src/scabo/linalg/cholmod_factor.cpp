@@ -75,8 +75,8 @@ struct LowerTriangle {
 /// CHOLMOD's workspace and factor, freed together.
 class CholmodFactor final : public SparseFactor {
  public:
-  CholmodFactor(const SparseMatrix& A, FactorisationCosts& costs) {
-    std::vector<std::int64_t> order = timed(costs.order, [&] { return elimination_order(A); });
+  CholmodFactor(const SparseMatrix& A, const SparseOptions& options, FactorisationCosts& costs) {
+    std::vector<std::int64_t> order = timed(costs.order, [&] { return elimination_order(A, options.ordering); });
     cholmod_l_start(&common_);
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.print = 0;
@@ -157,8 +157,9 @@ class CholmodFactor final : public SparseFactor {
 
 }  // namespace
 
-std::unique_ptr<SparseFactor> factorise_by_cholmod(const SparseMatrix& A, FactorisationCosts& costs) {
-  return std::make_unique<CholmodFactor>(A, costs);
+std::unique_ptr<SparseFactor> factorise_by_cholmod(const SparseMatrix& A, const SparseOptions& options,
+                                                   FactorisationCosts& costs) {
+  return std::make_unique<CholmodFactor>(A, options, costs);
 }
 
 }  // namespace scabo::linalg

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <new>
 
 #include "scabo/base/error.hpp"
@@ -73,7 +74,11 @@ std::vector<std::int64_t> elimination_order(const SparseMatrix& A, Ordering meth
   const double operations = common.fl * std::pow(unknowns / std::max(1.0, vertices), 3);
   const bool dissect =
       method == Ordering::automatic ? operations > least_dissected * vertices : method == Ordering::nested_dissection;
-  if (done != 0 && dissect) done = cholmod_l_metis(&view, nullptr, 0, 0, order_of_groups.data(), &common);
+  if (done != 0 && dissect) {
+    static std::mutex one_at_a_time;  // METIS draws from rand(), which it sets at its start
+    const std::lock_guard lock(one_at_a_time);
+    done = cholmod_l_metis(&view, nullptr, 0, 0, order_of_groups.data(), &common);
+  }
   const bool out_of_memory = common.status == CHOLMOD_OUT_OF_MEMORY;
   cholmod_l_finish(&common);
   if (out_of_memory) throw std::bad_alloc();

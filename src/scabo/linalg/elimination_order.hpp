@@ -17,8 +17,6 @@ namespace scabo::linalg {
 /// Groups of consecutive unknowns with equal columns: first unknown of each group, and n.
 std::vector<int> equal_columns(const SparseMatrix& A);
 
-enum class Ordering { automatic, minimum_degree, nested_dissection };
-
 /// order[k]: the unknown that is eliminated at step k. `A`: n x n, symmetric pattern, both triangles stored, rows of
 /// each column ascending.
 std::vector<std::int64_t> elimination_order(const SparseMatrix& A, Ordering method = Ordering::automatic);

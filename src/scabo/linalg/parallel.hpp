@@ -2,11 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 namespace scabo::linalg {
 
 /// Calls task(0) ... task(count - 1) on up to `threads` threads, each with single-threaded BLAS; a single task may use
 /// `threads` threads of BLAS. The first exception is rethrown after all threads have ended.
 void parallel_for(int count, int threads, const std::function<void(int)>& task);
+
+/// The same for tasks of different sizes, `work` in any unit: the largest begin first. If one is more than two thirds of
+/// all work, they run one after another, each with `threads` threads of BLAS.
+void parallel_for(const std::vector<double>& work, int threads, const std::function<void(int)>& task);
 
 }  // namespace scabo::linalg

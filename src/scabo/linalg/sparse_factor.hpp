@@ -18,6 +18,10 @@ class SparseFactor {
 };
 
 /// CHOLMOD's supernodal factor. Throws NotPositiveDefinite. Adds to `costs`.
-std::unique_ptr<SparseFactor> factorise_by_cholmod(const SparseMatrix& A, FactorisationCosts& costs);
+std::unique_ptr<SparseFactor> factorise_by_cholmod(const SparseMatrix& A, const SparseOptions& options,
+                                                   FactorisationCosts& costs);
+/// MUMPS, if it is built in; the same.
+std::unique_ptr<SparseFactor> factorise_by_mumps(const SparseMatrix& A, const SparseOptions& options,
+                                                 FactorisationCosts& costs);
 
 }  // namespace scabo::linalg

@@ -24,7 +24,8 @@ SymmetricPositiveSolver::SymmetricPositiveSolver(Matrix A) : SymmetricPositiveSo
   if (!factor_->L.factorise()) throw NotPositiveDefinite();
 }
 
-SymmetricPositiveSolver::SymmetricPositiveSolver(const SparseMatrix& A) : SymmetricPositiveSolver() {
+SymmetricPositiveSolver::SymmetricPositiveSolver(const SparseMatrix& A, const SparseOptions& options)
+    : SymmetricPositiveSolver() {
   ensure(A.rows() == A.cols() && A.isCompressed(), "SymmetricPositiveSolver needs a square compressed matrix");
   const double filled = static_cast<double>(A.nonZeros());
   if (filled >= 0.25 * static_cast<double>(A.rows()) * static_cast<double>(A.cols())) {
@@ -32,7 +33,8 @@ SymmetricPositiveSolver::SymmetricPositiveSolver(const SparseMatrix& A) : Symmet
     return;
   }
   factor_->n = static_cast<int>(A.rows());
-  factor_->sparse = factorise_by_cholmod(A, factor_->costs);
+  factor_->sparse =
+      (options.library == SparseLibrary::mumps ? factorise_by_mumps : factorise_by_cholmod)(A, options, factor_->costs);
 }
 
 Matrix SymmetricPositiveSolver::solve(const Matrix& B) const {

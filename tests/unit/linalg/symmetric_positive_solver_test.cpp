@@ -61,8 +61,23 @@ TEST(SymmetricPositiveSolver, DenseAgainstEigen) {
   for (int n : {1, 2, 17, 120}) expect_solves(SymmetricPositiveSolver(dense(n)), dense(n));
 }
 
-TEST(SymmetricPositiveSolver, SparseAgainstEigen) {
-  for (int side : {2, 3, 9, 20}) expect_solves(SymmetricPositiveSolver(grid(side)), Matrix(grid(side)));
+/// The same for every library that is built in.
+class SparseLibraries : public testing::TestWithParam<SparseLibrary> {
+ protected:
+  SparseOptions options{GetParam(), Ordering::automatic};
+};
+std::vector<SparseLibrary> built_in() {
+  std::vector<SparseLibrary> libraries;
+  for (const SparseLibrary library : {SparseLibrary::cholmod, SparseLibrary::mumps})
+    if (is_built_in(library)) libraries.push_back(library);
+  return libraries;
+}
+INSTANTIATE_TEST_SUITE_P(SymmetricPositiveSolver, SparseLibraries, testing::ValuesIn(built_in()), [](const auto& test) {
+  return std::string(test.param == SparseLibrary::mumps ? "mumps" : "cholmod");
+});
+
+TEST_P(SparseLibraries, AgainstEigen) {
+  for (int side : {2, 3, 9, 20}) expect_solves(SymmetricPositiveSolver(grid(side), options), Matrix(grid(side)));
 }
 
 /// Plane lattice of springs of `columns` x `rows` nodes, two unknowns each, with diagonals, held at its lower side;
@@ -95,7 +110,7 @@ SparseMatrix lattice(int columns, int rows, double contrast) {
 }
 
 /// Block of the inverse for the boundary nodes of a lattice, against the whole inverse.
-TEST(SymmetricPositiveSolver, InverseBlockOfALattice) {
+TEST_P(SparseLibraries, InverseBlockOfALattice) {
   const int columns = 21, rows = 13;
   const SparseMatrix A = lattice(columns, rows, 10.0);
   std::vector<int> boundary;
@@ -103,7 +118,7 @@ TEST(SymmetricPositiveSolver, InverseBlockOfALattice) {
     if (k % columns == 0 || k % columns == columns - 1 || k >= columns * (rows - 1))
       boundary.insert(boundary.end(), {2 * k + 1, 2 * k});
   const Matrix inverse = test::solve_cholesky(Matrix(A), Matrix::Identity(A.rows(), A.cols()));
-  const SymmetricPositiveSolver solver(A);
+  const SymmetricPositiveSolver solver(A, options);
   EXPECT_LT((solver.inverse_block(boundary) - inverse(boundary, boundary)).norm(), 1e-12 * inverse.norm());
   for (const int i : {0, 7, 300, 545}) {
     EXPECT_NEAR(solver.inverse_block({i})(0, 0), inverse(i, i), 1e-12 * inverse(i, i));
@@ -117,7 +132,7 @@ TEST(SymmetricPositiveSolver, InverseBlockOfALattice) {
 }
 
 /// Without connection: blocks of the inverse between the parts are exactly zero.
-TEST(SymmetricPositiveSolver, InverseBlockOfSeveralParts) {
+TEST_P(SparseLibraries, InverseBlockOfSeveralParts) {
   const SparseMatrix part = lattice(9, 8, 3.0);
   const int n = static_cast<int>(part.rows());
   std::vector<Eigen::Triplet<double>> entries;
@@ -129,7 +144,7 @@ TEST(SymmetricPositiveSolver, InverseBlockOfSeveralParts) {
   A.setFromTriplets(entries.begin(), entries.end());
   const Matrix inverse = test::solve_cholesky(Matrix(part), Matrix::Identity(n, n));
   const std::vector<int> indices = {2 * n + 5, 3, n + 17, 2 * n + 100, n + 3};
-  const Matrix block = SymmetricPositiveSolver(A).inverse_block(indices);
+  const Matrix block = SymmetricPositiveSolver(A, options).inverse_block(indices);
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j) {
       const int a = indices[static_cast<std::size_t>(i)], b = indices[static_cast<std::size_t>(j)];
@@ -142,9 +157,9 @@ TEST(SymmetricPositiveSolver, InverseBlockOfSeveralParts) {
 
 /// Stiffnesses over ten decades: Cholesky factors are accurate to the condition after scaling by the diagonal, and a
 /// block is as accurate as the solution of the whole.
-TEST(SymmetricPositiveSolver, InverseBlockOfAnIllConditionedLattice) {
+TEST_P(SparseLibraries, InverseBlockOfAnIllConditionedLattice) {
   const SparseMatrix A = lattice(15, 15, 1e10);
-  const SymmetricPositiveSolver solver(A);
+  const SymmetricPositiveSolver solver(A, options);
   std::vector<int> top;
   for (int k = 14 * 15; k < 15 * 15; ++k) top.insert(top.end(), {2 * k, 2 * k + 1});
   const test::LongMatrix wide = Matrix(A).cast<long double>(),
@@ -165,31 +180,31 @@ TEST(SymmetricPositiveSolver, NothingToSolve) {
   EXPECT_EQ(SymmetricPositiveSolver(SparseMatrix(0, 0)).inverse_block({}).size(), 0);
 }
 
-TEST(SymmetricPositiveSolver, SurvivesBeingMoved) {
+TEST_P(SparseLibraries, SurvivesBeingMoved) {
   const SparseMatrix A = grid(9);
-  SymmetricPositiveSolver first(A);
+  SymmetricPositiveSolver first(A, options);
   SymmetricPositiveSolver second = std::move(first);
   first = SymmetricPositiveSolver(dense(4));
   expect_solves(second, Matrix(A));
   expect_solves(first, dense(4));
 }
 
-TEST(SymmetricPositiveSolver, SaysWhatIsNotPositiveDefinite) {
+TEST_P(SparseLibraries, SaysWhatIsNotPositiveDefinite) {
   Matrix negative = dense(6);
   negative(4, 4) = -1.0;
   EXPECT_THROW(SymmetricPositiveSolver{negative}, NotPositiveDefinite);
   EXPECT_THROW(SymmetricPositiveSolver(Matrix(Matrix::Zero(3, 3))), NotPositiveDefinite);
   SparseMatrix indefinite = grid(9);
   indefinite.coeffRef(40, 40) = -0.5;
-  EXPECT_THROW(SymmetricPositiveSolver{indefinite}, NotPositiveDefinite);
+  EXPECT_THROW(SymmetricPositiveSolver(indefinite, options), NotPositiveDefinite);
   SparseMatrix empty_row = grid(9);  // a singular one: nothing holds the last unknown
   for (int i = 0; i < 81; ++i)
     for (int j = 0; j < 81; ++j)
       if ((i == 80 || j == 80) && empty_row.coeff(i, j) != 0.0) empty_row.coeffRef(i, j) = 0.0;
-  EXPECT_THROW(SymmetricPositiveSolver{empty_row}, NotPositiveDefinite);
+  EXPECT_THROW(SymmetricPositiveSolver(empty_row, options), NotPositiveDefinite);
 }
 
-TEST(SymmetricPositiveSolver, KeepsItsDigitsOverSixteenDecades) {
+TEST_P(SparseLibraries, KeepsItsDigitsOverSixteenDecades) {
   SparseMatrix A = grid(12);
   const Vector scale = Vector::NullaryExpr(144, [](Eigen::Index i) { return std::pow(10.0, (i % 17 - 8) * 0.5); });
   const Matrix scaled = scale.asDiagonal() * Matrix(A) * scale.asDiagonal();
@@ -197,7 +212,8 @@ TEST(SymmetricPositiveSolver, KeepsItsDigitsOverSixteenDecades) {
   sparse.makeCompressed();
   const Vector x = Vector::LinSpaced(144, 1.0, 2.0);
   const Vector b = scaled * scale.cwiseInverse().asDiagonal() * x;
-  EXPECT_LT((Vector(scale.asDiagonal() * SymmetricPositiveSolver(sparse).solve(b)) - x).norm(), 1e-12 * x.norm());
+  EXPECT_LT((Vector(scale.asDiagonal() * SymmetricPositiveSolver(sparse, options).solve(b)) - x).norm(),
+            1e-12 * x.norm());
   EXPECT_LT((Vector(scale.asDiagonal() * SymmetricPositiveSolver(scaled).solve(b)) - x).norm(), 1e-12 * x.norm());
 }
 
