@@ -1,7 +1,7 @@
 // Time and memory of a large sparse factorisation and of the flexibility of contact degrees of freedom:
 //
-//     large_sparse [degrees of freedom = 100000] [threads = 1] [cholmod | mumps] [automatic | amd | metis] [grid |
-//     polygons | quadtree]
+//     large_sparse [degrees of freedom = 100000] [threads = 1] [cholmod | mumps] [automatic | amd | metis | position]
+//     [grid | polygons | quadtree]
 //
 // grid: a square of n x n eight-node elements in plane strain, held statically determinate; 32, 300, 1,000 and 3,000 of
 // its boundary nodes, consecutive from the middle of the upper side, are contact pairs against something rigid. X is
@@ -77,6 +77,14 @@ class Grid {
     A.setFromTriplets(entries.begin(), entries.end());
     return A;
   }
+  std::vector<Vec2> positions() const {
+    std::vector<Vec2> of_unknowns;
+    for (int j = 0; j < side(); ++j)
+      for (int i = 0; i < side(); ++i)
+        for (int k = 0; k < 2 && node(i, j) >= 0; ++k)
+          if (place(2 * node(i, j) + k) >= 0) of_unknowns.emplace_back(i, j);
+    return of_unknowns;
+  }
   /// Three components are held: both of the first node of the lower side, the vertical one of its last node.
   int place(int dof) const {
     const int last = 2 * node(side() - 1, 0) + 1;
@@ -100,7 +108,8 @@ auto processor_time(double& seconds, Function function) {
 /// The same square divided into polygons or by a quadtree, held by its first two nodes.
 struct Divided {
   linalg::SparseMatrix stiffness;
-  std::vector<int> boundary;  // its nodes, in order, beginning with the upper side
+  std::vector<int> boundary;    // its nodes, in order, beginning with the upper side
+  std::vector<Vec2> positions;  // of the unknowns
 };
 Divided divided(model::MeshKind kind, double dofs) {
   model::Model model;
@@ -126,12 +135,14 @@ Divided divided(model::MeshKind kind, double dofs) {
   mesh.bodies.push_back(std::get<mesh::BodyMesh>(mesh::divide_into_cells(body, {}, 1e9)));
   const auto cells = element::solve_cells(model, mesh, 1);
   const system::Stiffness K = system::body_stiffness(model, mesh.bodies[0], cells[0]);
-  const auto size = static_cast<int>(K.sparse.rows()) - 3;
+  const auto size = static_cast<int>(K.sparse.rows()) - 4;  // two nodes are held
   Divided result;
   result.stiffness = K.sparse.bottomRightCorner(size, size);
   result.stiffness.makeCompressed();
   for (const auto& edge : mesh.bodies[0].edges)
     for (const mesh::LineElement& element : edge) result.boundary.push_back(element.nodes.front());
+  for (int dof = 4; dof < 4 + size; ++dof)
+    result.positions.push_back(mesh.bodies[0].nodes[static_cast<std::size_t>(dof / 2)]);
   return result;
 }
 
@@ -151,15 +162,18 @@ int main(int count, char** words) {
   if (is_word(3, "mumps")) options.library = linalg::SparseLibrary::mumps;
   if (is_word(4, "amd")) options.ordering = linalg::Ordering::minimum_degree;
   if (is_word(4, "metis")) options.ordering = linalg::Ordering::nested_dissection;
+  const bool by_position = is_word(4, "position");
+  if (by_position) options.ordering = linalg::Ordering::dissection_by_position;
   const Grid grid(static_cast<int>(std::lround(std::sqrt(wanted / 6.0))));
   const bool is_grid = !is_word(5, "polygons") && !is_word(5, "quadtree");
   Divided square;
   if (is_grid)
-    square = {grid.stiffness(), grid.boundary()};
+    square = {grid.stiffness(), grid.boundary(), grid.positions()};
   else
     square = divided(is_word(5, "polygons") ? model::MeshKind::polygons : model::MeshKind::quadtree, wanted);
   const linalg::SparseMatrix& A = square.stiffness;
-  const auto place = [&](int dof) { return is_grid ? grid.place(dof) : dof - 3; };
+  if (by_position || options.ordering == linalg::Ordering::automatic) options.positions = square.positions;
+  const auto place = [&](int dof) { return is_grid ? grid.place(dof) : dof - 4; };
   const double memory_before = peak_gigabytes();
 
   double factorise = 0.0, solve = 0.0;

@@ -76,7 +76,8 @@ struct LowerTriangle {
 class CholmodFactor final : public SparseFactor {
  public:
   CholmodFactor(const SparseMatrix& A, const SparseOptions& options, FactorisationCosts& costs) {
-    std::vector<std::int64_t> order = timed(costs.order, [&] { return elimination_order(A, options.ordering); });
+    std::vector<std::int64_t> order =
+        timed(costs.order, [&] { return elimination_order(A, options.ordering, options.positions); });
     cholmod_l_start(&common_);
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.print = 0;

@@ -18,7 +18,8 @@ namespace scabo::linalg {
 std::vector<int> equal_columns(const SparseMatrix& A);
 
 /// order[k]: the unknown that is eliminated at step k. `A`: n x n, symmetric pattern, both triangles stored, rows of
-/// each column ascending.
-std::vector<std::int64_t> elimination_order(const SparseMatrix& A, Ordering method = Ordering::automatic);
+/// each column ascending. `positions` of the unknowns, if they are known: dissection_by_position needs them.
+std::vector<std::int64_t> elimination_order(const SparseMatrix& A, Ordering method = Ordering::automatic,
+                                            const std::vector<Vec2>& positions = {});
 
 }  // namespace scabo::linalg

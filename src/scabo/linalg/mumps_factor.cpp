@@ -34,7 +34,8 @@ class MumpsFactor final : public SparseFactor {
  public:
   MumpsFactor(const SparseMatrix& A, const SparseOptions& options, FactorisationCosts& costs) {
     ensure(mumps_function() != nullptr, "the library of MUMPS was not found");
-    std::vector<std::int64_t> order = timed(costs.order, [&] { return elimination_order(A, options.ordering); });
+    std::vector<std::int64_t> order =
+        timed(costs.order, [&] { return elimination_order(A, options.ordering, options.positions); });
     std::vector<MUMPS_INT> step(order.size()), rows, columns;
     for (std::size_t k = 0; k < order.size(); ++k)
       step[static_cast<std::size_t>(order[k])] = static_cast<MUMPS_INT>(k + 1);

@@ -16,11 +16,12 @@ enum class SparseLibrary { cholmod, mumps };
 /// Whether this program can use the library.
 bool is_built_in(SparseLibrary library);
 
-enum class Ordering { automatic, minimum_degree, nested_dissection };
+enum class Ordering { automatic, minimum_degree, nested_dissection, dissection_by_position };
 
 struct SparseOptions {
   SparseLibrary library = SparseLibrary::cholmod;
   Ordering ordering = Ordering::automatic;  ///< elimination_order.hpp
+  std::vector<Vec2> positions = {};         ///< of every unknown, or empty: its node, for the order of elimination
 };
 
 /// Seconds and size of a sparse factorisation; all zero for a dense one.

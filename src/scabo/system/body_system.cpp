@@ -141,7 +141,8 @@ class ElasticBody final : public BodySystem {
   void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
   const void* factor() const override { return factored_.get(); }
 
-  void factorise(const linalg::SparseOptions& options) {
+  void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes) {
+    for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
     if (stiffness().dense)
       factored_->solver = linalg::SymmetricPositiveSolver(Matrix((*stiffness().dense)(dofs_, dofs_)));
     else
@@ -469,7 +470,7 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   linalg::parallel_for(work, threads, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     try {
-      bodies[distinct[i]]->factorise(options);
+      bodies[distinct[i]]->factorise(options, parts[distinct[i]].nodes);
     } catch (const linalg::NotPositiveDefinite&) {
       failed[i] = 1;
     }

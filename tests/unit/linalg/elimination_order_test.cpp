@@ -24,6 +24,12 @@ SparseMatrix grid(int side, int dofs) {
   return A;
 }
 
+std::vector<Vec2> positions(int side, int dofs) {
+  std::vector<Vec2> of_unknowns;
+  for (int i = 0; i < dofs * side * side; ++i) of_unknowns.emplace_back(i / dofs % side, i / dofs / side);
+  return of_unknowns;
+}
+
 /// Entries of the Cholesky factor, by elimination of the graph.
 long entries_of_factor(const SparseMatrix& A, const std::vector<std::int64_t>& order) {
   const auto n = static_cast<std::size_t>(A.rows());
@@ -79,10 +85,11 @@ TEST(EliminationOrder, NoUnknownsAndOne) {
 
 class EliminationOrders : public testing::TestWithParam<Ordering> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EliminationOrders,
-                         testing::Values(Ordering::automatic, Ordering::minimum_degree, Ordering::nested_dissection));
+                         testing::Values(Ordering::automatic, Ordering::minimum_degree, Ordering::nested_dissection,
+                                         Ordering::dissection_by_position));
 
 TEST_P(EliminationOrders, IsAPermutationThatKeepsNodesTogether) {
-  std::vector<std::int64_t> order = elimination_order(grid(12, 2), GetParam());
+  std::vector<std::int64_t> order = elimination_order(grid(12, 2), GetParam(), positions(12, 2));
   for (std::size_t k = 0; k < order.size(); k += 2) {
     EXPECT_EQ(order[k] % 2, 0);
     EXPECT_EQ(order[k + 1], order[k] + 1);
@@ -97,14 +104,29 @@ TEST_P(EliminationOrders, KeepsTheFactorSparse) {
   const SparseMatrix A = grid(40, 1);
   std::vector<std::int64_t> natural(1600);
   std::iota(natural.begin(), natural.end(), 0);
-  const long entries = entries_of_factor(A, elimination_order(A, GetParam()));
+  const long entries = entries_of_factor(A, elimination_order(A, GetParam(), positions(40, 1)));
   EXPECT_LT(entries, 31.0 / 4.0 * 1600.0 * std::log2(40.0));
   EXPECT_LT(2 * entries, entries_of_factor(A, natural));
 }
 
 TEST_P(EliminationOrders, IsTheSameEveryTime) {
   const SparseMatrix A = grid(30, 2);
-  EXPECT_EQ(elimination_order(A, GetParam()), elimination_order(A, GetParam()));
+  EXPECT_EQ(elimination_order(A, GetParam(), positions(30, 2)), elimination_order(A, GetParam(), positions(30, 2)));
+}
+
+/// The first cut of a grid of 41 x 41 is its middle column, which is eliminated last.
+TEST(EliminationOrder, TheMiddleColumnOfAGridSeparatesItsHalves) {
+  const auto order = elimination_order(grid(41, 1), Ordering::dissection_by_position, positions(41, 1));
+  std::set<std::int64_t> columns;
+  for (std::size_t k = order.size() - 41; k < order.size(); ++k) columns.insert(order[k] % 41);
+  EXPECT_EQ(columns.size(), 1u);
+  EXPECT_NEAR(static_cast<double>(*columns.begin()), 20.0, 1.0);
+}
+
+TEST(EliminationOrder, AllNodesInOnePlace) {
+  auto order = elimination_order(grid(20, 1), Ordering::dissection_by_position, std::vector<Vec2>(400, Vec2(1, 1)));
+  std::sort(order.begin(), order.end());
+  for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(order[k], static_cast<std::int64_t>(k));
 }
 
 // A cube of nodes fills its factor so much that nested dissection pays.
