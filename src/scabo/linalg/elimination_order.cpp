@@ -16,8 +16,8 @@ namespace scabo::linalg {
 namespace {
 
 /// Operations of the factorisation by minimum degree for each vertex, from which on METIS pays. It takes 1e-5 s a
-/// vertex, as long as 2e5 operations, and saves at most some ten per cent of them in plane meshes, where AMD
-/// leaves 1.7e5 a vertex of a million degrees of freedom (docs/decisions/0008-sparse-factorisation.md).
+/// vertex, as long as 2e5 operations, and saves up to 60 % of them in meshes of polygons
+/// (docs/decisions/0008-sparse-factorisation.md).
 constexpr double least_dissected = 5e5;
 constexpr double least_by_position = 3e5;  // the same for dissection by position, which takes a few 1e-6 s a vertex
 
