@@ -1,10 +1,10 @@
 // An order of elimination that keeps the factor of a sparse symmetric matrix sparse.
 //
 // The degrees of freedom of a node have the same neighbours. Consecutive unknowns whose columns have the same pattern
-// therefore become one vertex of a graph. It is ordered by minimum degree (AMD; Amestoy, Davis and Duff, ACM Trans. Math.
-// Software 30 (2004) 381), which is best in most plane meshes of up to a million degrees of freedom, or, if the factor
-// costs so much that it pays, by nested dissection: by the positions of the unknowns, or by METIS (Karypis and Kumar,
-// SIAM J. Sci. Comput. 20 (1998) 359). Without positions, the result depends on the pattern alone.
+// therefore become one vertex of a graph. It is ordered by minimum degree (AMD; Amestoy, Davis and Duff, ACM Trans.
+// Math. Software 30 (2004) 381), which is best in most plane meshes of up to a million degrees of freedom, or, if the
+// factor costs so much that it pays, by nested dissection: by the positions of the unknowns, or by METIS (Karypis and
+// Kumar, SIAM J. Sci. Comput. 20 (1998) 359). Without positions, the result depends on the pattern alone.
 #pragma once
 
 #include <cstdint>
