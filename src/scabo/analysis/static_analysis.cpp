@@ -276,12 +276,12 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   solution.cells =
       timed(timing.super_elements, [&] { return element::solve_cells(solution.model, solution.mesh, threads); });
   stage("factorisation");
-  system::Structure structure =
-      timed(timing.factorise, [&] { return system::make_structure(solution.model, solution.mesh, solution.cells); });
+  system::Structure structure = timed(
+      timing.factorise, [&] { return system::make_structure(solution.model, solution.mesh, solution.cells, threads); });
   timed(timing.assemble, [&] { system::add_loads(structure, solution.model, solution.mesh, solution.cells); });
   stage("condensation to the contact pairs");
   const system::ContactSystem contact =
-      timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh); });
+      timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh, threads); });
   if (options.on_mesh) options.on_mesh(solution);
   solution.warnings = solution.model.warnings;
   for (Warning& warning : load_warnings(solution.model, structure)) solution.warnings.push_back(std::move(warning));

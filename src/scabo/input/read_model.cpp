@@ -41,7 +41,7 @@ void read_analysis(Reading& reading, const Value& value) {
 }
 
 void read_solver(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings", "uniqueness"},
+  const MapReader map(reading.report, value, {"tolerance", "iterations", "halvings", "uniqueness", "factorisation"},
                       "{tolerance: 1e-10}");
   SolverOptions& solver = reading.model.solver;
   if (const auto tolerance = map.get("tolerance"))
@@ -54,6 +54,10 @@ void read_solver(Reading& reading, const Value& value) {
   }
   if (const auto uniqueness = map.get("uniqueness"))
     solver.uniqueness = read_flag(reading.report, *uniqueness).value_or(false);
+  if (const auto factorisation = map.get("factorisation")) {
+    const auto choice = read_choice(reading.report, *factorisation, {"cholmod", "mumps"}, {});
+    if (choice && *choice == "mumps") solver.factorisation = Factorisation::mumps;
+  }
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <numeric>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -47,6 +48,17 @@ void parallel_for(int count, int threads, const std::function<void(int)>& task) 
   set_blas_threads(threads);
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+void parallel_for(const std::vector<double>& work, int threads, const std::function<void(int)>& task) {
+  std::vector<int> order(work.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return work[static_cast<std::size_t>(a)] > work[static_cast<std::size_t>(b)]; });
+  const double all = std::accumulate(work.begin(), work.end(), 0.0);
+  const bool one_dominates = !work.empty() && work[static_cast<std::size_t>(order.front())] > 2.0 / 3.0 * all;
+  parallel_for(static_cast<int>(work.size()), one_dominates ? 1 : threads,
+               [&](int k) { task(order[static_cast<std::size_t>(k)]); });
 }
 
 }  // namespace scabo::linalg

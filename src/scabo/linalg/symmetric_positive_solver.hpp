@@ -12,14 +12,33 @@ namespace scabo::linalg {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  // compressed columns
 
-/// A = L L'. Dense Cholesky factorisation (LAPACK) if a quarter of the entries or more is nonzero, supernodal CHOLMOD
-/// otherwise: the stiffness of one super-element is full, that of a finite element mesh is sparse.
+enum class SparseLibrary { cholmod, mumps };
+/// Whether this program can use the library.
+bool is_built_in(SparseLibrary library);
+
+enum class Ordering { automatic, minimum_degree, nested_dissection, dissection_by_position };
+
+struct SparseOptions {
+  SparseLibrary library = SparseLibrary::cholmod;
+  Ordering ordering = Ordering::automatic;  ///< elimination_order.hpp
+  std::vector<Vec2> positions = {};         ///< of every unknown, or empty: its node, for the order of elimination
+};
+
+/// Seconds and size of a sparse factorisation; all zero for a dense one.
+struct FactorisationCosts {
+  double order = 0.0, analyse = 0.0, factorise = 0.0;  ///< s: elimination order, structure of L, its entries
+  double entries = 0.0, operations = 0.0;              ///< nonzero entries of L, floating point operations
+};
+
+/// A = L L'. Dense Cholesky factorisation (LAPACK) if a quarter of the entries or more is nonzero, a sparse one
+/// (CHOLMOD, supernodal, or MUMPS) otherwise: the stiffness of one super-element is full, that of a finite element mesh
+/// is sparse.
 class SymmetricPositiveSolver {
  public:
   /// A solver for zero unknowns.
   SymmetricPositiveSolver();
   /// `A`: n x n, both triangles stored. Throws NotPositiveDefinite.
-  explicit SymmetricPositiveSolver(const SparseMatrix& A);
+  explicit SymmetricPositiveSolver(const SparseMatrix& A, const SparseOptions& options = {});
   explicit SymmetricPositiveSolver(Matrix A);
   SymmetricPositiveSolver(SymmetricPositiveSolver&&) noexcept;
   SymmetricPositiveSolver& operator=(SymmetricPositiveSolver&&) noexcept;
@@ -30,6 +49,8 @@ class SymmetricPositiveSolver {
 
   /// E' A^-1 E, symmetric, where the columns of E are those columns of the identity given by `indices`.
   Matrix inverse_block(const std::vector<int>& indices) const;
+
+  const FactorisationCosts& costs() const;
 
  private:
   struct Factor;

@@ -259,11 +259,15 @@ struct Step {
   Source source;
 };
 
+/// Library that factorises sparse stiffness matrices.
+enum class Factorisation { cholmod, mumps };
+
 struct SolverOptions {
   double tolerance = 1e-10;  ///< bound of every scaled figure of the certificate
   int iterations = 50;       ///< Newton iterations in one attempt, at most
   int halvings = 6;          ///< of an increment that does not converge, at most
   bool uniqueness = false;   ///< search for other solutions of every increment
+  Factorisation factorisation = Factorisation::cholmod;
 };
 
 /// A point at which results are requested. `body`: -1 for every body that contains it.

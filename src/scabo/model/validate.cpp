@@ -122,6 +122,12 @@ void check_solver(Checking& checking) {
   checking.within("solver", "tolerance", solver.tolerance, "1e-14", "1e-3");
   checking.whole("solver", "iterations", solver.iterations, limits::iterations);
   checking.whole("solver", "halvings", solver.halvings, limits::halvings);
+#ifndef SCABO_MUMPS
+  if (solver.factorisation == Factorisation::mumps)
+    checking.error("solver", "factorisation",
+                   "this program was built without MUMPS: write cholmod, or install libmumps-seq-dev, configure and "
+                   "build again");
+#endif
 }
 
 namespace {

@@ -6,8 +6,12 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <string_view>
+#include <unordered_map>
 
+#include "scabo/linalg/parallel.hpp"
 #include "scabo/linalg/twofold.hpp"
 
 namespace scabo::system {
@@ -77,10 +81,50 @@ Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint
 
 namespace {
 
+/// What equal bodies share.
+struct Factored {
+  Stiffness stiffness;
+  linalg::SymmetricPositiveSolver solver;
+};
+
+/// Rows and columns `dofs` (ascending) of K; place[i]: position of i in `dofs`, or -1.
+linalg::SparseMatrix principal_part(const linalg::SparseMatrix& K, const std::vector<int>& dofs,
+                                    const std::vector<int>& place) {
+  const auto n = static_cast<Eigen::Index>(dofs.size());
+  linalg::SparseMatrix part(n, n);
+  part.reserve(K.nonZeros());
+  for (Eigen::Index j = 0; j < n; ++j) {
+    part.startVec(j);
+    for (linalg::SparseMatrix::InnerIterator it(K, dofs[static_cast<std::size_t>(j)]); it; ++it)
+      if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0) part.insertBack(row, j) = it.value();
+  }
+  part.finalize();
+  return part;
+}
+
+/// Bit for bit.
+bool equal(const Stiffness& a, const Stiffness& b) {
+  if (a.dense || b.dense) return a.dense == b.dense && a.unbounded == b.unbounded;
+  const auto same = [](const auto* first, const auto* second, Eigen::Index count) {
+    return std::memcmp(first, second, static_cast<std::size_t>(count) * sizeof(*first)) == 0;
+  };
+  return a.rounding == b.rounding && a.unbounded == b.unbounded && a.size() == b.size() && a.entries() == b.entries() &&
+         same(a.sparse.outerIndexPtr(), b.sparse.outerIndexPtr(), a.size() + 1) &&
+         same(a.sparse.innerIndexPtr(), b.sparse.innerIndexPtr(), a.entries()) &&
+         same(a.sparse.valuePtr(), b.sparse.valuePtr(), a.entries());
+}
+
+/// Equal for equal ones.
+std::size_t hash_of(const Stiffness& stiffness) {
+  if (stiffness.dense) return std::hash<const void*>()(stiffness.dense.get());
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(stiffness.sparse.valuePtr()),
+                                        static_cast<std::size_t>(stiffness.entries()) * sizeof(double)});
+}
+
 class ElasticBody final : public BodySystem {
  public:
-  ElasticBody(Stiffness stiffness, const std::vector<Vec2>& nodes, std::vector<Constraint> constraints)
-      : stiffness_(std::move(stiffness)), free_(static_cast<std::size_t>(2 * nodes.size()), true) {
+  ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes, std::vector<Constraint> constraints)
+      : factored_(std::move(factored)), free_(static_cast<std::size_t>(2 * nodes.size()), true) {
     constraints_ = std::move(constraints);
     find_rigid_motions(nodes);
     find_turn(nodes);
@@ -90,10 +134,22 @@ class ElasticBody final : public BodySystem {
     place_.assign(solved_.size(), -1);
     for (std::size_t i = 0; i < solved_.size(); ++i)
       if (solved_[i]) place_[i] = static_cast<int>(dofs_.size()), dofs_.push_back(static_cast<int>(i));
-    factorise();
   }
 
-  Eigen::Index size() const override { return stiffness_.size(); }
+  const std::vector<int>& solved_dofs() const { return dofs_; }
+  const std::shared_ptr<Factored>& factored() const { return factored_; }
+  void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
+  const void* factor() const override { return factored_.get(); }
+
+  void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes) {
+    for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
+    if (stiffness().dense)
+      factored_->solver = linalg::SymmetricPositiveSolver(Matrix((*stiffness().dense)(dofs_, dofs_)));
+    else
+      factored_->solver = linalg::SymmetricPositiveSolver(principal_part(stiffness().sparse, dofs_, place_), options);
+  }
+
+  Eigen::Index size() const override { return stiffness().size(); }
 
   Vector displacement(const Vector& f, const Vector& prescribed) const override {
     Vector u = Vector::Zero(size());
@@ -101,7 +157,7 @@ class ElasticBody final : public BodySystem {
       u[constraints_[c].dof] = prescribed[static_cast<Eigen::Index>(c)];
     for (int round = 0; round < 2; ++round) {  // the second refines: the certificate is judged at 1e-10
       const Vector load = f - internal_forces(u);
-      u(dofs_) += solver_.solve(load(dofs_)).col(0);
+      u(dofs_) += solver().solve(load(dofs_)).col(0);
     }
     if (rounding_matters(u, f)) u = linalg::rounded(refined(u, f).u);
     return u;
@@ -113,18 +169,22 @@ class ElasticBody final : public BodySystem {
       const int place = place_[static_cast<std::size_t>(dofs[i])];
       if (place >= 0) places.push_back(place), at.push_back(static_cast<int>(i));
     }
-    Matrix A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
-    A(at, at) = solver_.inverse_block(places);
+    Matrix A = solver().inverse_block(places);
+    if (at.size() < dofs.size()) {
+      const Matrix of_solved = std::move(A);
+      A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
+      A(at, at) = of_solved;
+    }
     // The factor alone gives it to about this condition times the unit of rounding.
     constexpr double most_entries = 1e9;  // some seconds
-    const double entries = static_cast<double>(stiffness_.entries()) * static_cast<double>(at.size());
-    if (!at.empty() && stiffness_.largest_diagonal() * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
+    const double entries = static_cast<double>(stiffness().entries()) * static_cast<double>(at.size());
+    if (!at.empty() && stiffness().largest_diagonal() * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
       const Vector none = Vector::Zero(size());
       for (std::size_t j = 0; j < at.size(); ++j) {
         Vector force = none;
         force[dofs[static_cast<std::size_t>(at[j])]] = 1.0;
         Vector u = none;
-        u(dofs_) = solver_.solve(force(dofs_)).col(0);
+        u(dofs_) = solver().solve(force(dofs_)).col(0);
         u = linalg::rounded(refined(u, force).u);
         for (std::size_t i = 0; i < at.size(); ++i) A(at[i], at[j]) = u[dofs[static_cast<std::size_t>(at[i])]];
       }
@@ -156,25 +216,25 @@ class ElasticBody final : public BodySystem {
   }
   double energy_lost(const Vector& u) const override {
     linalg::TwofoldVector strained = linalg::twofold(u);
-    if (!stiffness_.unbounded) take_out_rigid_motions(strained);
+    if (!stiffness().unbounded) take_out_rigid_motions(strained);
     const Vector square = linalg::rounded(strained).cwiseAbs2();
-    const double sum = stiffness_.dense ? square.dot(stiffness_.dense->cwiseAbs2() * square)
-                                        : square.dot(Vector(stiffness_.sparse.cwiseAbs2() * square));
-    return 0.5 * stiffness_.rounding * std::sqrt(sum);  // errors of single entries, independent of each other
+    const double sum = stiffness().dense ? square.dot(stiffness().dense->cwiseAbs2() * square)
+                                         : square.dot(Vector(stiffness().sparse.cwiseAbs2() * square));
+    return 0.5 * stiffness().rounding * std::sqrt(sum);  // errors of single entries, independent of each other
   }
   double stiff_force(const Vector& u) const override {
-    return stiffness_.largest_diagonal() * u.lpNorm<Eigen::Infinity>();
+    return stiffness().largest_diagonal() * u.lpNorm<Eigen::Infinity>();
   }
 
  private:
   /// K u, without the part that a translation of the whole body would add by rounding.
   Vector internal_forces(Vector u) const {
-    if (stiffness_.unbounded) return stiffness_.times(u);
+    if (stiffness().unbounded) return stiffness().times(u);
     const Eigen::Index nodes = size() / 2;
     auto by_node = u.reshaped(2, nodes);
     const Vec2 mean = by_node.rowwise().mean();
     by_node.colwise() -= mean;
-    return stiffness_.times(u);
+    return stiffness().times(u);
   }
 
   /// Whether rounding u can leave forces that are not small beside f: in slender bodies K u is a small difference of
@@ -188,9 +248,9 @@ class ElasticBody final : public BodySystem {
   /// and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that come from
   /// rounding have no resultant this way.
   Vector forces_left(linalg::TwofoldVector u, const Vector& f) const {
-    if (!stiffness_.unbounded) take_out_rigid_motions(u);
-    linalg::TwofoldVector forces = stiffness_.times(u);
-    if (!stiffness_.unbounded) take_out_rigid_motions(forces);
+    if (!stiffness().unbounded) take_out_rigid_motions(u);
+    linalg::TwofoldVector forces = stiffness().times(u);
+    if (!stiffness().unbounded) take_out_rigid_motions(forces);
     Vector left(size());
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
@@ -236,7 +296,7 @@ class ElasticBody final : public BodySystem {
     int since_best = 0;
     for (int k = 0; k < most && since_best < patience && size_of(best.left) > 1e-14 * f.lpNorm<Eigen::Infinity>();
          ++k) {
-      const Vector left = now.left(dofs_), correction = solver_.solve(left).col(0);
+      const Vector left = now.left(dofs_), correction = solver().solve(left).col(0);
       const double decrease = left.dot(correction);
       direction *= before > 0.0 ? decrease / before : 0.0;
       direction(dofs_) -= correction;
@@ -283,7 +343,7 @@ class ElasticBody final : public BodySystem {
 
   void find_rigid_motions(const std::vector<Vec2>& nodes) {
     rigid_coordinates_ = free_motions(nodes, constraints_, reference_, lever_);
-    if (stiffness_.unbounded) rigid_coordinates_ = Matrix::Zero(3, 0);
+    if (stiffness().unbounded) rigid_coordinates_ = Matrix::Zero(3, 0);
     rigid_motions_.resize(size(), rigid_coordinates_.cols());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       rigid_motions_.middleRows<2>(static_cast<Eigen::Index>(2 * i)) =
@@ -303,30 +363,14 @@ class ElasticBody final : public BodySystem {
     return chosen;
   }
 
-  void factorise() {
-    if (stiffness_.dense) {
-      solver_ = linalg::SymmetricPositiveSolver(Matrix((*stiffness_.dense)(dofs_, dofs_)));
-      return;
-    }
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(static_cast<std::size_t>(stiffness_.sparse.nonZeros()));
-    for (Eigen::Index column = 0; column < stiffness_.sparse.outerSize(); ++column)
-      for (linalg::SparseMatrix::InnerIterator it(stiffness_.sparse, column); it; ++it) {
-        const int row = place_[static_cast<std::size_t>(it.row())], col = place_[static_cast<std::size_t>(it.col())];
-        if (row >= 0 && col >= 0) entries.emplace_back(row, col, it.value());
-      }
-    const auto n = static_cast<Eigen::Index>(dofs_.size());
-    linalg::SparseMatrix K(n, n);
-    K.setFromTriplets(entries.begin(), entries.end());
-    solver_ = linalg::SymmetricPositiveSolver(K);
-  }
+  const Stiffness& stiffness() const { return factored_->stiffness; }
+  const linalg::SymmetricPositiveSolver& solver() const { return factored_->solver; }
 
-  Stiffness stiffness_;
+  std::shared_ptr<Factored> factored_;
   linalg::TwofoldVector turn_;  // the rotation about the mean of the nodes
   std::vector<bool> free_;      // by supports
   std::vector<bool> solved_;    // free, and not among the further dofs
   std::vector<int> dofs_, place_;
-  linalg::SymmetricPositiveSolver solver_;
 };
 
 class RigidBody final : public BodySystem {
@@ -392,7 +436,50 @@ class RigidBody final : public BodySystem {
 
 std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
                                          std::vector<Constraint> constraints) {
-  return std::make_unique<ElasticBody>(std::move(stiffness), nodes, std::move(constraints));
+  std::vector<ElasticPart> parts;
+  parts.push_back({std::move(stiffness), nodes, std::move(constraints)});
+  return std::move(elastic_bodies(std::move(parts), 1).front());
+}
+
+std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart> parts, int threads,
+                                                        const linalg::SparseOptions& options) {
+  std::vector<std::unique_ptr<ElasticBody>> bodies;
+  std::vector<std::size_t> distinct;
+  std::vector<double> work;
+  std::unordered_multimap<std::size_t, std::size_t> known;  // hash, distinct body
+  for (ElasticPart& part : parts) {
+    auto factored = std::make_shared<Factored>();
+    factored->stiffness = std::move(part.stiffness);
+    auto body = std::make_unique<ElasticBody>(factored, part.nodes, std::move(part.constraints));
+    const std::size_t hash = hash_of(factored->stiffness);
+    const auto [begin, end] = known.equal_range(hash);
+    const auto same = std::find_if(begin, end, [&](const auto& entry) {
+      const ElasticBody& other = *bodies[entry.second];
+      return other.solved_dofs() == body->solved_dofs() && equal(other.factored()->stiffness, factored->stiffness);
+    });
+    if (same != end) {
+      body->share(bodies[same->second]->factored());
+    } else {
+      known.emplace(hash, bodies.size());
+      distinct.push_back(bodies.size());
+      work.push_back(std::pow(static_cast<double>(factored->stiffness.size()), factored->stiffness.dense ? 3.0 : 1.5));
+    }
+    bodies.push_back(std::move(body));
+  }
+  std::vector<char> failed(distinct.size(), 0);
+  linalg::parallel_for(work, threads, [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    try {
+      bodies[distinct[i]]->factorise(options, parts[distinct[i]].nodes);
+    } catch (const linalg::NotPositiveDefinite&) {
+      failed[i] = 1;
+    }
+  });
+  if (const auto first = std::find(failed.begin(), failed.end(), 1); first != failed.end())
+    throw NotPositiveDefinitePart(distinct[static_cast<std::size_t>(first - failed.begin())]);
+  std::vector<std::unique_ptr<BodySystem>> result;
+  for (auto& body : bodies) result.push_back(std::move(body));
+  return result;
 }
 
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,

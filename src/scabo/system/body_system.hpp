@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/linalg/twofold.hpp"
 #include "scabo/mesh/mesh.hpp"
 
@@ -75,6 +76,9 @@ class BodySystem {
   /// Force by which K would answer if one component of u were alone: max_i K_ii max_i |u_i|; 0 of a rigid body.
   virtual double stiff_force(const Vector& u) const = 0;
 
+  /// Which factorisation it uses: equal bodies share one. None of a rigid body.
+  virtual const void* factor() const { return nullptr; }
+
   const std::vector<Constraint>& constraints() const { return constraints_; }
 
  protected:
@@ -87,6 +91,24 @@ class BodySystem {
 /// An elastic body. `nodes` give the rigid motions; constraints have distinct `dof`s.
 std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
                                          std::vector<Constraint> constraints);
+
+/// An elastic body that is not factorised yet.
+struct ElasticPart {
+  Stiffness stiffness;
+  std::vector<Vec2> nodes;
+  std::vector<Constraint> constraints;
+};
+/// The same for many bodies, on up to `threads` threads. Bodies whose matrices are equal bit for bit, as those of equal
+/// blocks with equal supports are wherever they stand, share stiffness and factor. NotPositiveDefinite comes with the
+/// number of the body: see NotPositiveDefinitePart.
+std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart> parts, int threads,
+                                                        const linalg::SparseOptions& options = {});
+
+/// Stiffness of this body is not positive definite to working precision.
+struct NotPositiveDefinitePart : linalg::NotPositiveDefinite {
+  explicit NotPositiveDefinitePart(std::size_t number) : part(number) {}
+  std::size_t part;
+};
 
 /// A rigid body with reference point `reference` and extent `size`. If constraints contradict each other,
 /// `contradiction` is set to a description of the first that does, which the caller must report; otherwise it is empty.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/linalg/parallel.hpp"
 #include "scabo/system/contact_laws.hpp"
 
 namespace scabo::system {
@@ -69,14 +70,16 @@ PartFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const 
   std::sort(result.rows.begin(), result.rows.end());
   result.rows.erase(std::unique(result.rows.begin(), result.rows.end()), result.rows.end());
   if (touched.empty()) return result;
-  Matrix narrow =
-      Matrix::Zero(static_cast<Eigen::Index>(result.rows.size()), static_cast<Eigen::Index>(touched.size()));
+  Triplets entries;
   for (std::size_t k = 0; k < touched.size(); ++k)
     for (Eigen::SparseMatrix<double>::InnerIterator it(motion, touched[k]); it; ++it) {
       const auto row = std::lower_bound(result.rows.begin(), result.rows.end(), it.row()) - result.rows.begin();
-      narrow(row, static_cast<Eigen::Index>(k)) += it.value();
+      entries.emplace_back(static_cast<int>(row), static_cast<int>(k), it.value());
     }
-  const Matrix W = narrow * part.flexibility(touched) * narrow.transpose();
+  Eigen::SparseMatrix<double> narrow(static_cast<Eigen::Index>(result.rows.size()),
+                                     static_cast<Eigen::Index>(touched.size()));
+  narrow.setFromTriplets(entries.begin(), entries.end());
+  const Matrix half = (narrow * part.flexibility(touched)).transpose(), W = narrow * half;
   result.block = 0.5 * (W + W.transpose());
   return result;
 }
@@ -121,7 +124,7 @@ std::vector<T> selected(const std::vector<T>& all, const std::vector<int>& which
 
 }  // namespace
 
-ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh) {
+ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads) {
   std::vector<ContactSystem::Pair> all;
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c)
     for (std::size_t i = 0; i < mesh.interfaces[c].pairs.size(); ++i)
@@ -132,15 +135,23 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   ContactSystem system;
   Eigen::Index columns = 0;
   Vector diagonal = Vector::Zero(rows);
-  std::vector<PartFlexibility> flexibilities;
+  std::vector<double> work;  // of a part, roughly
+  for (std::size_t p = 0; p < structure.parts.size(); ++p)
+    work.push_back(structure.dofs.is_rigid(p)
+                       ? 0.0
+                       : 20.0 * static_cast<double>(motion[p].cols()) * static_cast<double>(motion[p].nonZeros()) +
+                             std::pow(static_cast<double>(motion[p].nonZeros()), 3.0));
+  std::vector<PartFlexibility> flexibilities(structure.parts.size());
+  linalg::parallel_for(work, threads, [&](int k) {
+    const auto p = static_cast<std::size_t>(k);
+    if (!structure.dofs.is_rigid(p)) flexibilities[p] = flexibility_of(motion[p], *structure.parts[p]);
+  });
   Triplets of_G;
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
     const BodySystem& part = *structure.parts[p];
     system.first_rigid.push_back(static_cast<int>(columns));
-    if (!structure.dofs.is_rigid(p)) {
-      const PartFlexibility& added = flexibilities.emplace_back(flexibility_of(motion[p], part));
-      if (added.block.size() > 0) diagonal(added.rows) += added.block.diagonal();
-    }
+    const PartFlexibility& added = flexibilities[p];
+    if (added.block.size() > 0) diagonal(added.rows) += added.block.diagonal();
     const Matrix& rigid = part.rigid_motions();
     for (Eigen::Index column = 0; column < motion[p].cols(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator it(motion[p], column); it; ++it)

@@ -28,6 +28,7 @@ struct ContactSystem {
   int rigid_motions() const { return static_cast<int>(G.cols()); }
 };
 
-ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh);
+/// The parts on up to `threads` threads.
+ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads = 1);
 
 }  // namespace scabo::system

@@ -177,26 +177,39 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
 }
 
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells) {
+                         const std::vector<element::SolvedCells>& cells, int threads) {
   Structure structure;
   structure.dofs = Dofs(model, mesh);
   const Dofs& dofs = structure.dofs;
+  linalg::SparseOptions options;
+  if (model.solver.factorisation == model::Factorisation::mumps) options.library = linalg::SparseLibrary::mumps;
+  if (!linalg::is_built_in(options.library))
+    throw InputError(model.file, {{{0, 0, "solver.factorisation"},
+                                   "the library of MUMPS was not found: write cholmod, "
+                                   "or install libmumps-seq-dev"}});
   auto constraints = constraints_of(model, mesh, dofs);
+  structure.parts.resize(dofs.parts());
+  const auto body_of = [&](std::size_t p) -> const model::Body& {
+    return model.bodies[static_cast<std::size_t>(dofs.bodies_of(p).front())];
+  };
+  std::vector<std::size_t> elastic;
+  std::vector<ElasticPart> parts;
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
-    const model::Body& body = model.bodies[static_cast<std::size_t>(dofs.bodies_of(p).front())];
-    if (body.rigid) {
-      structure.parts.push_back(make_rigid_body(model, body, std::move(constraints[p])));
+    if (body_of(p).rigid) {
+      structure.parts[p] = make_rigid_body(model, body_of(p), std::move(constraints[p]));
       continue;
     }
-    Stiffness stiffness = part_stiffness(model, mesh, cells, dofs, p);
-    try {
-      structure.parts.push_back(elastic_body(std::move(stiffness), dofs.nodes(p), std::move(constraints[p])));
-    } catch (const linalg::NotPositiveDefinite&) {
-      throw InputError(model.file, {{body.source,
-                                     "its stiffness matrix is not positive definite to working precision: the body is "
-                                     "too slender (3000:1 or more), or its material constants (by a factor of about "
-                                     "1e12) or its element sizes differ too much"}});
-    }
+    elastic.push_back(p);
+    parts.push_back({part_stiffness(model, mesh, cells, dofs, p), dofs.nodes(p), std::move(constraints[p])});
+  }
+  try {
+    auto bodies = elastic_bodies(std::move(parts), threads, options);
+    for (std::size_t k = 0; k < elastic.size(); ++k) structure.parts[elastic[k]] = std::move(bodies[k]);
+  } catch (const NotPositiveDefinitePart& failed) {
+    throw InputError(model.file, {{body_of(elastic[failed.part]).source,
+                                   "its stiffness matrix is not positive definite to working precision: the body is "
+                                   "too slender (3000:1 or more), or its material constants (by a factor of about "
+                                   "1e12) or its element sizes differ too much"}});
   }
   return structure;
 }

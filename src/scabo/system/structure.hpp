@@ -28,9 +28,9 @@ std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, c
 /// Throws InputError for bodies and parts that are held neither by supports nor by contact pairs.
 void check_supports(const model::Model& model, const mesh::Mesh& mesh);
 
-/// Factorises every part. `cells[body]`: its solved super-elements.
+/// Factorises every part, on up to `threads` threads. `cells[body]`: its solved super-elements.
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells);
+                         const std::vector<element::SolvedCells>& cells, int threads = 1);
 
 /// Adds the loads to a structure (apply_loads.cpp).
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,

@@ -219,5 +219,83 @@ TEST(RigidBody, FindsSupportsThatContradictEachOther) {
   EXPECT_EQ(contradiction, "");
 }
 
+/// A lattice girder of springs, two rows of `count` nodes one apart; stiffness `k` of a spring of length 1.
+ElasticPart girder(int count, double k, const Vec2& at) {
+  ElasticPart part;
+  for (int i = 0; i < 2 * count; ++i) part.nodes.push_back(at + Vec2(i / 2, i % 2));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int a = 0; a < 2 * count; ++a)
+    for (int b = a + 1; b < std::min(2 * count, a - a % 2 + 4); ++b) {
+      const Vec2 along = part.nodes[static_cast<std::size_t>(b)] - part.nodes[static_cast<std::size_t>(a)];
+      const Vec2 unit = along.normalized();
+      const Eigen::Vector4d row(-unit.x(), -unit.y(), unit.x(), unit.y());
+      const int dofs[4] = {2 * a, 2 * a + 1, 2 * b, 2 * b + 1};
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) entries.emplace_back(dofs[i], dofs[j], k / along.norm() * row[i] * row[j]);
+    }
+  part.stiffness.sparse.resize(4 * count, 4 * count);
+  part.stiffness.sparse.setFromTriplets(entries.begin(), entries.end());
+  for (int dof = 0; dof < 4; ++dof) part.constraints.push_back(hold(dof / 2, dof % 2));
+  for (int i = 4; i < count; i += 4) part.constraints.push_back(hold(2 * i, 1));  // well-conditioned
+  return part;
+}
+
+/// Nodes at integers far away give the same bits.
+std::vector<ElasticPart> girders() {
+  std::vector<ElasticPart> parts;
+  parts.push_back(girder(30, 2.0, {0, 0}));
+  parts.push_back(girder(30, 3.0, {0, 0}));    // another stiffness
+  parts.push_back(girder(30, 2.0, {64, -8}));  // the first one elsewhere
+  parts.push_back(girder(30, 2.0, {0, 0}));
+  parts.back().constraints.pop_back();  // and with other supports
+  parts.push_back(girder(40, 2.0, {0, 0}));
+  return parts;
+}
+
+TEST(ElasticBodies, EqualOnesShareTheirFactor) {
+  const auto bodies = elastic_bodies(girders(), 1);
+  ASSERT_EQ(bodies.size(), 5u);
+  EXPECT_EQ(bodies[0]->factor(), bodies[2]->factor());
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (i != 2 || j != 0) EXPECT_NE(bodies[i]->factor(), bodies[j]->factor()) << i << " and " << j;
+}
+
+/// However they are factorised: alone, together, on two threads, by another library.
+TEST(ElasticBodies, AreThoseThatAreMadeAlone) {
+  std::vector<linalg::SparseOptions> libraries(1);
+  if (linalg::is_built_in(linalg::SparseLibrary::mumps)) libraries.push_back({linalg::SparseLibrary::mumps});
+  for (const linalg::SparseOptions& library : libraries)
+    for (const int threads : {1, 2}) {
+      const auto bodies = elastic_bodies(girders(), threads, library);
+      std::vector<ElasticPart> parts = girders();
+      for (std::size_t p = 0; p < parts.size(); ++p) {
+        const auto alone = elastic_body(parts[p].stiffness, parts[p].nodes, parts[p].constraints);
+        const std::vector<int> dofs = {4, 9, 30, 46, 47, 1};
+        const Matrix A = alone->flexibility(dofs), same = bodies[p]->flexibility(dofs);
+        EXPECT_LT(largest(A - same), 1e-12 * largest(A));
+        if (library.library == linalg::SparseLibrary::cholmod) EXPECT_EQ(A, same);
+        Vector f = Vector::Zero(alone->size());
+        f[46] = 1.0;
+        const Vector none = Vector::Zero(static_cast<Eigen::Index>(parts[p].constraints.size()));
+        const Vector u = alone->displacement(f, none);
+        EXPECT_LT(largest(u - bodies[p]->displacement(f, none)), 1e-12 * largest(u));
+        EXPECT_NEAR(u[46], A(3, 3), 1e-12 * A(3, 3));
+        EXPECT_EQ(A(5, 5), 0.0);  // held
+      }
+    }
+}
+
+TEST(ElasticBodies, TheFirstThatIsNotPositiveDefiniteIsNamed) {
+  std::vector<ElasticPart> parts = girders();
+  for (const std::size_t wrong : {4u, 1u}) parts[wrong].stiffness.sparse.coeffRef(20, 20) = -1.0;
+  for (const int threads : {1, 2}) try {
+      elastic_bodies(parts, threads);
+      FAIL() << "nothing was thrown";
+    } catch (const NotPositiveDefinitePart& failure) {
+      EXPECT_EQ(failure.part, 1u);
+    }
+}
+
 }  // namespace
 }  // namespace scabo::system

@@ -1,0 +1,137 @@
+#include "scabo/linalg/supernodal_sweep.hpp"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "scabo/base/error.hpp"
+
+namespace scabo::linalg {
+
+namespace {
+
+/// The columns of E, sorted, that have reached a supernode: [begin, end).
+struct Reached {
+  int begin = 0, end = 0;
+  int count() const { return end - begin; }
+};
+
+/// What a supernode hands on to its parent.
+struct HandedOn {
+  std::int64_t from = 0, to = 0;  // supernodes
+  Reached columns;
+  Matrix values;  // rows below the supernode x columns
+};
+
+class Sweep {
+ public:
+  Sweep(const SupernodalFactor& L, const std::vector<std::int64_t>& positions)
+      : L_(L), positions_(positions), result_(Matrix::Zero(count(), count())) {
+    sorted_.resize(positions.size());
+    std::iota(sorted_.begin(), sorted_.end(), 0);
+    std::stable_sort(sorted_.begin(), sorted_.end(), [&](int a, int b) { return position(a) < position(b); });
+    find_supernodes();
+  }
+
+  Matrix run() {
+    for (std::int64_t s = 0; s < L_.supernodes; ++s)
+      if (reached_[index(s)].count() > 0) visit(s);
+    Matrix block(count(), count());
+    for (int j = 0; j < count(); ++j)
+      for (int i = j; i < count(); ++i)
+        block(sorted_[index(i)], sorted_[index(j)]) = block(sorted_[index(j)], sorted_[index(i)]) = result_(i, j);
+    return block;
+  }
+
+ private:
+  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+  int count() const { return static_cast<int>(positions_.size()); }
+  std::int64_t position(int column) const { return positions_[index(column)]; }
+  std::int64_t supernode_of(std::int64_t column) const {
+    return std::upper_bound(L_.first_column, L_.first_column + L_.supernodes + 1, column) - L_.first_column - 1;
+  }
+  std::int64_t parent(std::int64_t s) const {
+    const std::int64_t columns = L_.columns_of(s);
+    return L_.rows_of(s) > columns ? supernode_of(L_.rows[L_.first_row[s] + columns]) : L_.supernodes;
+  }
+
+  void find_supernodes() {
+    reached_.resize(index(L_.supernodes));
+    std::vector<int> sum(index(L_.supernodes), 0);  // of the columns, to check that they are consecutive
+    const auto add = [&](std::int64_t s, Reached columns, int number) {
+      Reached& all = reached_[index(s)];
+      all = sum[index(s)] == 0 ? columns : Reached{std::min(all.begin, columns.begin), std::max(all.end, columns.end)};
+      sum[index(s)] += number;
+    };
+    for (int j = 0; j < count(); ++j) add(supernode_of(position(sorted_[index(j)])), {j, j + 1}, 1);
+    for (std::int64_t s = 0; s < L_.supernodes; ++s) {
+      const Reached columns = reached_[index(s)];
+      if (columns.count() == 0) continue;
+      ensure(columns.count() == sum[index(s)], "supernodes are not in postorder");
+      if (const std::int64_t above = parent(s); above < L_.supernodes) add(above, columns, columns.count());
+    }
+  }
+
+  void visit(std::int64_t s) {
+    const Reached columns = reached_[index(s)];
+    const std::int64_t *const rows = L_.rows + L_.first_row[s], first = L_.first_column[s];
+    const int stride = static_cast<int>(L_.rows_of(s)), own = static_cast<int>(L_.columns_of(s)), below = stride - own,
+              active = columns.count();
+    Matrix R1 = Matrix::Zero(own, active), R2 = Matrix::Zero(below, active);
+    for (int j = columns.begin; j < columns.end; ++j)
+      if (const std::int64_t at = position(sorted_[index(j)]) - first; at >= 0) R1(at, j - columns.begin) = 1.0;
+    while (!waiting_.empty() && waiting_.back().to == s) {
+      add(waiting_.back(), rows, own, columns, R1, R2);
+      waiting_.pop_back();
+    }
+
+    const double* const L11 = L_.values + L_.first_value[s];
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, own, active, 1.0, L11, stride,
+                R1.data(), own);
+    if (below > 0) {
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, below, active, own, -1.0, L11 + own, stride, R1.data(),
+                  own, 1.0, R2.data(), below);
+      waiting_.push_back({s, parent(s), columns, std::move(R2)});
+    }
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, active, own, 1.0, R1.data(), own, 1.0,
+                &result_(columns.begin, columns.begin), count());
+  }
+
+  /// Adds what a child handed on to the right-hand sides of its parent.
+  void add(const HandedOn& child, const std::int64_t* rows, int own, Reached columns, Matrix& R1, Matrix& R2) {
+    const std::int64_t* const child_rows = L_.rows + L_.first_row[child.from] + L_.columns_of(child.from);
+    places_.resize(index(child.values.rows()));
+    int place = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      while (rows[place] != child_rows[i]) ++place;
+      places_[i] = place;
+    }
+    const auto in_R1 = std::lower_bound(places_.begin(), places_.end(), own) - places_.begin();
+    for (Eigen::Index j = 0; j < child.values.cols(); ++j) {
+      const double* const from = child.values.col(j).data();
+      double *const to1 = R1.col(j + child.columns.begin - columns.begin).data(),
+                    *const to2 = R2.col(j + child.columns.begin - columns.begin).data();
+      for (std::ptrdiff_t i = 0; i < in_R1; ++i) to1[places_[index(i)]] += from[i];
+      for (std::ptrdiff_t i = in_R1; i < child.values.rows(); ++i) to2[places_[index(i)] - own] += from[i];
+    }
+  }
+
+  const SupernodalFactor& L_;
+  const std::vector<std::int64_t>& positions_;
+  std::vector<int> sorted_;  // columns of E by their positions
+  std::vector<Reached> reached_;
+  std::vector<HandedOn> waiting_;  // a stack
+  std::vector<int> places_;
+  Matrix result_;  // in the order of sorted_, lower triangle
+};
+
+}  // namespace
+
+Matrix inverse_block(const SupernodalFactor& L, const std::vector<std::int64_t>& positions) {
+  if (positions.empty()) return {};
+  return Sweep(L, positions).run();
+}
+
+}  // namespace scabo::linalg
