@@ -38,11 +38,16 @@ std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
   return result::table(rows);
 }
 
+std::string increments_text(const model::Step& step) {
+  if (!step.automatic) return fmt::format("{}", step.increments);
+  return fmt::format("auto, {:g} to {:g} of the step", step.automatic->smallest, step.automatic->largest);
+}
+
 std::string steps_table(const model::Model& model) {
   if (model.analysis.type == model::AnalysisType::modal)
     return fmt::format("Modal analysis: the lowest {}.\n", count(model.analysis.modes, "mode"));
   std::vector<std::vector<std::string>> rows = {{"step", "increments"}};
-  for (const model::Step& step : model.steps) rows.push_back({step.name, fmt::format("{}", step.increments)});
+  for (const model::Step& step : model.steps) rows.push_back({step.name, increments_text(step)});
   return result::table(rows);
 }
 

@@ -26,6 +26,13 @@ struct RunOptions {
   bool quiet = false;                                                                 ///< only errors and warnings
 };
 
+struct ResumeOptions {
+  std::filesystem::path directory;  ///< results of a run that was interrupted
+  std::string model;                ///< where the model file is now; empty: where it was
+  int threads = 0;                  ///< 0: as before
+  bool quiet = false;
+};
+
 struct ExponentsOptions {
   std::string model;
   std::vector<std::string> settings;
@@ -46,6 +53,8 @@ struct ContactOptions {
 };
 
 ExitStatus run(const RunOptions& options);
+/// Continues a run from its checkpoint (analysis/checkpoint.hpp).
+ExitStatus resume(const ResumeOptions& options);
 /// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
                      double reading);
