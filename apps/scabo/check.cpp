@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "plan.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/result/report.hpp"
 #include "settings.hpp"
@@ -58,7 +59,9 @@ ExitStatus check(const CheckOptions& options) {
   const mesh::Mesh mesh = analysis::check(model);
   for (const Warning& warning : model.warnings) print_warning(warning.text);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
-  text += describe_sizes(sizes_of(model, mesh)) + "\n\n" + bodies_table(model, mesh);
+  text += model.analysis.type == model::AnalysisType::modal ? describe_sizes(sizes_of(model, mesh)) + "\n"
+                                                            : describe(plan_of(model, mesh));
+  text += "\n" + bodies_table(model, mesh);
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);
   text += "\n" + steps_table(model) + "\nNo mistakes found.\n";
   print_output(text);

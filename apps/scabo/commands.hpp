@@ -24,6 +24,7 @@ struct RunOptions {
   std::filesystem::path output;  ///< results directory; empty: `model.results` beside `model.yaml`
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< 1 or more
   bool quiet = false;                                                                 ///< only errors and warnings
+  bool ignore_memory = false;  ///< starts even if the estimated memory is not available
 };
 
 struct ResumeOptions {

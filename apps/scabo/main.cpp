@@ -107,6 +107,8 @@ class CommandLine {
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
+    run_->add_flag("--ignore-memory", run_options_.ignore_memory,
+                   "Starts even if less memory is available than the analysis is expected to need");
     run_->footer(run_example);
 
     resume_->add_option("DIR", resume_options_.directory, "Results directory of the run")->required()->option_text(" ");

@@ -83,7 +83,7 @@ ExitStatus resume(const ResumeOptions& options) {
   const Interrupt interrupt;
   result::ResultsDirectory directory(options.directory, std::move(lock), model, checkpoint.results);
   return solve_and_write(
-      {model, directory, interrupt, std::move(checkpoint), reading, start, threads, options.quiet});
+      {model, directory, interrupt, std::move(checkpoint), reading, start, threads, options.quiet, {}, false});
 }
 
 }  // namespace scabo::app

@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "commands.hpp"
+#include "plan.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/result/version.hpp"
 #include "settings.hpp"
@@ -51,10 +52,12 @@ ExitStatus run(const RunOptions& options) {
   // The model is checked before the directory is created or cleared, and the directory is created before the solve: a
   // mistake in either then costs seconds and no results. Meshing twice takes a hundredth of the time of a solve.
   mesh::Mesh mesh = analysis::check(model);
+  const Plan plan = plan_of(model, mesh);
   const Interrupt interrupt;
   result::ResultsDirectory directory(output, model, std::move(mesh));
   const int threads = threads_that_fit(options.threads);
-  StaticRun begun{model, directory, interrupt, {}, reading, start, threads, options.quiet};
+  StaticRun begun{model, directory, interrupt, {}, reading, start, threads, options.quiet, plan,
+                  options.ignore_memory};
   if (keeps_checkpoints(model)) {
     begun.begun.origin = origin_of(options, model, output, threads);
     begun.begun.results = directory.written();

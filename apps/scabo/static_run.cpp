@@ -133,6 +133,11 @@ ExitStatus solve_and_write(StaticRun run) {
   result::ResultsDirectory& directory = run.directory;
   Progress progress(run.quiet);
   const analysis::StaticSolution solution = marking_failures(directory.path(), [&] {
+    if (run.plan && !run.ignore_memory)
+      if (const std::string why = why_it_does_not_fit(*run.plan, available_memory()); !why.empty())
+        throw std::runtime_error(why);
+    if (run.plan) progress.plan(*run.plan);
+    progress.resumed(static_cast<int>(run.begun.from.increments.size()));
     Checkpoints checkpoints(run);
     analysis::Options options;
     options.threads = run.threads;

@@ -6,6 +6,7 @@
 
 #include "exit_status.hpp"
 #include "interrupt.hpp"
+#include "plan.hpp"
 #include "scabo/analysis/checkpoint.hpp"
 #include "scabo/model/model.hpp"
 #include "scabo/result/results_directory.hpp"
@@ -21,6 +22,8 @@ struct StaticRun {
   std::chrono::steady_clock::time_point start;
   int threads = 1;
   bool quiet = false;
+  std::optional<Plan> plan;     ///< of a new run
+  bool ignore_memory = false;
 };
 
 /// Whether a run writes checkpoints: static analyses of several increments.

@@ -1,0 +1,160 @@
+#include "plan.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <tuple>
+
+#include "scabo/geometry/box.hpp"
+#include "scabo/result/report.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+/// Analyses that take less are described by one line.
+constexpr double long_seconds = 60.0;
+constexpr double large_bytes = 2e9;
+
+/// Super-elements of one size in a body are assumed to be equal up to motion and scale if they have as many nodes.
+bool is_one_super_element(const mesh::BodyMesh& body) {
+  return body.cells.size() == 1 && body.count(mesh::CellKind::superelement) == 1;
+}
+
+double log2_of(double n) { return std::log2(std::max(n, 2.0)); }
+
+double read_number_of(const std::string& file) {
+  std::ifstream stream(file);
+  double value = -1.0;
+  stream >> value;  // `max`: no limit
+  return stream ? value : -1.0;
+}
+
+/// Value of a line `key 123 kB` or `key 123`, in units of the line; -1 without one.
+double read_line_of(const std::string& file, const std::string& key) {
+  std::ifstream stream(file);
+  std::string name;
+  for (double value = 0.0; stream >> name; std::getline(stream, name))
+    if (name == key && stream >> value) return value;
+  return -1.0;
+}
+
+/// What the control group of this process leaves; file caches of the group count as free.
+double left_in_group() {
+  const double most = read_number_of("/sys/fs/cgroup/memory.max"), used = read_number_of("/sys/fs/cgroup/memory.current");
+  if (most > 0.0 && used >= 0.0)
+    return most - used + std::max(0.0, read_line_of("/sys/fs/cgroup/memory.stat", "inactive_file"));
+  const std::string old = "/sys/fs/cgroup/memory/";
+  const double limit = read_number_of(old + "memory.limit_in_bytes"), in_use = read_number_of(old + "memory.usage_in_bytes");
+  if (limit > 0.0 && limit < 1e18 && in_use >= 0.0)  // a limit of 2^63 is none
+    return limit - in_use + std::max(0.0, read_line_of(old + "memory.stat", "total_inactive_file"));
+  return -1.0;
+}
+
+std::string size_text(double bytes) {
+  return bytes < 0.95e9 ? fmt::format("{:.2g} MB", std::max(bytes / 1e6, 10.0)) : fmt::format("{:.2g} GB", bytes / 1e9);
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 1.0) return "less than a second";
+  if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConstants& costs) {
+  Plan plan;
+  plan.sizes = sizes_of(model, mesh);
+  plan.increments = increments_of(model);
+  plan.bytes = costs.base_bytes;
+  std::vector<double> pairs_of(model.bodies.size(), 0.0);
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    const model::Contact& contact = model.contacts[static_cast<std::size_t>(interface.contact)];
+    const auto count = static_cast<double>(interface.pairs.size());
+    pairs_of[static_cast<std::size_t>(contact.a.body)] += count;
+    if (contact.b.body != contact.a.body) pairs_of[static_cast<std::size_t>(contact.b.body)] += count;
+  }
+  const double written =
+      model.output.fields.any_of_bodies() ? std::ceil(static_cast<double>(plan.increments) / model.output.every) : 0.0;
+  std::map<std::tuple<std::size_t, double, double>, int> known;  // equal bodies are solved once
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    plan.first_mesh_only = plan.first_mesh_only || body.mesh.tolerance || model.tolerance;
+    if (body.rigid) continue;
+    const double n = 2.0 * static_cast<double>(mesh.bodies[b].nodes.size());
+    const double columns = std::min(2.0 * pairs_of[b], n);
+    if (is_one_super_element(mesh.bodies[b])) {
+      const bool is_new = known[{mesh.bodies[b].nodes.size(), body.mesh.size, geometry::outline_size(body.outline)}]++ == 0;
+      plan.bytes += costs.dense_bytes * n * n * (is_new ? 1.0 : 0.25);
+      if (is_new) plan.cells += costs.dense_seconds * n * n * n;
+      plan.factorise += 0.05 * costs.dense_seconds * n * n * n;
+      plan.condense += costs.dense_seconds * n * n * columns;
+      plan.fields += written * costs.write_seconds * n;
+      continue;
+    }
+    plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
+    plan.mesh += 0.5 * costs.cell_seconds * n;
+    plan.cells += costs.cell_seconds * n;
+    plan.factorise += costs.factor_seconds * std::pow(n, 1.5);
+    plan.condense += costs.solve_seconds * n * log2_of(n) * columns;
+    plan.contact += plan.increments * costs.solve_seconds * n * log2_of(n) * 2.0;
+    plan.fields += written * costs.write_seconds * n;
+  }
+  const double components = 2.0 * plan.sizes.contact_pairs;
+  plan.bytes += costs.contact_bytes * components * components;
+  plan.contact += plan.increments * costs.contact_seconds * std::pow(components, 3);
+  return plan;
+}
+
+std::string describe(const Plan& plan) {
+  const bool is_long = plan.seconds() > long_seconds || plan.bytes > large_bytes;
+  std::string text = fmt::format("{}; about {} of memory, {}", describe_sizes(plan.sizes), size_text(plan.bytes),
+                                 duration_text(plan.seconds()));
+  if (plan.first_mesh_only) text += ", on the first mesh; refinement needs more";
+  text += '\n';
+  if (!is_long) return text;
+  std::vector<std::vector<std::string>> rows = {{"stage", "about"}};
+  const auto add = [&](const std::string& stage, double seconds) {
+    if (seconds >= 1.0) rows.push_back({stage, duration_text(seconds)});
+  };
+  add("mesh", plan.mesh);
+  add("super-elements", plan.cells);
+  add("factorisation", plan.factorise);
+  add("condensation to the contact pairs", plan.condense);
+  add(count(plan.increments, "increment"), plan.contact);
+  add("fields and files", plan.fields);
+  return text + result::table(rows);
+}
+
+std::optional<Memory> available_memory() {
+  std::optional<Memory> least;
+  const auto consider = [&](double bytes, const char* limit) {
+    if (bytes >= 0.0 && (!least || bytes < least->bytes)) least = Memory{bytes, limit};
+  };
+  if (const double kilobytes = read_line_of("/proc/meminfo", "MemAvailable:"); kilobytes >= 0.0)
+    consider(1024.0 * (kilobytes + std::max(0.0, read_line_of("/proc/meminfo", "SwapFree:"))), "this machine");
+  consider(left_in_group(), "the limit of this container");
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    if (const double kilobytes = read_line_of("/proc/self/status", "VmSize:"); kilobytes >= 0.0)
+      consider(static_cast<double>(limit.rlim_cur) - 1024.0 * kilobytes, "`ulimit -v`");
+  return least;
+}
+
+std::string why_it_does_not_fit(const Plan& plan, const std::optional<Memory>& available) {
+  const CostConstants costs;
+  if (!available || plan.bytes - costs.base_bytes <= available->bytes) return {};  // the program is there already
+  return fmt::format(
+      "not enough memory: the analysis needs about {}, and {} leaves {}: make the mesh coarser, use a larger machine, "
+      "or start it with --ignore-memory",
+      size_text(plan.bytes), available->limit, size_text(available->bytes));
+}
+
+}  // namespace scabo::app
