@@ -145,12 +145,12 @@ ExitStatus solve_and_write(StaticRun run) {
     options.stop = &run.interrupt.requested();
     if (!run.begun.from.increments.empty()) options.from = &run.begun.from;
     options.on_stage = [&](const std::string& stage) { progress.stage(stage); };
-    options.on_mesh = [&](const auto& solution) { progress.meshed(solution); };
-    options.on_increment = [&](const auto& solution, const auto& increment) {
-      directory.add(solution, increment);
-      progress.increment(solution, increment);
+    options.on_mesh = [&](const auto& solved) { progress.meshed(solved); };
+    options.on_increment = [&](const auto& solved, const auto& increment) {
+      directory.add(solved, increment);
+      progress.increment(solved, increment);
     };
-    options.on_accepted = [&](const auto& state, const auto& solution) { checkpoints.add(state, solution); };
+    options.on_accepted = [&](const auto& state, const auto& solved) { checkpoints.add(state, solved); };
     if (run.model.output.discrete_problems)
       options.on_problems = [&](const auto& increment, const auto& problems) {
         write_problems(directory, run.model, increment, problems);
