@@ -113,13 +113,14 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   return plan;
 }
 
+bool is_long(const Plan& plan) { return plan.seconds() > long_seconds || plan.bytes > large_bytes; }
+
 std::string describe(const Plan& plan) {
-  const bool is_long = plan.seconds() > long_seconds || plan.bytes > large_bytes;
   std::string text = fmt::format("{}; about {} of memory, {}", describe_sizes(plan.sizes), size_text(plan.bytes),
                                  duration_text(plan.seconds()));
   if (plan.first_mesh_only) text += ", on the first mesh; refinement needs more";
   text += '\n';
-  if (!is_long) return text;
+  if (!is_long(plan)) return text;
   std::vector<std::vector<std::string>> rows = {{"stage", "about"}};
   const auto add = [&](const std::string& stage, double seconds) {
     if (seconds >= 1.0) rows.push_back({stage, duration_text(seconds)});

@@ -48,6 +48,9 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
 /// `less than a second`, `40 s`, `12 min`, `3.5 h`.
 std::string duration_text(double seconds);
 
+/// Whether it takes more than a minute or 2 GB.
+bool is_long(const Plan& plan);
+
 /// One line; of long analyses also the time of every stage.
 std::string describe(const Plan& plan);
 

@@ -53,7 +53,14 @@ void Progress::stage(const std::string& name) {
 
 void Progress::plan(const Plan& plan) {
   planned_dofs_ = plan.sizes.dofs;
-  if (style_ != Style::silent) print_to_stderr(describe(plan));
+  if (style_ == Style::silent) return;
+  std::string text = describe(plan);
+  if (style_ == Style::terminal && !is_long(plan)) {  // stays until the first stage is shown
+    text.pop_back();
+    show(text);
+  } else {
+    print_to_stderr(text);
+  }
 }
 
 void Progress::meshed(const analysis::StaticSolution& solution) {
