@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
+#include <set>
 #include <tuple>
 
 #include "scabo/geometry/box.hpp"
@@ -21,9 +21,27 @@ namespace {
 constexpr double long_seconds = 60.0;
 constexpr double large_bytes = 2e9;
 
-/// Super-elements of one size in a body are assumed to be equal up to motion and scale if they have as many nodes.
 bool is_one_super_element(const mesh::BodyMesh& body) {
   return body.cells.size() == 1 && body.count(mesh::CellKind::superelement) == 1;
+}
+
+/// Number of symmetry blocks of a super-element whose mirror lines are parallel to the axes: 1, 2 or 4.
+int symmetry_blocks(const mesh::BodyMesh& body) {
+  const Vec2 centre = body.cells.front().centre;
+  double size = 0.0;
+  for (const Vec2& x : body.nodes) size = std::max(size, (x - centre).lpNorm<Eigen::Infinity>());
+  const auto place = [&](const Vec2& arm) {
+    return std::pair(std::llround(1e6 * arm.x() / size), std::llround(1e6 * arm.y() / size));
+  };
+  std::set<std::pair<long long, long long>> places;
+  for (const Vec2& x : body.nodes) places.insert(place(x - centre));
+  int blocks = 1;
+  for (const Vec2& mirror : {Vec2(-1.0, 1.0), Vec2(1.0, -1.0)})
+    if (std::all_of(body.nodes.begin(), body.nodes.end(), [&](const Vec2& x) {
+          return places.contains(place((x - centre).cwiseProduct(mirror)));
+        }))
+      blocks *= 2;
+  return blocks;
 }
 
 double log2_of(double n) { return std::log2(std::max(n, 2.0)); }
@@ -57,7 +75,9 @@ double left_in_group() {
 }
 
 std::string size_text(double bytes) {
-  return bytes < 0.95e9 ? fmt::format("{:.2g} MB", std::max(bytes / 1e6, 10.0)) : fmt::format("{:.2g} GB", bytes / 1e9);
+  if (bytes >= 0.995e9) return fmt::format("{:.2g} GB", bytes / 1e9);
+  const double megabytes = std::max(bytes / 1e6, 10.0), unit = megabytes >= 100.0 ? 10.0 : 1.0;
+  return fmt::format("{:.0f} MB", unit * std::round(megabytes / unit));  // two digits
 }
 
 }  // namespace
@@ -83,29 +103,38 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   }
   const double written =
       model.output.fields.any_of_bodies() ? std::ceil(static_cast<double>(plan.increments) / model.output.every) : 0.0;
-  std::map<std::tuple<std::size_t, double, double>, int> known;  // equal bodies are solved once
+  std::set<std::tuple<std::size_t, int, double>> known;  // equal bodies are solved once
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     plan.first_mesh_only = plan.first_mesh_only || body.mesh.tolerance || model.tolerance;
     if (body.rigid) continue;
     const double n = 2.0 * static_cast<double>(mesh.bodies[b].nodes.size());
-    const double columns = std::min(2.0 * pairs_of[b], n);
+    const double k = std::min(2.0 * pairs_of[b], n);
     if (is_one_super_element(mesh.bodies[b])) {
-      const bool is_new = known[{mesh.bodies[b].nodes.size(), body.mesh.size, geometry::outline_size(body.outline)}]++ == 0;
-      plan.bytes += costs.dense_bytes * n * n * (is_new ? 1.0 : 0.25);
-      if (is_new) plan.cells += costs.dense_seconds * n * n * n;
-      plan.factorise += 0.05 * costs.dense_seconds * n * n * n;
-      plan.condense += costs.dense_seconds * n * n * columns;
-      plan.fields += written * costs.write_seconds * n;
-      continue;
+      const int blocks = symmetry_blocks(mesh.bodies[b]);
+      const bool is_new =
+          known.insert({mesh.bodies[b].nodes.size(), blocks, geometry::outline_size(body.outline)}).second;
+      const double work = costs.dense_seconds * n * n * n;
+      plan.bytes += (is_new ? 8.0 + costs.block_bytes / blocks : 8.0) * n * n;
+      if (is_new) plan.cells += work / (blocks * blocks);
+      if (is_new && written > 0.0) plan.fields += 0.5 * work / (blocks * blocks);
+      plan.factorise += 0.01 * work;
+      plan.condense += costs.dense_seconds * n * n * k;
+    } else {
+      plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
+      const bool cells_differ =
+          body.mesh.kind != model::MeshKind::quadtree && body.mesh.kind != model::MeshKind::fem;
+      if (cells_differ) {
+        plan.bytes += costs.own_cell_bytes * n;
+        plan.cells += costs.own_cell_seconds * n;
+      }
+      plan.mesh += costs.mesh_seconds * n;
+      plan.cells += costs.cell_seconds * n;
+      plan.factorise += costs.factor_seconds * std::pow(n, 1.5);
+      plan.condense += costs.solve_seconds * n * log2_of(n) * k;
+      plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
     }
-    plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
-    plan.mesh += 0.5 * costs.cell_seconds * n;
-    plan.cells += costs.cell_seconds * n;
-    plan.factorise += costs.factor_seconds * std::pow(n, 1.5);
-    plan.condense += costs.solve_seconds * n * log2_of(n) * columns;
-    plan.contact += plan.increments * costs.solve_seconds * n * log2_of(n) * 2.0;
-    plan.fields += written * costs.write_seconds * n;
+    plan.fields += written * costs.field_seconds * n;
   }
   const double components = 2.0 * plan.sizes.contact_pairs;
   plan.bytes += costs.contact_bytes * components * components;

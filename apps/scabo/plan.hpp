@@ -1,14 +1,15 @@
 // Memory and time that an analysis will need, estimated from its mesh before anything is solved.
 //
-// n degrees of freedom of a body, N pairs, steps of the analysis and what they cost:
+// For a body of n degrees of freedom, b symmetry blocks, k components of its contacts, N pairs in all:
 //
-//     one super-element        dense_bytes n^2, dense_seconds n^3                       (ring doubling and modes)
-//     many cells               cell_bytes of fields and stiffness for each, cell_seconds for each
-//     factor of a sparse body  fill n log2(n) numbers; factor_seconds n^1.5            (nested dissection in the plane)
-//     condensation             2N right-hand sides, each through the factor
-//     contact                  dense matrices of 2N rows and columns, contact_seconds (2N)^3 for each increment
+//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half as much for fields
+//     many cells          sparse_bytes n; mesh, cells and fields in a time proportional to n; more where no cells are
+//                         equal
+//     their factor        fill_bytes n log2(n); factor_seconds n^1.5             (nested dissection in the plane)
+//     condensation        dense: dense_seconds n^2 k; sparse: solve_seconds n log2(n) k
+//     contact             contact_bytes (2N)^2; contact_seconds (2N)^3 for each increment
 //
-// Estimates within a factor of two are enough for a decision (benchmarks/README.md: estimates and measurements).
+// Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
 
 #include <optional>
@@ -20,19 +21,22 @@
 
 namespace scabo::app {
 
-/// Measured on one thread of a Xeon with AVX-512 (family 6, model 207), 2026.
+/// Measured on one thread of a Xeon with AVX-512 (family 6, model 207). Bytes, or seconds.
 struct CostConstants {
-  double base_bytes = 25e6;           ///< of the program itself
-  double dense_bytes = 96.0;          ///< for n^2 of a super-element: twelve matrices
-  double dense_seconds = 1.5e-9;      ///< for n^3 of a super-element
-  double sparse_bytes = 3000.0;       ///< for each degree of freedom of a sparse body: mesh, cells, fields, text of results
-  double fill_bytes = 120.0;          ///< for n log2(n): factor and its copies
-  double factor_seconds = 2e-8;       ///< for n^1.5
-  double cell_seconds = 2e-5;         ///< for each degree of freedom of a sparse body: cells and assembly
-  double solve_seconds = 1e-8;        ///< for n log2(n) and one right-hand side
-  double contact_bytes = 50.0;        ///< for (2N)^2: W and matrices of Newton's method
-  double contact_seconds = 3e-9;      ///< for (2N)^3 and one increment
-  double write_seconds = 2e-5;        ///< for each degree of freedom and increment with fields
+  double base_bytes = 25e6;         ///< of the program itself
+  double block_bytes = 88.0;        ///< for n^2 / b of a super-element: eleven matrices of ring doubling and modes
+  double dense_seconds = 7e-10;     ///< for n^3 / b^2
+  double sparse_bytes = 1300.0;     ///< for n: mesh, cells, fields and their text
+  double own_cell_bytes = 3000.0;   ///< for n of polygons and cells of a file, which are all different
+  double own_cell_seconds = 2e-5;   ///< for n of them
+  double fill_bytes = 150.0;        ///< for n log2(n): the factor and what its computation needs
+  double factor_seconds = 2e-8;     ///< for n^1.5
+  double mesh_seconds = 1e-6;       ///< for n
+  double cell_seconds = 1e-6;       ///< for n
+  double solve_seconds = 3.5e-9;    ///< for n log2(n) and one right-hand side
+  double contact_bytes = 50.0;      ///< for (2N)^2: W and matrices of Newton's method
+  double contact_seconds = 1e-9;    ///< for (2N)^3 and one increment
+  double field_seconds = 6e-6;      ///< for n and one increment with fields
 };
 
 struct Plan {
