@@ -136,9 +136,16 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
     }
     plan.fields += written * costs.field_seconds * n;
   }
+  // W has a block for each body, dense within it; the systems of Newton's method are as sparse.
   const double components = 2.0 * plan.sizes.contact_pairs;
-  plan.bytes += costs.contact_bytes * components * components;
-  plan.contact += plan.increments * costs.contact_seconds * std::pow(components, 3);
+  double blocks = 0.0, widest = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].rigid) continue;
+    blocks += 4.0 * pairs_of[b] * pairs_of[b];
+    widest = std::max(widest, 2.0 * pairs_of[b]);
+  }
+  plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
+  plan.contact += plan.increments * costs.contact_seconds * components * components * std::max(widest, costs.least_width);
   return plan;
 }
 

@@ -7,7 +7,7 @@
 //                         equal
 //     their factor        fill_bytes n log2(n); factor_seconds n^1.5             (nested dissection in the plane)
 //     condensation        dense: dense_seconds n^2 k; sparse: solve_seconds n log2(n) k
-//     contact             contact_bytes (2N)^2; contact_seconds (2N)^3 for each increment
+//     contact             contact_bytes k^2; contact_seconds (2N)^2 k for each increment, of the largest k
 //
 // Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
@@ -34,8 +34,9 @@ struct CostConstants {
   double mesh_seconds = 1e-6;       ///< for n
   double cell_seconds = 1e-6;       ///< for n
   double solve_seconds = 3.5e-9;    ///< for n log2(n) and one right-hand side
-  double contact_bytes = 50.0;      ///< for (2N)^2: W and matrices of Newton's method
-  double contact_seconds = 1e-9;    ///< for (2N)^3 and one increment
+  double contact_bytes = 50.0;      ///< for k^2 of each body: W and matrices of Newton's method
+  double contact_seconds = 1e-9;    ///< for (2N)^2 k of the body with the largest k and one increment
+  double least_width = 150.0;       ///< least k there, of many bodies with few pairs each
   double field_seconds = 6e-6;      ///< for n and one increment with fields
 };
 
