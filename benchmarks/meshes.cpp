@@ -109,7 +109,7 @@ int divide(const std::string& kind, double cells, int order, int threads) {
     const Clock batch;
     const element::BatchSolution K = element::solve_batch(items, {.threads = threads});
     print("stiffness in a batch", batch);
-    std::printf("%d of the batch were solved one at a time\n", K.alone);
+    std::printf("%zu do not fit into a batch\n", K.alone.size());
   }
   std::printf("%zu cells, %zu distinct, %zu nodes\n", mesh.bodies[0].cells.size(), distinct.size(),
               mesh.bodies[0].nodes.size());

@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, RandomSuperElements, testing::Range(0, 20));
 void expect_refused(const Ring& ring, const Elasticity& D, double thickness, const char* reason) {
   const auto refused = testing::ThrowsMessage<IllPosed>(testing::HasSubstr(reason));
   EXPECT_THAT([&] { solve_super_element(ring, D, thickness); }, refused);
-  EXPECT_THAT([&] { solve_batch(std::vector<BatchItem>{{ring, D, thickness}}); }, refused);
+  EXPECT_EQ(solve_batch(std::vector<BatchItem>{{ring, D, thickness}}).alone.size(), 1U);
 }
 
 TEST(Robustness, IllPosedOnesAreNamed) {

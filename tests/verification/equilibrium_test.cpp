@@ -12,7 +12,7 @@ namespace {
 /// force of 1 downwards at `tip`.
 double residual_of_cantilever(const analysis::StaticSolution& solution, const Vec2& tip) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  const Matrix& K = solution.cells[0][0]->solution.K;
+  const Matrix& K = solution.cells[0][0]->K();
   const std::vector<Vec2>& nodes = solution.mesh.bodies[0].nodes;
   LongVector u = last(solution).fields.displacements[0].cast<long double>();
   // K of a translation is 0 but for the rounding of K itself, which is no imbalance: about the mean.

@@ -56,7 +56,7 @@ Reactions reactions_of(const StaticSolution& solution) {
     for (std::size_t b = 0; b < solution.cells.size(); ++b)
       for (std::size_t c = 0; c < solution.cells[b].size(); ++c)
         if (const auto& cell = solution.cells[b][c]) {
-          const Vector forces = cell->solution.K * displacement_of(solution, increment, b, c);
+          const Vector forces = cell->K() * displacement_of(solution, increment, b, c);
           reactions.scale = std::max(reactions.scale, forces.lpNorm<Eigen::Infinity>());
         }
   }
@@ -282,7 +282,7 @@ std::vector<double> squared_errors(const StaticSolution& solution, const Increme
     // Loads inside a cell are not among the forces on its boundary.
     const bool relaxed = element::loads_in(increment.fields.interior[b], c).loads.empty();
     squared.push_back(element::squared_difference(
-        {narrow.ring.elements, narrow.solution.K, u, wide.ring.elements, wide.solution.K, U, relaxed}));
+        {narrow.ring.elements, narrow.K(), u, wide.ring.elements, wide.K(), U, relaxed}));
   }
   return squared;
 }
@@ -356,7 +356,7 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
       squared[b] += of_cell;
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
       const Vector U = displacement_of(wider, wider_increment, b, c);
-      energy += U.dot(wider.cells[b][c]->solution.K * U);
+      energy += U.dot(wider.cells[b][c]->K() * U);
     }
   }
   // Finite element bodies have energy too, although no error estimate.
@@ -391,8 +391,8 @@ std::vector<double> element_errors(const StaticSolution& solution, const Increme
     const element::SolvedSuperElement &narrow = *solution.cells[body][c], &wide = *wider.cells[body][c];
     const Vector u = displacement_of(solution, increment, body, c),
                  U = displacement_of(wider, wider_increment, body, c);
-    for (const double error : element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), u},
-                                                          {wide.ring, wide.solution, wide.modes(), U}, wide.sectors.D))
+    for (const double error : element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), u},
+                                                          {wide.ring, wide.solution(), wide.modes(), U}, wide.sectors.D))
       errors.push_back(error);
   }
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);

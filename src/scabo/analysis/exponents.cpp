@@ -43,7 +43,7 @@ BodyExponents of_super_element(const element::SolvedSuperElement& super_element)
   BodyExponents found;
   const bool unbounded = super_element.domain.unbounded, open = super_element.ring.is_open();
   found.kind = unbounded ? "outside" : open ? "open" : "closed";
-  found.dofs = static_cast<int>(super_element.solution.K.rows());
+  found.dofs = static_cast<int>(super_element.K().rows());
   std::vector<std::complex<double>> values = super_element.modes().exponents;
   const std::vector<int> cluster = linalg::clusters(values, alike);
   for (int c = 0, found_in = 1; found_in > 0; ++c) {
@@ -64,7 +64,7 @@ BodyExponents of_super_element(const element::SolvedSuperElement& super_element)
     exponent.multiplicity = pairs ? upper : found_in;
     exponent.singular = !unbounded && exponent.value.real() > 0.0 && exponent.value.real() < 1.0 - 1e-4;
     if (exponent.value != 0.0 && exponent.multiplicity > 1)
-      exponent.defective = is_defective(super_element.solution, exponent.value);
+      exponent.defective = is_defective(super_element.solution(), exponent.value);
     explain(exponent, open, unbounded);
     found.exponents.push_back(std::move(exponent));
   }

@@ -264,14 +264,14 @@ std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b,
                  of_wide = U(element::dofs_of(pass.wider->mesh.bodies[b].cells[c]));
     const bool relaxed = !loaded || element::loads_in(solution.increments.back().fields.interior[b], c).loads.empty();
     const double whole = element::squared_difference(
-        {narrow.ring.elements, narrow.solution.K, of_narrow, wide.ring.elements, wide.solution.K, of_wide, relaxed});
+        {narrow.ring.elements, narrow.K(), of_narrow, wide.ring.elements, wide.K(), of_wide, relaxed});
     if (in_cells) {
       squared.push_back(whole);
       continue;
     }
     const std::vector<double> sectors =
-        element::sector_differences({narrow.ring, narrow.solution, narrow.modes(), of_narrow},
-                                    {wide.ring, wide.solution, wide.modes(), of_wide}, wide.sectors.D);
+        element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), of_narrow},
+                                    {wide.ring, wide.solution(), wide.modes(), of_wide}, wide.sectors.D);
     const double sum = std::accumulate(sectors.begin(), sectors.end(), 0.0);
     for (const double sector : sectors) squared.push_back(sum > 0.0 ? whole * std::max(sector, 0.0) / sum : 0.0);
   }

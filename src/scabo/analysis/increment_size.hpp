@@ -15,7 +15,7 @@
 
 namespace scabo::analysis {
 
-/// Constants of the rule. Measured on cycles of friction (docs/decisions/0008-increments-and-resuming.md).
+/// Constants of the rule. Measured on cycles of friction (docs/decisions/0009-increments-and-resuming.md).
 struct IncrementRule {
   double share = 0.05;        ///< of the pairs in contact that may change in an increment, 0 to 1
   double growth = 2.0;        ///< largest ratio of the sizes of successive increments, > 1: one halving is made good

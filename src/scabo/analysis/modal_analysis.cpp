@@ -24,7 +24,7 @@ Matrix mass_of(const model::Model& model, const element::SolvedSuperElement& sup
   std::vector<double> density;
   for (const int material : super_element.sectors.materials)
     density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
-  return element::mass_matrix(super_element.ring, super_element.solution, super_element.modes(), density,
+  return element::mass_matrix(super_element.ring, super_element.solution(), super_element.modes(), density,
                               model.analysis.thickness, threads);
 }
 

@@ -73,7 +73,7 @@ void refer_displacements(const Prepared& prepared, const StaticSolution& solutio
     const element::SolvedSuperElement& super_element = *solution.cells[b].front();
     const auto at = element::locate(super_element.ring, *body.reference - centre, true);
     ensure(at.has_value(), "the reference point of an outside body lies in it");
-    const element::RadialField field(super_element.solution, super_element.modes(), result.fields.displacements[b]);
+    const element::RadialField field(super_element.solution(), super_element.modes(), result.fields.displacements[b]);
     result.fields.reference_displacement =
         element::point_values(super_element.ring, field.at(at->xi), super_element.sectors.D, at->element, at->eta)
             .displacement;

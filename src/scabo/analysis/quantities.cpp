@@ -37,7 +37,7 @@ Vec2 displacement_at(const StaticSolution& solution, std::size_t b, const elemen
                      const std::vector<element::RadialLoad>& loads) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
   if (const auto& cell = solution.cells[b][place.cell]) {
-    const element::RadialField field(cell->solution, cell->modes(), u, loads);
+    const element::RadialField field(cell->solution(), cell->modes(), u, loads);
     return element::point_values(cell->ring, field.at(place.scaled.xi), cell->sectors.D, place.scaled.element,
                                  place.scaled.eta)
         .displacement;

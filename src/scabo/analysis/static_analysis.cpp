@@ -381,6 +381,7 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   StaticSolution solution;
   solution.model = std::move(model);
   solution.mesh = std::move(mesh);
+  solution.threads = threads;
   Timing& timing = solution.timing;
   if (options.from) timing = options.from->timing;
 

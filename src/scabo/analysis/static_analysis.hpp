@@ -174,6 +174,7 @@ struct StaticSolution {
   std::vector<Warning> warnings;
   Outcome outcome = Outcome::solved;
   std::string reason;  ///< if not solved
+  int threads = 1;     ///< of the analysis; worthwhile for its fields as well
   Timing timing;
 };
 

@@ -41,6 +41,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   if (options_.judge == Judge::certificate) options.relative = 0.01 * options_.tolerance;
   options.iterations = how.iterations > 0 ? how.iterations : options_.iterations;
   options.regularisation = how.regularisation;
+  options.patience = how.patience;
   options.stage = how.stage;
   options.deadline = options_.deadline;
   if (&problem == &problem_) options.content = content_;
@@ -71,7 +72,10 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (end.converged || end.residual < best.residual) best = std::move(end);
     return best.converged || late();
   };
-  if (!cold && better(newton_alone(p, a, {"newton"}))) return best;
+  // From the last increment Newton converges in a few iterations or creeps from kink to kink, while a strategy below
+  // needs less than ten (a culvert of 340 pairs under traffic: 50 and 7).
+  constexpr int patience = 8;
+  if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, 0, patience}))) return best;
   if (many && better(bonded(touching))) return best;
   if (hopeless && hopeless()) return best;
   if (many && may_take_interior_points(problem_)) {

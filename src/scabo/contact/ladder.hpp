@@ -39,6 +39,7 @@ class Ladder {
     double regularisation = 0.0;
     double r_factor = 1.0;
     int iterations = 0;  ///< 0: those of the options
+    int patience = 0;    ///< NewtonOptions::patience
   };
   NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, const Run& how);
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }

@@ -31,7 +31,7 @@ class Newton {
       keep_best();
       record();
       if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) ||
-          options_.deadline.passed())
+          options_.deadline.passed() || creeps())
         break;
       ++end_.iterations;
       if (many_ && step_of_many_bodies(first)) continue;
@@ -103,6 +103,15 @@ class Newton {
     end_.converged = content || end_.residual <= aim();
   }
 
+  /// Short steps from kink to kink, which lead on but not to an end.
+  bool creeps() {
+    if (best_merit_ <= 0.5 * halved_merit_) {
+      halved_merit_ = best_merit_;
+      halved_at_ = end_.iterations;
+    }
+    return options_.patience > 0 && end_.iterations - halved_at_ >= options_.patience;
+  }
+
   /// |H| is near its aim and was not halved: what is left may be rounding.
   bool no_longer_falls(double merit) const {
     constexpr double near = 1e3, halved = 0.25;
@@ -159,6 +168,8 @@ class Newton {
   std::vector<Branch> before_;
   NewtonEnd end_;
   double best_merit_ = HUGE_VAL, step_ = 0.0;
+  double halved_merit_ = HUGE_VAL;  // the smallest one when it was last halved,
+  int halved_at_ = 0;               // and the iteration
   int unchecked_ = 0;             // full steps without descent
   int watch_ = 0, patience_ = 0;  // full steps since watched_; line searches to go before the next
   Vector watched_p_, watched_a_;

@@ -19,6 +19,7 @@ struct NewtonOptions {
   int iterations = 50;          ///< most
   double regularisation = 0.0;  ///< alpha, relative to 1 / r: at the start; it vanishes with |H|
   int unchecked = 8;            ///< full steps without descent, most
+  int patience = 0;             ///< ends when the smallest merit was not halved in so many iterations; 0: never
   std::string stage = "newton";
   Deadline deadline;  ///< no iteration begins after it
   /// Converged as well when this says so of forces and motions; may be empty.

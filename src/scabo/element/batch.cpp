@@ -1,7 +1,7 @@
 #include "scabo/element/batch.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <limits>
 #include <unordered_map>
 
 #include "scabo/element/batch_kernel.hpp"
@@ -104,32 +104,36 @@ class Lanes {
  public:
   Lanes(const Group& group, const BatchKernel& kernel)
       : shape_(group.shape), kernel_(kernel), n_(2 * group.shape.nodes) {
-    const long vectors = n_ + 6 * shape_.elasticities + 2 + n_ * (n_ + 1) / 2 + batch_workspace(shape_);
+    const long vectors = n_ + 6 * shape_.elasticities + 3 + n_ * (n_ + 1) / 2 + batch_workspace(shape_);
     room_.resize(static_cast<std::size_t>(vectors * kernel.lanes / 8 + 1));
     x_ = room_.front().values;
     D_ = x_ + n_ * kernel.lanes;
     thickness_ = D_ + 6 * shape_.elasticities * kernel.lanes;
     residual_ = thickness_ + kernel.lanes;
-    K_ = residual_ + kernel.lanes;
+    cancellation_ = residual_ + kernel.lanes;
+    K_ = cancellation_ + kernel.lanes;
     workspace_ = K_ + n_ * (n_ + 1) / 2 * kernel.lanes;
   }
 
-  /// Solves items[0 .. count - 1], at most one per lane, into K; appends those that failed to `failed`.
+  /// Solves the items `which`[0 .. count - 1], at most one per lane; appends those that failed to `failed`.
   void solve(std::span<const BatchItem> items, const int* which, int count, double largest_residual,
-             std::vector<Matrix>& K, std::vector<int>& failed) {
+             BatchSolution& solution, std::vector<int>& failed) {
     const int lanes = kernel_.lanes;
     for (int l = 0; l < lanes; ++l) load(items[static_cast<std::size_t>(which[std::min(l, count - 1)])], l);
-    kernel_.solve(shape_, {x_, D_, thickness_, K_, residual_}, workspace_);
+    kernel_.solve(shape_, {x_, D_, thickness_, K_, residual_, cancellation_}, workspace_);
     for (int l = 0; l < count; ++l) {
       if (!(residual_[l] <= largest_residual)) {
         failed.push_back(which[l]);
         continue;
       }
-      Matrix& out = K[static_cast<std::size_t>(which[l])];
+      const auto at = static_cast<std::size_t>(which[l]);
+      Matrix& out = solution.K[at];
       out.resize(n_, n_);
       const double* value = K_ + l;
       for (long i = 0; i < n_; ++i)
-        for (long j = 0; j <= i; ++j, value += lanes) out(i, j) = out(j, i) = *value;
+        for (long j = 0; j <= i; ++j, value += lanes) out(i, j) = *value;
+      take_rotation_out(items[at].ring, out);
+      solution.rounding[at] = std::numeric_limits<double>::epsilon() * std::max(1.0, cancellation_[l]);
     }
   }
 
@@ -158,7 +162,7 @@ class Lanes {
   const BatchKernel& kernel_;
   long n_;
   std::vector<Line> room_;
-  double *x_, *D_, *thickness_, *residual_, *K_, *workspace_;
+  double *x_, *D_, *thickness_, *residual_, *cancellation_, *K_, *workspace_;
 };
 
 /// Part of a group, as one task.
@@ -182,8 +186,8 @@ BatchSolution solve_batch(std::span<const BatchItem> items, const BatchOptions& 
   const BatchKernel& kernel = options.kernel ? *options.kernel : *batch_kernel(0);
   BatchSolution solution;
   solution.K.resize(items.size());
-  std::vector<int> alone;
-  const std::vector<Group> groups = groups_of(items, alone);
+  solution.rounding.resize(items.size());
+  const std::vector<Group> groups = groups_of(items, solution.alone);
   const std::vector<Task> tasks = tasks_of(groups, kernel.lanes);
   std::vector<std::vector<int>> failed(tasks.size());
   linalg::parallel_for(static_cast<int>(tasks.size()), options.threads, [&](int k) {
@@ -192,15 +196,10 @@ BatchSolution solve_batch(std::span<const BatchItem> items, const BatchOptions& 
     for (std::size_t i = task.first; i < task.last; i += static_cast<std::size_t>(kernel.lanes))
       lanes.solve(items, task.group->items.data() + i,
                   static_cast<int>(std::min(i + static_cast<std::size_t>(kernel.lanes), task.last) - i),
-                  options.largest_residual, solution.K, failed[static_cast<std::size_t>(k)]);
+                  options.largest_residual, solution, failed[static_cast<std::size_t>(k)]);
   });
-  for (const std::vector<int>& some : failed) alone.insert(alone.end(), some.begin(), some.end());
-  linalg::parallel_for(static_cast<int>(alone.size()), options.threads, [&](int k) {
-    const int at = alone[static_cast<std::size_t>(k)];
-    const BatchItem& item = items[static_cast<std::size_t>(at)];
-    solution.K[static_cast<std::size_t>(at)] = solve_super_element(item.ring, item.D, item.thickness).K;
-  });
-  solution.alone = static_cast<int>(alone.size());
+  for (const std::vector<int>& some : failed) solution.alone.insert(solution.alone.end(), some.begin(), some.end());
+  std::sort(solution.alone.begin(), solution.alone.end());
   return solution;
 }
 

@@ -6,10 +6,10 @@
 // blocks. Super-elements of equal shape (the same boundary elements over the same node numbers) are solved together,
 // whatever their order in the input.
 //
-// The following are solved one at a time by solve_super_element: super-elements of more than 64 or fewer than 6 degrees
-// of freedom, those whose sectors differ in stiffness by more than a factor of 1000 (exact_riccati.hpp), and those
-// whose stiffness from a lane does not leave a rotation free of force to within `largest_residual`. That residual shows
-// failures of every step: a ring that is not positive definite, doubling that has not converged, loss of precision.
+// The following are left to solve_super_element: super-elements of more than 64 or fewer than 6 degrees of freedom,
+// those whose sectors differ in stiffness by more than a factor of 1000 (exact_riccati.hpp), and those whose stiffness
+// from a lane does not leave a rotation free of force to within `largest_residual`. That residual shows failures of
+// every step: a ring that is not positive definite, doubling that has not converged, loss of precision.
 #pragma once
 
 #include <span>
@@ -35,11 +35,11 @@ struct BatchOptions {
 };
 
 struct BatchSolution {
-  std::vector<Matrix> K;  // one for each item, n x n, symmetric
-  int alone = 0;          ///< number of items solved by solve_super_element
+  std::vector<Matrix> K;         ///< one for each item, n x n, symmetric; empty for those in `alone`
+  std::vector<double> rounding;  ///< one for each item, as SuperElementSolution::rounding
+  std::vector<int> alone;        ///< items that solve_super_element must solve, in ascending order
 };
 
-/// Throws what solve_super_element throws for an item that cannot be solved.
 BatchSolution solve_batch(std::span<const BatchItem> items, const BatchOptions& options = {});
 
 }  // namespace scabo::element

@@ -32,6 +32,7 @@ struct BatchLanes {
   const double* thickness;  // 1 vector
   double* K;                // n (n + 1) / 2 vectors, n = 2 nodes: lower triangle by rows
   double* residual;         // 1 vector: |K r| / (|K| |r|) in the 1-norm, r the rotation; NaN where the solution failed
+  double* cancellation;     // 1 vector: largest E2_ii / K_ii
 };
 
 struct BatchKernel {
@@ -44,7 +45,7 @@ struct BatchKernel {
 /// Size of the workspace in vectors.
 inline long batch_workspace(const BatchShape& shape) {
   const long n = 2 * shape.nodes;
-  return 6 * n * n + 4 * n;
+  return 6 * n * n + 5 * n;
 }
 
 /// The kernels that this processor can run, the fastest first: a pointer for `rank` 0, 1 ..., then null. There is at

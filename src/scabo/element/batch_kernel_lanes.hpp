@@ -331,11 +331,12 @@ void solve(const BatchShape& shape, const BatchLanes& data, double* workspace) {
   const V* const D = reinterpret_cast<const V*>(data.D);
   V* const E0 = reinterpret_cast<V*>(workspace);
   V *const E1 = E0 + full, *const E2 = E1 + full, *const K11 = E2 + full, *const K22 = K11 + part,
-           *const K12 = K22 + part, *const vectors = K12 + part;
+           *const K12 = K22 + part, *const vectors = K12 + part, *const E2_diagonal = vectors + 4 * n;
   for (long i = 0; i < 3 * full; ++i) E0[i] = V{};
   for (int e = 0; e < shape.elements; ++e)
     add_element(shape.element[e], x, D + (shape.elasticities == 1 ? 0 : 6 * e),
                 *reinterpret_cast<const V*>(data.thickness), n, E0, E1, E2);
+  for (long i = 0; i < n; ++i) E2_diagonal[i] = E2[i * n + i];
   const int out = heaviest_node(E0, n);
   first_ring(E0, E1, E2, n, out, vectors, vectors + 2 * n, K11, K22, K12);
   // The coefficient matrices are no longer needed; their memory is used for L (m^2) and Z (2 m^2).
@@ -343,6 +344,12 @@ void solve(const BatchShape& shape, const BatchLanes& data, double* workspace) {
   V* const K = reinterpret_cast<V*>(data.K);
   put_back(K22, n, out, vectors, K);
   *reinterpret_cast<V*>(data.residual) = rotation_residual(K, x, n, vectors);
+  V cancellation = {};
+  for (long i = 0; i < n; ++i) {
+    const V ratio = E2_diagonal[i] / K[i * (i + 1) / 2 + i];
+    cancellation = ratio > cancellation ? ratio : cancellation;
+  }
+  *reinterpret_cast<V*>(data.cancellation) = cancellation;
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <unordered_map>
 
+#include "scabo/element/batch.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/linalg/parallel.hpp"
@@ -43,20 +45,48 @@ Diagnostic ill_posed(const model::Body& body, const IllPosed& error) {
               error.what())};
 }
 
-/// Many super-elements are distributed over the threads; of a few, the symmetry blocks of each. `bodies`: the first
-/// body of each.
+constexpr std::size_t fewest_of_a_batch = 64, most_of_a_batch = 16384;
+
+/// Solves what a batch can solve, a part at a time because it needs copies; returns the indices of the others.
+std::vector<std::size_t> solve_in_batches(const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
+                                          int threads) {
+  std::vector<std::size_t> suitable, others;
+  for (std::size_t i = 0; i < distinct.size(); ++i) (distinct[i]->domain.unbounded ? others : suitable).push_back(i);
+  if (suitable.size() < fewest_of_a_batch) {
+    others.insert(others.end(), suitable.begin(), suitable.end());
+    return others;
+  }
+  for (std::size_t first = 0; first < suitable.size(); first += most_of_a_batch) {
+    const std::span<const std::size_t> part =
+        std::span(suitable).subspan(first, std::min(most_of_a_batch, suitable.size() - first));
+    std::vector<BatchItem> items;
+    items.reserve(part.size());
+    for (const std::size_t i : part)
+      items.push_back({distinct[i]->ring, distinct[i]->sectors.D, distinct[i]->thickness});
+    BatchSolution batch = solve_batch(items, {.threads = threads});
+    for (const int left : batch.alone) others.push_back(part[static_cast<std::size_t>(left)]);
+    for (std::size_t k = 0; k < part.size(); ++k)
+      if (batch.K[k].size() > 0) distinct[part[k]]->set(std::move(batch.K[k]), batch.rounding[k]);
+  }
+  return others;
+}
+
+/// Many small super-elements are solved in batches; many others are distributed over the threads; of a few, the
+/// symmetry blocks of each. `bodies`: the first body of each.
 void solve_all(const model::Model& model, const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
                const std::vector<std::size_t>& bodies, int threads) {
-  const auto count = static_cast<int>(distinct.size());
+  for (const auto& super_element : distinct) super_element->threads = threads;
+  const std::vector<std::size_t> others = solve_in_batches(distinct, threads);
+  const auto count = static_cast<int>(others.size());
   const bool many = count >= threads && threads > 1;
   const auto solve = [&](int i) {
-    SolvedSuperElement& super_element = *distinct[static_cast<std::size_t>(i)];
-    super_element.threads = threads;
+    const std::size_t at = others[static_cast<std::size_t>(i)];
+    SolvedSuperElement& super_element = *distinct[at];
     try {
-      super_element.solution = solve_super_element(super_element.ring, super_element.sectors.D, super_element.thickness,
-                                                   many ? 1 : threads, super_element.domain);
+      super_element.set(solve_super_element(super_element.ring, super_element.sectors.D, super_element.thickness,
+                                            many ? 1 : threads, super_element.domain));
     } catch (const IllPosed& error) {
-      throw InputError(model.file, {ill_posed(model.bodies[bodies[static_cast<std::size_t>(i)]], error)});
+      throw InputError(model.file, {ill_posed(model.bodies[bodies[at]], error)});
     }
   };
   linalg::parallel_for(count, many ? threads : 1, solve);
@@ -119,13 +149,33 @@ std::vector<int> dofs_of(const mesh::Cell& cell) {
   return dofs;
 }
 
+void SolvedSuperElement::set(SuperElementSolution solution) {
+  rounding_ = solution.rounding;
+  whole_ = std::make_unique<const SuperElementSolution>(std::move(solution));
+}
+
+void SolvedSuperElement::set(Matrix K, double rounding) {
+  K_ = std::move(K);
+  rounding_ = rounding;
+}
+
+const SuperElementSolution& SolvedSuperElement::solution() const {
+  if (whole_) return *whole_;
+  std::call_once(solution_flag_, [&] {
+    solution_ = std::make_unique<const SuperElementSolution>(
+        solve_super_element(ring, sectors.D, thickness, threads, domain));
+  });
+  return *solution_;
+}
+
 const ModalSolution& SolvedSuperElement::modes() const {
-  std::call_once(modes_flag_, [&] { modes_ = std::make_unique<ModalSolution>(modal_solution(solution, threads)); });
+  std::call_once(modes_flag_,
+                 [&] { modes_ = std::make_unique<const ModalSolution>(modal_solution(solution(), threads)); });
   return *modes_;
 }
 
 const CornerAnalysis& SolvedSuperElement::corner() const {
-  std::call_once(corner_flag_, [&] { corner_ = std::make_unique<CornerAnalysis>(ring, sectors.D, solution); });
+  std::call_once(corner_flag_, [&] { corner_ = std::make_unique<const CornerAnalysis>(ring, sectors.D, solution()); });
   return *corner_;
 }
 

@@ -18,16 +18,27 @@ struct SolvedSuperElement {
   double thickness = 1.0;
   Domain domain;
   int threads = 1;  ///< number of threads for its modes
-  SuperElementSolution solution;
-  /// Modes of the interior, computed when first needed; may be called from several threads.
-  const ModalSolution& modes() const;
-  /// Analysis of its crack or corner, computed when first needed; the ring must be open.
-  const CornerAnalysis& corner() const;
+
+  /// Its stiffness comes from `solution`.
+  void set(SuperElementSolution solution);
+  /// Its stiffness comes from a batch, with SuperElementSolution::rounding; the rest is solved when first needed.
+  void set(Matrix K, double rounding);
+
+  const Matrix& K() const { return whole_ ? whole_->K : K_; }  ///< n x n, symmetric
+  double rounding() const { return rounding_; }                ///< SuperElementSolution::rounding
+  // Computed when first needed; these may be called from several threads.
+  const SuperElementSolution& solution() const;
+  const ModalSolution& modes() const;    ///< of the interior
+  const CornerAnalysis& corner() const;  ///< of its crack or corner; the ring must be open
 
  private:
-  mutable std::once_flag modes_flag_, corner_flag_;
-  mutable std::unique_ptr<CornerAnalysis> corner_;
-  mutable std::unique_ptr<ModalSolution> modes_;
+  Matrix K_;
+  double rounding_ = 0.0;
+  std::unique_ptr<const SuperElementSolution> whole_;  // null: K_ is from a batch
+  mutable std::once_flag solution_flag_, modes_flag_, corner_flag_;
+  mutable std::unique_ptr<const SuperElementSolution> solution_;  // where K_ is from a batch
+  mutable std::unique_ptr<const ModalSolution> modes_;
+  mutable std::unique_ptr<const CornerAnalysis> corner_;
 };
 
 /// Of one body, for each cell; null for finite elements. Empty for a rigid body.

@@ -242,13 +242,8 @@ void add_block(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& 
       K.col(j).tail(K.rows() - j) += entry.value() * columns.col(entry.row()).tail(K.rows() - j);
 }
 
-/// Imposes K r = 0 for the rotation r, which is known exactly and which short elements beside long ones violate,
-///
-///     K <- (1 - w r') K (1 - r w'),  w = D r / (r'D r),  D = diag K,  t'D r = 0 for the translations t            (7)
-///
-/// so that every row is changed in proportion to its own size (with D = 1 the residual of stiff sectors would be moved
-/// to a soft one: 1e-8 of its stiffness where moduli differ by 1e6) and K t = 0 is preserved. If K violates K r = 0 by
-/// too much, accuracy has been lost, which is reported. The lower triangle of K is read and written.
+}  // namespace
+
 void take_rotation_out(const Ring& ring, Matrix& K) {
   const Vector D = K.diagonal();
   Vec2 centre = Vec2::Zero(), weight = Vec2::Zero();
@@ -269,9 +264,8 @@ void take_rotation_out(const Ring& ring, Matrix& K) {
     throw IllPosed("loss of precision: its stiffness resists rigid rotation");
   const Vector half = force - 0.5 * r.dot(force) * w;
   K.selfadjointView<Eigen::Lower>().rankUpdate(w, half, -1.0);
+  K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
 }
-
-}  // namespace
 
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads,
                                          const Domain& domain) {
@@ -311,8 +305,10 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   solution.rounding = std::numeric_limits<double>::epsilon();
   if (!all_digits)
     solution.rounding *= std::max(1.0, matrices.E2.diagonal().cwiseQuotient(solution.K.diagonal()).maxCoeff());
-  if (!domain.unbounded) take_rotation_out(ring, solution.K);  // what is unbounded resists rotation
-  solution.K.triangularView<Eigen::StrictlyUpper>() = solution.K.transpose();
+  if (domain.unbounded)  // it resists rotation
+    solution.K.triangularView<Eigen::StrictlyUpper>() = solution.K.transpose();
+  else
+    take_rotation_out(ring, solution.K);
   return solution;
 }
 

@@ -72,4 +72,14 @@ struct SuperElementSolution {
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads = 1,
                                          const Domain& domain = {});
 
+/// Imposes K r = 0 for the rotation r, which is known exactly and which short elements beside long ones violate,
+///
+///     K <- (1 - w r') K (1 - r w'),  w = D r / (r'D r),  D = diag K,  t'D r = 0 for the translations t          (7)
+///
+/// so that every row is changed in proportion to its own size (with D = 1 the residual of stiff sectors would be moved
+/// to a soft one: 1e-8 of its stiffness where moduli differ by 1e6) and K t = 0 is preserved. `K`: of a bounded
+/// super-element (n x n); its lower triangle is read, both are written. Throws IllPosed if K violates K r = 0 by 1e-8:
+/// accuracy has been lost.
+void take_rotation_out(const Ring& ring, Matrix& K);
+
 }  // namespace scabo::element

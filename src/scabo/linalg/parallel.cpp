@@ -11,20 +11,29 @@
 
 namespace scabo::linalg {
 
+namespace {
+
+/// Whether this thread works on a task of several.
+thread_local bool working = false;
+
+}  // namespace
+
 void parallel_for(int count, int threads, const std::function<void(int)>& task) {
   const int workers = std::min(threads, count);
-  if (workers <= 1) {
+  if (workers <= 1 || working) {
     for (int i = 0; i < count; ++i) task(i);
     return;
   }
   std::atomic<int> next = 0;
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(workers));
   const auto work = [&](std::exception_ptr& failure) {
+    working = true;
     try {
       for (int i = next++; i < count; i = next++) task(i);
     } catch (...) {
       failure = std::current_exception();
     }
+    working = false;
   };
   set_blas_threads(1);
   {

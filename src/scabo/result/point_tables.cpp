@@ -99,14 +99,14 @@ void PointEvaluation::prepare(const analysis::StaticSolution& solution, Group& g
           solution.model.bodies[b].name, point.at.x(), point.at.y(), point.name));
   }
   const double bytes =
-      40.0 * static_cast<double>(super_element.solution.K.rows()) * static_cast<double>(group.rows.size());
+      40.0 * static_cast<double>(super_element.K().rows()) * static_cast<double>(group.rows.size());
   if (super_element.domain.unbounded || !worth_condensing(group.rows.size(), increments) ||
       bytes > most_condensed_bytes)
     return;
   std::vector<element::ScaledPoint> places;
   for (const CellPlace& place : group.places) places.push_back(place.scaled);
   group.operators =
-      element::PointCondensation(super_element.ring, super_element.solution).at(places, super_element.threads);
+      element::PointCondensation(super_element.ring, super_element.solution()).at(places, super_element.threads);
   group.dofs = element::dofs_of(cell);
 }
 

@@ -40,7 +40,7 @@ element::PointValues FiniteElementState::at(const Vec2& natural) const {
 
 struct Probe::CellField {
   CellField(const element::SolvedSuperElement& cell, Vector displacement, const std::vector<element::RadialLoad>& loads)
-      : u(std::move(displacement)), radial(cell.solution, cell.modes(), u, loads) {}
+      : u(std::move(displacement)), radial(cell.solution(), cell.modes(), u, loads) {}
   Vector u;
   element::RadialField radial;
   std::optional<element::RadialTable> table;

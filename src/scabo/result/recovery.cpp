@@ -8,6 +8,7 @@
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/linalg/parallel.hpp"
 #include "scabo/result/probe.hpp"
 
 namespace scabo::result {
@@ -234,46 +235,61 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
   const Vec2& centre = solution.mesh.bodies[body].cells.front().centre;
   const Vector& boundary = state.displacements[body];
   const element::InteriorLoads& interior = element::loads_in(state.interior[body], 0);
-  const element::RadialField field(super_element.solution, super_element.modes(), boundary, interior.loads);
+  const element::RadialField field(super_element.solution(), super_element.modes(), boundary, interior.loads);
   const std::size_t first = point;
   recover_inside(fields, first, solution, super_element, centre, sampling, field, interior.temperature, 0);
   for (std::size_t i = 0; i < sampling.nodes.size(); ++i)  // exactly, without the field
     fields.set_displacement(first + i, boundary.segment<2>(2 * sampling.nodes[i]));
 }
 
+/// Values inside cell `c` into `fields`; the stresses of its points on the sides are returned.
+Eigen::Matrix3Xd recover_cell(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
+                              const analysis::FieldState& state, std::size_t body, std::size_t c,
+                              const CellsBody::OfCell& of_cell) {
+  const auto& super_element = solution.cells[body][c];
+  if (!super_element) {
+    const FiniteElementState finite(solution, state, body, c);
+    const auto natural = element::natural_nodes(finite.element().kind);
+    Eigen::Matrix3Xd stresses(3, static_cast<Eigen::Index>(natural.size()));
+    for (std::size_t i = 0; i < natural.size(); ++i)
+      stresses.col(static_cast<Eigen::Index>(i)) = finite.at(natural[i]).stress;
+    return stresses;
+  }
+  const mesh::Cell& cell = solution.mesh.bodies[body].cells[c];
+  const element::InteriorLoads& interior = element::loads_in(state.interior[body], c);
+  const Vector own = state.displacements[body](element::dofs_of(cell));
+  const element::RadialField field(super_element->solution(), super_element->modes(), own, interior.loads);
+  recover_inside(fields, first + static_cast<std::size_t>(of_cell.inner), solution, *super_element, cell.centre,
+                 *of_cell.sampling, field, interior.temperature, 1);
+  return ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior.temperature);
+}
+
 /// Stress on the sides of cells is the mean of the cells that share the point.
 void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
                    const analysis::FieldState& state, std::size_t body, const CellsBody& made) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
-  const Vector& u = state.displacements[body];
   Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(made.nodes.size()));
   std::vector<int> cells_at(made.nodes.size(), 0);
-  const auto add = [&](std::int32_t point, const element::Vec3& stress) {
-    stresses.col(point) += stress;
-    ++cells_at[static_cast<std::size_t>(point)];
-  };
-  element::LinearField temperature;  // the same in all cells of a body
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const mesh::Cell& cell = mesh.cells[c];
-    const CellsBody::OfCell& of_cell = made.cells[c];
-    const auto& super_element = solution.cells[body][c];
-    const element::InteriorLoads& interior = element::loads_in(state.interior[body], c);
-    temperature = interior.temperature;
-    if (!super_element) {
-      const FiniteElementState finite(solution, state, body, c);
-      const auto natural = element::natural_nodes(finite.element().kind);
-      for (std::size_t i = 0; i < natural.size(); ++i) add(of_cell.outer[i], finite.at(natural[i]).stress);
-      continue;
+  constexpr std::size_t at_once = 4096;  // the sums are made in the order of the cells, whatever the threads
+  std::vector<Eigen::Matrix3Xd> of_part(std::min(at_once, mesh.cells.size()));
+  for (std::size_t begin = 0; begin < mesh.cells.size(); begin += at_once) {
+    const std::size_t count = std::min(at_once, mesh.cells.size() - begin);
+    linalg::parallel_for(static_cast<int>(count), solution.threads, [&](int k) {
+      const auto at = static_cast<std::size_t>(k);
+      of_part[at] = recover_cell(fields, first, solution, state, body, begin + at, made.cells[begin + at]);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::vector<std::int32_t>& outer = made.cells[begin + k].outer;
+      for (std::size_t i = 0; i < outer.size(); ++i) {
+        stresses.col(outer[i]) += of_part[k].col(static_cast<Eigen::Index>(i));
+        ++cells_at[static_cast<std::size_t>(outer[i])];
+      }
     }
-    const Vector own = u(element::dofs_of(cell));
-    const element::RadialField field(super_element->solution, super_element->modes(), own, interior.loads);
-    const Eigen::Matrix3Xd at_sides =
-        ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, temperature);
-    for (std::size_t k = 0; k < of_cell.outer.size(); ++k)
-      add(of_cell.outer[k], at_sides.col(static_cast<Eigen::Index>(k)));
-    recover_inside(fields, first + static_cast<std::size_t>(of_cell.inner), solution, *super_element, cell.centre,
-                   *of_cell.sampling, field, temperature, 1);
   }
+  const Vector& u = state.displacements[body];
+  // The temperature is the same in all cells of a body.
+  const element::LinearField temperature =
+      mesh.cells.empty() ? element::LinearField() : element::loads_in(state.interior[body], 0).temperature;
   for (std::size_t point = 0; point < made.nodes.size(); ++point) {
     const int node = made.nodes[point];
     const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(point)) / cells_at[point];

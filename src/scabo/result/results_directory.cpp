@@ -307,7 +307,7 @@ void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
     }
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("fields_{:04d}.vtu", finished_);
-    write_file(path_ / file, vtu_content(recovery_->grid(), *fields, output_.fields));
+    write_file(path_ / file, vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads));
     not_synchronised_.push_back(path_ / file);
     fields_collection_->add(pseudo_time(increment), file);
   }
@@ -370,7 +370,7 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
   if (fields_written_ < finished_ && last != solution.increments.rend()) add_fields(solution, *last);
   if (fields_collection_ && last != solution.increments.rend() && has_many_cells(solution.mesh)) {
     const Stopwatch writing(write_seconds_);
-    write_file(path_ / cells_name, vtu_content(cell_polygons(solution, last->fields)));
+    write_file(path_ / cells_name, vtu_content(cell_polygons(solution, last->fields), solution.threads));
   }
   {
     const Stopwatch writing(write_seconds_);

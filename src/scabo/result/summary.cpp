@@ -205,10 +205,10 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution) {
     sizes.super_elements += body.count(mesh::CellKind::superelement);
     sizes.finite_elements += body.count(mesh::CellKind::finite_element);
   }
-  // Only an increment shows which pairs can move.
+  // Only an increment shows which pairs can move; of all but the last one, the totals remain.
   if (!solution.increments.empty() && solution.increments.front().converged) {
     for (const analysis::ContactResult& contact : solution.increments.front().contacts)
-      sizes.contact_pairs += static_cast<int>(contact.pairs.size());
+      sizes.contact_pairs += contact.open + contact.stick + contact.slip;
   } else {
     for (const mesh::Interface& interface : solution.mesh.interfaces)
       sizes.contact_pairs += static_cast<int>(interface.pairs.size());

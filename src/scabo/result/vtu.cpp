@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <zlib.h>
+
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <iterator>
 #include <type_traits>
 #include <vector>
 
+#include "scabo/linalg/parallel.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -30,15 +34,45 @@ constexpr std::string_view name_of() {
   if constexpr (std::is_same_v<Value, std::uint8_t>) return "UInt8";
 }
 
-/// Arrays as text, for small files, or appended in binary form. (meshio 5.3 confuses appended arrays if the offset of
-/// one equals that of another in its own encoding, which occurs with small arrays.)
-enum class Encoding { text, appended };
+/// Arrays as text, for small files, or appended in binary form, compressed by zlib in large files. (meshio 5.3 confuses
+/// appended arrays if the offset of one equals that of another in its own encoding, which occurs with small arrays.)
+enum class Encoding { text, appended, compressed };
+
+/// An array in pieces of `piece_size` bytes, each compressed by itself, with the header that VTK wants: the number of
+/// pieces, their size, that of the last one if it is smaller (else 0), and the compressed size of each, in 64 bits.
+std::string compressed(std::string_view values, int threads) {
+  constexpr std::size_t piece_size = 1 << 18;
+  const std::size_t count = (values.size() + piece_size - 1) / piece_size;
+  std::vector<std::string> pieces(count);
+  linalg::parallel_for(static_cast<int>(count), threads, [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    const std::string_view piece = values.substr(i * piece_size, piece_size);
+    uLongf size = compressBound(piece.size());
+    pieces[i].resize(size);
+    const int status = compress2(reinterpret_cast<Bytef*>(pieces[i].data()), &size,
+                                 reinterpret_cast<const Bytef*>(piece.data()), piece.size(), Z_BEST_SPEED);
+    ensure(status == Z_OK, "zlib compresses into a buffer of the size that it asks for");
+    pieces[i].resize(size);
+  });
+  std::string content;
+  const auto add = [&](std::uint64_t number) {
+    content.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  add(count);
+  add(piece_size);
+  add(values.size() % piece_size);
+  for (const std::string& piece : pieces) add(piece.size());
+  for (const std::string& piece : pieces) content += piece;
+  return content;
+}
 
 /// XML elements that describe arrays, and the data they describe. A block of data is its length in bytes (64 bits),
-/// followed by the values as stored in memory; offsets are counted from the underscore at the beginning of the data.
+/// followed by the values as stored in memory, or what `compressed` makes of it; offsets are counted from the underscore
+/// at the beginning of the data.
 class Document {
  public:
-  explicit Document(std::string beginning, Encoding encoding) : text_(std::move(beginning)), encoding_(encoding) {}
+  Document(std::string beginning, Encoding encoding, int threads = 1)
+      : text_(std::move(beginning)), encoding_(encoding), threads_(threads) {}
 
   void add(std::string_view text) { text_ += text; }
 
@@ -58,31 +92,31 @@ class Document {
     const std::string number = components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
     fmt::format_to(std::back_inserter(text_),
                    "        <DataArray type=\"{}\" Name=\"{}\"{}{} format=\"appended\" offset=\"{}\"/>\n",
-                   name_of<Value>(), name, number, attributes, data_size_);
-    blocks_.push_back({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
-    data_size_ += sizeof(std::uint64_t) + values.size() * sizeof(Value);
+                   name_of<Value>(), name, number, attributes, data_.size());
+    const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+    if (encoding_ == Encoding::compressed) {
+      data_ += compressed(bytes, threads_);
+    } else {
+      const std::uint64_t size = bytes.size();
+      data_.append(reinterpret_cast<const char*>(&size), sizeof size);
+      data_ += bytes;
+    }
   }
 
   std::string finish() && {
     if (encoding_ == Encoding::text) return std::move(text_) + "</VTKFile>\n";
     constexpr std::string_view begin = "  <AppendedData encoding=\"raw\">\n_",
                                end = "\n  </AppendedData>\n</VTKFile>\n";
-    text_.reserve(text_.size() + begin.size() + data_size_ + end.size());
     text_ += begin;
-    for (const std::string_view block : blocks_) {
-      const std::uint64_t size = block.size();
-      text_.append(reinterpret_cast<const char*>(&size), sizeof size);
-      text_.append(block);
-    }
+    text_ += data_;
     text_ += end;
     return std::move(text_);
   }
 
  private:
-  std::string text_;
+  std::string text_, data_;
   Encoding encoding_;
-  std::vector<std::string_view> blocks_;
-  std::size_t data_size_ = 0;
+  int threads_;
 };
 
 void add_fields(Document& document, const Fields& fields, const model::OutputFields& wanted) {
@@ -126,17 +160,27 @@ std::string finish_piece(Document document, const Cells& cells) {
   return std::move(document).finish();
 }
 
-Document begin_piece(std::size_t points, std::size_t cells, Encoding encoding) {
-  Document document(opening("UnstructuredGrid", " header_type=\"UInt64\""), encoding);
+Document begin_piece(std::size_t points, std::size_t cells, Encoding encoding, int threads = 1) {
+  Document document(
+      opening("UnstructuredGrid", encoding == Encoding::compressed
+                                      ? " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""
+                                      : " header_type=\"UInt64\""),
+      encoding, threads);
   document.add(
       fmt::format("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, cells));
   return document;
 }
 
+/// Small files are read by any program and compared by eye; the arrays of large ones lose half of their size.
+Encoding encoding_of(std::size_t points) {
+  constexpr std::size_t many = 50000;  // 7 MB
+  return points < many ? Encoding::appended : Encoding::compressed;
+}
+
 }  // namespace
 
-std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted) {
-  Document document = begin_piece(grid.point_count(), grid.cell_count(), Encoding::appended);
+std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted, int threads) {
+  Document document = begin_piece(grid.point_count(), grid.cell_count(), encoding_of(grid.point_count()), threads);
   document.add(point_data(wanted.principal ? "principal_1" : wanted.von_mises ? "von_mises" : "", wanted.displacement));
   add_fields(document, fields, wanted);
   document.add_array("body", 1, grid.point_body);
@@ -164,8 +208,9 @@ std::string vtu_content(const ContactLines& lines) {
   return finish_piece(std::move(document), lines);
 }
 
-std::string vtu_content(const CellPolygons& polygons) {
-  Document document = begin_piece(polygons.points.size() / 3, polygons.types.size(), Encoding::appended);
+std::string vtu_content(const CellPolygons& polygons, int threads) {
+  const std::size_t points = polygons.points.size() / 3;
+  Document document = begin_piece(points, polygons.types.size(), encoding_of(points), threads);
   document.add(point_data("", true));
   document.add_array("displacement", 3, polygons.displacement);
   begin_cell_data(document);

@@ -1,5 +1,5 @@
-// XML files of VTK for ParaView: .vtu (an unstructured grid with fields, appended raw binary data) and .pvd (the .vtu
-// files of a run over time). docs/decisions/0002-vtu-writer.md explains why they are not written by the VTK library.
+// XML files of VTK for ParaView: .vtu (an unstructured grid with fields, appended binary data, compressed if there is
+// much of it) and .pvd (the .vtu files of a run over time). docs/decisions/0002-vtu-writer.md explains why they are not written by the VTK library.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,11 @@ namespace scabo::result {
 /// Text near the beginning of every .vtu and .pvd file of Scabo, by which it is recognised.
 inline constexpr std::string_view vtk_mark = "<!-- written by Scabo";
 
-/// Content of a .vtu file with the requested arrays.
-std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {});
+/// Content of a .vtu file with the requested arrays, on up to `threads` threads; the content does not depend on them.
+std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {},
+                        int threads = 1);
 std::string vtu_content(const ContactLines& lines);
-std::string vtu_content(const CellPolygons& polygons);
+std::string vtu_content(const CellPolygons& polygons, int threads = 1);
 
 /// A .pvd file, which is complete after every call.
 class FieldCollection {

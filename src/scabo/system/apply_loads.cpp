@@ -132,7 +132,7 @@ class Applied {
       }
       of_super_element(*cells_[c], cell.centre, interior[c]);
       if (!interior[c].loads.empty())
-        nodal(element::dofs_of(cell)) += element::equivalent_load(cells_[c]->solution, interior[c].loads);
+        nodal(element::dofs_of(cell)) += element::equivalent_load(cells_[c]->solution(), interior[c].loads);
     }
   }
 
@@ -149,7 +149,7 @@ class Applied {
       element::InteriorLoads& loads = interior[tip.cell];
       const Vec2 traction = of_normal(element::face_normal(cell.ring, face));
       element::add_radial_loads(loads.loads, {element::face_load(cell.ring, face, 0.0, traction, thickness())}, 1.0);
-      nodal(element::dofs_of(body_mesh_.cells[tip.cell])) += element::equivalent_load(cell.solution, loads.loads);
+      nodal(element::dofs_of(body_mesh_.cells[tip.cell])) += element::equivalent_load(cell.solution(), loads.loads);
     }
   }
 

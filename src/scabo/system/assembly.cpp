@@ -71,7 +71,7 @@ void add_stiffness(Assembler& assembler, const model::Model& model, const mesh::
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const mesh::Cell& cell = mesh.cells[c];
     if (cells[c]) {
-      assembler.add(dofs_of(cell.nodes()), cells[c]->solution.K);
+      assembler.add(dofs_of(cell.nodes()), cells[c]->K());
       continue;
     }
     const element::Mat3 D = element::elasticity_matrix(material_of(model, cell), model.analysis.plane);
@@ -98,7 +98,7 @@ void add_mass(Assembler& assembler, const model::Model& model, const mesh::BodyM
 double rounding_of(const element::SolvedCells& cells) {
   double rounding = Stiffness().rounding;
   for (const auto& cell : cells)
-    if (cell) rounding = std::max(rounding, cell->solution.rounding);
+    if (cell) rounding = std::max(rounding, cell->rounding());
   return rounding;
 }
 
@@ -108,7 +108,7 @@ Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, 
   Stiffness stiffness;
   stiffness.rounding = rounding_of(cells);
   if (is_whole(mesh)) {
-    stiffness.dense = std::shared_ptr<const Matrix>(cells.front(), &cells.front()->solution.K);
+    stiffness.dense = std::shared_ptr<const Matrix>(cells.front(), &cells.front()->K());
     return stiffness;
   }
   Assembler assembler(static_cast<Eigen::Index>(2 * mesh.nodes.size()));

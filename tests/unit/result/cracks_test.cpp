@@ -26,7 +26,7 @@ analysis::StaticSolution solution_of(const element::Ring& ring, const std::vecto
   auto made = std::make_shared<element::SolvedSuperElement>();
   made->ring = ring;
   made->sectors.D = element::Elasticity(laws);
-  made->solution = element::solve_super_element(ring, made->sectors.D, 1.0);
+  made->set(element::solve_super_element(ring, made->sectors.D, 1.0));
   solution.cells.push_back({made});
   mesh::BodyMesh& mesh = solution.mesh.bodies.emplace_back();
   mesh.nodes = ring.nodes;

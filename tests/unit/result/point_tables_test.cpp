@@ -146,7 +146,7 @@ TEST(PointTables, ATipWhereStressIsInfiniteHasNone) {
   cracked->ring.elements.back().nodes.back() = static_cast<int>(cracked->ring.nodes.size());
   cracked->ring.nodes.push_back(cracked->ring.nodes.front());
   cracked->sectors = solution.cells[0][0]->sectors;
-  cracked->solution = element::solve_super_element(cracked->ring, cracked->sectors.D, 1.0);
+  cracked->set(element::solve_super_element(cracked->ring, cracked->sectors.D, 1.0));
   solution.cells[0][0] = cracked;
   mesh::BodyMesh& mesh = solution.mesh.bodies[0];
   mesh.cells[0].boundary.back().nodes.back() = static_cast<int>(mesh.nodes.size());

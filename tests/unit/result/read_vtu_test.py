@@ -1,5 +1,6 @@
 """Reads what `result_sample` wrote back: with meshio, and with VTK's own readers, which ParaView uses.
 Usage: read_vtu_test.py RESULT_SAMPLE"""
+import os
 import pathlib
 import subprocess
 import sys
@@ -135,19 +136,81 @@ class WithMeshio(Fields):
         self.assertEqual(cells, {"line": ([[0, 1], [1, 2]], [1, 1]), "vertex": ([[3]], [2])})
 
 
+MANY_CELLS = """scabo: 1
+analysis: {plane: strain}
+materials: {steel: {young: 2e9, poisson: 0.25}}
+bodies:
+  plate: {material: steel, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: quadtree, size: 0.0125}}
+supports: [{on: plate.left, fix: x}, {on: plate.bottom_left, fix: y}]
+loads: {pull: {on: plate.right, traction: [3e6, 0]}}
+output: {fields: [displacement, stress]}
+"""
+
+
+class Compressed(unittest.TestCase):
+    """A plate of 12,800 cells and more than 50,000 points under uniform tension: its arrays are compressed."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory(prefix="scabo_test_")
+        cls.folder = pathlib.Path(cls.holder.name)
+        (cls.folder / "plate.yaml").write_text(MANY_CELLS)
+        for threads in (1, 2):
+            subprocess.run([os.environ["SCABO"], "run", "plate.yaml", "-o", f"out{threads}", "--threads", str(threads)],
+                           cwd=cls.folder, check=True, timeout=1200, stdout=subprocess.DEVNULL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def check(self, points, displacement, stress_xx, stress_yy):
+        self.assertGreater(len(points), 50000)
+        self.assertAlmostEqual(points[:, 0].max(), 2)
+        # Plane strain: exx = (1 - nu^2) sxx / E, eyy = -nu (1 + nu) sxx / E.
+        expected = points[:, :2] * np.array([(1 - 0.25**2) * 3e6 / 2e9, -0.25 * 1.25 * 3e6 / 2e9])
+        np.testing.assert_allclose(displacement[:, :2], expected, atol=1e-12)
+        np.testing.assert_allclose(stress_xx, 3e6, rtol=SINGLE)
+        np.testing.assert_allclose(stress_yy, 0, atol=3e6 * SINGLE)
+
+    def test_meshio_reads_it(self):
+        mesh = meshio.read(self.folder / "out1" / "fields_0001.vtu")
+        self.check(mesh.points, *(mesh.point_data[name] for name in ("displacement", "stress_xx", "stress_yy")))
+
+    def test_vtk_reads_it(self):
+        for name in ("fields_0001.vtu", "cells.vtu"):
+            path = self.folder / "out1" / name
+            grid = read_with_vtk(self, path)
+            self.assertEqual(b"vtkZLibDataCompressor" in path.read_bytes()[:400], name != "cells.vtu")
+            if name == "cells.vtu":
+                self.assertEqual(grid.GetNumberOfCells(), 12800)
+                continue
+            fields = grid.GetPointData()
+            self.check(vtk_to_numpy(grid.GetPoints().GetData()),
+                       *(vtk_to_numpy(fields.GetArray(name)) for name in ("displacement", "stress_xx", "stress_yy")))
+
+    def test_it_is_smaller_and_does_not_depend_on_threads(self):
+        one, two = (self.folder / f"out{threads}" / "fields_0001.vtu" for threads in (1, 2))
+        self.assertEqual(one.read_bytes(), two.read_bytes())
+        points = read_with_vtk(self, one).GetNumberOfPoints()
+        self.assertLess(one.stat().st_size, 0.5 * 92 * points)  # 6 doubles and 11 numbers of 4 bytes, without the cells
+
+
+def read_with_vtk(test, path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    test.assertEqual(reader.CanReadFile(str(path)), 1)
+    complaints = []
+    for event in ("ErrorEvent", "WarningEvent"):
+        reader.AddObserver(event, lambda *_: complaints.append(event))
+    reader.SetFileName(str(path))
+    reader.Update()
+    test.assertEqual(complaints, [])
+    test.assertEqual(reader.GetErrorCode(), 0)
+    return reader.GetOutput()
+
+
 class WithVtk(Fields):
     def read(self, number, kind="fields"):
-        reader = vtk.vtkXMLUnstructuredGridReader()
-        name = str(self.directory / f"{kind}_{number:04d}.vtu")
-        self.assertEqual(reader.CanReadFile(name), 1)
-        complaints = []
-        for event in ("ErrorEvent", "WarningEvent"):
-            reader.AddObserver(event, lambda *_: complaints.append(event))
-        reader.SetFileName(name)
-        reader.Update()
-        self.assertEqual(complaints, [])
-        self.assertEqual(reader.GetErrorCode(), 0)
-        return reader.GetOutput()
+        return read_with_vtk(self, self.directory / f"{kind}_{number:04d}.vtu")
 
     def test_values(self):
         for number in (1, 2):

@@ -216,6 +216,14 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   EXPECT_THAT(keys_of(increment["energy"]), ElementsAre("external", "elastic", "friction"));
 }
 
+// A run drops the pairs of earlier increments; the summary once counted 0 pairs for it.
+TEST_F(Results, PairsAreCountedByTheTotalsThatRemain) {
+  analysis::StaticSolution solution = two_bodies();
+  for (const int number : {1, 2}) solution.increments.push_back(increment_number(solution, number));
+  for (analysis::ContactResult& contact : solution.increments.front().contacts) contact.pairs.clear();
+  EXPECT_EQ(sizes_of(solution).contact_pairs, 2);
+}
+
 TEST_F(Results, SummaryValues) {
   const FinishedRun run(path_);
   const Json summary = Json::parse(content_of(path_ / "summary.json"));

@@ -70,7 +70,7 @@ inline analysis::StaticSolution solution_of(model::Model model) {
       made->ring = element::ring_of(body.cells[c], body.nodes);
       made->sectors = element::sectors_of(model, body.cells[c]);
       made->thickness = model.analysis.thickness;
-      made->solution = element::solve_super_element(made->ring, made->sectors.D, made->thickness);
+      made->set(element::solve_super_element(made->ring, made->sectors.D, made->thickness));
       solution.cells.back()[c] = std::move(made);
     }
   }

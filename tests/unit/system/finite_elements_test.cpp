@@ -47,7 +47,7 @@ Assembled assembled(const mesh::BodyMesh& mesh) {
   made.cells = element::solve_cells(model, whole, 1).front();
   made.K = Matrix(body_stiffness(model, mesh, made.cells).sparse);
   MassLibrary masses([](const element::SolvedSuperElement& cell) {
-    return element::mass_matrix(cell.ring, cell.solution, cell.modes(), {density}, thickness);
+    return element::mass_matrix(cell.ring, cell.solution(), cell.modes(), {density}, thickness);
   });
   made.M = Matrix(body_mass(model, mesh, made.cells, masses).sparse);
   return made;
