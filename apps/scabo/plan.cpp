@@ -37,9 +37,8 @@ int symmetry_blocks(const mesh::BodyMesh& body) {
   for (const Vec2& x : body.nodes) places.insert(place(x - centre));
   int blocks = 1;
   for (const Vec2& mirror : {Vec2(-1.0, 1.0), Vec2(1.0, -1.0)})
-    if (std::all_of(body.nodes.begin(), body.nodes.end(), [&](const Vec2& x) {
-          return places.contains(place((x - centre).cwiseProduct(mirror)));
-        }))
+    if (std::all_of(body.nodes.begin(), body.nodes.end(),
+                    [&](const Vec2& x) { return places.contains(place((x - centre).cwiseProduct(mirror))); }))
       blocks *= 2;
   return blocks;
 }
@@ -64,11 +63,13 @@ double read_line_of(const std::string& file, const std::string& key) {
 
 /// What the control group of this process leaves; file caches of the group count as free.
 double left_in_group() {
-  const double most = read_number_of("/sys/fs/cgroup/memory.max"), used = read_number_of("/sys/fs/cgroup/memory.current");
+  const double most = read_number_of("/sys/fs/cgroup/memory.max"),
+               used = read_number_of("/sys/fs/cgroup/memory.current");
   if (most > 0.0 && used >= 0.0)
     return most - used + std::max(0.0, read_line_of("/sys/fs/cgroup/memory.stat", "inactive_file"));
   const std::string old = "/sys/fs/cgroup/memory/";
-  const double limit = read_number_of(old + "memory.limit_in_bytes"), in_use = read_number_of(old + "memory.usage_in_bytes");
+  const double limit = read_number_of(old + "memory.limit_in_bytes"),
+               in_use = read_number_of(old + "memory.usage_in_bytes");
   if (limit > 0.0 && limit < 1e18 && in_use >= 0.0)  // a limit of 2^63 is none
     return limit - in_use + std::max(0.0, read_line_of(old + "memory.stat", "total_inactive_file"));
   return -1.0;
@@ -122,8 +123,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       plan.condense += costs.dense_seconds * n * n * k;
     } else {
       plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
-      const bool cells_differ =
-          body.mesh.kind != model::MeshKind::quadtree && body.mesh.kind != model::MeshKind::fem;
+      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && body.mesh.kind != model::MeshKind::fem;
       if (cells_differ) {
         plan.bytes += costs.own_cell_bytes * n;
         plan.cells += costs.own_cell_seconds * n;
@@ -145,7 +145,8 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
     widest = std::max(widest, 2.0 * pairs_of[b]);
   }
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
-  plan.contact += plan.increments * costs.contact_seconds * components * components * std::max(widest, costs.least_width);
+  plan.contact +=
+      plan.increments * costs.contact_seconds * components * components * std::max(widest, costs.least_width);
   return plan;
 }
 

@@ -89,7 +89,8 @@ void Progress::increment(const analysis::StaticSolution& solution, const analysi
 }
 
 std::string Progress::increment_at_work() const {
-  return automatic_ ? fmt::format("increment {}", done_ + 1) : fmt::format("increment {} of {}", done_ + 1, increments_);
+  return automatic_ ? fmt::format("increment {}", done_ + 1)
+                    : fmt::format("increment {} of {}", done_ + 1, increments_);
 }
 
 /// By the part of the steps that is done; the first seconds say little.

@@ -73,9 +73,8 @@ ExitStatus resume(const ResumeOptions& options) {
   const int wanted = options.threads > 0 ? options.threads : origin.threads, threads = threads_that_fit(wanted);
   if (!options.quiet) {
     const std::size_t finished = checkpoint.from.increments.size();
-    print_to_stderr(finished > 0
-                        ? fmt::format("Resuming after {}\n", count(static_cast<long>(finished), "increment"))
-                        : std::string("No increment was finished: the run starts from the beginning\n"));
+    print_to_stderr(finished > 0 ? fmt::format("Resuming after {}\n", count(static_cast<long>(finished), "increment"))
+                                 : std::string("No increment was finished: the run starts from the beginning\n"));
   }
   if (threads != origin.threads)
     print_warning(fmt::format("the run began with {} and continues with {}: the last digits of results may differ",

@@ -56,8 +56,7 @@ ExitStatus run(const RunOptions& options) {
   const Interrupt interrupt;
   result::ResultsDirectory directory(output, model, std::move(mesh));
   const int threads = threads_that_fit(options.threads);
-  StaticRun begun{model, directory, interrupt, {}, reading, start, threads, options.quiet, plan,
-                  options.ignore_memory};
+  StaticRun begun{model, directory, interrupt, {}, reading, start, threads, options.quiet, plan, options.ignore_memory};
   if (keeps_checkpoints(model)) {
     begun.begun.origin = origin_of(options, model, output, threads);
     begun.begun.results = directory.written();

@@ -22,7 +22,7 @@ struct StaticRun {
   std::chrono::steady_clock::time_point start;
   int threads = 1;
   bool quiet = false;
-  std::optional<Plan> plan;     ///< of a new run
+  std::optional<Plan> plan;  ///< of a new run
   bool ignore_memory = false;
 };
 

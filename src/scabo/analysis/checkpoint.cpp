@@ -224,8 +224,9 @@ void exchange_checkpoint(Io& io, Checkpoint& of, int& count) {
   exchange_origin(io, of.origin);
   exchange_results(io, of.results);
   Timing& t = of.from.timing;
-  exchange_scalars(io, "timing", {&t.read, &t.mesh, &t.super_elements, &t.assemble, &t.factorise, &t.condense,
-                                  &t.newton, &t.recover, &t.write, &t.total});
+  exchange_scalars(io, "timing",
+                   {&t.read, &t.mesh, &t.super_elements, &t.assemble, &t.factorise, &t.condense, &t.newton, &t.recover,
+                    &t.write, &t.total});
   exchange_integer(io, "increments/count", count);
   double bytes = static_cast<double>(of.increments_bytes);
   exchange_scalars(io, "increments/bytes", {&bytes});
@@ -236,8 +237,7 @@ void exchange_checkpoint(Io& io, Checkpoint& of, int& count) {
 }
 
 [[noreturn]] void fail_to_keep(const fs::path& path, int error) {
-  throw std::runtime_error(
-      fmt::format("cannot write {}: {}", path.string(), std::system_category().message(error)));
+  throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::system_category().message(error)));
 }
 
 /// Waits until the file is on the disk.
@@ -321,9 +321,10 @@ Checkpoint read_checkpoint(const fs::path& directory, const std::string& version
   try {
     Unsealing io(file.string());
     if (const std::string written_by = io.version(); !written_by.empty() && written_by != version)
-      throw OtherVersion(fmt::format("the checkpoint was written by Scabo {}, and this is {}: resume with that version, or "
-                               "run the model again with `scabo run`",
-                               written_by, version));
+      throw OtherVersion(
+          fmt::format("the checkpoint was written by Scabo {}, and this is {}: resume with that version, or "
+                      "run the model again with `scabo run`",
+                      written_by, version));
     Checkpoint checkpoint;
     int count = 0;
     exchange_checkpoint(io, checkpoint, count);
@@ -332,8 +333,8 @@ Checkpoint read_checkpoint(const fs::path& directory, const std::string& version
     const std::string records = content_of((directory / records_name).string());
     if (checkpoint.increments_bytes > static_cast<long long>(records.size()))
       throw std::out_of_range("records are missing");
-    checkpoint.from.increments = read_records(
-        std::string_view(records).substr(0, static_cast<std::size_t>(checkpoint.increments_bytes)), count);
+    checkpoint.from.increments =
+        read_records(std::string_view(records).substr(0, static_cast<std::size_t>(checkpoint.increments_bytes)), count);
     return checkpoint;
   } catch (const OtherVersion& error) {
     refuse(file, error.what());
@@ -376,8 +377,9 @@ void CheckpointWriter::write(const RunState& run, const StaticSolution& solution
   at.step = run.step;
   at.progress = run.progress;
   const State& state = run.state;  // without displacements
-  at.state = {state.factors, state.p,      state.a, state.gap, state.slip, state.history,       state.states,
-              {},            {},           {},      {},        state.largest_force, state.energy};
+  at.state = {state.factors, state.p, state.a, state.gap, state.slip, state.history,
+              state.states,  {},      {},      {},        {},         state.largest_force,
+              state.energy};
   replace();
 }
 

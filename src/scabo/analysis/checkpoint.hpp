@@ -41,7 +41,7 @@ struct RunOrigin {
 struct Checkpoint {
   RunOrigin origin;
   WrittenResults results;
-  Continuation from;  ///< without increments: the run starts from the beginning
+  Continuation from;               ///< without increments: the run starts from the beginning
   long long increments_bytes = 0;  ///< of checkpoint.increments that count
 };
 

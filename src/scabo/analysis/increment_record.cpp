@@ -17,10 +17,8 @@ class Packer {
   std::string bytes;
 
   template <typename T>
-    requires is_plain<T>
-  void operator()(T& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
+  requires is_plain<T>
+  void operator()(T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
   /// Number of items that follow; the container already has them.
   template <typename Container>
   void resize(Container& items) {
@@ -42,7 +40,7 @@ class Unpacker {
   explicit Unpacker(std::string_view bytes) : left_(bytes) {}
 
   template <typename T>
-    requires is_plain<T>
+  requires is_plain<T>
   void operator()(T& value) {
     if (left_.size() < sizeof value) throw std::out_of_range("the record is too short");
     std::memcpy(&value, left_.data(), sizeof value);
@@ -72,10 +70,8 @@ class Unpacker {
 // One function for each type, for both directions.
 
 template <typename Io, typename T>
-  requires is_plain<T>
-void exchange(Io& io, T& value) {
-  io(value);
-}
+requires is_plain<T>
+void exchange(Io& io, T& value) { io(value); }
 template <typename Io>
 void exchange(Io& io, std::string& text) {
   io.resize(text);

@@ -46,9 +46,9 @@ double next_size(const model::AutomaticIncrements& limits, double size, bool hal
 
 /// Ends of the increments of one step. Plain data, which a checkpoint keeps.
 struct StepProgress {
-  int increment = 0;    ///< that are finished
-  double reached = 0.0; ///< part of the step, 0 to 1
-  double size = 0.0;    ///< of the next increment of an automatic step; 0: its first
+  int increment = 0;     ///< that are finished
+  double reached = 0.0;  ///< part of the step, 0 to 1
+  double size = 0.0;     ///< of the next increment of an automatic step; 0: its first
 };
 
 /// Part of the step at which the next increment ends.

@@ -192,8 +192,7 @@ void drop_fields(IncrementResult& increment) {
 
 /// Factors at the start of a step.
 Factors start_of(const model::Model& model, std::size_t step) {
-  if (step == 0)
-    return {std::vector<double>(model.loads.size(), 0.0), std::vector<double>(model.supports.size(), 0.0)};
+  if (step == 0) return {std::vector<double>(model.loads.size(), 0.0), std::vector<double>(model.supports.size(), 0.0)};
   return {model.steps[step - 1].load_factors, model.steps[step - 1].support_factors};
 }
 
@@ -239,12 +238,10 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, k)
                                       : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
     const double begin = progress.reached, end = next_end(step, progress);
-    const Factors target =
-        between(start_of(solution.model, run.step), {step.load_factors, step.support_factors}, end);
+    const Factors target = between(start_of(solution.model, run.step), {step.load_factors, step.support_factors}, end);
     const std::optional<double> least =
         step.automatic ? std::optional(step.automatic->smallest / (end - begin)) : std::nullopt;
-    Reached reached =
-        timed(solution.timing.newton, [&] { return reach(prepared, run.state, target, least, options); });
+    Reached reached = timed(solution.timing.newton, [&] { return reach(prepared, run.state, target, least, options); });
     if (reached.stopped) {
       interrupt(solution);
       return;

@@ -198,7 +198,7 @@ struct Options {
   /// those with an estimated error, whose increments are reported together at the end): all that the next increment
   /// starts from.
   std::function<void(const RunState&, const StaticSolution&)> on_accepted;
-  const Continuation* from = nullptr;  ///< continues from there; only for such analyses
+  const Continuation* from = nullptr;                      ///< continues from there; only for such analyses
   std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };

@@ -42,10 +42,10 @@ void check_automatic(Checking& checking, const std::string& path, const Automati
     return;
   }
   if (largest && smallest && first && (automatic.first > automatic.largest || automatic.first < automatic.smallest))
-    checking.error(path, "first",
-                   fmt::format("must be between 'smallest', {}, and 'largest', {}, not {}",
-                               number_text(automatic.smallest), number_text(automatic.largest),
-                               number_text(automatic.first)));
+    checking.error(
+        path, "first",
+        fmt::format("must be between 'smallest', {}, and 'largest', {}, not {}", number_text(automatic.smallest),
+                    number_text(automatic.largest), number_text(automatic.first)));
 }
 
 /// Only a program gives these.
