@@ -1,6 +1,7 @@
 #include "scabo/result/vtu.hpp"
 
 #include <fmt/format.h>
+
 #include <zlib.h>
 
 #include <algorithm>
@@ -54,7 +55,9 @@ std::string compressed(std::string_view values, int threads) {
     pieces[i].resize(size);
   });
   std::string content;
-  const auto add = [&](std::uint64_t number) { content.append(reinterpret_cast<const char*>(&number), sizeof number); };
+  const auto add = [&](std::uint64_t number) {
+    content.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
   add(count);
   add(piece_size);
   add(values.size() % piece_size);
@@ -64,8 +67,8 @@ std::string compressed(std::string_view values, int threads) {
 }
 
 /// XML elements that describe arrays, and the data they describe. A block of data is its length in bytes (64 bits),
-/// followed by the values as stored in memory, or what `compressed` makes of it; offsets are counted from the
-/// underscore at the beginning of the data.
+/// followed by the values as stored in memory, or what `compressed` makes of it; offsets are counted from the underscore
+/// at the beginning of the data.
 class Document {
  public:
   Document(std::string beginning, Encoding encoding, int threads = 1)
@@ -158,10 +161,11 @@ std::string finish_piece(Document document, const Cells& cells) {
 }
 
 Document begin_piece(std::size_t points, std::size_t cells, Encoding encoding, int threads = 1) {
-  Document document(opening("UnstructuredGrid", encoding == Encoding::compressed
-                                                    ? " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""
-                                                    : " header_type=\"UInt64\""),
-                    encoding, threads);
+  Document document(
+      opening("UnstructuredGrid", encoding == Encoding::compressed
+                                      ? " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""
+                                      : " header_type=\"UInt64\""),
+      encoding, threads);
   document.add(
       fmt::format("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, cells));
   return document;
