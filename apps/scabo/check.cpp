@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "plan.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/result/report.hpp"
 #include "settings.hpp"
@@ -38,11 +39,16 @@ std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
   return result::table(rows);
 }
 
+std::string increments_text(const model::Step& step) {
+  if (!step.automatic) return fmt::format("{}", step.increments);
+  return fmt::format("auto, {:g} to {:g} of the step", step.automatic->smallest, step.automatic->largest);
+}
+
 std::string steps_table(const model::Model& model) {
   if (model.analysis.type == model::AnalysisType::modal)
     return fmt::format("Modal analysis: the lowest {}.\n", count(model.analysis.modes, "mode"));
   std::vector<std::vector<std::string>> rows = {{"step", "increments"}};
-  for (const model::Step& step : model.steps) rows.push_back({step.name, fmt::format("{}", step.increments)});
+  for (const model::Step& step : model.steps) rows.push_back({step.name, increments_text(step)});
   return result::table(rows);
 }
 
@@ -53,7 +59,9 @@ ExitStatus check(const CheckOptions& options) {
   const mesh::Mesh mesh = analysis::check(model);
   for (const Warning& warning : model.warnings) print_warning(warning.text);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
-  text += describe_sizes(sizes_of(model, mesh)) + "\n\n" + bodies_table(model, mesh);
+  text += model.analysis.type == model::AnalysisType::modal ? describe_sizes(sizes_of(model, mesh)) + "\n"
+                                                            : describe(plan_of(model, mesh));
+  text += "\n" + bodies_table(model, mesh);
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);
   text += "\n" + steps_table(model) + "\nNo mistakes found.\n";
   print_output(text);

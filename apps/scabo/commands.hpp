@@ -24,6 +24,14 @@ struct RunOptions {
   std::filesystem::path output;  ///< results directory; empty: `model.results` beside `model.yaml`
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< 1 or more
   bool quiet = false;                                                                 ///< only errors and warnings
+  bool ignore_memory = false;  ///< starts even if the estimated memory is not available
+};
+
+struct ResumeOptions {
+  std::filesystem::path directory;  ///< results of a run that was interrupted
+  std::string model;                ///< where the model file is now; empty: where it was
+  int threads = 0;                  ///< 0: as before
+  bool quiet = false;
 };
 
 struct ExponentsOptions {
@@ -46,6 +54,8 @@ struct ContactOptions {
 };
 
 ExitStatus run(const RunOptions& options);
+/// Continues a run from its checkpoint (analysis/checkpoint.hpp).
+ExitStatus resume(const ResumeOptions& options);
 /// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
                      double reading);

@@ -1,4 +1,4 @@
-// The command line of Scabo: scabo run | check | exponents | contact | schema.
+// The command line of Scabo: scabo run | resume | check | exponents | contact | schema.
 #include <fmt/format.h>
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -38,6 +38,13 @@ constexpr const char* run_example = R"(Example:
 
 Results: summary.json, contact.csv, fields.pvd (ParaView) and log.txt in DIR.
 Ctrl-C ends the run after the current increment; a second Ctrl-C ends it immediately.)";
+
+constexpr const char* resume_example = R"(Example:
+  scabo resume model.results
+
+Continues after the last increment in the checkpoint of DIR. With the same number of threads, on the same kind of
+processor, the results are those of a run without interruption, bit by bit. The model and its files must not have
+changed.)";
 
 constexpr const char* check_example = R"(Example:
   scabo check model.yaml --set bodies.upper.mesh.size=0.1)";
@@ -100,7 +107,19 @@ class CommandLine {
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
+    run_->add_flag("--ignore-memory", run_options_.ignore_memory,
+                   "Starts even if less memory is available than the analysis is expected to need");
     run_->footer(run_example);
+
+    resume_->add_option("DIR", resume_options_.directory, "Results directory of the run")->required()->option_text(" ");
+    resume_->add_option("--model", resume_options_.model, "The model file, if it was moved")->option_text("MODEL");
+    resume_
+        ->add_option("--threads", resume_options_.threads,
+                     "Largest number of threads; default: as before. Another number may change the last digits")
+        ->option_text("N")
+        ->check(CLI::Range(1, 1024));
+    resume_->add_flag("-q,--quiet", resume_options_.quiet, "Prints only errors and warnings");
+    resume_->footer(resume_example);
 
     check_->add_option("MODEL", check_options_.model, model_help)->required()->option_text(" ");
     add_settings(*check_, check_options_.settings);
@@ -157,6 +176,7 @@ class CommandLine {
 
   ExitStatus execute() const {
     if (*run_) return run(run_options_);
+    if (*resume_) return resume(resume_options_);
     if (*check_) return check(check_options_);
     if (*exponents_) return print_exponents(exponents_options_);
     if (*contact_) return solve_contact(contact_options_);
@@ -175,7 +195,7 @@ class CommandLine {
     if (chosen.empty() && error.get_name() == "RequiredError") {
       const bool named = !words.empty() && !words.front().starts_with("-");
       message = (named ? fmt::format("there is no command '{}'", words.front()) : "no command given") +
-                ": available are run, check, exponents, contact, schema";
+                ": available are run, resume, check, exponents, contact, schema";
     }
     print_error(fmt::format("{} (see `{} --help`)", message, command));
     return ExitStatus::wrong_input;
@@ -197,6 +217,7 @@ class CommandLine {
 
   CLI::App app_{"Scabo: frictional contact by the scaled boundary finite element method", "scabo"};
   CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
+  CLI::App* resume_ = app_.add_subcommand("resume", "Continues a run that was interrupted or killed");
   CLI::App* check_ = app_.add_subcommand("check", "Reads and meshes a model and reports its size, without solving it");
   CLI::App* exponents_ = app_.add_subcommand("exponents", "Prints the exponents of every super-element");
   CLI::App* contact_ = app_.add_subcommand("contact", "Solves and certifies a discrete contact problem from a file");
@@ -204,6 +225,7 @@ class CommandLine {
   CLI::Option* output_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   RunOptions run_options_;
+  ResumeOptions resume_options_;
   CheckOptions check_options_;
   ExponentsOptions exponents_options_;
   ContactOptions contact_options_;

@@ -48,24 +48,58 @@ void Progress::stage(const std::string& name) {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_shown_ < shortest_between_lines) return;
   last_shown_ = now;
-  show(fmt::format("{}{}", increment_at_work(), before_.empty() ? "" : "; before: " + before_));
+  show(fmt::format("{}{}{}", increment_at_work(), time_left(), before_.empty() ? "" : "; before: " + before_));
+}
+
+void Progress::plan(const Plan& plan) {
+  planned_dofs_ = plan.sizes.dofs;
+  if (style_ == Style::silent) return;
+  std::string text = describe(plan);
+  if (style_ == Style::terminal && !is_long(plan)) {  // stays until the first stage is shown
+    text.pop_back();
+    show(text);
+  } else {
+    print_to_stderr(text);
+  }
 }
 
 void Progress::meshed(const analysis::StaticSolution& solution) {
   increments_ = increments_of(solution.model);
-  if (style_ == Style::lines) show(describe_sizes(sizes_of(solution.model, solution.mesh)));
+  for (const model::Step& step : solution.model.steps) automatic_ = automatic_ || step.automatic.has_value();
+  began_ = std::chrono::steady_clock::now();
+  const Sizes sizes = sizes_of(solution.model, solution.mesh);
+  if (style_ == Style::lines && sizes.dofs != planned_dofs_) show(describe_sizes(sizes));
 }
+
+void Progress::resumed(int increments) { done_ = increments; }
 
 void Progress::increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result) {
   before_ = outcome_of(result);
   if (style_ == Style::lines) {
-    const std::string step = solution.model.steps.size() > 1 ? fmt::format(" (step {})", result.step_name) : "";
+    std::string step = solution.model.steps.size() > 1 ? fmt::format(" (step {})", result.step_name) : "";
+    if (automatic_) step = fmt::format(" (step {}, {:.4g} %)", result.step_name, 100.0 * result.reached);
     show(fmt::format("{}{}: {}", increment_at_work(), step, before_));
   }
+  const double part = (result.step - 1 + result.reached) / static_cast<double>(solution.model.steps.size());
+  if (solution.increments.size() == 1 || part_done_ == 0.0)
+    begun_at_ = solution.increments.size() == 1 ? 0.0 : part;  // the first one of a run that was resumed is not timed
+  if (begun_at_ == part) began_ = std::chrono::steady_clock::now();
+  part_done_ = part;
   ++done_;
 }
 
-std::string Progress::increment_at_work() const { return fmt::format("increment {} of {}", done_ + 1, increments_); }
+std::string Progress::increment_at_work() const {
+  return automatic_ ? fmt::format("increment {}", done_ + 1)
+                    : fmt::format("increment {} of {}", done_ + 1, increments_);
+}
+
+/// By the part of the steps that is done; the first seconds say little.
+std::string Progress::time_left() const {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  if (seconds < 3.0 || part_done_ <= begun_at_) return "";
+  const double left = seconds * (1.0 - part_done_) / (part_done_ - begun_at_);
+  return left < 5.0 ? "" : fmt::format("; about {} left", duration_text(left));
+}
 
 void Progress::clear() {
   if (!line_shown_) return;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "plan.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 
 namespace scabo::app {
@@ -19,7 +20,10 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void stage(const std::string& name);
+  /// Sizes, memory and time, before the work begins.
+  void plan(const Plan& plan);
   void meshed(const analysis::StaticSolution& solution);
+  void resumed(int increments);  ///< so many were finished in earlier sessions
   void increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result);
   /// Clears the rewritten line, so that other messages can be printed.
   void clear();
@@ -27,10 +31,15 @@ class Progress {
  private:
   void show(const std::string& line);
   std::string increment_at_work() const;
+  std::string time_left() const;
 
   Style style_;
   bool line_shown_ = false;
-  int increments_ = 0;  ///< of all steps; 0 until the first begins
+  int increments_ = 0;      ///< of all steps, where their number is known; 0 until the first begins
+  bool automatic_ = false;  ///< it is not known
+  int planned_dofs_ = 0;
+  double begun_at_ = 0.0, part_done_ = 0.0;  ///< of the whole analysis, when increments began and now, 0 to 1
+  std::chrono::steady_clock::time_point began_;
   int done_ = 0;
   std::string before_;  ///< result of the last finished increment
   std::chrono::steady_clock::time_point last_shown_;

@@ -77,7 +77,7 @@ std::string describe_sizes(const Sizes& sizes) {
 
 int increments_of(const model::Model& model) {
   int increments = 0;
-  for (const model::Step& step : model.steps) increments += step.increments;
+  for (const model::Step& step : model.steps) increments += model::expected_increments(step);
   return increments;
 }
 

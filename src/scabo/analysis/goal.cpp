@@ -218,8 +218,7 @@ Options with_dual(const Options& options, const model::Quantity& quantity, const
   Options with = quiet(options, what);
   with.on_state = [&quantity, &dual](const Prepared& prepared, const State& state, const StaticSolution& solution) {
     const IncrementResult& at = solution.increments.back();
-    if (at.step == static_cast<int>(solution.model.steps.size()) &&
-        at.increment == solution.model.steps.back().increments)
+    if (at.step == static_cast<int>(solution.model.steps.size()) && at.reached == 1.0)
       dual =
           of_bodies(prepared, dual_displacements(prepared, state, derivative_of(prepared, state, solution, quantity)));
   };

@@ -80,19 +80,6 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
   }
 }
 
-/// Pairs whose points lie on each other, or overlap, as the bodies are drawn.
-std::vector<bool> touching_pairs(const Prepared& prepared) {
-  constexpr double rounding_of_points = 1e-9;  // of a body's size
-  std::vector<bool> touching;
-  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
-    const model::Contact& contact =
-        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
-    const double size = std::max(part_of(prepared, contact.a.body).lever(), part_of(prepared, contact.b.body).lever());
-    touching.push_back(prepared.contact.gap[static_cast<Eigen::Index>(i)] <= rounding_of_points * size);
-  }
-  return touching;
-}
-
 /// Work done on the way between two accepted states, by the trapezoidal rule.
 Energy energy_between(const Prepared& prepared, const State& from, const State& to) {
   Energy energy = from.energy;
@@ -112,6 +99,20 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.friction += fell || mean < 0.0 ? std::max(at_end, 0.0) : mean;
   }
   return energy;
+}
+
+/// Displacements and reactions under the loads and contact forces of a state; `free`: known displacements without
+/// contact.
+void add_displacements(const Prepared& prepared, const std::vector<Vector>* free, State& to) {
+  const auto& parts = prepared.structure.parts;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Vector forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
+    Vector u = free ? (*free)[p] : parts[p]->displacement(forces, to.prescribed[p]);
+    const Matrix& rigid = parts[p]->rigid_motions();
+    if (rigid.cols() > 0) u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
+    to.reactions.push_back(parts[p]->reactions(u, forces));
+    to.u.push_back(std::move(u));
+  }
 }
 
 /// Force and moment of everything that acts on a part, as [F_x, F_y, M / L] about its reference point.
@@ -271,6 +272,18 @@ Factors between(const Factors& from, const Factors& to, double part) {
   return factors;
 }
 
+std::vector<bool> touching_pairs(const Prepared& prepared) {
+  constexpr double rounding_of_points = 1e-9;  // of a body's size
+  std::vector<bool> touching;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const model::Contact& contact =
+        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
+    const double size = std::max(part_of(prepared, contact.a.body).lever(), part_of(prepared, contact.b.body).lever());
+    touching.push_back(prepared.contact.gap[static_cast<Eigen::Index>(i)] <= rounding_of_points * size);
+  }
+  return touching;
+}
+
 State initial_state(const Prepared& prepared) {
   State state;
   state.factors = {std::vector<double>(prepared.model.loads.size(), 0.0),
@@ -289,6 +302,14 @@ State initial_state(const Prepared& prepared) {
     state.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(part->constraints().size())));
   }
   return state;
+}
+
+void complete(const Prepared& prepared, State& state) {
+  state.forces = applied_forces(prepared, state.factors.loads);
+  state.prescribed = prescribed_values(prepared, state.factors.supports);
+  state.u.clear();
+  state.reactions.clear();
+  add_displacements(prepared, nullptr, state);
 }
 
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
@@ -336,14 +357,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.gap = result.solution.gap;
   to.slip = from.slip + result.solution.slip_increment;
   to.states = result.solution.states;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const Vector forces = to.forces[p] + system.motion[p].transpose() * to.p;
-    Vector u = N > 0 ? parts[p]->displacement(forces, to.prescribed[p]) : free[p];
-    const Matrix& rigid = parts[p]->rigid_motions();
-    if (rigid.cols() > 0) u += rigid * to.a.segment(system.first_rigid[p], rigid.cols());
-    to.reactions.push_back(parts[p]->reactions(u, forces));
-    to.u.push_back(std::move(u));
-  }
+  add_displacements(prepared, N == 0 ? &free : nullptr, to);
   to.energy = energy_between(prepared, from, to);
   result.certificate = result.solution.certificate;
   to.largest_force = std::max(from.largest_force, largest_force(to));

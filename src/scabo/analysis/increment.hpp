@@ -40,6 +40,14 @@ struct State {
 };
 State initial_state(const Prepared& prepared);
 
+/// Completes a state of which only the history is known (factors, forces and states of the pairs, rigid motions,
+/// energy): displacements, applied forces, reactions and prescribed values follow from it, bit by bit as when the state
+/// was reached.
+void complete(const Prepared& prepared, State& state);
+
+/// Pairs whose points lie on each other, or overlap, as the bodies are drawn.
+std::vector<bool> touching_pairs(const Prepared& prepared);
+
 /// Result of an attempt to reach `factors` from `from`, with its certificate.
 struct Attempt {
   State state;

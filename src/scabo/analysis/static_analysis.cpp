@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scabo/analysis/adaptive.hpp"
+#include "scabo/analysis/continuation.hpp"
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/increment.hpp"
@@ -26,12 +27,15 @@ namespace {
 /// Result of an attempt to reach the end of an increment.
 struct Reached {
   State state;
+  double part = 0.0;  ///< of the increment that was reached: 1, or less of an automatic increment
+  Changes changes;    ///< of an automatic increment
   contact::Certificate certificate;
+  int last_iterations = 0;  ///< of the attempt that was accepted
   int iterations = 0, coarse_iterations = 0, halvings = 0;
   double residual = 0.0;
   Matrix undetermined;
   std::optional<UniquenessResult> uniqueness;
-  bool mechanism = false;
+  bool mechanism = false, stopped = false;
   std::string reason;  ///< empty if the end was reached
   std::vector<AttemptResult> attempts;
   std::vector<DiscreteProblem> problems;  ///< of the attempts, if requested
@@ -57,17 +61,29 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
 }
 
 /// Proceeds from `from` to `target`, halving the step if an attempt is not accepted; every part starts from the last
-/// accepted state.
-Reached reach(const Prepared& prepared, const State& from, const Factors& target, const Options& options) {
+/// accepted state. With `least`, that of an automatic increment, it ends with the first attempt that is accepted, and
+/// is halved as long as its part is not less than that.
+Reached reach(const Prepared& prepared, const State& from, const Factors& target, std::optional<double> least,
+              const Options& options) {
+  const IncrementRule rule;
   Reached reached;
   reached.state = from;
   const Factors start = from.factors;
-  double done = 0.0, part = 1.0;
-  while (done < 1.0) {
-    const double next = std::min(1.0, done + part);
+  double part = 1.0;
+  int repeats = 0;
+  while (reached.part < 1.0) {
+    const double next = std::min(1.0, reached.part + part);
     Attempt tried = attempt(prepared, reached.state, between(start, target, next));
     reached.iterations += tried.solution.iterations;
     reached.coarse_iterations += tried.solution.coarse_iterations;
+    const bool may_halve = least ? 0.5 * part >= *least : reached.halvings < prepared.model.solver.halvings;
+    if (tried.accepted && least) {
+      reached.changes = changes_between(prepared, from, tried.state);
+      if (reached.changes.too_many(rule) && may_halve && repeats < rule.repeats) {
+        ++repeats;
+        tried.accepted = false;
+      }
+    }
     reached.attempts.push_back({tried.solution.trace, tried.accepted});
     if (options.on_problems && tried.problem.pairs() > 0) reached.problems.push_back(discrete_problem(prepared, tried));
     if (tried.accepted) {
@@ -76,11 +92,15 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
       reached.residual = tried.solution.residual;
       reached.undetermined = std::move(tried.solution.undetermined);
       reached.uniqueness = tried.uniqueness;
-      done = next;
+      reached.part = next;
+      reached.last_iterations = tried.solution.iterations;
+      if (least) break;
       continue;
     }
     const bool mechanism = tried.solution.status == contact::Status::mechanism;  // a smaller step does not help
-    if (mechanism || reached.halvings == prepared.model.solver.halvings || (options.stop && *options.stop)) {
+    reached.stopped = !mechanism && options.stop && *options.stop;
+    if (reached.stopped) return reached;
+    if (mechanism || !may_halve) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
       reached.mechanism = mechanism;
@@ -157,66 +177,122 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   for (const Warning& warning : crack_warnings(at.cracks)) add(warning.kind, warning.subject, warning.text);
 }
 
+/// The results of an accepted state, apart from the history of its increment.
+IncrementResult described(const Prepared& prepared, const StaticSolution& solution, const State& state) {
+  IncrementResult result = describe(prepared, state);
+  refer_displacements(prepared, solution, result);
+  return result;
+}
+
+/// Only the last increment keeps fields and pairs.
+void drop_fields(IncrementResult& increment) {
+  increment.fields = {};
+  for (ContactResult& contact : increment.contacts) contact.pairs = {};
+}
+
+/// Factors at the start of a step.
+Factors start_of(const model::Model& model, std::size_t step) {
+  if (step == 0) return {std::vector<double>(model.loads.size(), 0.0), std::vector<double>(model.supports.size(), 0.0)};
+  return {model.steps[step - 1].load_factors, model.steps[step - 1].support_factors};
+}
+
+RunState start_of_run(const Prepared& prepared, StaticSolution& solution, const Options& options) {
+  if (!options.from) return {0, {}, initial_state(prepared)};
+  RunState run = options.from->at;
+  ensure(run.state.states.size() == prepared.contact.pairs.size() &&
+             run.state.a.size() == prepared.contact.rigid_motions() &&
+             run.state.factors.loads.size() == prepared.model.loads.size() &&
+             run.state.factors.supports.size() == prepared.model.supports.size(),
+         "the state from which the run continues belongs to this model");
+  complete(prepared, run.state);
+  solution.increments = options.from->increments;
+  solution.warnings = options.from->warnings;
+  ensure(!solution.increments.empty(), "the state from which the run continues has increments");
+  IncrementResult again = described(prepared, solution, run.state);
+  solution.increments.back().fields = std::move(again.fields);
+  solution.increments.back().contacts = std::move(again.contacts);
+  return run;
+}
+
+void interrupt(StaticSolution& solution) {
+  solution.outcome = Outcome::interrupted;
+  solution.reason = "interrupted: the increments finished so far are kept";
+}
+
 void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
-  State state = initial_state(prepared);
-  for (std::size_t s = 0; s < solution.model.steps.size(); ++s) {
-    const model::Step& step = solution.model.steps[s];
-    const Factors start = state.factors, end{step.load_factors, step.support_factors};
-    for (int k = 1; k <= step.increments; ++k) {
-      if (options.stop && *options.stop) {
-        solution.outcome = Outcome::interrupted;
-        solution.reason = "interrupted: the increments finished so far are kept";
-        return;
-      }
-      if (options.on_stage) options.on_stage(fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
-      Reached reached = timed(solution.timing.newton, [&] {
-        return reach(prepared, state, between(start, end, static_cast<double>(k) / step.increments), options);
-      });
-      bool there = reached.reason.empty();
-      IncrementResult result;
-      if (there)
-        result = timed(solution.timing.recover, [&] {
-          IncrementResult described = describe(prepared, reached.state);
-          refer_displacements(prepared, solution, described);
-          described.cracks = crack_results(solution, described);
-          return described;
-        });
-      if (there && !std::isfinite(result.energy.elastic)) {
-        there = false;
-        reached.reason =
-            "the elastic energy exceeds the range of floating-point numbers: check the units of stiffness, loads and "
-            "temperature";
-      }
-      result.step = static_cast<int>(s) + 1;
-      result.step_name = step.name;
-      result.increment = k;
-      result.converged = there;
-      result.newton_iterations = reached.iterations;
-      result.coarse_iterations = reached.coarse_iterations;
-      result.halvings = reached.halvings;
-      result.residual = reached.residual;
-      result.certificate = reached.certificate;
-      result.reason = reached.reason;
-      result.attempts = std::move(reached.attempts);
-      result.uniqueness = reached.uniqueness;
-      if (there) add_warnings(prepared, reached, result, solution.warnings);
-      solution.increments.push_back(std::move(result));
-      if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
-      if (!there) {
-        solution.outcome = reached.mechanism ? Outcome::mechanism : Outcome::not_converged;
-        solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);
-        if (options.on_increment) options.on_increment(solution, solution.increments.back());
-        return;
-      }
-      state = std::move(reached.state);
-      if (options.on_state) options.on_state(prepared, state, solution);
-      if (options.on_increment) options.on_increment(solution, solution.increments.back());
-      if (!options.keep_fields && solution.increments.size() > 1) {
-        IncrementResult& before = solution.increments[solution.increments.size() - 2];
-        before.fields = {};
-        for (ContactResult& contact : before.contacts) contact.pairs = {};
-      }
+  RunState run = start_of_run(prepared, solution, options);
+  for (;;) {
+    if (run.progress.reached == 1.0) {
+      ++run.step;
+      run.progress = {};
     }
+    if (run.step == solution.model.steps.size()) return;
+    const model::Step& step = solution.model.steps[run.step];
+    StepProgress& progress = run.progress;
+    const int k = progress.increment + 1;
+    if (options.stop && *options.stop) {
+      interrupt(solution);
+      return;
+    }
+    if (options.on_stage)
+      options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, k)
+                                      : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
+    const double begin = progress.reached, end = next_end(step, progress);
+    const Factors target = between(start_of(solution.model, run.step), {step.load_factors, step.support_factors}, end);
+    const std::optional<double> least =
+        step.automatic ? std::optional(step.automatic->smallest / (end - begin)) : std::nullopt;
+    Reached reached = timed(solution.timing.newton, [&] { return reach(prepared, run.state, target, least, options); });
+    if (reached.stopped) {
+      interrupt(solution);
+      return;
+    }
+    bool there = reached.reason.empty();
+    IncrementResult result;
+    if (there)
+      result = timed(solution.timing.recover, [&] {
+        IncrementResult of_state = described(prepared, solution, reached.state);
+        of_state.cracks = crack_results(solution, of_state);
+        return of_state;
+      });
+    if (there && !std::isfinite(result.energy.elastic)) {
+      there = false;
+      reached.reason =
+          "the elastic energy exceeds the range of floating-point numbers: check the units of stiffness, loads and "
+          "temperature";
+    }
+    result.step = static_cast<int>(run.step) + 1;
+    result.step_name = step.name;
+    result.increment = k;
+    result.reached = reached.part == 1.0 ? end : begin + reached.part * (end - begin);
+    result.converged = there;
+    result.newton_iterations = reached.iterations;
+    result.coarse_iterations = reached.coarse_iterations;
+    result.halvings = reached.halvings;
+    result.residual = reached.residual;
+    result.certificate = reached.certificate;
+    result.reason = reached.reason;
+    result.attempts = std::move(reached.attempts);
+    result.uniqueness = reached.uniqueness;
+    if (there) add_warnings(prepared, reached, result, solution.warnings);
+    solution.increments.push_back(std::move(result));
+    if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
+    if (!there) {
+      solution.outcome = reached.mechanism ? Outcome::mechanism : Outcome::not_converged;
+      solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);
+      if (options.on_increment) options.on_increment(solution, solution.increments.back());
+      return;
+    }
+    run.state = std::move(reached.state);
+    progress.increment = k;
+    progress.reached = solution.increments.back().reached;
+    if (step.automatic)
+      progress.size = next_size(*step.automatic, progress.reached - begin, reached.halvings > 0, reached.changes,
+                                reached.last_iterations);
+    if (options.on_state) options.on_state(prepared, run.state, solution);
+    if (options.on_increment) options.on_increment(solution, solution.increments.back());
+    if (options.on_accepted) options.on_accepted(run, solution);
+    if (!options.keep_fields && solution.increments.size() > 1)
+      drop_fields(solution.increments[solution.increments.size() - 2]);
   }
 }
 
@@ -248,10 +324,43 @@ mesh::Mesh check(const model::Model& model) {
   return mesh;
 }
 
+namespace {
+
+bool has_automatic_steps(const model::Model& model) {
+  return std::any_of(model.steps.begin(), model.steps.end(),
+                     [](const model::Step& step) { return step.automatic.has_value(); });
+}
+
+/// A model whose results on several meshes are compared has the same increments on each: those of the first mesh. If
+/// that has no solution, the model remains as it is, and its analysis says why.
+model::Model with_its_increments(const model::Model& model, const mesh::Mesh& mesh, const Options& options) {
+  Options with = quiet(options, "increments");
+  with.keep_fields = false;
+  const StaticSolution solution = solve_on_mesh(model, mesh, with);
+  if (solution.outcome != Outcome::solved) return model;
+  model::Model fixed = model;
+  for (std::size_t s = 0; s < fixed.steps.size(); ++s) {
+    model::Step& step = fixed.steps[s];
+    if (!step.automatic) continue;
+    for (const IncrementResult& increment : solution.increments)
+      if (increment.step == static_cast<int>(s) + 1) step.ends.push_back(increment.reached);
+    step.increments = static_cast<int>(step.ends.size());
+    step.automatic.reset();
+  }
+  return fixed;
+}
+
+}  // namespace
+
 StaticSolution solve_static(model::Model model, const Options& options) {
   double seconds = 0.0;
   if (options.on_stage) options.on_stage("mesh");
   mesh::Mesh mesh = timed(seconds, [&] { return check(model); });
+  const bool several_meshes = wants_bars(model) || wants_refinement(model) || model.output.error;
+  if (several_meshes && has_automatic_steps(model)) {
+    const Stopwatch finding(seconds);
+    model = with_its_increments(model, mesh, options);
+  }
   StaticSolution solution = wants_bars(model)         ? solve_with_bars(std::move(model), std::move(mesh), options)
                             : wants_refinement(model) ? solve_refined(std::move(model), options)
                             : model.output.error      ? solve_with_error(std::move(model), std::move(mesh), options)
@@ -271,6 +380,7 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   solution.mesh = std::move(mesh);
   solution.threads = threads;
   Timing& timing = solution.timing;
+  if (options.from) timing = options.from->timing;
 
   stage("super-elements");
   solution.cells =

@@ -113,6 +113,7 @@ struct IncrementResult {
   int step = 0;  ///< from 1
   std::string step_name;
   int increment = 0;                      ///< from 1 within the step
+  double reached = 1.0;                   ///< part of the step at its end, more than 0, 1 in its last increment
   std::map<std::string, double> factors;  ///< factors of loads and of supports with prescribed displacements
   bool converged = false;
   int newton_iterations = 0;
@@ -179,6 +180,8 @@ struct StaticSolution {
 
 struct Prepared;  // increment.hpp
 struct State;
+struct Continuation;  // continuation.hpp
+struct RunState;
 
 struct Options {
   /// false: displacements, loads inside cells and pairs are kept of the last converged increment only, so that memory
@@ -191,6 +194,11 @@ struct Options {
   std::function<void(const IncrementResult&, const std::vector<DiscreteProblem>&)> on_problems;
   /// After each converged increment, before `on_increment`: its accepted state.
   std::function<void(const Prepared&, const State&, const StaticSolution&)> on_state;
+  /// After each converged increment and `on_increment`, of analyses that compute increments one after the other (not of
+  /// those with an estimated error, whose increments are reported together at the end): all that the next increment
+  /// starts from.
+  std::function<void(const RunState&, const StaticSolution&)> on_accepted;
+  const Continuation* from = nullptr;                      ///< continues from there; only for such analyses
   std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
 };

@@ -65,6 +65,7 @@ std::optional<Outline> read_image(Reading& reading, const Value& value, Body& bo
   const auto file_value = map.need("file");
   if (const auto name = file_value ? read_text(report, *file_value) : std::nullopt) {
     const std::filesystem::path beside = std::filesystem::path(reading.model.file).parent_path();
+    reading.model.files.push_back((beside / *name).string());
     try {
       image = std::make_shared<files::Image>(files::read_png((beside / *name).string()));
     } catch (const InputError& error) {

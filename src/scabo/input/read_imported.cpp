@@ -31,6 +31,7 @@ Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name,
   const auto [found, is_new] =
       reading.mesh_files.try_emplace(cad ? fmt::format("{}, {}, {}", path, cad->size, cad->order) : path);
   if (!is_new) return found->second;
+  reading.model.files.push_back(path);
   try {
     files::ImportedMesh mesh = cad ? files::mesh_cad_file(path, *cad) : files::read_mesh_file(path);
     for (const std::string& remark : mesh.remarks)

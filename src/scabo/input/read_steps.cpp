@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "scabo/input/numbers.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 
@@ -79,6 +80,36 @@ void read_factors(Reading& reading, const Index& supports, Step& step, const Val
   }
 }
 
+/// `increments: 10`, `increments: auto`, or `increments: {largest: 0.1}`.
+void read_increments(Reading& reading, const Value& value, Step& step) {
+  const bool is_map = value.node->kind == Node::Kind::map;
+  if (!is_map && value.node->kind == Node::Kind::scalar && value.node->text == "auto") {
+    step.automatic.emplace();
+    return;
+  }
+  if (!is_map) {
+    if (value.node->kind != Node::Kind::scalar || std::holds_alternative<std::string>(parse_number(value.node->text))) {
+      reading.report.error(value, fmt::format("must be a whole number, auto, or limits of the size of an increment, as "
+                                              "in {{largest: 0.1}}, not {}",
+                                              describe(*value.node)));
+      return;
+    }
+    step.increments = static_cast<int>(read_integer(reading.report, value, limits::increments).value_or(1));
+    return;
+  }
+  const MapReader map(reading.report, value, {"first", "largest", "smallest"}, "{largest: 0.25, smallest: 1e-4}");
+  AutomaticIncrements automatic;
+  const auto read = [&](const char* key, double& to) {
+    if (const auto given = map.get(key)) to = read_number(reading.report, *given).value_or(unread);
+  };
+  read("largest", automatic.largest);
+  read("smallest", automatic.smallest);
+  if (!map.has("smallest")) automatic.smallest = std::min(automatic.smallest, automatic.largest);
+  if (!map.has("first")) automatic.first = std::min(std::max(automatic.first, automatic.smallest), automatic.largest);
+  read("first", automatic.first);
+  step.automatic = automatic;
+}
+
 /// The step that follows one that ends with the factors of `before`.
 Step read_step(Reading& reading, const Index& supports, const Value& value, const Step& before, std::size_t number) {
   const MapReader map(reading.report, value, {"name", "increments", "loads"},
@@ -86,14 +117,13 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
   Step step = before;
   step.name = fmt::format("step_{}", number);
   step.increments = 1;
+  step.automatic.reset();
   step.source = value.source();
   if (const auto name = map.get("name")) {
     const auto text = read_text(reading.report, *name);
     if (text && check_name(reading.report, name->source(), *text)) step.name = *text;
   }
-  if (const auto increments = map.get("increments")) {
-    step.increments = static_cast<int>(read_integer(reading.report, *increments, limits::increments).value_or(1));
-  }
+  if (const auto increments = map.get("increments")) read_increments(reading, *increments, step);
   const auto loads = map.get("loads");
   if (!loads) {
     apply_everything(step);

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "scabo/model/checking.hpp"
 
@@ -21,7 +23,45 @@ bool check_factors(Checking& checking, const std::string& path, const std::vecto
   return true;
 }
 
+void check_automatic(Checking& checking, const std::string& path, const AutomaticIncrements& automatic) {
+  const auto part = [&](const char* key, double value) {
+    if (!checking.number(path, key, value)) return false;
+    if (value >= limits::smallest_increment && value <= 1.0) return true;
+    checking.error(path, key,
+                   fmt::format("must be a part of the step, from {:g} to 1, not {}", limits::smallest_increment,
+                               number_text(value)),
+                   number_text(value));
+    return false;
+  };
+  const bool largest = part("largest", automatic.largest), smallest = part("smallest", automatic.smallest),
+             first = part("first", automatic.first);
+  if (largest && smallest && automatic.smallest > automatic.largest) {
+    checking.error(path, "smallest",
+                   fmt::format("must be at most 'largest', {}, not {}", number_text(automatic.largest),
+                               number_text(automatic.smallest)));
+    return;
+  }
+  if (largest && smallest && first && (automatic.first > automatic.largest || automatic.first < automatic.smallest))
+    checking.error(
+        path, "first",
+        fmt::format("must be between 'smallest', {}, and 'largest', {}, not {}", number_text(automatic.smallest),
+                    number_text(automatic.largest), number_text(automatic.first)));
+}
+
+/// Only a program gives these.
+void check_ends(Checking& checking, const std::string& path, const Step& step) {
+  if (step.ends.empty()) return;
+  const bool ascending = std::is_sorted(step.ends.begin(), step.ends.end(), std::less_equal<>());
+  if (static_cast<int>(step.ends.size()) != step.increments || !ascending || !(step.ends.front() > 0.0) ||
+      step.ends.back() != 1.0)
+    checking.error(path, "", "gives ends of increments that are not as many as its increments, ascending, up to 1");
+}
+
 }  // namespace
+
+int expected_increments(const Step& step) {
+  return step.automatic ? static_cast<int>(std::ceil(2.0 / step.automatic->largest)) : step.increments;
+}
 
 void check_steps(Checking& checking) {
   const Model& model = checking.model;
@@ -43,7 +83,10 @@ void check_steps(Checking& checking) {
                                  step.name));
     else if (!names.insert(step.name).second)
       checking.error(path, "", fmt::format("another step is already named '{}': rename one of them", step.name));
-    checking.whole(path, "increments", step.increments, limits::increments);
+    if (step.automatic)
+      check_automatic(checking, path + ".increments", *step.automatic);
+    else if (checking.whole(path, "increments", step.increments, limits::increments))
+      check_ends(checking, path, step);
     if (!check_factors(checking, path, step.load_factors, model.loads.size(), "loads") ||
         !check_factors(checking, path, step.support_factors, model.supports.size(), "supports"))
       checking.gaps.steps = true;

@@ -249,11 +249,22 @@ struct Tie {
   Source source;
 };
 
+/// Limits of increments whose size follows from what changes (analysis/increment_size.hpp). All are parts of the step,
+/// 0 < smallest <= first <= largest <= 1. The last increment of a step may be smaller than `smallest`.
+struct AutomaticIncrements {
+  double first = 0.1;
+  double largest = 0.25;
+  double smallest = 1e-4;
+};
+
 /// Factors change linearly, over `increments` increments, from those at the end of the previous step (zero before the
 /// first) to these.
 struct Step {
   std::string name;
-  int increments = 1;
+  int increments = 1;                            ///< equal parts; without meaning if `automatic`
+  std::optional<AutomaticIncrements> automatic;  ///< instead of equal parts
+  /// Instead of equal parts: where each increment ends, ascending, the last one 1. As many as `increments`.
+  std::vector<double> ends;
   std::vector<double> load_factors;     ///< at the end of the step, one for each load
   std::vector<double> support_factors;  ///< at the end of the step, one for each support
   Source source;
@@ -261,6 +272,9 @@ struct Step {
 
 /// Library that factorises sparse stiffness matrices.
 enum class Factorisation { cholmod, mumps };
+
+/// Number of increments of a step; if it is not known before, what it may be.
+int expected_increments(const Step& step);
 
 struct SolverOptions {
   double tolerance = 1e-10;  ///< bound of every scaled figure of the certificate
@@ -318,7 +332,8 @@ struct Output {
 };
 
 struct Model {
-  std::string file;  ///< as given to the reader, for messages
+  std::string file;                ///< as given to the reader, for messages
+  std::vector<std::string> files;  ///< paths of mesh files and images that were read for it
   std::string title;
   Analysis analysis;
   std::vector<Material> materials;

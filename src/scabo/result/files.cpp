@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -66,6 +67,14 @@ void replace_file(const std::filesystem::path& path, std::string_view content) {
   fail_to_write(path, error);
 }
 
+void synchronise_file(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail_to_write(path, errno);
+  const int error = ::fsync(descriptor) != 0 && errno != EINVAL ? errno : 0;  // some file systems cannot
+  ::close(descriptor);
+  if (error != 0) fail_to_write(path, error);
+}
+
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
     : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
@@ -80,7 +89,25 @@ DirectoryLock::~DirectoryLock() {
 
 GrowingFile::GrowingFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_empty(path_)) {}
 
+GrowingFile::GrowingFile(std::filesystem::path path, long long size)
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CLOEXEC)), size_(size) {
+  struct stat status {};
+  int error = descriptor_ < 0 || ::fstat(descriptor_, &status) != 0 ? errno : 0;
+  const bool shorter = error == 0 && status.st_size < size;
+  if (error == 0 && !shorter && ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) error = errno;
+  if (error == 0 && !shorter) return;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (shorter)
+    throw WriteError("cannot continue", path_,
+                     "it is shorter than the run left it: run the model again with `scabo run`");
+  throw WriteError("cannot continue", path_, std::system_category().message(error));
+}
+
 GrowingFile::~GrowingFile() { ::close(descriptor_); }
+
+void GrowingFile::synchronise() {
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) fail_to_write(path_, errno);
+}
 
 void GrowingFile::append(std::string_view content) { append_before_footer(content, {}); }
 

@@ -27,6 +27,9 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// The same by writing `path.part` and renaming it: readers see the old or the new content, never a part.
 void replace_file(const std::filesystem::path& path, std::string_view content);
 
+/// Waits until a file that was written is on the disk.
+void synchronise_file(const std::filesystem::path& path);
+
 /// Locks a directory for the run that writes into it, until this object is destroyed or the process ends. The system
 /// releases the lock however the process ends, so that no stale lock remains. No file is written. On file systems
 /// without locks there is no protection.
@@ -47,6 +50,9 @@ class DirectoryLock {
 class GrowingFile {
  public:
   explicit GrowingFile(std::filesystem::path path);  ///< creates it empty
+  /// Continues one that exists after its first `size` bytes; what follows is cut off. Throws WriteError if it is
+  /// shorter.
+  GrowingFile(std::filesystem::path path, long long size);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
@@ -54,6 +60,10 @@ class GrowingFile {
   void append(std::string_view content);
   /// Writes `content` and `footer` over the previous footer in one operation, so that the file is always complete.
   void append_before_footer(std::string_view content, std::string_view footer);
+  void synchronise();  ///< waits until the content is on the disk
+
+  const std::filesystem::path& path() const { return path_; }
+  long long size() const { return size_; }  ///< bytes without the footer
 
  private:
   std::filesystem::path path_;

@@ -109,8 +109,10 @@ std::string report_passes(const analysis::StaticSolution& solution) {
 
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment) {
   const model::Step& step = model.steps.at(static_cast<std::size_t>(increment.step - 1));
-  std::string text =
-      fmt::format("step {}, increment {} of {}:", increment.step_name, increment.increment, step.increments);
+  std::string text = step.automatic ? fmt::format("step {}, increment {}, {:.4g} % of the step:", increment.step_name,
+                                                  increment.increment, 100.0 * increment.reached)
+                                    : fmt::format("step {}, increment {} of {}:", increment.step_name,
+                                                  increment.increment, step.increments);
   for (const auto& [name, factor] : increment.factors) text += fmt::format(" {} = {:.6g},", name, factor);
   if (increment.factors.empty())
     text += ' ';

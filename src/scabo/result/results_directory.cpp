@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -43,6 +44,9 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   if (name == "convergence.csv") return convergence_table_header;
   if (name == "convergence.svg" || name == "convergence.svg.part") return convergence_plot_mark;
   if (name == "log.txt") return "Scabo ";
+  if (name == "checkpoint.hdf5" || name == "checkpoint.hdf5.new") return "scabo_checkpoint";
+  if (name == "checkpoint.hdf5.new.part") return "";  // may have been killed at any place
+  if (name == "checkpoint.increments") return "scabo checkpoint";
   for (const PointTable table : point_tables)
     if (name == file_of(table)) return header_of(table);
   return std::nullopt;
@@ -50,7 +54,7 @@ std::optional<std::string_view> mark_of(const std::string& name) {
 
 /// Also true for a file that a full disk or a kill left empty: nothing is lost by removing it.
 bool written_by_scabo(const fs::path& file, std::string_view mark) {
-  std::array<char, 512> beginning{};
+  std::array<char, 4096> beginning{};  // an HDF5 file has the names of its groups there
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return false;
   stream.read(beginning.data(), beginning.size());
@@ -150,27 +154,119 @@ void mark_failed(const fs::path& directory, const std::string& reason) noexcept 
 } catch (...) {  // the caller reports why the run ended
 }
 
+std::optional<std::string> status_in(const fs::path& directory) {
+  std::ifstream stream(directory / "summary.json", std::ios::binary);
+  const std::string summary((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  return status_of_summary(summary);
+}
+
+namespace {
+
+/// Of a run that continues.
+void mark_running(const fs::path& directory) {
+  const fs::path file = directory / "summary.json";
+  std::ifstream stream(file, std::ios::binary);
+  const std::string before((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (status_of_summary(before)) replace_file(file, running_summary(before));
+}
+
+/// Bytes of a file that count.
+long long size_in(const analysis::WrittenResults& written, const std::string& name) {
+  for (const analysis::WrittenResults::File& file : written.files)
+    if (file.name == name) return file.bytes;
+  return 0;
+}
+
+/// Files of fields that were written after a checkpoint, whose last ones have the number `last`.
+void remove_later_fields(const fs::path& path, int last) {
+  std::error_code error;
+  std::vector<fs::path> later;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    for (const std::string_view begin : {"fields_", "contact_"})
+      if (is_vtu_name(name, begin) && std::atoi(name.c_str() + begin.size()) > last) later.push_back(entry->path());
+  }
+  for (const fs::path& file : later) fs::remove(file, error);
+}
+
+}  // namespace
+
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mesh::Mesh mesh)
-    : path_(std::move(path)), output_(model.output) {
+    : path_(std::move(path)), steps_(static_cast<int>(model.steps.size())), output_(model.output) {
   const Stopwatch writing(write_seconds_);
-  for (const model::Step& step : model.steps) increments_of_step_.push_back(step.increments);
   lock_.emplace(prepare_directory(path_));
   analysis::StaticSolution start;
   start.model = model;
   start.mesh = std::move(mesh);
   write_running_summary(start);
-  contact_table_.emplace(path_ / "contact.csv");
-  contact_table_->append(contact_table_header);
-  convergence_table_.emplace(path_ / "convergence.csv");
-  convergence_table_->append(convergence_table_header);
+  open_files(model, nullptr);
+}
+
+ResultsDirectory::ResultsDirectory(fs::path path, DirectoryLock lock, const model::Model& model,
+                                   const analysis::WrittenResults& written)
+    : path_(std::move(path)),
+      steps_(static_cast<int>(model.steps.size())),
+      lock_(std::move(lock)),
+      written_before_(written.finished),
+      finished_(written.finished),
+      fields_written_(written.fields_written),
+      log_begun_(written.log_begun),
+      warnings_(written.warnings),
+      output_(model.output) {
+  const Stopwatch writing(write_seconds_);
+  open_files(model, &written);
+  remove_later_fields(path_, fields_written_);
+  mark_running(path_);
+}
+
+void ResultsDirectory::open_files(const model::Model& model, const analysis::WrittenResults* written) {
+  const auto open = [&](const std::string& name, std::optional<GrowingFile>& file, std::string_view header) {
+    if (written) {
+      file.emplace(path_ / name, size_in(*written, name));
+      return;
+    }
+    file.emplace(path_ / name);
+    file->append(header);
+  };
+  const auto open_collection = [&](const std::string& name, std::optional<FieldCollection>& collection) {
+    if (written)
+      collection.emplace(path_ / name, size_in(*written, name));
+    else
+      collection.emplace(path_ / name);
+  };
+  open("contact.csv", contact_table_, contact_table_header);
+  open("convergence.csv", convergence_table_, convergence_table_header);
   for (const PointTable table : point_tables) {
     if (!wanted(model.output, table)) continue;
-    point_files_.push_back({table, std::make_unique<GrowingFile>(path_ / file_of(table)), std::nullopt});
-    point_files_.back().file->append(header_of(table));
+    point_files_.emplace_back();
+    point_files_.back().table = table;
+    open(std::string(file_of(table)), point_files_.back().file, header_of(table));
   }
-  if (output_.fields.any_of_bodies()) fields_collection_.emplace(path_ / "fields.pvd");
-  if (output_.fields.contact && !model.contacts.empty()) contact_collection_.emplace(path_ / "contact.pvd");
-  log_.emplace(path_ / "log.txt");
+  if (output_.fields.any_of_bodies()) open_collection("fields.pvd", fields_collection_);
+  if (output_.fields.contact && !model.contacts.empty()) open_collection("contact.pvd", contact_collection_);
+  open("log.txt", log_, "");
+}
+
+std::vector<GrowingFile*> ResultsDirectory::growing_files() {
+  std::vector<GrowingFile*> files;
+  for (auto* file : {&contact_table_, &convergence_table_, &log_})
+    if (*file) files.push_back(&**file);
+  for (PointFile& of : point_files_) files.push_back(&*of.file);
+  for (auto* collection : {&fields_collection_, &contact_collection_})
+    if (*collection) files.push_back(&(*collection)->file());
+  return files;
+}
+
+analysis::WrittenResults ResultsDirectory::written() {
+  const Stopwatch writing(write_seconds_);
+  analysis::WrittenResults written{finished_, fields_written_, log_begun_, {}, warnings_};
+  for (const fs::path& file : not_synchronised_) synchronise_file(file);
+  not_synchronised_.clear();
+  for (GrowingFile* file : growing_files()) {
+    file->synchronise();
+    written.files.push_back({file->path().filename().string(), file->size()});
+  }
+  return written;
 }
 
 void ResultsDirectory::add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) try {
@@ -212,12 +308,14 @@ void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("fields_{:04d}.vtu", finished_);
     write_file(path_ / file, vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads));
+    not_synchronised_.push_back(path_ / file);
     fields_collection_->add(pseudo_time(increment), file);
   }
   if (contact_collection_) {
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("contact_{:04d}.vtu", finished_);
     write_file(path_ / file, vtu_content(contact_lines(increment)));
+    not_synchronised_.push_back(path_ / file);
     contact_collection_->add(pseudo_time(increment), file);
   }
   fields_written_ = finished_;
@@ -241,7 +339,7 @@ void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
   int increments = 0;
   if (!point_files_.front().evaluation) {
     points = mesh::output_points(solution.model);
-    for (const int of_step : increments_of_step_) increments += of_step;
+    for (const model::Step& step : solution.model.steps) increments += model::expected_increments(step);
   }
   for (PointFile& of : point_files_) {
     if (!of.evaluation) {
@@ -249,7 +347,8 @@ void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
                    : of.table == PointTable::lines ? points.lines
                                                    : points.grid;
       of.evaluation.emplace(solution, std::move(list), increments);
-      warnings_.insert(warnings_.end(), of.evaluation->warnings().begin(), of.evaluation->warnings().end());
+      if (written_before_ == 0)
+        warnings_.insert(warnings_.end(), of.evaluation->warnings().begin(), of.evaluation->warnings().end());
     }
     of.file->append(point_table_rows(of.table, *of.evaluation, solution, increment));
   }
@@ -291,14 +390,11 @@ analysis::Timing ResultsDirectory::complete(analysis::Timing timing) const {
 }
 
 double ResultsDirectory::pseudo_time(const analysis::IncrementResult& increment) const {
-  return increment.step - 1 +
-         static_cast<double>(increment.increment) /
-             increments_of_step_.at(static_cast<std::size_t>(increment.step - 1));
+  return increment.step - 1 + increment.reached;
 }
 
 bool ResultsDirectory::is_last(const analysis::IncrementResult& increment) const {
-  return increment.step == static_cast<int>(increments_of_step_.size()) &&
-         increment.increment == increments_of_step_.back();
+  return increment.step == steps_ && increment.reached == 1.0;
 }
 
 void ResultsDirectory::begin_log(const analysis::StaticSolution& solution) {

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/written_results.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/recovery.hpp"
@@ -23,6 +25,9 @@ namespace scabo::result {
 /// is locked for the caller as long as the lock exists. Throws WriteError.
 [[nodiscard]] DirectoryLock prepare_directory(const std::filesystem::path& path);
 
+/// The `status` in summary.json; nothing if it cannot be read.
+std::optional<std::string> status_in(const std::filesystem::path& directory);
+
 /// Records in summary.json that an error ended the run: status `failed`, with the reason. If that cannot be written (a
 /// full disk), the file remains as it was: readable, with status `running`.
 void mark_failed(const std::filesystem::path& directory, const std::string& reason) noexcept;
@@ -32,11 +37,18 @@ class ResultsDirectory {
   /// Prepares the directory, and writes a first summary.json with the sizes of the mesh. Throws WriteError.
   ResultsDirectory(std::filesystem::path path, const model::Model& model, mesh::Mesh mesh = {});
 
+  /// Continues the results of a run of the same model: what was written after `written` is removed. Throws WriteError.
+  ResultsDirectory(std::filesystem::path path, DirectoryLock lock, const model::Model& model,
+                   const analysis::WrittenResults& written);
+
   const std::filesystem::path& path() const { return path_; }
 
   /// Writes the results of an increment; for one that did not converge, only a line of log.txt. Also writes
   /// summary.json with the results so far, unless that would take more than a twentieth of the time. Throws WriteError.
   void add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
+
+  /// What the files contain now, for a checkpoint. All of it is on the disk.
+  analysis::WrittenResults written();
 
   /// Writes summary.json and completes log.txt, however the run ended. `solution.timing` contains the figures that only
   /// the caller knows: read and total. Throws WriteError.
@@ -47,6 +59,9 @@ class ResultsDirectory {
   /// WriteError.
   std::filesystem::path problem_file(const analysis::IncrementResult& increment, std::size_t attempt) const;
 
+  /// `timing` of the analysis, with that of this directory.
+  analysis::Timing complete(analysis::Timing timing) const;
+
   const std::vector<std::string>& warnings() const { return warnings_; }  ///< about the files written
   double recover_seconds() const { return recover_seconds_; }             ///< time for interior fields
   double write_seconds() const { return write_seconds_; }                 ///< time for writing files
@@ -54,18 +69,20 @@ class ResultsDirectory {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// `timing` of the analysis and of this directory.
-  analysis::Timing complete(analysis::Timing timing) const;
+  std::vector<GrowingFile*> growing_files();
+  /// New ones, or those of `written`.
+  void open_files(const model::Model& model, const analysis::WrittenResults* written);
   void add_files(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
   void begin_log(const analysis::StaticSolution& solution);
   void write_running_summary(const analysis::StaticSolution& solution);
 
   std::filesystem::path path_;
+  int steps_ = 0;
   std::optional<DirectoryLock> lock_;
   double pseudo_time(const analysis::IncrementResult& increment) const;
   bool is_last(const analysis::IncrementResult& increment) const;
   void add_fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
-  std::vector<int> increments_of_step_;
+  int written_before_ = 0;  // converged increments before the run was resumed
   int finished_ = 0;        // converged increments
   int fields_written_ = 0;  // number of the last increment whose fields are written
   bool log_begun_ = false;
@@ -74,12 +91,13 @@ class ResultsDirectory {
   void add_points(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
   std::optional<GrowingFile> contact_table_, convergence_table_, log_;
   struct PointFile {
-    PointTable table;
-    std::unique_ptr<GrowingFile> file;
+    PointTable table{};
+    std::optional<GrowingFile> file;  // cannot be moved, hence the deque
     std::optional<PointEvaluation> evaluation;
   };
-  std::vector<PointFile> point_files_;
-  std::vector<std::string> warnings_;  // of the point tables
+  std::deque<PointFile> point_files_;
+  std::vector<std::filesystem::path> not_synchronised_;  // files of fields that may not be on the disk yet
+  std::vector<std::string> warnings_;                    // of the point tables
   model::Output output_;
   std::optional<FieldCollection> fields_collection_, contact_collection_;
   std::optional<Recovery> recovery_;

@@ -125,7 +125,7 @@ Json json_of(const analysis::QuantityResult& quantity) {
 
 /// An increment that did not converge has no contacts, reactions, certificate or energy, because it is not a result.
 Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
-  Json json = {{"step", increment.step}, {"increment", increment.increment}};
+  Json json = {{"step", increment.step}, {"increment", increment.increment}, {"reached", increment.reached}};
   json["factors"] = Json::object();
   for (const auto& [name, factor] : increment.factors) json["factors"][name] = number_or_null(factor);
   json["converged"] = increment.converged;
@@ -260,6 +260,19 @@ std::string failed_summary(const std::string& summary, const std::string& reason
   json["status"] = "failed";
   json["reason"] = reason;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string running_summary(const std::string& summary) {
+  Json json = Json::parse(summary);
+  json["status"] = "running";
+  json["reason"] = nullptr;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::optional<std::string> status_of_summary(const std::string& summary) {
+  const Json json = Json::parse(summary, nullptr, false);
+  if (!json.is_object() || !json.contains("status") || !json["status"].is_string()) return std::nullopt;
+  return json["status"].get<std::string>();
 }
 
 }  // namespace scabo::result

@@ -28,6 +28,11 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
 /// The summary of a run ended by an error: `summary` with status `failed` and the reason.
 std::string failed_summary(const std::string& summary, const std::string& reason);
 
+/// `summary` of a run that continues: status `running`.
+std::string running_summary(const std::string& summary);
+/// Its `status`; nothing if it is not a summary.
+std::optional<std::string> status_of_summary(const std::string& summary);
+
 /// `solved`, `not_converged`, `mechanism` or `interrupted`.
 std::string_view name_of(analysis::Outcome outcome);
 std::string_view name_of(element::CornerKind kind);

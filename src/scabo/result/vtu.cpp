@@ -224,6 +224,10 @@ FieldCollection::FieldCollection(const std::filesystem::path& path) : file_(path
   file_.append_before_footer(opening("Collection", "") + "  <Collection>\n", collection_footer);
 }
 
+FieldCollection::FieldCollection(const std::filesystem::path& path, long long size) : file_(path, size) {
+  file_.append_before_footer("", collection_footer);
+}
+
 void FieldCollection::add(double time, std::string_view file) {
   file_.append_before_footer(fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file),
                              collection_footer);

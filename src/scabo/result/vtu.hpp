@@ -27,8 +27,11 @@ std::string vtu_content(const CellPolygons& polygons, int threads = 1);
 class FieldCollection {
  public:
   explicit FieldCollection(const std::filesystem::path& path);
+  /// Continues one with the files in its first `size` bytes.
+  FieldCollection(const std::filesystem::path& path, long long size);
   /// `file` is relative to the .pvd file.
   void add(double time, std::string_view file);
+  GrowingFile& file() { return file_; }
 
  private:
   GrowingFile file_;

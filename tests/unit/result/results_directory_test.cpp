@@ -64,6 +64,7 @@ analysis::StaticSolution two_bodies() {
 analysis::IncrementResult increment_number(const analysis::StaticSolution& solution, int number) {
   auto increment = increment_of(solution, linear_field(small_gradient));
   increment.increment = number;
+  increment.reached = 0.25 * number;
   increment.factors = {{"tip", 0.25 * number}};
   increment.newton_iterations = 3;
   increment.residual = 1e-15;

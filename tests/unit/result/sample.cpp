@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     analysis::IncrementResult increment =
         increment_of(solution, linear_field(number * gradient), {0.01 * number, -0.02 * number, 0.003 * number});
     increment.increment = number;
+    increment.reached = 0.25 * number;
     increment.contacts = contacts();
     solution.increments.push_back(increment);
     directory.add(solution, solution.increments.back());

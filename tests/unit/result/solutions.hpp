@@ -85,6 +85,7 @@ inline analysis::IncrementResult increment_of(const analysis::StaticSolution& so
   increment.step = 1;
   increment.step_name = solution.model.steps[0].name;
   increment.increment = 1;
+  increment.reached = 0.25;
   increment.converged = true;
   for (std::size_t b = 0; b < solution.model.bodies.size(); ++b) {
     const std::vector<Vec2>& nodes = solution.mesh.bodies[b].nodes;

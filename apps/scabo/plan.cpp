@@ -1,0 +1,198 @@
+#include "plan.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <tuple>
+
+#include "scabo/geometry/box.hpp"
+#include "scabo/result/report.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+/// Analyses that take less are described by one line.
+constexpr double long_seconds = 60.0;
+constexpr double large_bytes = 2e9;
+
+bool is_one_super_element(const mesh::BodyMesh& body) {
+  return body.cells.size() == 1 && body.count(mesh::CellKind::superelement) == 1;
+}
+
+/// Number of symmetry blocks of a super-element whose mirror lines are parallel to the axes: 1, 2 or 4.
+int symmetry_blocks(const mesh::BodyMesh& body) {
+  const Vec2 centre = body.cells.front().centre;
+  double size = 0.0;
+  for (const Vec2& x : body.nodes) size = std::max(size, (x - centre).lpNorm<Eigen::Infinity>());
+  const auto place = [&](const Vec2& arm) {
+    return std::pair(std::llround(1e6 * arm.x() / size), std::llround(1e6 * arm.y() / size));
+  };
+  std::set<std::pair<long long, long long>> places;
+  for (const Vec2& x : body.nodes) places.insert(place(x - centre));
+  int blocks = 1;
+  for (const Vec2& mirror : {Vec2(-1.0, 1.0), Vec2(1.0, -1.0)})
+    if (std::all_of(body.nodes.begin(), body.nodes.end(),
+                    [&](const Vec2& x) { return places.contains(place((x - centre).cwiseProduct(mirror))); }))
+      blocks *= 2;
+  return blocks;
+}
+
+double log2_of(double n) { return std::log2(std::max(n, 2.0)); }
+
+double read_number_of(const std::string& file) {
+  std::ifstream stream(file);
+  double value = -1.0;
+  stream >> value;  // `max`: no limit
+  return stream ? value : -1.0;
+}
+
+/// Value of a line `key 123 kB` or `key 123`, in units of the line; -1 without one.
+double read_line_of(const std::string& file, const std::string& key) {
+  std::ifstream stream(file);
+  std::string name;
+  for (double value = 0.0; stream >> name; std::getline(stream, name))
+    if (name == key && stream >> value) return value;
+  return -1.0;
+}
+
+/// What the control group of this process leaves; file caches of the group count as free.
+double left_in_group() {
+  const double most = read_number_of("/sys/fs/cgroup/memory.max"),
+               used = read_number_of("/sys/fs/cgroup/memory.current");
+  if (most > 0.0 && used >= 0.0)
+    return most - used + std::max(0.0, read_line_of("/sys/fs/cgroup/memory.stat", "inactive_file"));
+  const std::string old = "/sys/fs/cgroup/memory/";
+  const double limit = read_number_of(old + "memory.limit_in_bytes"),
+               in_use = read_number_of(old + "memory.usage_in_bytes");
+  if (limit > 0.0 && limit < 1e18 && in_use >= 0.0)  // a limit of 2^63 is none
+    return limit - in_use + std::max(0.0, read_line_of(old + "memory.stat", "total_inactive_file"));
+  return -1.0;
+}
+
+std::string size_text(double bytes) {
+  if (bytes >= 0.995e9) return fmt::format("{:.2g} GB", bytes / 1e9);
+  const double megabytes = std::max(bytes / 1e6, 10.0), unit = megabytes >= 100.0 ? 10.0 : 1.0;
+  return fmt::format("{:.0f} MB", unit * std::round(megabytes / unit));  // two digits
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 1.0) return "less than a second";
+  if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConstants& costs) {
+  Plan plan;
+  plan.sizes = sizes_of(model, mesh);
+  plan.increments = increments_of(model);
+  plan.bytes = costs.base_bytes;
+  std::vector<double> pairs_of(model.bodies.size(), 0.0);
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    const model::Contact& contact = model.contacts[static_cast<std::size_t>(interface.contact)];
+    const auto count = static_cast<double>(interface.pairs.size());
+    pairs_of[static_cast<std::size_t>(contact.a.body)] += count;
+    if (contact.b.body != contact.a.body) pairs_of[static_cast<std::size_t>(contact.b.body)] += count;
+  }
+  const double written =
+      model.output.fields.any_of_bodies() ? std::ceil(static_cast<double>(plan.increments) / model.output.every) : 0.0;
+  std::set<std::tuple<std::size_t, int, double>> known;  // equal bodies are solved once
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    plan.first_mesh_only = plan.first_mesh_only || body.mesh.tolerance || model.tolerance;
+    if (body.rigid) continue;
+    const double n = 2.0 * static_cast<double>(mesh.bodies[b].nodes.size());
+    const double k = std::min(2.0 * pairs_of[b], n);
+    if (is_one_super_element(mesh.bodies[b])) {
+      const int blocks = symmetry_blocks(mesh.bodies[b]);
+      const bool is_new =
+          known.insert({mesh.bodies[b].nodes.size(), blocks, geometry::outline_size(body.outline)}).second;
+      const double work = costs.dense_seconds * n * n * n;
+      plan.bytes += (is_new ? 8.0 + costs.block_bytes / blocks : 8.0) * n * n;
+      if (is_new) plan.cells += work / (blocks * blocks);
+      if (is_new && written > 0.0) plan.fields += 0.5 * work / (blocks * blocks);
+      plan.factorise += 0.01 * work;
+      plan.condense += costs.dense_seconds * n * n * k;
+    } else {
+      plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
+      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && body.mesh.kind != model::MeshKind::fem;
+      if (cells_differ) {
+        plan.bytes += costs.own_cell_bytes * n;
+        plan.cells += costs.own_cell_seconds * n;
+      }
+      plan.mesh += costs.mesh_seconds * n;
+      plan.cells += costs.cell_seconds * n;
+      plan.factorise += costs.factor_seconds * std::pow(n, 1.5);
+      plan.condense += costs.solve_seconds * n * log2_of(n) * k;
+      plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
+    }
+    plan.fields += written * costs.field_seconds * n;
+  }
+  // W has a block for each body, dense within it; the systems of Newton's method are as sparse.
+  const double components = 2.0 * plan.sizes.contact_pairs;
+  double blocks = 0.0, widest = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].rigid) continue;
+    blocks += 4.0 * pairs_of[b] * pairs_of[b];
+    widest = std::max(widest, 2.0 * pairs_of[b]);
+  }
+  plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
+  plan.contact +=
+      plan.increments * costs.contact_seconds * components * components * std::max(widest, costs.least_width);
+  return plan;
+}
+
+bool is_long(const Plan& plan) { return plan.seconds() > long_seconds || plan.bytes > large_bytes; }
+
+std::string describe(const Plan& plan) {
+  std::string text = fmt::format("{}; about {} of memory, {}", describe_sizes(plan.sizes), size_text(plan.bytes),
+                                 duration_text(plan.seconds()));
+  if (plan.first_mesh_only) text += ", on the first mesh; refinement needs more";
+  text += '\n';
+  if (!is_long(plan)) return text;
+  std::vector<std::vector<std::string>> rows = {{"stage", "about"}};
+  const auto add = [&](const std::string& stage, double seconds) {
+    if (seconds >= 1.0) rows.push_back({stage, duration_text(seconds)});
+  };
+  add("mesh", plan.mesh);
+  add("super-elements", plan.cells);
+  add("factorisation", plan.factorise);
+  add("condensation to the contact pairs", plan.condense);
+  add(count(plan.increments, "increment"), plan.contact);
+  add("fields and files", plan.fields);
+  return text + result::table(rows);
+}
+
+std::optional<Memory> available_memory() {
+  std::optional<Memory> least;
+  const auto consider = [&](double bytes, const char* limit) {
+    if (bytes >= 0.0 && (!least || bytes < least->bytes)) least = Memory{bytes, limit};
+  };
+  if (const double kilobytes = read_line_of("/proc/meminfo", "MemAvailable:"); kilobytes >= 0.0)
+    consider(1024.0 * (kilobytes + std::max(0.0, read_line_of("/proc/meminfo", "SwapFree:"))), "this machine");
+  consider(left_in_group(), "the limit of this container");
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    if (const double kilobytes = read_line_of("/proc/self/status", "VmSize:"); kilobytes >= 0.0)
+      consider(static_cast<double>(limit.rlim_cur) - 1024.0 * kilobytes, "`ulimit -v`");
+  return least;
+}
+
+std::string why_it_does_not_fit(const Plan& plan, const std::optional<Memory>& available) {
+  const CostConstants costs;
+  if (!available || plan.bytes - costs.base_bytes <= available->bytes) return {};  // the program is there already
+  return fmt::format(
+      "not enough memory: the analysis needs about {}, and {} leaves {}: make the mesh coarser, use a larger machine, "
+      "or start it with --ignore-memory",
+      size_text(plan.bytes), available->limit, size_text(available->bytes));
+}
+
+}  // namespace scabo::app

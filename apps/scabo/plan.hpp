@@ -1,0 +1,73 @@
+// Memory and time that an analysis will need, estimated from its mesh before anything is solved.
+//
+// For a body of n degrees of freedom, b symmetry blocks, k components of its contacts, N pairs in all:
+//
+//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half as much for
+//     fields many cells          sparse_bytes n; mesh, cells and fields in a time proportional to n; more where no
+//     cells are
+//                         equal
+//     their factor        fill_bytes n log2(n); factor_seconds n^1.5             (nested dissection in the plane)
+//     condensation        dense: dense_seconds n^2 k; sparse: solve_seconds n log2(n) k
+//     contact             contact_bytes k^2; contact_seconds (2N)^2 k for each increment, of the largest k
+//
+// Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scabo/mesh/mesh.hpp"
+#include "scabo/model/model.hpp"
+#include "sizes.hpp"
+
+namespace scabo::app {
+
+/// Measured on one thread of a Xeon with AVX-512 (family 6, model 207). Bytes, or seconds.
+struct CostConstants {
+  double base_bytes = 25e6;        ///< of the program itself
+  double block_bytes = 88.0;       ///< for n^2 / b of a super-element: eleven matrices of ring doubling and modes
+  double dense_seconds = 7e-10;    ///< for n^3 / b^2
+  double sparse_bytes = 1300.0;    ///< for n: mesh, cells, fields and their text
+  double own_cell_bytes = 3000.0;  ///< for n of polygons and cells of a file, which are all different
+  double own_cell_seconds = 2e-5;  ///< for n of them
+  double fill_bytes = 150.0;       ///< for n log2(n): the factor and what its computation needs
+  double factor_seconds = 2e-8;    ///< for n^1.5
+  double mesh_seconds = 1e-6;      ///< for n
+  double cell_seconds = 1e-6;      ///< for n
+  double solve_seconds = 3.5e-9;   ///< for n log2(n) and one right-hand side
+  double contact_bytes = 50.0;     ///< for k^2 of each body: W and matrices of Newton's method
+  double contact_seconds = 1e-9;   ///< for (2N)^2 k of the body with the largest k and one increment
+  double least_width = 150.0;      ///< least k there, of many bodies with few pairs each
+  double field_seconds = 6e-6;     ///< for n and one increment with fields
+};
+
+struct Plan {
+  Sizes sizes;
+  int increments = 1;
+  bool first_mesh_only = false;  ///< refinement makes finer ones, which are not known yet
+  double bytes = 0.0;
+  double mesh = 0.0, cells = 0.0, factorise = 0.0, condense = 0.0, contact = 0.0, fields = 0.0;  ///< seconds
+  double seconds() const { return mesh + cells + factorise + condense + contact + fields; }
+};
+Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConstants& costs = {});
+
+/// `less than a second`, `40 s`, `12 min`, `3.5 h`.
+std::string duration_text(double seconds);
+
+/// Whether it takes more than a minute or 2 GB.
+bool is_long(const Plan& plan);
+
+/// One line; of long analyses also the time of every stage.
+std::string describe(const Plan& plan);
+
+/// Bytes that this process can still take: of the machine, of its control group (containers), of `ulimit -v`.
+struct Memory {
+  double bytes = 0.0;
+  std::string limit;  ///< `this machine`, `the limit of the container`, `ulimit -v`
+};
+std::optional<Memory> available_memory();
+
+/// Why the analysis does not fit, with a remedy; empty if it does.
+std::string why_it_does_not_fit(const Plan& plan, const std::optional<Memory>& available);
+
+}  // namespace scabo::app

@@ -1,0 +1,88 @@
+// `scabo resume`: continues a run from its checkpoint.
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "scabo/result/version.hpp"
+#include "settings.hpp"
+#include "startup.hpp"
+#include "static_run.hpp"
+#include "terminal.hpp"
+
+namespace scabo::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& file, std::string message) {
+  throw InputError(file, {{{}, std::move(message)}});
+}
+
+bool is_same(const std::string& path, const analysis::SourceFile& file) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && analysis::source_file(path).digest == file.digest;
+}
+
+/// Where the model file is: at its place of that time, or at the same place from the results directory.
+std::string model_of(const ResumeOptions& options, const analysis::RunOrigin& origin) {
+  const analysis::SourceFile& model = origin.files.at(0);
+  const std::string as_before = (fs::path(origin.folder) / origin.model).string();
+  std::vector<std::string> places = {as_before, (options.directory / origin.beside).lexically_normal().string()};
+  if (!options.model.empty()) places = {options.model};
+  std::error_code error;
+  for (const std::string& place : places)
+    if (is_same(place, model)) return place;
+  for (const std::string& place : places)
+    if (fs::exists(place, error))
+      refuse(place, "has changed since the run began: restore it, or start anew with `scabo run`");
+  refuse(places.front(),
+         "the model file of the run is no longer there: say where it is with --model, or start anew with `scabo run`");
+}
+
+void check_files(const model::Model& model, const analysis::RunOrigin& origin) {
+  bool same = model.files.size() + 1 == origin.files.size();
+  for (std::size_t i = 0; same && i < model.files.size(); ++i)
+    if (!is_same(model.files[i], origin.files[i + 1]))
+      refuse(model.files[i], "has changed since the run began: restore it, or start anew with `scabo run`");
+  if (!same) refuse(model.file, "names other files than when the run began: start anew with `scabo run`");
+}
+
+}  // namespace
+
+ExitStatus resume(const ResumeOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string name = options.directory.string();
+  std::error_code error;
+  if (!fs::is_directory(options.directory, error))
+    refuse(name, "there is no such directory: name the results directory of a run");
+  result::DirectoryLock lock(options.directory);
+  const auto status = result::status_in(options.directory);
+  if (!status) refuse(name, "holds no results of Scabo: name the results directory of a run");
+  if (*status != "running" && *status != "interrupted" && *status != "failed")
+    refuse(name, fmt::format("the run has ended with status `{}`: nothing is left to resume; `scabo run` starts anew",
+                             *status));
+  analysis::Checkpoint checkpoint = analysis::read_checkpoint(options.directory, std::string(result::version()));
+  const analysis::RunOrigin& origin = checkpoint.origin;
+  const std::string path = model_of(options, origin);
+  model::Model model = input::read_model(path, parse_settings(origin.settings));
+  check_files(model, origin);
+  model.file = origin.model;  // results do not depend on the place from which the run is resumed
+  const double reading = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  ignore_broken_pipes();
+  const int wanted = options.threads > 0 ? options.threads : origin.threads, threads = threads_that_fit(wanted);
+  if (!options.quiet) {
+    const std::size_t finished = checkpoint.from.increments.size();
+    print_to_stderr(finished > 0 ? fmt::format("Resuming after {}\n", count(static_cast<long>(finished), "increment"))
+                                 : std::string("No increment was finished: the run starts from the beginning\n"));
+  }
+  if (threads != origin.threads)
+    print_warning(fmt::format("the run began with {} and continues with {}: the last digits of results may differ",
+                              count(origin.threads, "thread"), threads));
+  const Interrupt interrupt;
+  result::ResultsDirectory directory(options.directory, std::move(lock), model, checkpoint.results);
+  return solve_and_write(
+      {model, directory, interrupt, std::move(checkpoint), reading, start, threads, options.quiet, {}, false});
+}
+
+}  // namespace scabo::app

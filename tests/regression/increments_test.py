@@ -1,0 +1,148 @@
+"""Automatic increments: few where nothing depends on the path, more where states change, the same in every unit."""
+import json
+import subprocess
+import unittest
+
+import support
+from support import scabo, summary_of
+
+# A block pressed on a rigid floor and pushed to and fro; lengths in `length` m, forces in N.
+MODEL = """
+scabo: 1
+analysis: {{plane: strain, thickness: {thickness}}}
+materials: {{steel: {{young: {young}, poisson: 0.3}}}}
+bodies:
+  block:
+    material: steel
+    shape: {{rectangle: {{corner: [0, 0], size: [{width}, {height}]}}}}
+    mesh: {{size: {size}}}
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [{left}, {left}], size: [{floor}, {height}]}}}}}}
+supports: [{{on: floor, fix: [x, y]}}{stop}]
+loads:
+  down: {{on: block.top, pressure: {pressure}}}
+  push: {{on: block.left, traction: [{traction}, 0]}}
+contacts: {{joint: {{between: [block.bottom, floor.top], friction: {friction}}}}}
+steps:
+  - {{name: press, increments: {increments}, loads: {{down: 1}}}}
+  - {{name: push, increments: {increments}, loads: {{push: 1}}}}
+  - {{name: pull, increments: {increments}, loads: {{push: -1}}}}
+  - {{name: again, increments: {increments}, loads: {{push: 1}}}}
+"""
+
+
+def model(increments, friction=0.5, length=1.0):
+    stop = "" if friction else ", {on: block.bottom_right, fix: x}"
+    return MODEL.format(increments=increments, friction=friction, stop=stop, thickness=1 / length, width=0.04 / length,
+                        height=0.01 / length, left=-0.01 / length, floor=0.06 / length, size=0.001 / length,
+                        young=210e9 * length**2, pressure=100e6 * length**2, traction=150e6 * length**2)
+
+
+class Increments(support.InTemporaryDirectory):
+    def solve(self, text, *settings):
+        path = self.directory / "model.yaml"
+        path.write_text(text, encoding="utf-8")
+        run = scabo("run", path, "--quiet", *(word for setting in settings for word in ("--set", setting)))
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return summary_of(self.directory / "model.results")["increments"]
+
+    def ends(self, increments, step):
+        return [increment["reached"] for increment in increments if increment["step"] == step]
+
+    def test_without_friction_increments_grow_to_the_largest(self):
+        increments = self.solve(model("auto", friction=0))
+        # By (7.4), sizes 0.1, 0.2, 0.25; the remaining 0.45 in halves.
+        for reached, end in zip(self.ends(increments, 1), [0.1, 0.3, 0.55, 0.775, 1.0], strict=True):
+            self.assertAlmostEqual(reached, end, places=12)
+        for step in (2, 3, 4):
+            self.assertLessEqual(len(self.ends(increments, step)), 7)  # on account of iterations only
+
+    def test_where_states_change_there_are_more(self):
+        increments = self.solve(model("auto"))
+        self.assertEqual(len(self.ends(increments, 1)), 5)  # all stick
+        self.assertGreaterEqual(len(self.ends(increments, 3)), 10)  # slip turns and spreads
+        self.assertLess(len(increments), 100)
+        for step in (1, 2, 3, 4):
+            ends = self.ends(increments, step)
+            self.assertEqual(ends[-1], 1.0)
+            self.assertEqual(ends, sorted(set(ends)))
+        for before, after in zip(increments, increments[1:]):
+            reached = after["reached"] - (before["reached"] if before["step"] == after["step"] else 0)
+            self.assertLessEqual(reached, 0.25 + 1e-12)
+
+    def test_factors_are_those_that_were_reached(self):
+        for increment in self.solve(model("auto")):
+            if increment["step"] == 3:
+                self.assertAlmostEqual(increment["factors"]["push"], 1 - 2 * increment["reached"], places=12)
+
+    def test_totals_are_those_of_many_fixed_increments(self):
+        fixed = self.solve(model(100))
+        work = {increment["step"]: increment["energy"] for increment in fixed if increment["reached"] == 1}
+        deviations = []
+        for increments in ("auto", "{largest: 0.05}", "{first: 0.02, largest: 0.02}"):
+            result = self.solve(model(increments))
+            ends = {increment["step"]: increment["energy"] for increment in result if increment["reached"] == 1}
+            for step in (1, 2, 3, 4):
+                self.assertAlmostEqual(ends[step]["external"] / work[step]["external"], 1, delta=4e-3)
+            deviations.append(abs(ends[4]["friction"] / work[4]["friction"] - 1))
+        self.assertLess(deviations[0], 0.01)
+        self.assertLess(deviations[2], 1e-3)
+        self.assertLess(deviations[1], 0.5 * deviations[0])
+        self.assertLess(deviations[2], 0.5 * deviations[1])
+
+    def test_units_do_not_matter(self):
+        metres, millimetres = (self.solve(model("auto", length=length)) for length in (1.0, 1e-3))
+        self.assertEqual([(i["step"], i["increment"]) for i in metres], [(i["step"], i["increment"]) for i in millimetres])
+        for one, other in zip(metres, millimetres):
+            self.assertAlmostEqual(one["reached"], other["reached"], places=12)
+
+    def test_limits_are_kept(self):
+        increments = self.solve(model("{first: 0.03, largest: 0.04, smallest: 0.02}"))
+        for step in (1, 2, 3, 4):
+            ends = [0.0, *self.ends(increments, step)]
+            sizes = [after - before for before, after in zip(ends, ends[1:])]
+            self.assertAlmostEqual(sizes[0], 0.03, places=12)
+            self.assertLessEqual(max(sizes), 0.04 + 1e-12)
+            self.assertGreaterEqual(min(sizes[:-1]), 0.02 - 1e-12)
+
+    def test_an_attempt_that_fails_is_halved_down_to_the_smallest(self):
+        path = self.directory / "model.yaml"
+        path.write_text(model("{first: 0.25, smallest: 0.05}").replace("traction: [150000000.0", "traction: [900e6"),
+                        encoding="utf-8")
+        run = scabo("run", path, "--quiet")
+        self.assertEqual(run.returncode, 2)  # the block is pushed away
+        last = summary_of(self.directory / "model.results")["increments"][-1]
+        self.assertFalse(last["converged"])
+
+    def test_all_meshes_of_an_error_estimate_have_the_same(self):
+        plain = self.solve(model("auto"))
+        estimated = self.solve(model("auto") + "output: {error: true}\n")
+        self.assertEqual([i["reached"] for i in plain], [i["reached"] for i in estimated])
+        self.assertTrue(all(increment["error"] for increment in estimated))
+
+    def test_log_and_check_name_them(self):
+        self.solve(model("{largest: 0.2}"))
+        log = (self.directory / "model.results" / "log.txt").read_text(encoding="utf-8")
+        self.assertIn("step press, increment 2, 30 % of the step: down = 0.3", log)
+        check = scabo("check", self.directory / "model.yaml")
+        self.assertIn("auto, 0.0001 to 0.2 of the step", check.stdout)
+
+
+class Plan(support.InTemporaryDirectory):
+    def test_one_line_for_a_small_model(self):
+        check = scabo("check", support.BEAM)
+        self.assertRegex(check.stdout, r"32 contact pairs; about \d+ MB of memory, less than a second\n\n")
+
+    def test_a_model_that_does_not_fit_is_refused_before_the_work(self):
+        settings = [word for body in ("lower", "upper") for word in
+                    ("--set", f"bodies.{body}.mesh={{size: 0.012, kind: quadtree}}")]
+        command = 'ulimit -v 1200000; exec "$0" run "$@"'
+        run = subprocess.run(["bash", "-c", command, support.SCABO, support.BEAM, "-q", "-o", self.directory / "out", *settings],
+                             capture_output=True, text=True, timeout=support.PATIENCE)
+        self.assertEqual(run.returncode, 3)
+        self.assertRegex(run.stderr, r"^scabo: not enough memory.*coarser.*\n$")
+        summary = json.loads((self.directory / "out" / "summary.json").read_text())
+        self.assertEqual(summary["status"], "failed")
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,258 @@
+"""A run that is killed at any moment and resumed gives the files of an unbroken run, bit by bit."""
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import support
+from support import scabo, summary_of
+
+KILLS = int(os.environ.get("SCABO_KILLS", "8"))  # benchmarks/README.md: 50
+SEED = int(os.environ.get("SCABO_SEED", "1"))
+
+MODEL = """
+scabo: 1
+title: Cycles of shear on two pressed blocks
+analysis: {plane: strain}
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  upper:
+    material: steel
+    shape: {rectangle: {corner: [0, 1e-2], size: [4e-2, 1e-2]}}
+    mesh: {size: 2e-3}
+  lower:
+    material: steel
+    shape: {rectangle: {corner: [-1e-2, 0], size: [6e-2, 1e-2]}}
+    mesh: {kind: quadtree, size: 5e-3}
+supports: [{on: lower.bottom, fix: [x, y]}]
+loads:
+  down: {on: upper.top, pressure: 100e6}
+  push: {on: upper.left, traction: [60e6, 0]}
+contacts: {joint: {between: [lower.top, upper.bottom], friction: {static: 0.5, dynamic: 0.4, slip_distance: 1e-5}}}
+steps:
+  - {name: press, increments: 4, loads: {down: 1}}
+  - {name: push, increments: auto, loads: {push: 1}}
+  - {name: pull, increments: {largest: 0.02}, loads: {push: -1}}
+  - {name: again, increments: 80, loads: {push: 1}}
+  - {name: back, increments: 80, loads: {push: 0}}
+output: {points: [[1e-2, 1.5e-2]], every: 3, discrete_problems: true}
+"""
+
+
+def content(directory):
+    """All files by name; of summary.json and log.txt what does not depend on the machine's speed."""
+    files = {}
+    for path in sorted(pathlib.Path(directory).rglob("*")):
+        if path.is_dir():
+            continue
+        name, data = str(path.relative_to(directory)), path.read_bytes()
+        if name == "summary.json":
+            summary = json.loads(data)
+            summary["timing"] = summary["peak_memory_bytes"] = None
+            data = json.dumps(summary).encode()
+        if name == "log.txt":
+            data = data.split(b"\n  stage ")[0]
+        files[name] = data
+    return files
+
+
+class Resume(unittest.TestCase):
+    def setUp(self):
+        # In memory, where waiting for the disk takes no time, nearly every increment has a checkpoint.
+        memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+        holder = tempfile.TemporaryDirectory(prefix="scabo_test_", dir=memory)
+        self.addCleanup(holder.cleanup)
+        self.directory = pathlib.Path(holder.name)
+        self.model = self.directory / "model.yaml"
+        self.model.write_text(MODEL, encoding="utf-8")
+        self.results = self.directory / "model.results"
+
+    def start(self, *words):
+        return subprocess.Popen([support.SCABO, *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                stdin=subprocess.DEVNULL)
+
+    def unbroken(self):
+        """The files of a run without interruption, and its seconds."""
+        begun = time.monotonic()
+        run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return content(self.directory / "whole"), time.monotonic() - begun
+
+    def assert_same(self, whole):
+        self.assertFalse(list(self.results.glob("checkpoint*")), "a finished run leaves no checkpoint")
+        resumed = content(self.results)
+        self.assertEqual(sorted(resumed), sorted(whole))
+        for name, data in whole.items():
+            self.assertEqual(resumed[name], data, name)
+
+    def killed(self, after_checkpoints=1):
+        """A run that was killed once it had written some checkpoints; whether it was still running."""
+        process = self.start("run", self.model, "--quiet")
+        seen, last = 0, None
+        while process.poll() is None and seen < after_checkpoints + 1:
+            try:
+                now = (self.results / "checkpoint.hdf5").stat().st_mtime_ns
+            except FileNotFoundError:
+                now = None
+            seen += now is not None and now != last
+            last = now or last
+            time.sleep(0.001)
+        process.kill()
+        return process.wait() == -signal.SIGKILL
+
+    def test_killed_at_random_moments(self):
+        whole, seconds = self.unbroken()
+        random.seed(SEED)
+        kills, rounds = 0, 0
+        while kills < KILLS and rounds < 20 * KILLS:
+            rounds += 1
+            shutil.rmtree(self.results, ignore_errors=True)
+            process = self.start("run", self.model, "--quiet")
+            while True:
+                time.sleep(random.uniform(0, 0.7) * seconds)
+                process.kill()
+                if process.wait() != -signal.SIGKILL:
+                    break
+                kills += 1
+                if not (self.results / "checkpoint.hdf5").exists():  # killed before it began
+                    process = self.start("run", self.model, "--quiet")
+                elif kills >= KILLS or random.random() < 0.5:
+                    run = scabo("resume", self.results, "--quiet")
+                    self.assertEqual((run.returncode, run.stderr), (0, ""))
+                    break
+                else:
+                    process = self.start("resume", self.results, "--quiet")
+            self.assert_same(whole)
+        self.assertGreaterEqual(kills, KILLS)
+
+    def test_half_written_files_are_cut_off(self):
+        whole, _ = self.unbroken()
+        self.assertTrue(self.killed(), "the run was too fast")
+        for name in ("contact.csv", "convergence.csv", "points.csv", "log.txt", "fields.pvd", "contact.pvd",
+                     "checkpoint.increments"):
+            with open(self.results / name, "ab") as file:
+                file.write(b"half a li")
+        for name in ("fields_9999.vtu", "contact_9999.vtu", "checkpoint.hdf5.new", "checkpoint.hdf5.new.part"):
+            (self.results / name).write_bytes(b"<half")
+        run = scabo("resume", self.results)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("Resuming after", run.stderr)
+        self.assert_same(whole)
+
+    def test_interrupted_run_goes_on(self):
+        whole, seconds = self.unbroken()
+        process = self.start("run", self.model, "--quiet")
+        time.sleep(0.4 * seconds)
+        process.send_signal(signal.SIGINT)
+        if process.wait() == 130 and summary_of(self.results)["status"] == "interrupted":
+            self.assertEqual(scabo("resume", self.results, "--quiet").returncode, 0)
+        self.assert_same(whole) if summary_of(self.results)["status"] == "solved" else self.fail("not resumed")
+
+    def test_moved_together_with_the_model(self):
+        whole, _ = self.unbroken()
+        self.assertTrue(self.killed(), "the run was too fast")
+        moved = self.directory / "moved"
+        moved.mkdir()
+        self.model.rename(moved / "model.yaml")
+        self.results = self.results.rename(moved / "model.results")
+        run = scabo("resume", self.results, "--quiet")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assert_same(whole)
+
+    def refused(self, sentence, *words):
+        before = content(self.results) if self.results.is_dir() else None
+        run = scabo("resume", *(words or [self.results]))
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertIn(sentence, run.stderr)
+        if before is not None:
+            self.assertEqual(content(self.results), before, "nothing is changed")
+
+    def test_what_cannot_be_resumed(self):
+        self.refused("there is no such directory")
+        self.results.mkdir()
+        self.refused("holds no results of Scabo")
+        self.assertTrue(self.killed(), "the run was too fast")
+        checkpoint = self.results / "checkpoint.hdf5"
+        good = checkpoint.read_bytes()
+
+        self.model.write_text(MODEL + "# a remark\n", encoding="utf-8")
+        self.refused("model.yaml: has changed since the run began")
+        self.model.unlink()
+        self.refused("the model file of the run is no longer there")
+        elsewhere = self.directory / "elsewhere.yaml"
+        elsewhere.write_text(MODEL + "# a remark\n", encoding="utf-8")
+        self.refused("elsewhere.yaml: has changed", self.results, "--model", elsewhere)
+        self.model.write_text(MODEL, encoding="utf-8")
+
+        text = good.index(summary_of(self.results)["scabo"].encode() + b"\0")
+        checkpoint.write_bytes(good[:text] + b"9" + good[text + 1:])
+        self.refused("was written by Scabo 9")
+        random.seed(SEED)
+        for _ in range(10):
+            at = random.randrange(len(good))
+            checkpoint.write_bytes(good[:at])
+            self.refused("the checkpoint is damaged")
+        records = self.results / "checkpoint.increments"
+        checkpoint.write_bytes(good)
+        kept = records.read_bytes()
+        for at in (3, 40, len(kept) // 2):
+            records.write_bytes(kept[:at] + bytes([kept[at] ^ 1]) + kept[at + 1:])
+            if at < len(kept) // 2:
+                self.refused("the checkpoint is damaged")
+        records.unlink()
+        self.refused("the checkpoint is damaged")
+        records.write_bytes(kept)
+
+        (self.results / "contact.csv").write_bytes(b"")
+        run = scabo("resume", self.results)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("contact.csv: it is shorter than the run left it", run.stderr)
+        checkpoint.unlink()
+        self.refused("there is no checkpoint to resume from")
+
+    def test_a_finished_run(self):
+        self.assertEqual(scabo("run", self.model, "--quiet").returncode, 0)
+        self.refused("has ended with status `solved`")
+
+    def test_a_mesh_file_that_has_changed(self):
+        source = support.ROOT / "tests" / "input" / "good"
+        shutil.copy(source / "blocks.msh", self.directory)
+        text = (source / "mesh_file.yaml").read_text(encoding="utf-8")
+        self.assertNotIn("steps:", text)
+        self.model.write_text(text + "steps: [{increments: 2000}]\n", encoding="utf-8")
+        self.assertTrue(self.killed(), "the run was too fast")
+        with open(self.directory / "blocks.msh", "a", encoding="utf-8") as file:
+            file.write("\n")
+        self.refused("blocks.msh: has changed since the run began")
+
+    def test_damage_is_found_wherever_it_is(self):
+        self.assertTrue(self.killed(), "the run was too fast")
+        whole = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+        self.assertEqual(whole.returncode, 0)
+        expected = content(self.directory / "whole")
+        checkpoint = self.results / "checkpoint.hdf5"
+        good, kept = checkpoint.read_bytes(), self.directory / "kept"
+        shutil.copytree(self.results, kept)
+        random.seed(SEED)
+        for _ in range(12):
+            shutil.rmtree(self.results)
+            shutil.copytree(kept, self.results)
+            at = random.randrange(len(good))
+            checkpoint.write_bytes(good[:at] + bytes([good[at] ^ (1 << random.randrange(8))]) + good[at + 1:])
+            run = scabo("resume", self.results, "--quiet")
+            if run.returncode == 0:  # a byte that HDF5 does not use
+                self.assertEqual(content(self.results), expected)
+            else:
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+
+
+if __name__ == "__main__":
+    support.main()
