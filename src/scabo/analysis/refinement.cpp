@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
@@ -42,9 +43,14 @@ bool is_refined(const model::Body& body) {
   return !body.rigid && body.mesh.tolerance && model::is_divided_inside(body);
 }
 
-double growth_of(const model::Body& body) {
-  return body.mesh.kind == model::MeshKind::quadtree ? growth_of_squares : model::mesh_growth;
-}
+/// Whether a cell is divided by itself, into halves of its size. Otherwise the body gets a new mesh.
+bool is_halved(const model::Body& body) { return body.mesh.kind == model::MeshKind::quadtree || body.imported; }
+
+/// Whether single sides are marked instead of cells: of few large super-elements, only what is on their boundary is
+/// divided.
+bool is_marked_by_sides(const model::Body& body) { return body.mesh.kind == model::MeshKind::parts; }
+
+double growth_of(const model::Body& body) { return is_halved(body) ? growth_of_squares : model::mesh_growth; }
 
 struct CellBox {
   Vec2 middle;
@@ -69,9 +75,26 @@ CellBox box_of(const mesh::BodyMesh& mesh, const mesh::Cell& cell) {
 /// cuts, only the size that was wanted there is known, which is less than twice that of the square.
 double size_of(const mesh::Cell& cell, const CellBox& box, const model::Body& body, const mesh::SizeField& sizes) {
   const double wanted = mesh::wanted_size(body, sizes, box.middle);
+  if (body.imported) return box.side;
   if (body.mesh.kind != model::MeshKind::quadtree) return std::min(box.side, wanted);
   if (cell.is_open()) return 0.5 * box.side;
   return box.filled ? box.side : std::clamp(box.side, 0.5 * wanted, wanted);
+}
+
+/// Middle and length of the chord of a boundary element, counted over all cells.
+std::pair<Vec2, double> side_of(const mesh::BodyMesh& mesh, int number) {
+  for (const mesh::Cell& cell : mesh.cells) {
+    const int count = static_cast<int>(cell.boundary.size());
+    if (number >= count) {
+      number -= count;
+      continue;
+    }
+    const mesh::LineElement& element = cell.boundary[static_cast<std::size_t>(number)];
+    const Vec2 &from = mesh.nodes[static_cast<std::size_t>(element.nodes.front())],
+               &to = mesh.nodes[static_cast<std::size_t>(element.nodes.back())];
+    return {0.5 * (from + to), (to - from).norm()};
+  }
+  throw BrokenInvariant("a marked side is one of the body");
 }
 
 /// Elements that face each other, of edges that are divided as `division` says.
@@ -252,7 +275,8 @@ std::vector<Part> CellRefinement::parts(const MeshErrors& errors) const {
     const auto body = static_cast<std::size_t>(b);
     if (!is_refined(model_.bodies[body])) continue;
     for (std::size_t c = 0; c < errors.shares[body].size(); ++c)
-      parts.push_back({{b, -1, static_cast<int>(c)}, errors.shares[body][c]});
+      if (!is_marked_by_sides(model_.bodies[body]) || !errors.frozen[body][c])
+        parts.push_back({{b, -1, static_cast<int>(c)}, errors.shares[body][c]});
   }
   return parts;
 }
@@ -283,10 +307,30 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
     const auto b = static_cast<std::size_t>(part.at.body);
     const model::Body& body = model_.bodies[b];
     const mesh::BodyMesh& mesh = errors.mesh.bodies[b];
+    if (is_marked_by_sides(body)) {
+      const auto [middle, length] = side_of(mesh, part.at.element);
+      const double next = 0.5 * length;
+      if (next < shortest * geometry::outline_size(body.outline)) continue;
+      samples[b].push_back({middle, next});
+      cells[b] += static_cast<double>(mesh.cells.size()) / static_cast<double>(errors.shares[b].size());
+      ++pass.divided;
+      continue;
+    }
     const mesh::Cell& cell = mesh.cells[static_cast<std::size_t>(part.at.element)];
     const CellBox box = box_of(mesh, cell);
+    if (body.imported && cell.is_open()) {  // it keeps its size, and gets more points along its boundary
+      for (const mesh::LineElement& element : cell.boundary) {
+        const Vec2 &from = mesh.nodes[static_cast<std::size_t>(element.nodes.front())],
+                   &to = mesh.nodes[static_cast<std::size_t>(element.nodes.back())];
+        const double next = 0.5 * (to - from).norm();
+        if (next > smallest_cell * geometry::outline_size(body.outline)) samples[b].push_back({0.5 * (from + to), next});
+      }
+      cells[b] += static_cast<double>(cell.boundary.size());
+      ++pass.divided;
+      continue;
+    }
     const double size = size_of(cell, box, body, sizes_[b]);
-    const bool square = body.mesh.kind == model::MeshKind::quadtree;
+    const bool square = is_halved(body);
     const double target = aim_of_cells / static_cast<double>(all);
     const double factor =
         square ? 0.5

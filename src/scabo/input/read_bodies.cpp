@@ -21,17 +21,20 @@ int corner_at(const Outline& outline, const Vec2& point) {
   return -1;
 }
 
-/// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02}]`.
+}  // namespace
+
+/// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02, growth: 0.1}]`.
 std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const Outline* outline) {
   std::vector<LocalSize> sizes;
   const auto items = read_list(reading.report, value, "[{near: [0, 0], size: 0.01}]");
   if (!items) return sizes;
   for (const Value& item : *items) {
-    const MapReader map(reading.report, item, {"near", "on", "size"}, "{near: [0, 0], size: 0.01}");
+    const MapReader map(reading.report, item, {"near", "on", "size", "growth"}, "{near: [0, 0], size: 0.01}");
     if (!map.is_map()) continue;
     LocalSize local;
     local.source = item.source();
     local.size = number_or_unread(reading, map.need("size"));
+    if (const auto growth = map.get("growth")) local.growth = number_or_unread(reading, growth);
     if (map.has("near") == map.has("on")) {
       reading.report.error(item, "needs either 'near', a point, or 'on', an edge of the body");
       continue;
@@ -55,8 +58,6 @@ std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const O
   }
   return sizes;
 }
-
-}  // namespace
 
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
@@ -139,6 +140,13 @@ void choose_centre(Body& body) {
     body.mesh.centre = *seeing;
   else
     body.mesh.kind = MeshKind::parts;
+}
+
+/// One super-element has one straight crack, and neither holes nor regions.
+bool needs_cells_for_cracks(const Body& body) {
+  if (body.cracks.empty() || body.outside || !body.sector_materials.empty()) return false;
+  return body.cracks.size() > 1 || !body.cracks.front().path.empty() || !body.outline.holes.empty() ||
+         !body.regions.empty();
 }
 
 void add_body(Reading& reading, Body body, const BodyState& state) {
@@ -276,12 +284,13 @@ void read_body(Reading& reading, const Entry& entry) {
     if (mesh)
       body.mesh = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
                             body.cracks.empty() || !body.cracks.front().path.empty() ? nullptr : &body.cracks.front());
-    if (body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree)
+    if (body.mesh.kind == MeshKind::superelement && needs_cells_for_cracks(body)) body.mesh.kind = MeshKind::polygons;
+    if (body.mesh.kind != MeshKind::superelement)
       for (Crack& crack : body.cracks)
         if (crack.path.empty()) crack.path = {crack.mouth, crack.tip}, crack.edge = -1;
     const bool has_centre = mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre");
     const bool one = body.mesh.kind == MeshKind::superelement && !cracks && !map.has("outside") && !map.has("sectors");
-    if (one && !has_centre && state.shape && !body.mesh.tolerance) choose_centre(body);
+    if (one && !has_centre && state.shape) choose_centre(body);
     // Names of side faces, and of the crack, may not be known.
     const bool broken = report.count() > before;
     if (broken && (cracks || has_centre))

@@ -10,7 +10,7 @@
 
 namespace scabo::mesh {
 
-/// Wanted length of the sides of cells at a point of the body: mesh.size, less near places of mesh.refine, and no more
+/// Wanted length of the sides of cells at a point of the body: mesh.size (from a file: any), less near places of mesh.refine, and no more
 /// than `sizes`.
 double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x);
 

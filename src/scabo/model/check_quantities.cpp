@@ -11,9 +11,7 @@ namespace {
 
 /// Whether meshes of the body can be refined for a tolerance.
 bool can_be_refined(const Body& body) {
-  const MeshKind kind = body.mesh.kind;
-  return !body.rigid && !body.imported && !body.image &&
-         (kind == MeshKind::superelement || kind == MeshKind::polygons || kind == MeshKind::quadtree);
+  return !body.rigid && !body.image && body.mesh.kind != MeshKind::fem;
 }
 
 /// Whether finer meshes than that of the body can be made, which show its error.
@@ -31,13 +29,6 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
   const Body& body = checking.body(quantity.index);
   if (body.rigid) {
     checking.error(path, "", fmt::format("body '{}' is rigid, and has no stress intensity factors", body.name));
-    return;
-  }
-  if (body.mesh.kind == MeshKind::fem) {
-    checking.error(path, "",
-                   fmt::format("body '{}' is made of finite elements, which have no stress intensity "
-                               "factors: use kind: superelement, polygons or quadtree",
-                               body.name));
     return;
   }
   const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')),
