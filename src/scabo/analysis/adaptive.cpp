@@ -325,8 +325,7 @@ MeshErrors errors_of(const StaticSolution& solution, const StaticSolution& wider
   for (std::size_t b = 0; b < errors.shares.size(); ++b) {
     const model::Body& body = solution.model.bodies[b];
     if (!body.mesh.tolerance || !has_estimate(solution, b)) continue;
-    const bool by_cells = model::is_divided_inside(body) && body.mesh.kind != model::MeshKind::parts;
-    const std::vector<double> of_parts = by_cells
+    const std::vector<double> of_parts = model::is_divided_inside(body)
                                              ? cell_errors(solution, increment, wider, wider_increment, b)
                                              : element_errors(solution, increment, wider, wider_increment, b);
     for (const double error : of_parts) errors.shares[b].push_back(std::pow(error / *body.mesh.tolerance, 2));

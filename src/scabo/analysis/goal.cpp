@@ -268,8 +268,7 @@ GoalPass solve_goal_pass(const model::Model& model, mesh::Mesh mesh, const Optio
 std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b, const Vector& u, const Vector& U,
                                             bool loaded) {
   const StaticSolution& solution = pass.solution;
-  const model::Body& body = solution.model.bodies[b];
-  const bool in_cells = model::is_divided_inside(body) && body.mesh.kind != model::MeshKind::parts;
+  const bool in_cells = model::is_divided_inside(solution.model.bodies[b]);
   std::vector<double> squared;
   for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
     const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *pass.wider->cells[b][c];
@@ -317,7 +316,7 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
 model::Model with_tolerances(model::Model model) {
   for (model::Body& body : model.bodies) {
     const model::MeshKind kind = body.mesh.kind;
-    if (!body.rigid && !body.image && kind != model::MeshKind::fem) body.mesh.tolerance = model.tolerance->relative;
+    if (!body.rigid && !body.image && kind != model::MeshKind::fem && kind != model::MeshKind::parts) body.mesh.tolerance = model.tolerance->relative;
   }
   try {
     check_refinable(model, mesh::make_mesh(model));

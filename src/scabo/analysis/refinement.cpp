@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <utility>
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
@@ -46,11 +45,11 @@ bool is_refined(const model::Body& body) {
 /// Whether a cell is divided by itself, into halves of its size. Otherwise the body gets a new mesh.
 bool is_halved(const model::Body& body) { return body.mesh.kind == model::MeshKind::quadtree || body.imported; }
 
-/// Whether single sides are marked instead of cells: of few large super-elements, only what is on their boundary is
-/// divided.
-bool is_marked_by_sides(const model::Body& body) { return body.mesh.kind == model::MeshKind::parts; }
-
 double growth_of(const model::Body& body) { return is_halved(body) ? growth_of_squares : model::mesh_growth; }
+
+/// Sides around the tip of a crack beyond which they are not divided for its sake: the singular stress is resolved long
+/// before, and the cell is solved with dense matrices.
+constexpr std::size_t most_sides_around_tip = 100;
 
 struct CellBox {
   Vec2 middle;
@@ -79,22 +78,6 @@ double size_of(const mesh::Cell& cell, const CellBox& box, const model::Body& bo
   if (body.mesh.kind != model::MeshKind::quadtree) return std::min(box.side, wanted);
   if (cell.is_open()) return 0.5 * box.side;
   return box.filled ? box.side : std::clamp(box.side, 0.5 * wanted, wanted);
-}
-
-/// Middle and length of the chord of a boundary element, counted over all cells.
-std::pair<Vec2, double> side_of(const mesh::BodyMesh& mesh, int number) {
-  for (const mesh::Cell& cell : mesh.cells) {
-    const int count = static_cast<int>(cell.boundary.size());
-    if (number >= count) {
-      number -= count;
-      continue;
-    }
-    const mesh::LineElement& element = cell.boundary[static_cast<std::size_t>(number)];
-    const Vec2 &from = mesh.nodes[static_cast<std::size_t>(element.nodes.front())],
-               &to = mesh.nodes[static_cast<std::size_t>(element.nodes.back())];
-    return {0.5 * (from + to), (to - from).norm()};
-  }
-  throw BrokenInvariant("a marked side is one of the body");
 }
 
 /// Elements that face each other, of edges that are divided as `division` says.
@@ -275,8 +258,7 @@ std::vector<Part> CellRefinement::parts(const MeshErrors& errors) const {
     const auto body = static_cast<std::size_t>(b);
     if (!is_refined(model_.bodies[body])) continue;
     for (std::size_t c = 0; c < errors.shares[body].size(); ++c)
-      if (!is_marked_by_sides(model_.bodies[body]) || !errors.frozen[body][c])
-        parts.push_back({{b, -1, static_cast<int>(c)}, errors.shares[body][c]});
+      parts.push_back({{b, -1, static_cast<int>(c)}, errors.shares[body][c]});
   }
   return parts;
 }
@@ -284,7 +266,7 @@ std::vector<Part> CellRefinement::parts(const MeshErrors& errors) const {
 void CellRefinement::divide_at(const mesh::Mesh& mesh, const model::Place& point, double part) {
   const auto b = static_cast<std::size_t>(point.body);
   const model::Body& body = model_.bodies[b];
-  if (!is_refined(body)) return;
+  if (!is_refined(body) || body.imported) return;  // a mesh of a file has no size
   std::vector<mesh::SizeField::Sample> samples = sizes_[b].samples();
   for (const int node : mesh::nodes_of(point, mesh).nodes)
     samples.push_back({mesh.bodies[b].nodes[static_cast<std::size_t>(node)], part * body.mesh.size});
@@ -307,18 +289,10 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
     const auto b = static_cast<std::size_t>(part.at.body);
     const model::Body& body = model_.bodies[b];
     const mesh::BodyMesh& mesh = errors.mesh.bodies[b];
-    if (is_marked_by_sides(body)) {
-      const auto [middle, length] = side_of(mesh, part.at.element);
-      const double next = 0.5 * length;
-      if (next < shortest * geometry::outline_size(body.outline)) continue;
-      samples[b].push_back({middle, next});
-      cells[b] += static_cast<double>(mesh.cells.size()) / static_cast<double>(errors.shares[b].size());
-      ++pass.divided;
-      continue;
-    }
     const mesh::Cell& cell = mesh.cells[static_cast<std::size_t>(part.at.element)];
     const CellBox box = box_of(mesh, cell);
     if (body.imported && cell.is_open()) {  // it keeps its size, and gets more points along its boundary
+      if (cell.boundary.size() >= most_sides_around_tip) continue;
       for (const mesh::LineElement& element : cell.boundary) {
         const Vec2 &from = mesh.nodes[static_cast<std::size_t>(element.nodes.front())],
                    &to = mesh.nodes[static_cast<std::size_t>(element.nodes.back())];

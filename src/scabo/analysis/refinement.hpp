@@ -21,8 +21,7 @@ struct Part {
 /// What the estimate says of a mesh.
 struct MeshErrors {
   const mesh::Mesh& mesh;
-  /// [body][boundary element] of a body of one cell or of few parts, [body][cell] of others: shares; empty without a
-  /// tolerance.
+  /// [body][boundary element] of a body of one cell, [body][cell] of others: shares; empty without a tolerance.
   std::vector<std::vector<double>> shares;
   std::vector<std::vector<bool>> frozen;  ///< [body][boundary element of all cells, in their order]: not to be changed
                                           ///< in bodies of one cell
@@ -75,7 +74,7 @@ class BoundaryRefinement : public Refinement {
 /// Cells of all other meshes: sizes that become smaller from pass to pass. A marked square is halved; a
 /// polygon of order p with the squared error e gets the size h (e' / e)^(1 / (2 p + 2)), between 0.35 h and 0.7 h, with
 /// e' the squared error that each of the present cells may have. So does a triangle. A cell of a file is halved as a
-/// square is (mesh/divided_file.hpp), and so is a marked side of one of few parts.
+/// square is (mesh/divided_file.hpp).
 class CellRefinement : public Refinement {
  public:
   explicit CellRefinement(const model::Model& model);

@@ -139,7 +139,7 @@ void choose_centre(Body& body) {
   if (seeing)
     body.mesh.centre = *seeing;
   else
-    body.mesh.kind = MeshKind::parts;
+    body.mesh.kind = body.mesh.tolerance ? MeshKind::polygons : MeshKind::parts;  // parts are too large to refine
 }
 
 /// One super-element has one straight crack, and neither holes nor regions.
