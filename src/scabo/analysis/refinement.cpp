@@ -49,7 +49,7 @@ double growth_of(const model::Body& body) { return is_halved(body) ? growth_of_s
 
 /// Sides around the tip of a crack beyond which they are not divided for its sake: the singular stress is resolved long
 /// before, and the cell is solved with dense matrices.
-constexpr std::size_t most_sides_around_tip = 100;
+constexpr std::size_t most_sides_around_tip = 40;
 
 struct CellBox {
   Vec2 middle;
