@@ -8,19 +8,17 @@
 namespace scabo::mesh {
 namespace {
 
-using files::CellKind;
-using files::ImportedMesh;
 
-ImportedMesh two_squares() {
-  ImportedMesh mesh;
+files::ImportedMesh two_squares() {
+  files::ImportedMesh mesh;
   mesh.nodes = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
-  mesh.cells = {{CellKind::quad4, {0, 1, 4, 3}}, {CellKind::quad4, {1, 2, 5, 4}}};
+  mesh.cells = {{files::CellKind::quad4, {0, 1, 4, 3}}, {files::CellKind::quad4, {1, 2, 5, 4}}};
   mesh.regions = {"all"};
   mesh.facet_sets = {{"bottom", {{0, 1, -1}, {1, 2, -1}}}};
   return mesh;
 }
 
-double area(const ImportedMesh& mesh) {
+double area(const files::ImportedMesh& mesh) {
   double sum = 0.0;
   for (const files::ImportedCell& cell : mesh.cells) sum += files::area_of(mesh, cell);
   return sum;
@@ -29,11 +27,11 @@ double area(const ImportedMesh& mesh) {
 // The left square becomes four; the right one keeps its place and gets a fifth corner.
 TEST(DividedFile, NeighbourTakesTheNewPoint) {
   const auto size = [](const Vec2& x) { return x.x() < 1.0 ? 0.5 : 1.0; };
-  const ImportedMesh mesh = divided_mesh(two_squares(), size, 1e6);
+  const files::ImportedMesh mesh = divided_mesh(two_squares(), size, 1e6);
   ASSERT_EQ(mesh.cells.size(), 5);
   EXPECT_EQ(mesh.nodes.size(), 6 + 5);
   int fives = 0;
-  for (const files::ImportedCell& cell : mesh.cells) fives += cell.corners() == 5 && cell.kind == CellKind::polygon;
+  for (const files::ImportedCell& cell : mesh.cells) fives += cell.corners() == 5 && cell.kind == files::CellKind::polygon;
   EXPECT_EQ(fives, 1);
   EXPECT_NEAR(area(mesh), 2.0, 1e-14);
   ASSERT_EQ(mesh.facet_sets.front().facets.size(), 3);
@@ -41,30 +39,30 @@ TEST(DividedFile, NeighbourTakesTheNewPoint) {
 }
 
 TEST(DividedFile, EveryCellToTheWantedSize) {
-  const ImportedMesh mesh = divided_mesh(two_squares(), [](const Vec2&) { return 0.25; }, 1e6);
+  const files::ImportedMesh mesh = divided_mesh(two_squares(), [](const Vec2&) { return 0.25; }, 1e6);
   EXPECT_EQ(mesh.cells.size(), 32);
   EXPECT_EQ(mesh.nodes.size(), 9 * 5);
-  for (const files::ImportedCell& cell : mesh.cells) EXPECT_EQ(cell.kind, CellKind::quad4);
+  for (const files::ImportedCell& cell : mesh.cells) EXPECT_EQ(cell.kind, files::CellKind::quad4);
 }
 
 TEST(DividedFile, NoCellIsTooLarge) {
-  const ImportedMesh given = two_squares();
-  const ImportedMesh mesh = divided_mesh(given, [](const Vec2&) { return 1.0; }, 1e6);
+  const files::ImportedMesh given = two_squares();
+  const files::ImportedMesh mesh = divided_mesh(given, [](const Vec2&) { return 1.0; }, 1e6);
   EXPECT_EQ(mesh.cells.size(), 2);
   EXPECT_EQ(mesh.nodes.size(), given.nodes.size());
 }
 
 // New points of a curved side lie on its parabola, and those of a triangle make three quadrilaterals.
 TEST(DividedFile, CurvedSidesKeepTheirPlace) {
-  ImportedMesh mesh;
+  files::ImportedMesh mesh;
   mesh.nodes = {{0, 0}, {2, 0}, {0, 2}, {1, -0.5}, {1, 1}, {0, 1}};
-  mesh.cells = {{CellKind::triangle6, {0, 1, 2, 3, 4, 5}}};
+  mesh.cells = {{files::CellKind::triangle6, {0, 1, 2, 3, 4, 5}}};
   mesh.regions = {"all"};
   mesh.facet_sets = {{"bow", {{0, 1, 3}}}};
   const double before = area(mesh);
   const auto y = [](double x) { return 0.5 * x * (x - 2.0); };
   for (const double size : {1.9, 0.9, 0.4}) {
-    const ImportedMesh fine = divided_mesh(mesh, [&](const Vec2&) { return size; }, 1e6);
+    const files::ImportedMesh fine = divided_mesh(mesh, [&](const Vec2&) { return size; }, 1e6);
     EXPECT_NEAR(area(fine), before, 1e-13);
     EXPECT_GE(fine.cells.size(), 3);
     for (const files::Facet& facet : fine.facet_sets.front().facets)
@@ -77,7 +75,7 @@ TEST(DividedFile, CurvedSidesKeepTheirPlace) {
 }
 
 TEST(DividedFile, EndsWhenThereAreTooMany) {
-  const ImportedMesh mesh = divided_mesh(two_squares(), [](const Vec2&) { return 1e-6; }, 1000);
+  const files::ImportedMesh mesh = divided_mesh(two_squares(), [](const Vec2&) { return 1e-6; }, 1000);
   EXPECT_GT(mesh.cells.size(), 1000);
   EXPECT_LT(mesh.cells.size(), 1010);
 }
