@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <unordered_map>
 
 #include "scabo/geometry/box.hpp"
@@ -118,6 +119,19 @@ class Divider {
     for (const Facet& half : halves_of(side)) add_parts(half, parts);
   }
 
+  /// The middle of a convex quadrilateral's bilinear map, whose quarters are convex again, and the centroid of the corners
+  /// of a triangle; of other cells a point that sees all, or nothing.
+  std::optional<Vec2> point_inside(const Undivided& cell, const std::vector<Vec2>& polygon) const {
+    if (cell.sides.size() <= 4) {
+      Vec2 mean = Vec2::Zero();
+      for (const Facet& side : cell.sides) mean += at(side.start) / static_cast<double>(cell.sides.size());
+      if (visibility(polygon, mean) > 0.0) return mean;
+    }
+    const KernelCentre inside = kernel_centre(polygon, centroid_sees);
+    if (!(inside.visibility > 0.0)) return std::nullopt;
+    return inside.centre;
+  }
+
   /// False if no point sees the whole cell.
   bool divide(const Undivided& cell, std::deque<Undivided>& cells) {
     std::vector<Vec2> polygon;
@@ -125,9 +139,9 @@ class Divider {
       polygon.push_back(at(side.start));
       if (side.middle >= 0) polygon.push_back(at(side.middle));
     }
-    const KernelCentre inside = kernel_centre(polygon, centroid_sees);
-    if (!(inside.visibility > 0.0)) return false;
-    const int centre = add_node(inside.centre);
+    const std::optional<Vec2> inside = point_inside(cell, polygon);
+    if (!inside) return false;
+    const int centre = add_node(*inside);
     const bool quadratic = files::is_quadratic(cell.from->kind);
     const std::size_t count = cell.sides.size();
     std::vector<std::array<Facet, 2>> halves;
@@ -135,7 +149,7 @@ class Divider {
     for (const Facet& side : cell.sides) {
       halves.push_back(halves_of(side));
       const int middle = halves.back()[0].end;
-      spokes.push_back({middle, centre, quadratic ? add_node(0.5 * (at(middle) + inside.centre)) : -1});
+      spokes.push_back({middle, centre, quadratic ? add_node(0.5 * (at(middle) + *inside)) : -1});
     }
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t before = (i + count - 1) % count;
