@@ -281,7 +281,8 @@ CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::s
   const mesh::Cell& cell = mesh.cells[c];
   std::map<int, int> own;
   for (const int node : cell.nodes()) own.emplace(node, static_cast<int>(own.size()));
-  CellStiffness made{cell.boundary, Matrix::Zero(2 * static_cast<Eigen::Index>(own.size()), 2 * static_cast<Eigen::Index>(own.size()))};
+  CellStiffness made{cell.boundary, Matrix::Zero(2 * static_cast<Eigen::Index>(own.size()),
+                                                 2 * static_cast<Eigen::Index>(own.size()))};
   for (mesh::LineElement& element : made.elements)
     for (int& node : element.nodes) node = own.at(node);
   const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
@@ -311,8 +312,8 @@ std::vector<double> squared_errors(const StaticSolution& solution, const Increme
     const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
     // Loads inside a cell are not among the forces on its boundary.
     const bool relaxed = element::loads_in(increment.fields.interior[b], c).loads.empty();
-    squared.push_back(element::squared_difference(
-        {narrow.elements, narrow.k, u, wide.ring.elements, wide.solution.K, U, relaxed}));
+    squared.push_back(
+        element::squared_difference({narrow.elements, narrow.k, u, wide.ring.elements, wide.solution.K, U, relaxed}));
   }
   return squared;
 }

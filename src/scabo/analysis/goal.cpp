@@ -316,7 +316,8 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
 model::Model with_tolerances(model::Model model) {
   for (model::Body& body : model.bodies) {
     const model::MeshKind kind = body.mesh.kind;
-    if (!body.rigid && !body.image && kind != model::MeshKind::fem && kind != model::MeshKind::parts) body.mesh.tolerance = model.tolerance->relative;
+    if (!body.rigid && !body.image && kind != model::MeshKind::fem && kind != model::MeshKind::parts)
+      body.mesh.tolerance = model.tolerance->relative;
   }
   try {
     check_refinable(model, mesh::make_mesh(model));

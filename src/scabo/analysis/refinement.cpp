@@ -297,7 +297,8 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
         const Vec2 &from = mesh.nodes[static_cast<std::size_t>(element.nodes.front())],
                    &to = mesh.nodes[static_cast<std::size_t>(element.nodes.back())];
         const double next = 0.5 * (to - from).norm();
-        if (next > smallest_cell * geometry::outline_size(body.outline)) samples[b].push_back({0.5 * (from + to), next});
+        if (next > smallest_cell * geometry::outline_size(body.outline))
+          samples[b].push_back({0.5 * (from + to), next});
       }
       cells[b] += static_cast<double>(cell.boundary.size());
       ++pass.divided;

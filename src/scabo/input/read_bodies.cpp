@@ -151,7 +151,8 @@ bool needs_cells_for_cracks(const Body& body) {
 
 void add_body(Reading& reading, Body body, const BodyState& state) {
   if (!reading.index_of_body.emplace(body.name, static_cast<int>(reading.model.bodies.size())).second) {
-    reading.report.error(body.source, fmt::format("there is already a body named '{}': choose another name", body.name));
+    reading.report.error(body.source,
+                         fmt::format("there is already a body named '{}': choose another name", body.name));
     return;
   }
   reading.model.bodies.push_back(std::move(body));
@@ -211,11 +212,12 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
     steps.push_back(read_vector(report, *step_value).value_or(Vec2::Zero()));
   }
   if (report.count() == before && (counts.empty() || counts.size() > 2 || steps.size() != counts.size()))
-    report.error(value, "needs one count and one step, as in {count: 3, step: [1, 0]}, or two of each, as in {count: [2, "
-                        "3], step: [[1, 0], [0, 1]]}");
+    report.error(value,
+                 "needs one count and one step, as in {count: 3, step: [1, 0]}, or two of each, as in {count: [2, "
+                 "3], step: [[1, 0], [0, 1]]}");
   if (report.count() == before && counts.size() == 2 && counts[0] * counts[1] > limits::copies.most)
-    report.error(*count_value, fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1],
-                                           limits::copies.most));
+    report.error(*count_value,
+                 fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1], limits::copies.most));
   std::vector<Body> copies;
   if (report.count() > before) {
     reading.bodies_known = false;
@@ -224,7 +226,8 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
   const bool plane = counts.size() == 2;
   for (long j = 0; j < (plane ? counts[1] : 1); ++j)
     for (long i = 0; i < counts[0]; ++i) {
-      Body copy = moved(body, static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0)));
+      Body copy =
+          moved(body, static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0)));
       copy.name += plane ? fmt::format("_{}_{}", i + 1, j + 1) : fmt::format("_{}", i + 1);
       copies.push_back(std::move(copy));
     }
@@ -233,11 +236,10 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
 
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
-  const MapReader map(
-      report, entry.value,
-      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference",
-       "repeat", "file"},
-      body_example);
+  const MapReader map(report, entry.value,
+                      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors",
+                       "outside", "reference", "repeat", "file"},
+                      body_example);
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -261,7 +263,8 @@ void read_body(Reading& reading, const Entry& entry) {
     }
   }
   if (!from_file) map.refuse("materials", "only a body from a mesh file has materials of its regions: use 'material'");
-  if (const auto holes = map.get("holes"); holes && state.shape) state.shape = read_holes(reading, *holes, body.outline);
+  if (const auto holes = map.get("holes"); holes && state.shape)
+    state.shape = read_holes(reading, *holes, body.outline);
   if (body.rigid) {
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"})
       map.refuse(key, not_for_rigid);
@@ -293,8 +296,7 @@ void read_body(Reading& reading, const Entry& entry) {
     if (one && !has_centre && state.shape) choose_centre(body);
     // Names of side faces, and of the crack, may not be known.
     const bool broken = report.count() > before;
-    if (broken && (cracks || has_centre))
-      state.shape = false;
+    if (broken && (cracks || has_centre)) state.shape = false;
     if (const auto sectors = map.get("sectors"); sectors && state.shape)
       body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
     read_outside(reading, map, body);

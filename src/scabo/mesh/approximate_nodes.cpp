@@ -87,8 +87,7 @@ class Integral {
 
   void look_at(const Square& square, std::deque<Square>& squares, bool may_divide) {
     double growth = 0.0;
-    for (const int i : square.locals)
-      growth = std::max(growth, body_.mesh.refine[static_cast<std::size_t>(i)].growth);
+    for (const int i : square.locals) growth = std::max(growth, body_.mesh.refine[static_cast<std::size_t>(i)].growth);
     const double change = growth * std::numbers::sqrt2 * square.half;
     double size = largest_;
     std::vector<double> sizes;

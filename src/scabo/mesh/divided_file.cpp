@@ -119,8 +119,8 @@ class Divider {
     for (const Facet& half : halves_of(side)) add_parts(half, parts);
   }
 
-  /// The middle of a convex quadrilateral's bilinear map, whose quarters are convex again, and the centroid of the corners
-  /// of a triangle; of other cells a point that sees all, or nothing.
+  /// The middle of a convex quadrilateral's bilinear map, whose quarters are convex again, and the centroid of the
+  /// corners of a triangle; of other cells a point that sees all, or nothing.
   std::optional<Vec2> point_inside(const Undivided& cell, const std::vector<Vec2>& polygon) const {
     if (cell.sides.size() <= 4) {
       Vec2 mean = Vec2::Zero();
@@ -169,8 +169,8 @@ class Divider {
     if (quadratic)
       for (const Facet& side : sides) cell.nodes.push_back(side.middle);
     const bool three = sides.size() == 3, four = sides.size() == 4;
-    const bool polygon = undivided.from->kind == files::CellKind::polygon ||
-                         undivided.from->kind == files::CellKind::quadratic_polygon;
+    const bool polygon =
+        undivided.from->kind == files::CellKind::polygon || undivided.from->kind == files::CellKind::quadratic_polygon;
     // A triangle with one new point on a side has four corners, three of them on a line.
     const bool element = !polygon && sides.size() == undivided.sides.size() && (three || four);
     if (quadratic)

@@ -1,10 +1,10 @@
 // Cells of a mesh file that are too large are divided, as often as it takes.
 //
-// A cell with n corners becomes n quadrilaterals: from a corner to the middle of the next side, a point inside that sees
-// all of the cell, and the middle of the side before. Its neighbours keep their shape and take the new points of common
-// sides as ordinary corners, because a cell takes any number of them; a finite element beside such a point, which has
-// then too many corners, becomes a super-element. Sides keep their place: straight ones stay straight, and the halves
-// of a parabola through three nodes lie on it, so that the outline of the body is that of the file.
+// A cell with n corners becomes n quadrilaterals: from a corner to the middle of the next side, a point inside that
+// sees all of the cell, and the middle of the side before. Its neighbours keep their shape and take the new points of
+// common sides as ordinary corners, because a cell takes any number of them; a finite element beside such a point,
+// which has then too many corners, becomes a super-element. Sides keep their place: straight ones stay straight, and
+// the halves of a parabola through three nodes lie on it, so that the outline of the body is that of the file.
 #pragma once
 
 #include <functional>

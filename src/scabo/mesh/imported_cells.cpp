@@ -183,18 +183,19 @@ std::variant<BodyMesh, Diagnostic> cells_of_file(const model::Body& body, const 
   files::ImportedMesh as_asked, as_estimated;
   if (!body.mesh.refine.empty()) {
     const SizeField no_limit;
-    as_asked = divided_mesh(*mesh, [&](const Vec2& x) { return wanted_size(body, no_limit, x); }, most_nodes);
+    as_asked = divided_mesh(
+        *mesh, [&](const Vec2& x) { return wanted_size(body, no_limit, x); }, most_nodes);
     mesh = &as_asked;
   }
   if (!sizes.empty()) {
     // Cells around tips of cracks become one, whose accuracy does not depend on its size but on the points along its
     // boundary: only what is around them is divided.
     std::vector<Vec2> ends;
-    for (const model::Crack& crack : body.cracks)
-      ends.insert(ends.end(), {crack.path.front(), crack.path.back()});
+    for (const model::Crack& crack : body.cracks) ends.insert(ends.end(), {crack.path.front(), crack.path.back()});
     const std::vector<bool> kept =
         cells_around(*mesh, ends, SlitOptions{}.layers, 1e-7 * geometry::outline_size(body.outline));
-    as_estimated = divided_mesh(*mesh, [&](const Vec2& x) { return sizes.at(x); }, most_nodes, kept);
+    as_estimated = divided_mesh(
+        *mesh, [&](const Vec2& x) { return sizes.at(x); }, most_nodes, kept);
     mesh = &as_estimated;
   }
   std::variant<BodyMesh, Diagnostic> made = FileCells(body, *mesh).run(most_nodes);

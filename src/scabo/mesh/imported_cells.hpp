@@ -11,8 +11,8 @@ namespace scabo::mesh {
 /// The cells of body.imported: super-elements (kind: imported) or finite elements (kind: fem).
 ///
 /// Sides keep their nodes. In super-elements a side of lower order than mesh.order is raised to it: its inner nodes lie
-/// at the Gauss-Lobatto-Legendre points of the line or parabola through its nodes. The scaling centre is the centroid if
-/// that sees the whole boundary well, else the point that sees it best.
+/// at the Gauss-Lobatto-Legendre points of the line or parabola through its nodes. The scaling centre is the centroid
+/// if that sees the whole boundary well, else the point that sees it best.
 ///
 /// Where `sizes` or mesh.refine ask for smaller cells, those of the file are divided (divided_file.hpp); cracks open
 /// along sides of cells (slit.hpp).

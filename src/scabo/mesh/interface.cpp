@@ -119,7 +119,8 @@ class Matching {
   /// Whether sides on concentric arcs are pressed or held apart by a gap without being free to slide, and one of them
   /// consists of chords. Normals weighted like the forces of a pressure turn to and fro between chords of different
   /// lengths l by up to l / (4 R). A gap d along them moves the nodes to and fro by d l / (4 R), and where friction
-  /// holds them there, the stress of that, about E d / (4 R), is as large as the pressure, however short the chords are.
+  /// holds them there, the stress of that, about E d / (4 R), is as large as the pressure, however short the chords
+  /// are.
   bool holds_apart() const {
     if (!edge_a_.arc || !edge_b_.arc) return false;
     const double apart = std::abs(edge_a_.arc->radius - edge_b_.arc->radius);

@@ -95,9 +95,8 @@ class SegmentTree {
       const geometry::Box& box = tree_.nodes()[node].box;
       return !found && (low.array() <= box.high.array()).all() && (high.array() >= box.low.array()).all();
     };
-    tree_.visit(overlaps, [&](std::size_t i) {
-      found = found || segments_cross(p, q, segments_[i].start, segments_[i].end);
-    });
+    tree_.visit(overlaps,
+                [&](std::size_t i) { found = found || segments_cross(p, q, segments_[i].start, segments_[i].end); });
     return found;
   }
 

@@ -53,8 +53,9 @@ std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge, 
   const double rounding = rounding_of(sizing.largest);
   std::vector<double> breaks{0.0};
   if (sizing.uniform) {
-    const double count = std::max<double>(
-        {static_cast<double>(least_count), std::ceil(length / sizing.largest - rounding), std::ceil(by_turn - rounding)});
+    const double count =
+        std::max<double>({static_cast<double>(least_count), std::ceil(length / sizing.largest - rounding),
+                          std::ceil(by_turn - rounding)});
     for (int k = 1; k < count; ++k) breaks.push_back(k / count);
   } else {
     // As many elements as the integral of 1 / size, each with an equal part of it. Steps are short compared with the

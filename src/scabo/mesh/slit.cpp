@@ -134,7 +134,8 @@ class Slitter {
     const PathPositions path(crack.path, tolerance_);
     std::unordered_map<int, std::vector<double>> positions;
     for (std::size_t n = 0; n < mesh_.nodes.size(); ++n)
-      if (auto found = path.of(mesh_.nodes[n]); !found.empty()) positions.emplace(static_cast<int>(n), std::move(found));
+      if (auto found = path.of(mesh_.nodes[n]); !found.empty())
+        positions.emplace(static_cast<int>(n), std::move(found));
     struct Piece {
       double from = 0.0, to = 0.0;
       CellSide side;
@@ -451,16 +452,16 @@ class Slitter {
   const model::Body& body_;
   SlitOptions options_;
   double tolerance_;
-  std::vector<CrackSides> sides_;                                      // of each crack
-  std::unordered_map<std::uint64_t, CellSide> side_at_;                // by its ends, in the direction of its cell
-  std::vector<std::pair<int, int>> renamed_;                           // cell, and what a node is called there
-  std::unordered_map<int, std::vector<int>> cells_at_;                 // by end nodes of their sides
-  std::unordered_set<std::uint64_t> on_cracks_;                        // sides of cells
+  std::vector<CrackSides> sides_;                        // of each crack
+  std::unordered_map<std::uint64_t, CellSide> side_at_;  // by its ends, in the direction of its cell
+  std::vector<std::pair<int, int>> renamed_;             // cell, and what a node is called there
+  std::unordered_map<int, std::vector<int>> cells_at_;   // by end nodes of their sides
+  std::unordered_set<std::uint64_t> on_cracks_;          // sides of cells
   std::vector<Tip> tips_;
   std::unordered_set<int> tip_nodes_;
-  std::vector<Cell> made_;                           // around tips
-  std::unordered_set<std::uint64_t> around_tips_;    // their sides
-  std::unordered_set<int> joined_;                   // cells that became part of them
+  std::vector<Cell> made_;                         // around tips
+  std::unordered_set<std::uint64_t> around_tips_;  // their sides
+  std::unordered_set<int> joined_;                 // cells that became part of them
 };
 
 }  // namespace

@@ -324,9 +324,8 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
   const auto refuse = [&](bool given, const char* key, const char* why) {
     if (given) checking.error_of_key(path, key, why), good = false;
   };
-  refuse(
-      body.mesh.tolerance.has_value() && body.image, "mesh.tolerance",
-      "is not available for a body that an image shows, whose cells are its pixels: leave it out");
+  refuse(body.mesh.tolerance.has_value() && body.image, "mesh.tolerance",
+         "is not available for a body that an image shows, whose cells are its pixels: leave it out");
   refuse(body.mesh.tolerance.has_value() && body.mesh.kind == MeshKind::parts, "mesh.tolerance",
          "a body of a few parts is not refined: write kind: polygons");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",

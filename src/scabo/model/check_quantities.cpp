@@ -32,10 +32,11 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
     return;
   }
   if (body.mesh.kind == MeshKind::fem) {  // their order stays, and with it the error of the cell around the tip
-    checking.error(path, "",
-                   fmt::format("body '{}' is made of finite elements, whose stress intensity factors have no error bar: "
-                               "use kind: superelement, polygons or quadtree, or cells of a file as super-elements",
-                               body.name));
+    checking.error(
+        path, "",
+        fmt::format("body '{}' is made of finite elements, whose stress intensity factors have no error bar: "
+                    "use kind: superelement, polygons or quadtree, or cells of a file as super-elements",
+                    body.name));
     return;
   }
   const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')),

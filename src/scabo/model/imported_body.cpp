@@ -325,8 +325,8 @@ std::map<std::string, std::vector<std::vector<Vec2>>> lines_of(const ImportedMes
   for (const ImportedCell& cell : part.cells)
     for (int i = 0; i < cell.corners(); ++i) {
       const Facet side = files::side_of(cell, i);
-      const std::uint64_t key = key_of(original[static_cast<std::size_t>(side.start)],
-                                       original[static_cast<std::size_t>(side.end)]);
+      const std::uint64_t key =
+          key_of(original[static_cast<std::size_t>(side.start)], original[static_cast<std::size_t>(side.end)]);
       if (sides.insert(key).second)
         boundary.insert(key);
       else

@@ -107,8 +107,8 @@ struct Crack {
   int edge = -1;    ///< edge with the mouth
   double at = 0.0;  ///< mouth = edge.at(at), 0 <= at < 1; 0 is the corner at the start of the edge
   Source source;
-  /// Between cells and elements: its points from one end to the other, two or more; then `tip` and `mouth` are not used.
-  /// An end on the boundary or on another crack is open, any other end is a tip.
+  /// Between cells and elements: its points from one end to the other, two or more; then `tip` and `mouth` are not
+  /// used. An end on the boundary or on another crack is open, any other end is a tip.
   std::vector<Vec2> path;
 };
 
@@ -152,10 +152,9 @@ struct Body {
 /// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
 /// of finite elements in a rectangle.
 inline bool is_divided_inside(const Body& body) {
-  return body.image ||
-         (body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
-                                                        body.regions.empty() && body.mesh.refine.empty() && body.cracks.empty() &&
-                                                        !body.mesh.tolerance));
+  return body.image || (body.mesh.kind != MeshKind::superelement &&
+                        !(body.mesh.kind == MeshKind::fem && body.outline.rectangle && body.regions.empty() &&
+                          body.mesh.refine.empty() && body.cracks.empty() && !body.mesh.tolerance));
 }
 
 /// Whether the cracks of a body lie between its cells: both faces of each consist of boundary elements.

@@ -39,11 +39,15 @@ TEST(BoxTree, NearestFirst) {
   // The nearest one comes in the first leaf, so that a search that ends there sees no more than a leaf.
   double best = 1e9;
   int seen = 0;
-  tree.visit_from({40.2, 0.0}, [&](std::size_t node) { return distance_to(tree.nodes()[node].box, {40.2, 0.0}) < best; },
-                  [&](std::size_t i) {
-                    ++seen;
-                    best = std::min(best, distance_to(boxes[i], Vec2(40.2, 0.0)));
-                  });
+  tree.visit_from(
+      {40.2, 0.0},
+      [&](std::size_t node) {
+        return distance_to(tree.nodes()[node].box, {40.2, 0.0}) < best;
+      },
+      [&](std::size_t i) {
+        ++seen;
+        best = std::min(best, distance_to(boxes[i], Vec2(40.2, 0.0)));
+      });
   EXPECT_DOUBLE_EQ(best, 40.2 - 40.0);
   EXPECT_LE(seen, 8);
 }

@@ -8,7 +8,6 @@
 namespace scabo::mesh {
 namespace {
 
-
 files::ImportedMesh two_squares() {
   files::ImportedMesh mesh;
   mesh.nodes = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
@@ -31,7 +30,8 @@ TEST(DividedFile, NeighbourTakesTheNewPoint) {
   ASSERT_EQ(mesh.cells.size(), 5);
   EXPECT_EQ(mesh.nodes.size(), 6 + 5);
   int fives = 0;
-  for (const files::ImportedCell& cell : mesh.cells) fives += cell.corners() == 5 && cell.kind == files::CellKind::polygon;
+  for (const files::ImportedCell& cell : mesh.cells)
+    fives += cell.corners() == 5 && cell.kind == files::CellKind::polygon;
   EXPECT_EQ(fives, 1);
   EXPECT_NEAR(area(mesh), 2.0, 1e-14);
   ASSERT_EQ(mesh.facet_sets.front().facets.size(), 3);
@@ -39,7 +39,8 @@ TEST(DividedFile, NeighbourTakesTheNewPoint) {
 }
 
 TEST(DividedFile, EveryCellToTheWantedSize) {
-  const files::ImportedMesh mesh = divided_mesh(two_squares(), [](const Vec2&) { return 0.25; }, 1e6);
+  const files::ImportedMesh mesh = divided_mesh(
+      two_squares(), [](const Vec2&) { return 0.25; }, 1e6);
   EXPECT_EQ(mesh.cells.size(), 32);
   EXPECT_EQ(mesh.nodes.size(), 9 * 5);
   for (const files::ImportedCell& cell : mesh.cells) EXPECT_EQ(cell.kind, files::CellKind::quad4);
@@ -47,7 +48,8 @@ TEST(DividedFile, EveryCellToTheWantedSize) {
 
 TEST(DividedFile, NoCellIsTooLarge) {
   const files::ImportedMesh given = two_squares();
-  const files::ImportedMesh mesh = divided_mesh(given, [](const Vec2&) { return 1.0; }, 1e6);
+  const files::ImportedMesh mesh = divided_mesh(
+      given, [](const Vec2&) { return 1.0; }, 1e6);
   EXPECT_EQ(mesh.cells.size(), 2);
   EXPECT_EQ(mesh.nodes.size(), given.nodes.size());
 }
@@ -62,7 +64,8 @@ TEST(DividedFile, CurvedSidesKeepTheirPlace) {
   const double before = area(mesh);
   const auto y = [](double x) { return 0.5 * x * (x - 2.0); };
   for (const double size : {1.9, 0.9, 0.4}) {
-    const files::ImportedMesh fine = divided_mesh(mesh, [&](const Vec2&) { return size; }, 1e6);
+    const files::ImportedMesh fine = divided_mesh(
+        mesh, [&](const Vec2&) { return size; }, 1e6);
     EXPECT_NEAR(area(fine), before, 1e-13);
     EXPECT_GE(fine.cells.size(), 3);
     for (const files::Facet& facet : fine.facet_sets.front().facets)
@@ -75,7 +78,8 @@ TEST(DividedFile, CurvedSidesKeepTheirPlace) {
 }
 
 TEST(DividedFile, EndsWhenThereAreTooMany) {
-  const files::ImportedMesh mesh = divided_mesh(two_squares(), [](const Vec2&) { return 1e-6; }, 1000);
+  const files::ImportedMesh mesh = divided_mesh(
+      two_squares(), [](const Vec2&) { return 1e-6; }, 1000);
   EXPECT_GT(mesh.cells.size(), 1000);
   EXPECT_LT(mesh.cells.size(), 1010);
 }

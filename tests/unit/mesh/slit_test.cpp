@@ -136,15 +136,18 @@ TEST(Slit, WhatIsNoCrackOfAMesh) {
     const auto made = slit(whole(body), body);
     return std::holds_alternative<Diagnostic>(made) ? std::get<Diagnostic>(made).message : "";
   };
-  EXPECT_EQ(message({{0, 2}, {3, 2.5}}),
-            "no side of a cell runs along crack 'flaw' from (0, 2) on: a crack follows the sides of the cells of its mesh "
-            "and ends at their corners");
-  EXPECT_EQ(message({{0, 2}, {2.5, 2}}),
-            "no side of a cell runs along crack 'flaw' from (2, 2) on: a crack follows the sides of the cells of its mesh "
-            "and ends at their corners");
-  EXPECT_EQ(message({{2, 2}, {3, 2}}),
-            "the cells around the tip (2, 2) of crack 'flaw' cannot be joined to one: use a finer mesh there, so that two "
-            "rows of cells lie between it and other tips and borders of materials");
+  EXPECT_EQ(
+      message({{0, 2}, {3, 2.5}}),
+      "no side of a cell runs along crack 'flaw' from (0, 2) on: a crack follows the sides of the cells of its mesh "
+      "and ends at their corners");
+  EXPECT_EQ(
+      message({{0, 2}, {2.5, 2}}),
+      "no side of a cell runs along crack 'flaw' from (2, 2) on: a crack follows the sides of the cells of its mesh "
+      "and ends at their corners");
+  EXPECT_EQ(
+      message({{2, 2}, {3, 2}}),
+      "the cells around the tip (2, 2) of crack 'flaw' cannot be joined to one: use a finer mesh there, so that two "
+      "rows of cells lie between it and other tips and borders of materials");
 }
 
 }  // namespace
