@@ -27,10 +27,9 @@ double error_against(double exact, const analysis::StaticSolution& solution) {
   return std::sqrt(std::max(0.0, 1.0 - last(solution).energy.elastic / exact));
 }
 
-// Lame: a ring from radius 1 to 2 under inner pressure 1, plane stress, E = 1. The estimate knows only the domain of
-// the mesh, whose sides are polynomials in place of arcs: up to order 2 the energy of the ring itself differs from that
-// of this domain by as much as the squared error. The exact energy of the domain is that of elements three orders
-// higher.
+// Lame: a ring from radius 1 to 2 under inner pressure 1, plane stress, E = 1. The estimate knows only the domain of the
+// mesh, whose sides are polynomials in place of arcs: up to order 2 the energy of the ring itself differs from that of this
+// domain by as much as the squared error. The exact energy of the domain is that of elements three orders higher.
 TEST_P(RefinedCells, EstimateOfARingIsNearItsError) {
   const double lame = 0.5 * ((1.0 + 4.0) / (4.0 - 1.0) + 0.3) * std::numbers::pi / 2.0;
   for (int order = 1; order <= 3; ++order)
@@ -106,9 +105,9 @@ TEST_P(RefinedCells, MeetTheToleranceAtAReEntrantCorner) {
     const auto solution =
         run(corner(fmt::format("{{kind: {}, size: 0.5, order: {}, tolerance: {}}}", kind(), order, tolerance)));
     const double truth = error_against(exact_energy_of_corner(), solution);
-    std::cout << kind() << " corner, order " << order << ", tolerance " << tolerance << ": " << solution.passes.size()
-              << " passes, " << 2 * solution.mesh.nodes() << " dofs, estimated " << estimate_of(solution) << ", true "
-              << truth << "\n";
+    std::cout << kind() << " corner, order " << order << ", tolerance " << tolerance << ": "
+              << solution.passes.size() << " passes, " << 2 * solution.mesh.nodes() << " dofs, estimated "
+              << estimate_of(solution) << ", true " << truth << "\n";
     EXPECT_LE(truth, tolerance);
     EXPECT_GT(estimate_of(solution) / truth, 0.5);
   }
@@ -159,8 +158,7 @@ loads: {{pull: {{on: plate.top, traction: [0, 1e-3]}}, hold: {{on: plate.bottom,
     const auto solution = with(fmt::format("{{kind: {}, size: 0.25, order: {}, tolerance: 4e-3}}", kind(), order));
     const double truth = error_against(exact, solution);
     std::cout << kind() << " crack, order " << order << ": " << solution.passes.size() << " passes, "
-              << 2 * solution.mesh.nodes() << " dofs, estimated " << estimate_of(solution) << ", true " << truth
-              << "\n";
+              << 2 * solution.mesh.nodes() << " dofs, estimated " << estimate_of(solution) << ", true " << truth << "\n";
     if (order == 2) {  // of order 3 the first mesh is good enough, as the cell at the tip resolves the singularity
       EXPECT_GT(solution.passes.size(), 1u);
     }
@@ -194,9 +192,9 @@ loads: {press: {on: block.top, pressure: 1}}
   ASSERT_GT(solution.passes.size(), 3u);
   for (const Vec2& x : mesh.nodes) {
     const Vec2 mirrored(-x.x(), x.y());
-    EXPECT_TRUE(std::any_of(mesh.nodes.begin(), mesh.nodes.end(), [&](const Vec2& y) {
-      return (y - mirrored).norm() < 1e-9;
-    })) << x.transpose();
+    EXPECT_TRUE(std::any_of(mesh.nodes.begin(), mesh.nodes.end(),
+                            [&](const Vec2& y) { return (y - mirrored).norm() < 1e-9; }))
+        << x.transpose();
   }
 }
 
@@ -292,8 +290,7 @@ TEST(RefinedQuadtree, SaysWhyAToleranceIsNotReached) {
 TEST(SizeField, IsTheLeastOfItsSamplesAndGrows) {
   std::vector<mesh::SizeField::Sample> samples;
   for (int i = 0; i < 500; ++i)  // scattered, deterministic
-    samples.push_back(
-        {{std::fmod(0.618 * i, 1.0), std::fmod(0.377 * i * i, 1.0)}, 0.01 + 0.1 * std::fmod(0.271 * i, 1.0)});
+    samples.push_back({{std::fmod(0.618 * i, 1.0), std::fmod(0.377 * i * i, 1.0)}, 0.01 + 0.1 * std::fmod(0.271 * i, 1.0)});
   const mesh::SizeField field(samples, 0.3);
   EXPECT_LT(field.samples().size(), samples.size());
   for (int i = 0; i < 200; ++i) {

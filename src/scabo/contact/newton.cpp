@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
+#include "scabo/contact/newton_direction.hpp"
 
 namespace scabo::contact {
 
