@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "scabo/analysis/refinement.hpp"
+#include "scabo/element/finite_element.hpp"
 #include "scabo/element/two_orders.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/match.hpp"
@@ -125,7 +126,9 @@ void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::
 
 }  // namespace
 
-bool has_estimate(const StaticSolution& solution, std::size_t body) {
+bool has_estimate(const StaticSolution& solution, std::size_t body) { return !solution.cells[body].empty(); }
+
+bool is_of_superelements(const StaticSolution& solution, std::size_t body) {
   const element::SolvedCells& cells = solution.cells[body];
   return !cells.empty() && std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell != nullptr; });
 }
@@ -267,6 +270,33 @@ Judgement judge(const StaticSolution& solution) {
   return judgement;
 }
 
+/// The boundary and the stiffness of a cell, in the numbers of its own nodes; of a finite element, too.
+struct CellStiffness {
+  std::vector<mesh::LineElement> elements;
+  Matrix k;
+};
+CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::size_t c) {
+  if (const auto& cell = solution.cells[b][c]) return {cell->ring.elements, cell->solution.K};
+  const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
+  const mesh::Cell& cell = mesh.cells[c];
+  std::map<int, int> own;
+  for (const int node : cell.nodes()) own.emplace(node, static_cast<int>(own.size()));
+  CellStiffness made{cell.boundary, Matrix::Zero(2 * static_cast<Eigen::Index>(own.size()),
+                                                 2 * static_cast<Eigen::Index>(own.size()))};
+  for (mesh::LineElement& element : made.elements)
+    for (int& node : element.nodes) node = own.at(node);
+  const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
+  const model::Material& material = solution.model.materials[static_cast<std::size_t>(cell.materials.front())];
+  const auto& analysis = solution.model.analysis;
+  const element::ElementMatrix k = element::finite_element_stiffness(
+      finite, element::elasticity_matrix(material, analysis.plane), analysis.thickness);
+  std::vector<int> dofs;
+  for (const int node : finite.nodes())
+    for (const int component : {0, 1}) dofs.push_back(2 * own.at(node) + component);
+  made.k(dofs, dofs) = k;
+  return made;
+}
+
 /// Squared errors of the cells of a body, force times length; 0 for those left out.
 std::vector<double> squared_errors(const StaticSolution& solution, const IncrementResult& increment,
                                    const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t b,
@@ -277,12 +307,13 @@ std::vector<double> squared_errors(const StaticSolution& solution, const Increme
       squared.push_back(0.0);
       continue;
     }
-    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *wider.cells[b][c];
+    const CellStiffness narrow = stiffness_of(solution, b, c);
+    const element::SolvedSuperElement& wide = *wider.cells[b][c];
     const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
     // Loads inside a cell are not among the forces on its boundary.
     const bool relaxed = element::loads_in(increment.fields.interior[b], c).loads.empty();
-    squared.push_back(element::squared_difference(
-        {narrow.ring.elements, narrow.K(), u, wide.ring.elements, wide.K(), U, relaxed}));
+    squared.push_back(
+        element::squared_difference({narrow.elements, narrow.k, u, wide.ring.elements, wide.K(), U, relaxed}));
   }
   return squared;
 }
@@ -359,7 +390,7 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
       energy += U.dot(wider.cells[b][c]->K() * U);
     }
   }
-  // Finite element bodies have energy too, although no error estimate.
+  // Loads inside have energy too.
   energy = std::max(energy, 2.0 * wider_increment.energy.elastic);
   const double norm = std::sqrt(energy);
   const auto relative = [&](double square) { return norm > 0.0 ? std::sqrt(square) / norm : 0.0; };

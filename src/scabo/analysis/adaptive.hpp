@@ -72,8 +72,11 @@ void hold_near_places(model::Model& model, const mesh::Mesh& mesh);
 Options quiet(const Options& options, const std::string& what);
 /// Reports a complete solution as if its increments were computed one by one.
 void replay(StaticSolution& solution, const Options& options);
-/// Whether the body consists of super-elements, whose error can be estimated.
+/// Whether the error of the body is estimated: it is elastic. The wider displacement of finite elements is that of
+/// super-elements of the next order in their place.
 bool has_estimate(const StaticSolution& solution, std::size_t body);
+/// Whether all cells of the body are super-elements.
+bool is_of_superelements(const StaticSolution& solution, std::size_t body);
 /// [body][boundary element of all cells]: elements that cannot be changed without separating pairs of nodes and, if
 /// `at_singular_places`, those beside point forces and the like.
 std::vector<std::vector<bool>> frozen_elements(const StaticSolution& solution, bool at_singular_places);

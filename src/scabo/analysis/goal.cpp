@@ -45,6 +45,14 @@ std::vector<const model::Quantity*> quantities_of(const model::Model& model) {
 
 constexpr int highest_order = 16;
 
+/// Order of the sides of a body; mesh.order is the least one of a mesh from a file.
+int order_of(const model::Body& body) {
+  const bool quadratic =
+      body.imported && std::any_of(body.imported->cells.begin(), body.imported->cells.end(),
+                                   [](const files::ImportedCell& cell) { return files::is_quadratic(cell.kind); });
+  return std::max(body.mesh.order, quadratic ? 2 : 1);
+}
+
 /// The model whose meshes are richer than those of `model`.
 model::Model enriched_model(model::Model model, const Richer& richer) {
   for (model::Body& body : model.bodies) {
@@ -55,7 +63,7 @@ model::Model enriched_model(model::Model model, const Richer& richer) {
     mesh.size *= factor;
     mesh.min_size *= factor;
     for (model::LocalSize& local : mesh.refine) local.size *= factor;
-    if (!finite) mesh.order = std::min(mesh.order + richer.raised, highest_order);
+    if (!finite) mesh.order = std::min(order_of(body) + richer.raised, highest_order);
   }
   return model;
 }
@@ -158,7 +166,10 @@ bool agree(const Values& J, const RicherValues& richer) {
 RicherValues richer_values(const MeshSource& source, const StaticSolution& solution, const Options& options) {
   const auto quantities = quantities_of(source.model);
   const Values J = values_of(solution, quantities);
-  const bool divided = !source.mesh && !is_too_large(solution.mesh, source.model, halved);
+  // Cells of a file have no size that could be halved everywhere.
+  const bool from_file = std::any_of(source.model.bodies.begin(), source.model.bodies.end(),
+                                     [](const model::Body& body) { return body.imported != nullptr; });
+  const bool divided = !source.mesh && !from_file && !is_too_large(solution.mesh, source.model, halved);
   RicherValues richer;
   for (const Richer& next :
        {same_elements, divided ? halved : raised_twice, divided ? halved_and_raised : raised_thrice}) {
@@ -285,7 +296,7 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
   errors.shares.resize(solution.model.bodies.size());
   sum = 0.0;
   for (std::size_t b = 0; b < errors.shares.size(); ++b) {
-    if (!has_estimate(solution, b)) continue;
+    if (!is_of_superelements(solution, b)) continue;
     const std::vector<double> primal =
                                   squared_errors_of_parts(pass, b, solution.increments.back().fields.displacements[b],
                                                           pass.wider->increments.back().fields.displacements[b], true),
@@ -304,9 +315,7 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
 model::Model with_tolerances(model::Model model) {
   for (model::Body& body : model.bodies) {
     const model::MeshKind kind = body.mesh.kind;
-    if (!body.rigid && !body.imported && !body.image &&
-        (kind == model::MeshKind::superelement || kind == model::MeshKind::polygons ||
-         kind == model::MeshKind::quadtree))
+    if (!body.rigid && !body.image && kind != model::MeshKind::fem && kind != model::MeshKind::parts)
       body.mesh.tolerance = model.tolerance->relative;
   }
   try {

@@ -42,9 +42,14 @@ bool is_refined(const model::Body& body) {
   return !body.rigid && body.mesh.tolerance && model::is_divided_inside(body);
 }
 
-double growth_of(const model::Body& body) {
-  return body.mesh.kind == model::MeshKind::quadtree ? growth_of_squares : model::mesh_growth;
-}
+/// Whether a cell is divided by itself, into halves of its size. Otherwise the body gets a new mesh.
+bool is_halved(const model::Body& body) { return body.mesh.kind == model::MeshKind::quadtree || body.imported; }
+
+double growth_of(const model::Body& body) { return is_halved(body) ? growth_of_squares : model::mesh_growth; }
+
+/// Sides around the tip of a crack beyond which they are not divided for its sake: the singular stress is resolved long
+/// before, and the cell is solved with dense matrices.
+constexpr std::size_t most_sides_around_tip = 40;
 
 struct CellBox {
   Vec2 middle;
@@ -69,6 +74,7 @@ CellBox box_of(const mesh::BodyMesh& mesh, const mesh::Cell& cell) {
 /// cuts, only the size that was wanted there is known, which is less than twice that of the square.
 double size_of(const mesh::Cell& cell, const CellBox& box, const model::Body& body, const mesh::SizeField& sizes) {
   const double wanted = mesh::wanted_size(body, sizes, box.middle);
+  if (body.imported) return box.side;
   if (body.mesh.kind != model::MeshKind::quadtree) return std::min(box.side, wanted);
   if (cell.is_open()) return 0.5 * box.side;
   return box.filled ? box.side : std::clamp(box.side, 0.5 * wanted, wanted);
@@ -260,7 +266,7 @@ std::vector<Part> CellRefinement::parts(const MeshErrors& errors) const {
 void CellRefinement::divide_at(const mesh::Mesh& mesh, const model::Place& point, double part) {
   const auto b = static_cast<std::size_t>(point.body);
   const model::Body& body = model_.bodies[b];
-  if (!is_refined(body)) return;
+  if (!is_refined(body) || body.imported) return;  // a mesh of a file has no size
   std::vector<mesh::SizeField::Sample> samples = sizes_[b].samples();
   for (const int node : mesh::nodes_of(point, mesh).nodes)
     samples.push_back({mesh.bodies[b].nodes[static_cast<std::size_t>(node)], part * body.mesh.size});
@@ -285,8 +291,21 @@ RefinementPass CellRefinement::refine(const MeshErrors& errors, const std::vecto
     const mesh::BodyMesh& mesh = errors.mesh.bodies[b];
     const mesh::Cell& cell = mesh.cells[static_cast<std::size_t>(part.at.element)];
     const CellBox box = box_of(mesh, cell);
+    if (body.imported && cell.is_open()) {  // it keeps its size, and gets more points along its boundary
+      if (cell.boundary.size() >= most_sides_around_tip) continue;
+      for (const mesh::LineElement& element : cell.boundary) {
+        const Vec2 &from = mesh.nodes[static_cast<std::size_t>(element.nodes.front())],
+                   &to = mesh.nodes[static_cast<std::size_t>(element.nodes.back())];
+        const double next = 0.5 * (to - from).norm();
+        if (next > smallest_cell * geometry::outline_size(body.outline))
+          samples[b].push_back({0.5 * (from + to), next});
+      }
+      cells[b] += static_cast<double>(cell.boundary.size());
+      ++pass.divided;
+      continue;
+    }
     const double size = size_of(cell, box, body, sizes_[b]);
-    const bool square = body.mesh.kind == model::MeshKind::quadtree;
+    const bool square = is_halved(body);
     const double target = aim_of_cells / static_cast<double>(all);
     const double factor =
         square ? 0.5

@@ -71,9 +71,10 @@ class BoundaryRefinement : public Refinement {
   std::vector<std::vector<std::vector<double>>> predicted_;
 };
 
-/// Cells of polygon and quadtree meshes: sizes that become smaller from pass to pass. A marked square is halved; a
+/// Cells of all other meshes: sizes that become smaller from pass to pass. A marked square is halved; a
 /// polygon of order p with the squared error e gets the size h (e' / e)^(1 / (2 p + 2)), between 0.35 h and 0.7 h, with
-/// e' the squared error that each of the present cells may have.
+/// e' the squared error that each of the present cells may have. So does a triangle. A cell of a file is halved as a
+/// square is (mesh/divided_file.hpp).
 class CellRefinement : public Refinement {
  public:
   explicit CellRefinement(const model::Model& model);

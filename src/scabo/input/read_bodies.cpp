@@ -21,17 +21,20 @@ int corner_at(const Outline& outline, const Vec2& point) {
   return -1;
 }
 
-/// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02}]`.
+}  // namespace
+
+/// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02, growth: 0.1}]`.
 std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const Outline* outline) {
   std::vector<LocalSize> sizes;
   const auto items = read_list(reading.report, value, "[{near: [0, 0], size: 0.01}]");
   if (!items) return sizes;
   for (const Value& item : *items) {
-    const MapReader map(reading.report, item, {"near", "on", "size"}, "{near: [0, 0], size: 0.01}");
+    const MapReader map(reading.report, item, {"near", "on", "size", "growth"}, "{near: [0, 0], size: 0.01}");
     if (!map.is_map()) continue;
     LocalSize local;
     local.source = item.source();
     local.size = number_or_unread(reading, map.need("size"));
+    if (const auto growth = map.get("growth")) local.growth = number_or_unread(reading, growth);
     if (map.has("near") == map.has("on")) {
       reading.report.error(item, "needs either 'near', a point, or 'on', an edge of the body");
       continue;
@@ -55,8 +58,6 @@ std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const O
   }
   return sizes;
 }
-
-}  // namespace
 
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack) {
   Report& report = reading.report;
@@ -138,12 +139,20 @@ void choose_centre(Body& body) {
   if (seeing)
     body.mesh.centre = *seeing;
   else
-    body.mesh.kind = MeshKind::parts;
+    body.mesh.kind = body.mesh.tolerance ? MeshKind::polygons : MeshKind::parts;  // parts are too large to refine
+}
+
+/// One super-element has one straight crack, and neither holes nor regions.
+bool needs_cells_for_cracks(const Body& body) {
+  if (body.cracks.empty() || body.outside || !body.sector_materials.empty()) return false;
+  return body.cracks.size() > 1 || !body.cracks.front().path.empty() || !body.outline.holes.empty() ||
+         !body.regions.empty();
 }
 
 void add_body(Reading& reading, Body body, const BodyState& state) {
   if (!reading.index_of_body.emplace(body.name, static_cast<int>(reading.model.bodies.size())).second) {
-    reading.report.error(body.source, fmt::format("there is already a body named '{}': choose another name", body.name));
+    reading.report.error(body.source,
+                         fmt::format("there is already a body named '{}': choose another name", body.name));
     return;
   }
   reading.model.bodies.push_back(std::move(body));
@@ -203,11 +212,12 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
     steps.push_back(read_vector(report, *step_value).value_or(Vec2::Zero()));
   }
   if (report.count() == before && (counts.empty() || counts.size() > 2 || steps.size() != counts.size()))
-    report.error(value, "needs one count and one step, as in {count: 3, step: [1, 0]}, or two of each, as in {count: [2, "
-                        "3], step: [[1, 0], [0, 1]]}");
+    report.error(value,
+                 "needs one count and one step, as in {count: 3, step: [1, 0]}, or two of each, as in {count: [2, "
+                 "3], step: [[1, 0], [0, 1]]}");
   if (report.count() == before && counts.size() == 2 && counts[0] * counts[1] > limits::copies.most)
-    report.error(*count_value, fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1],
-                                           limits::copies.most));
+    report.error(*count_value,
+                 fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1], limits::copies.most));
   std::vector<Body> copies;
   if (report.count() > before) {
     reading.bodies_known = false;
@@ -216,7 +226,8 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
   const bool plane = counts.size() == 2;
   for (long j = 0; j < (plane ? counts[1] : 1); ++j)
     for (long i = 0; i < counts[0]; ++i) {
-      Body copy = moved(body, static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0)));
+      Body copy =
+          moved(body, static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0)));
       copy.name += plane ? fmt::format("_{}_{}", i + 1, j + 1) : fmt::format("_{}", i + 1);
       copies.push_back(std::move(copy));
     }
@@ -225,11 +236,10 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
 
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
-  const MapReader map(
-      report, entry.value,
-      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors", "outside", "reference",
-       "repeat", "file"},
-      body_example);
+  const MapReader map(report, entry.value,
+                      {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors",
+                       "outside", "reference", "repeat", "file"},
+                      body_example);
   Body body;
   BodyState state;
   body.name = entry.key;
@@ -253,7 +263,8 @@ void read_body(Reading& reading, const Entry& entry) {
     }
   }
   if (!from_file) map.refuse("materials", "only a body from a mesh file has materials of its regions: use 'material'");
-  if (const auto holes = map.get("holes"); holes && state.shape) state.shape = read_holes(reading, *holes, body.outline);
+  if (const auto holes = map.get("holes"); holes && state.shape)
+    state.shape = read_holes(reading, *holes, body.outline);
   if (body.rigid) {
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"})
       map.refuse(key, not_for_rigid);
@@ -276,16 +287,16 @@ void read_body(Reading& reading, const Entry& entry) {
     if (mesh)
       body.mesh = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
                             body.cracks.empty() || !body.cracks.front().path.empty() ? nullptr : &body.cracks.front());
-    if (body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree)
+    if (body.mesh.kind == MeshKind::superelement && needs_cells_for_cracks(body)) body.mesh.kind = MeshKind::polygons;
+    if (body.mesh.kind != MeshKind::superelement)
       for (Crack& crack : body.cracks)
         if (crack.path.empty()) crack.path = {crack.mouth, crack.tip}, crack.edge = -1;
     const bool has_centre = mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre");
     const bool one = body.mesh.kind == MeshKind::superelement && !cracks && !map.has("outside") && !map.has("sectors");
-    if (one && !has_centre && state.shape && !body.mesh.tolerance) choose_centre(body);
+    if (one && !has_centre && state.shape) choose_centre(body);
     // Names of side faces, and of the crack, may not be known.
     const bool broken = report.count() > before;
-    if (broken && (cracks || has_centre))
-      state.shape = false;
+    if (broken && (cracks || has_centre)) state.shape = false;
     if (const auto sectors = map.get("sectors"); sectors && state.shape)
       body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
     read_outside(reading, map, body);

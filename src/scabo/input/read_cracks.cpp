@@ -80,7 +80,25 @@ Crack unread_crack(const Value& value) {
   return crack;
 }
 
-Crack read_crack(Reading& reading, const Value& value, const Body& body) {
+/// The points of a set of sides of a mesh file.
+std::vector<Vec2> path_named(Reading& reading, const Value& value, const LinesOfFile& lines) {
+  const auto name = read_text(reading.report, value);
+  if (!name) return std::vector<Vec2>(2, Vec2::Constant(unread));
+  const auto found = lines.find(*name);
+  if (found != lines.end() && found->second.size() == 1) return found->second.front();
+  std::vector<std::string> known;
+  for (const auto& [line, chains] : lines) known.push_back(line);
+  if (found == lines.end())
+    reading.report.error(value, fmt::format("the mesh file has no set of sides inside the body named {}{}",
+                                            quoted_name(*name), suggestion(*name, known)));
+  else
+    reading.report.error(value, fmt::format("the sides of set {} are {} separate lines: a crack is one, with a set of "
+                                            "its own, or given by its points",
+                                            quoted_name(*name), found->second.size()));
+  return std::vector<Vec2>(2, Vec2::Constant(unread));
+}
+
+Crack read_crack(Reading& reading, const Value& value, const Body& body, const LinesOfFile* lines) {
   const MapReader map(reading.report, value, {"tip", "mouth", "path", "name"}, crack_example,
                       {{"kink", "give the crack as a path: [[0, 0], [1, 0.2], [2, 0]]"}});
   Crack crack = unread_crack(value);
@@ -91,6 +109,10 @@ Crack read_crack(Reading& reading, const Value& value, const Body& body) {
   if (const auto path = map.get("path")) {
     for (const char* key : {"tip", "mouth"})
       if (map.has(key)) map.refuse(key, "does not go with 'path', which has both ends: leave it out");
+    if (lines != nullptr && path->node->kind == Node::Kind::scalar) {
+      crack.path = path_named(reading, *path, *lines);
+      return crack;
+    }
     const auto points = read_list(reading.report, *path, "[[0, 0], [1, 0.2]]");
     for (const Value& point : points.value_or(std::vector<Value>{}))
       crack.path.push_back(read_vector(reading.report, point).value_or(Vec2::Constant(unread)));
@@ -110,11 +132,11 @@ Crack read_crack(Reading& reading, const Value& value, const Body& body) {
 
 }  // namespace
 
-std::vector<Crack> read_cracks(Reading& reading, const Value& value, const Body& body) {
+std::vector<Crack> read_cracks(Reading& reading, const Value& value, const Body& body, const LinesOfFile* lines) {
   const auto items = read_list(reading.report, value, fmt::format("[{}]", crack_example));
   if (!items) return {unread_crack(value)};
   std::vector<Crack> cracks;
-  for (const Value& item : *items) cracks.push_back(read_crack(reading, item, body));
+  for (const Value& item : *items) cracks.push_back(read_crack(reading, item, body, lines));
   return cracks;
 }
 

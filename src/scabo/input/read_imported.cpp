@@ -108,16 +108,14 @@ void refuse_other_keys(const MapReader& body, const MapReader& mesh, bool fem, b
   for (const char* key : {"shape", "holes"})
     body.refuse(key, "the mesh file gives the shape of this body: leave it out, or 'file' in 'mesh'");
   body.refuse("regions", "the regions of this body are those of its mesh file: give them materials with 'materials'");
-  for (const char* key : {"cracks", "sectors", "outside", "reference"})
+  for (const char* key : {"sectors", "outside", "reference"})
     body.refuse(key, "is not available for a body from a mesh file: leave it out");
   const std::string why = cad ? "Gmsh's library meshes the file with one size, or the sizes that it has itself"
                               : "the mesh file has its cells already";
   if (!cad) mesh.refuse("size", why + ": leave 'size' out");
   mesh.refuse("min_size", why + ": leave 'min_size' out");
-  mesh.refuse("refine", why + ": leave 'refine' out");
   mesh.refuse("kind", "cells of a mesh file are given by 'elements': superelement or fem");
   mesh.refuse("centre", "every cell has a scaling centre of its own: leave 'centre' out");
-  mesh.refuse("tolerance", "the cells of a mesh file are not refined: leave 'tolerance' out");
   if (fem && !cad) mesh.refuse("order", "finite elements keep the nodes of the mesh file: leave 'order' out");
 }
 
@@ -147,6 +145,7 @@ bool read_cells(Reading& reading, const MapReader& map, Body& body, BodyState& s
   for (Edge& edge : body.outline.edges) edge.source = file->source();
   state.pieces = std::move(imported.pieces);
   state.lost_points = std::move(imported.lost_points);
+  state.lines = std::move(imported.lines);
   return true;
 }
 
@@ -182,7 +181,17 @@ void read_imported_body(Reading& reading, const MapReader& of_body, const Value&
   const auto materials = of_body.get("materials");
   const auto material = materials ? of_body.get("material") : of_body.need("material");
   if (material) body.material = read_material_name(reading, *material).value_or(-1);
+  if (const auto refine = map.get("refine"))
+    body.mesh.refine = read_refine(reading, *refine, state.shape ? &body.outline : nullptr);
+  if (const auto tolerance = map.get("tolerance")) body.mesh.tolerance = number_or_unread(reading, tolerance);
   if (!state.shape) return;
+  if (const auto cracks = of_body.get("cracks")) {
+    const std::size_t errors = report.count();
+    body.cracks = read_cracks(reading, *cracks, body, &state.lines);
+    for (Crack& crack : body.cracks)
+      if (crack.path.empty()) crack.path = {crack.mouth, crack.tip}, crack.edge = -1;
+    if (report.count() > errors) state.shape = false;
+  }
   body.region_materials.assign(body.imported->regions.size(), -1);
   const std::size_t before = report.count();
   if (materials) read_region_materials(reading, *materials, body);

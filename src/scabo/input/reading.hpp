@@ -20,6 +20,9 @@ namespace scabo::input {
 using namespace geometry;
 using namespace model;
 
+/// Of a mesh file: sets of sides inside a body by name, each as its chains of points.
+using LinesOfFile = std::map<std::string, std::vector<std::vector<Vec2>>>;
+
 /// What the reader knows about a body besides the Body itself. Functions that need a part that could not be read stay
 /// silent, because the mistake has been reported.
 struct BodyState {
@@ -31,6 +34,7 @@ struct BodyState {
   std::set<std::string> edge_names_used;                   ///< by places, of a body with such edges
   std::set<int> edges_used;
   std::map<std::string, Vec2> lost_points;  ///< named nodes that are no corners
+  LinesOfFile lines;                        ///< that a crack may follow
 };
 
 /// Position of a name in a list; models may have thousands of bodies.
@@ -100,7 +104,11 @@ bool is_from_file(const std::optional<Value>& mesh);
 /// Shape, mesh and materials of an elastic body from a mesh file. `of_body`: the map of the body; `value`: its `mesh`.
 void read_imported_body(Reading& reading, const MapReader& of_body, const Value& value, Body& body, BodyState& state);
 /// `cracks` of a body with an outline. What could not be read is `unread`.
-std::vector<Crack> read_cracks(Reading& reading, const Value& value, const Body& body);
+/// Of a body from a mesh file a path may be the name of one of the `lines` of the file.
+std::vector<Crack> read_cracks(Reading& reading, const Value& value, const Body& body,
+                               const LinesOfFile* lines = nullptr);
+/// `refine` of a `mesh`; without an outline, edges are not looked up.
+std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const Outline* outline);
 /// `sectors`: the material of each edge; nothing if the section is broken.
 std::optional<std::vector<int>> read_sectors(Reading& reading, const Value& value, const Body& body);
 /// Index into Model::materials of the material named by `value`; nothing if it does not exist.

@@ -66,7 +66,7 @@ class Integral {
     for (const model::LocalSize& local : body_.mesh.refine)  // the same integral beside one edge: l / (growth size)
       if (!local.near && local.size < largest_)
         count = std::max(count, std::min(body_.outline.edges[static_cast<std::size_t>(local.edge)].length() /
-                                             (model::mesh_growth * local.size),
+                                             (local.growth * local.size),
                                          area / (local.size * local.size)));
     return count;
   }
@@ -77,7 +77,7 @@ class Integral {
     const double distance = local.near
                                 ? (*local.near - x).norm()
                                 : geometry::distance_to(body_.outline.edges[static_cast<std::size_t>(local.edge)], x);
-    return local.size + model::mesh_growth * distance;
+    return local.size + local.growth * distance;
   }
 
   bool passes_through(int edge, const Square& square) const {
@@ -86,7 +86,9 @@ class Integral {
   }
 
   void look_at(const Square& square, std::deque<Square>& squares, bool may_divide) {
-    const double change = model::mesh_growth * std::numbers::sqrt2 * square.half;
+    double growth = 0.0;
+    for (const int i : square.locals) growth = std::max(growth, body_.mesh.refine[static_cast<std::size_t>(i)].growth);
+    const double change = growth * std::numbers::sqrt2 * square.half;
     double size = largest_;
     std::vector<double> sizes;
     for (const int i : square.locals) {

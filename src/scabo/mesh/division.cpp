@@ -51,7 +51,8 @@ BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
     return found->second;
   };
   std::size_t place = 0;
-  for (Cell& cell : fine.cells)
+  for (Cell& cell : fine.cells) {
+    if (cell.kind == CellKind::finite_element) become_superelement(cell, mesh.nodes);
     for (LineElement& element : cell.boundary) {
       const LineElement old = element;
       const bool stays = !frozen.empty() && frozen[place];
@@ -70,6 +71,7 @@ BodyMesh enriched(const BodyMesh& mesh, const std::vector<bool>& frozen) {
       element.nodes.push_back(shared(old.nodes.back()));
       element_of[ends_of(old)] = element;
     }
+  }
   for (auto* lines : {&fine.edges, &fine.faces})
     for (std::vector<LineElement>& edge : *lines)
       for (LineElement& element : edge) element = *find_element(element_of, ends_of(element), turned);
@@ -135,7 +137,8 @@ Division uniform_division(const model::Model& model) {
 Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std::vector<bool>>& frozen) {
   Mesh fine;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    const bool divided = !mesh.bodies[b].cells.empty() && mesh.bodies[b].count(CellKind::finite_element) == 0;
+    const bool finite = mesh.bodies[b].count(CellKind::finite_element) > 0;
+    const bool divided = !mesh.bodies[b].cells.empty() && !(finite && (frozen.empty() || frozen[b].empty()));
     fine.bodies.push_back(divided ? enriched(mesh.bodies[b], frozen.empty() ? std::vector<bool>{} : frozen[b])
                                   : mesh.bodies[b]);
   }
@@ -157,9 +160,7 @@ int boundary_element(const BodyMesh& mesh, int edge, int element) {
   int place = 0;
   for (const Cell& cell : mesh.cells)
     for (const LineElement& line : cell.boundary) {
-      if (cell.kind == CellKind::superelement &&
-          (ends_of(line) == ends || ends_of(line) == Ends(ends.second, ends.first)))
-        return place;
+      if (ends_of(line) == ends || ends_of(line) == Ends(ends.second, ends.first)) return place;
       ++place;
     }
   return -1;

@@ -33,7 +33,9 @@ using Sizes = std::vector<SizeField>;
 Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes = {});
 
 /// The same boundaries with all elements raised by one order, except those `frozen` ([body][boundary element],
-/// those of all cells in their order; empty: none). The geometry does not change: every displacement field of the old elements is also one of the new elements.
+/// those of all cells in their order; empty: none). The geometry does not change: every displacement field of the old
+/// elements is also one of the new elements. Finite elements become super-elements of the higher order, unless the
+/// body has no list in `frozen`: then it stays as it is.
 Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std::vector<bool>>& frozen);
 
 /// An element of an edge of a body.
@@ -49,8 +51,7 @@ struct PairedElements {
 };
 PairedElements paired_elements(const model::Model& model, const Mesh& mesh);
 
-/// Index of an element of an edge among the boundary elements of all cells, in their order; -1 if it belongs to a finite
-/// element.
+/// Index of an element of an edge among the boundary elements of all cells, in their order; -1 if it is none of them.
 int boundary_element(const BodyMesh& mesh, int edge, int element);
 
 }  // namespace scabo::mesh

@@ -9,9 +9,13 @@
 #include <optional>
 #include <unordered_map>
 
+#include "scabo/geometry/box.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/mesh/divided_file.hpp"
+#include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/replace_elements.hpp"
+#include "scabo/mesh/slit.hpp"
 
 namespace scabo::mesh {
 
@@ -41,8 +45,9 @@ std::uint64_t key_of(int a, int b) {
 
 class FileCells {
  public:
-  explicit FileCells(const model::Body& body)
-      : body_(body), file_(*body.imported), fem_(body.mesh.kind == model::MeshKind::fem) {
+  /// `file`: the mesh of the body, or a finer one.
+  FileCells(const model::Body& body, const files::ImportedMesh& file)
+      : body_(body), file_(file), fem_(body.mesh.kind == model::MeshKind::fem), divided_(&file != body.imported.get()) {
     made_.nodes = file_.nodes;
   }
 
@@ -85,9 +90,10 @@ class FileCells {
   std::optional<std::string> add(const files::ImportedCell& from) {
     Cell cell;
     cell.materials = {body_.region_materials[static_cast<std::size_t>(from.region)]};
-    if (fem_) {
+    const bool polygon = from.kind == files::CellKind::polygon || from.kind == files::CellKind::quadratic_polygon;
+    if (fem_ && !(polygon && divided_)) {  // the points of finer neighbours are on the sides of super-elements
       cell.kind = CellKind::finite_element;
-      if (from.kind == files::CellKind::polygon || from.kind == files::CellKind::quadratic_polygon)
+      if (polygon)
         return fmt::format("{} is no finite element, which has three or four sides: use elements: superelement",
                            label(from));
       for (int i = 0; i < from.corners(); ++i)
@@ -163,17 +169,38 @@ class FileCells {
 
   const model::Body& body_;
   const files::ImportedMesh& file_;
-  bool fem_;
+  bool fem_, divided_;
   std::unordered_map<std::uint64_t, std::vector<int>> inner_;  // of raised sides, from the end with the lower number
   BodyMesh made_;
 };
 
 }  // namespace
 
-std::variant<BodyMesh, Diagnostic> cells_of_file(const model::Body& body, double most_nodes) {
+std::variant<BodyMesh, Diagnostic> cells_of_file(const model::Body& body, const SizeField& sizes, double most_nodes) {
   ensure(body.imported && body.region_materials.size() == body.imported->regions.size(),
          "every region of an imported body has a material");
-  return FileCells(body).run(most_nodes);
+  const files::ImportedMesh* mesh = body.imported.get();
+  files::ImportedMesh as_asked, as_estimated;
+  if (!body.mesh.refine.empty()) {
+    const SizeField no_limit;
+    as_asked = divided_mesh(
+        *mesh, [&](const Vec2& x) { return wanted_size(body, no_limit, x); }, most_nodes);
+    mesh = &as_asked;
+  }
+  if (!sizes.empty()) {
+    // Cells around tips of cracks become one, whose accuracy does not depend on its size but on the points along its
+    // boundary: only what is around them is divided.
+    std::vector<Vec2> ends;
+    for (const model::Crack& crack : body.cracks) ends.insert(ends.end(), {crack.path.front(), crack.path.back()});
+    const std::vector<bool> kept =
+        cells_around(*mesh, ends, SlitOptions{}.layers, 1e-7 * geometry::outline_size(body.outline));
+    as_estimated = divided_mesh(
+        *mesh, [&](const Vec2& x) { return sizes.at(x); }, most_nodes, kept);
+    mesh = &as_estimated;
+  }
+  std::variant<BodyMesh, Diagnostic> made = FileCells(body, *mesh).run(most_nodes);
+  if (body.cracks.empty() || std::holds_alternative<Diagnostic>(made)) return made;
+  return slit(std::get<BodyMesh>(std::move(made)), body);
 }
 
 }  // namespace scabo::mesh

@@ -96,7 +96,7 @@ class Matching {
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
     partners_ = std::move(matching.partners);
-    const bool weighted = touch_everywhere();
+    const bool weighted = touch_everywhere() && !holds_apart();
     for (const auto& [i, j] : partners_) {
       interface_.pairs.push_back({.node_a = a.nodes[i],
                                   .node_b = b.nodes[j],
@@ -114,6 +114,22 @@ class Matching {
     if (!edge_a_.arc || !edge_b_.arc) return !edge_a_.arc && !edge_b_.arc;
     const double radius = std::max(edge_a_.arc->radius, edge_b_.arc->radius);
     return (edge_a_.arc->centre - edge_b_.arc->centre).norm() <= 1e-6 * radius;
+  }
+
+  /// Whether sides on concentric arcs are pressed or held apart by a gap without being free to slide, and one of them
+  /// consists of chords. Normals weighted like the forces of a pressure turn to and fro between chords of different
+  /// lengths l by up to l / (4 R). A gap d along them moves the nodes to and fro by d l / (4 R), and where friction
+  /// holds them there, the stress of that, about E d / (4 R), is as large as the pressure, however short the chords
+  /// are.
+  bool holds_apart() const {
+    if (!edge_a_.arc || !edge_b_.arc) return false;
+    const double apart = std::abs(edge_a_.arc->radius - edge_b_.arc->radius);
+    const bool gap = contact_.gap != 0.0 || apart > 1e-9 * edge_a_.arc->radius;
+    const auto of_chords = [](const ContactSide& side) {
+      return std::any_of(side.elements.begin(), side.elements.end(),
+                         [](const LineElement& element) { return element.nodes.size() == 2; });
+    };
+    return !contact_.slides && gap && (of_chords(*side_a_) || of_chords(*side_b_));
   }
 
   Diagnostic not_matching(const LoneNode& lone) const {

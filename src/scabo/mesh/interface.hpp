@@ -37,9 +37,14 @@ struct Joint {
   const model::Place& b;
   double gap = 0.0;  ///< added to the geometric gap
   const Source& source;
+  bool slides = false;  ///< freely: without friction and everything else that holds it along the interface
 };
-inline Joint joint_of(const model::Contact& contact) { return {contact.a, contact.b, contact.gap, contact.source}; }
-inline Joint joint_of(const model::Tie& tie) { return {tie.a, tie.b, 0.0, tie.source}; }
+inline Joint joint_of(const model::Contact& contact) {
+  const bool slides = contact.friction == 0.0 && contact.friction_along.empty() && contact.cohesion == 0.0 &&
+                      !contact.shear_strength && !contact.bond;
+  return {contact.a, contact.b, contact.gap, contact.source, slides};
+}
+inline Joint joint_of(const model::Tie& tie) { return {tie.a, tie.b, 0.0, tie.source, false}; }
 /// All contacts, then all ties.
 std::vector<Joint> joints_of(const model::Model& model);
 

@@ -10,6 +10,7 @@
 #include <queue>
 
 #include "scabo/base/error.hpp"
+#include "scabo/geometry/box_tree.hpp"
 
 namespace scabo::mesh {
 namespace {
@@ -41,101 +42,71 @@ struct Surroundings {
   double spacing = infinity;    // least spacing_per_facet * facet + growth_of_spacing * distance
 };
 
-// A tree of boxes around segments.
+std::vector<geometry::Box> boxes_of_segments(const std::vector<BorderSegment>& segments) {
+  std::vector<geometry::Box> boxes(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) boxes[i].add(segments[i].start), boxes[i].add(segments[i].end);
+  return boxes;
+}
+
+// The segments in a tree, with the longest one and the finest facet below every node of it.
 class SegmentTree {
  public:
-  explicit SegmentTree(const std::vector<BorderSegment>& segments) : segments_(segments), order_(segments.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    nodes_.reserve(segments.size());
-    if (!segments.empty()) build(0, segments.size());
+  explicit SegmentTree(const std::vector<BorderSegment>& segments)
+      : segments_(segments), tree_(boxes_of_segments(segments)) {
+    for (const geometry::BoxTree::Node& node : tree_.nodes()) {
+      Extremes of_node;
+      for (std::size_t i = node.begin; i < node.end; ++i) {
+        const BorderSegment& segment = segments_[tree_.item(i)];
+        of_node.longest = std::max(of_node.longest, (segment.end - segment.start).norm());
+        of_node.finest = std::min(of_node.finest, segment.facet);
+      }
+      extremes_.push_back(of_node);
+    }
   }
 
   // Whether p lies in the box around all segments; beyond, it is outside of every region.
-  bool box_contains(const Vec2& p) const { return !nodes_.empty() && distance_to_box(nodes_.front(), p) == 0.0; }
+  bool box_contains(const Vec2& p) const {
+    return !tree_.empty() && geometry::distance_to(tree_.nodes().front().box, p) == 0.0;
+  }
 
   Surroundings around(const Vec2& p) const {
     Surroundings found;
-    if (!nodes_.empty()) search(0, p, found);
-    return found;
-  }
-
-  // Whether a segment crosses the one from p to q.
-  bool crosses(const Vec2& p, const Vec2& q) const { return !nodes_.empty() && crosses(0, p, q); }
-
- private:
-  struct Node {
-    Vec2 low, high;
-    double longest, finest;
-    std::size_t begin, end;
-    std::size_t second = 0;  // the first child follows the node; 0: a leaf
-  };
-
-  std::size_t build(std::size_t begin, std::size_t end) {
-    Node node{Vec2::Constant(infinity), Vec2::Constant(-infinity), 0.0, infinity, begin, end};
-    for (std::size_t i = begin; i < end; ++i) {
-      const BorderSegment& segment = segments_[order_[i]];
-      node.low = node.low.cwiseMin(segment.start).cwiseMin(segment.end);
-      node.high = node.high.cwiseMax(segment.start).cwiseMax(segment.end);
-      node.longest = std::max(node.longest, (segment.end - segment.start).norm());
-      node.finest = std::min(node.finest, segment.facet);
-    }
-    const std::size_t index = nodes_.size();
-    nodes_.push_back(node);
-    if (end - begin <= 4) return index;
-    const int axis = node.high.x() - node.low.x() >= node.high.y() - node.low.y() ? 0 : 1;
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::size_t i, std::size_t j) {
-      const double x = segments_[i].start[axis] + segments_[i].end[axis];
-      const double y = segments_[j].start[axis] + segments_[j].end[axis];
-      return x < y || (x == y && i < j);
-    });
-    build(begin, middle);
-    const std::size_t second = build(middle, end);
-    nodes_[index].second = second;
-    return index;
-  }
-
-  static double distance_to_box(const Node& node, const Vec2& p) {
-    return (node.low - p).cwiseMax(p - node.high).cwiseMax(0.0).norm();
-  }
-
-  void search(std::size_t index, const Vec2& p, Surroundings& found) const {
-    const Node& node = nodes_[index];
-    const double least = distance_to_box(node, p);
-    if (least >= found.distance && least - from_segments * node.longest >= found.clearance &&
-        spacing_per_facet * node.finest + growth_of_spacing * least >= found.spacing)
-      return;
-    if (node.second != 0) {
-      const bool swap = distance_to_box(nodes_[node.second], p) < distance_to_box(nodes_[index + 1], p);
-      search(swap ? node.second : index + 1, p, found);
-      search(swap ? index + 1 : node.second, p, found);
-      return;
-    }
-    for (std::size_t i = node.begin; i < node.end; ++i) {
-      const BorderSegment& segment = segments_[order_[i]];
+    const auto matters = [&](std::size_t node) {
+      const double least = geometry::distance_to(tree_.nodes()[node].box, p);
+      return least < found.distance || least - from_segments * extremes_[node].longest < found.clearance ||
+             spacing_per_facet * extremes_[node].finest + growth_of_spacing * least < found.spacing;
+    };
+    tree_.visit_from(p, matters, [&](std::size_t i) {
+      const BorderSegment& segment = segments_[i];
       const double distance = distance_to_segment(p, segment.start, segment.end);
       const double length = (segment.end - segment.start).norm();
       found.distance = std::min(found.distance, distance);
       found.clearance = std::min(found.clearance, distance - from_segments * length);
       found.spacing = std::min(found.spacing, spacing_per_facet * segment.facet + growth_of_spacing * distance);
-    }
+    });
+    return found;
   }
 
-  bool crosses(std::size_t index, const Vec2& p, const Vec2& q) const {
-    const Node& node = nodes_[index];
-    if (std::max(p.x(), q.x()) < node.low.x() || std::min(p.x(), q.x()) > node.high.x() ||
-        std::max(p.y(), q.y()) < node.low.y() || std::min(p.y(), q.y()) > node.high.y())
-      return false;
-    if (node.second != 0) return crosses(index + 1, p, q) || crosses(node.second, p, q);
-    return std::any_of(order_.begin() + static_cast<std::ptrdiff_t>(node.begin),
-                       order_.begin() + static_cast<std::ptrdiff_t>(node.end),
-                       [&](std::size_t i) { return segments_cross(p, q, segments_[i].start, segments_[i].end); });
+  // Whether a segment crosses the one from p to q.
+  bool crosses(const Vec2& p, const Vec2& q) const {
+    const Vec2 low = p.cwiseMin(q), high = p.cwiseMax(q);
+    bool found = false;
+    const auto overlaps = [&](std::size_t node) {
+      const geometry::Box& box = tree_.nodes()[node].box;
+      return !found && (low.array() <= box.high.array()).all() && (high.array() >= box.low.array()).all();
+    };
+    tree_.visit(overlaps,
+                [&](std::size_t i) { found = found || segments_cross(p, q, segments_[i].start, segments_[i].end); });
+    return found;
   }
 
+ private:
+  struct Extremes {
+    double longest = 0.0, finest = infinity;
+  };
   const std::vector<BorderSegment>& segments_;
-  std::vector<std::size_t> order_;
-  std::vector<Node> nodes_;
+  geometry::BoxTree tree_;
+  std::vector<Extremes> extremes_;  // of each node
 };
 
 // Points in square boxes whose width goes with their spacing: 2^k <= spacing < 2^(k+1), width 2^(k+1).

@@ -82,9 +82,9 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
     const model::Body& body = model.bodies[b];
     if (body.rigid) continue;
     if (model::is_divided_inside(body)) {
-      auto divided = body.imported
-                         ? cells_of_file(body, most_nodes_of_model - nodes)
-                         : divide_into_cells(body, sizes.empty() ? no_limit : sizes[b], most_nodes_of_model - nodes);
+      const SizeField& wanted = sizes.empty() ? no_limit : sizes[b];
+      auto divided = body.imported ? cells_of_file(body, wanted, most_nodes_of_model - nodes)
+                                   : divide_into_cells(body, wanted, most_nodes_of_model - nodes);
       if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
         mistakes.push_back(*wrong);
         continue;

@@ -23,6 +23,7 @@
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
 #include "scabo/mesh/refusal.hpp"
+#include "scabo/mesh/slit.hpp"
 #include "scabo/mesh/star_cells.hpp"
 #include "scabo/mesh/unit_free.hpp"
 
@@ -46,13 +47,15 @@ struct Sizing {
 };
 
 /// Fractions of the length of an edge at which it is divided, 0 and 1 included.
-std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge) {
+std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge, int least_count = 1) {
   const double length = edge.length();
   const double by_turn = edge.arc ? std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
   const double rounding = rounding_of(sizing.largest);
   std::vector<double> breaks{0.0};
   if (sizing.uniform) {
-    const double count = std::max({1.0, std::ceil(length / sizing.largest - rounding), std::ceil(by_turn - rounding)});
+    const double count =
+        std::max<double>({static_cast<double>(least_count), std::ceil(length / sizing.largest - rounding),
+                          std::ceil(by_turn - rounding)});
     for (int k = 1; k < count; ++k) breaks.push_back(k / count);
   } else {
     // As many elements as the integral of 1 / size, each with an equal part of it. Steps are short compared with the
@@ -72,7 +75,7 @@ std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge) 
       sum.push_back(sum.back() + step / size);
     };
     for (int i = 0; i < samples; ++i) add(add, double(i) / samples, (i + 1.0) / samples);
-    const double count = std::max(1.0, std::ceil(sum.back() - rounding));
+    const double count = std::max<double>(least_count, std::ceil(sum.back() - rounding));
     std::size_t i = 0;
     for (int k = 1; k < count; ++k) {
       const double part = k / count * sum.back();
@@ -97,11 +100,16 @@ DomainLine part_of(const geometry::Edge& edge, const std::vector<double>& breaks
 }
 
 /// Lines of an edge: one, or two halves of a long arc.
-std::vector<DomainLine> lines_of(const Sizing& sizing, const geometry::Edge& edge) {
-  const std::vector<double> breaks = breaks_of(sizing, edge);
+std::vector<DomainLine> lines_of(const Sizing& sizing, const geometry::Edge& edge, int least_count = 1) {
+  const std::vector<double> breaks = breaks_of(sizing, edge, least_count);
   const std::size_t last = breaks.size() - 1;
   if (!edge.arc || std::abs(edge.arc->sweep) < std::numbers::pi) return {part_of(edge, breaks, 0, last)};
   return {part_of(edge, breaks, 0, last / 2), part_of(edge, breaks, last / 2, last)};
+}
+
+/// Finite elements around the two tips of a crack become cells of their own (slit.hpp), between which some are left.
+int least_elements(const model::Body& body, const NetLine& line) {
+  return line.crack && body.mesh.kind == model::MeshKind::fem ? 4 : 1;
 }
 
 /// Points of a side at fractions of it, in the direction from `a` to `b`.
@@ -170,12 +178,13 @@ PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double tu
 }  // namespace
 
 double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x) {
-  double size = std::min(body.mesh.size, sizes.at(x));
+  const double largest = body.imported ? std::numeric_limits<double>::infinity() : body.mesh.size;
+  double size = std::min(largest, sizes.at(x));
   for (const model::LocalSize& local : body.mesh.refine) {
     const double distance = local.near
                                 ? (*local.near - x).norm()
                                 : geometry::distance_to(body.outline.edges[static_cast<std::size_t>(local.edge)], x);
-    size = std::min(size, local.size + model::mesh_growth * distance);
+    size = std::min(size, local.size + local.growth * distance);
   }
   return size;
 }
@@ -195,7 +204,7 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
   made.lines_of_edge.resize(body.outline.edges.size());
   made.lines_of_crack.resize(cracks.paths().size());
   for (const NetLine& of : net)
-    for (DomainLine& line : lines_of(sizing, of.edge)) {
+    for (DomainLine& line : lines_of(sizing, of.edge, least_elements(body, of))) {
       line.left = of.left;
       line.right = of.right;
       line.crack = of.crack;
@@ -436,6 +445,11 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
         if (of.sources[l].region >= 0)
           borders.push_back({of.sources[l].region, of.sources[l].region_edge, polygons.left[l]});
       BodyMesh mesh = own.real(body_mesh_of(polygons, of, own.body()), borders);
+      if (body.mesh.kind == model::MeshKind::fem && !body.cracks.empty()) {
+        auto slitted = slit(std::move(mesh), body);
+        if (const Diagnostic* wrong = std::get_if<Diagnostic>(&slitted)) return *wrong;
+        mesh = std::get<BodyMesh>(std::move(slitted));
+      }
       const std::size_t pieces = body.cracks.empty() ? 1 : pieces_of(mesh);
       if (pieces > 1)
         return Diagnostic{body.cracks.front().source,

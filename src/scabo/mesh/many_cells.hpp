@@ -10,8 +10,8 @@
 
 namespace scabo::mesh {
 
-/// Wanted length of the sides of cells at a point of the body: mesh.size, less near places of mesh.refine, and no more
-/// than `sizes`.
+/// Wanted length of the sides of cells at a point of the body: mesh.size (from a file: any), less near places of
+/// mesh.refine, and no more than `sizes`.
 double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x);
 
 /// The outline, the regions and the cracks of a body as lines, divided by wanted_size or less in narrow places. It

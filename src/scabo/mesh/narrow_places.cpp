@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/box_tree.hpp"
 #include "scabo/geometry/foot_points.hpp"
 
 namespace scabo::mesh {
@@ -19,75 +18,17 @@ constexpr double least_width = 1e-8;
 /// Cells next to a narrow place are about as many again in each of the layers in which sizes grow.
 constexpr double cells_per_size = 4.0;
 
-/// A tree of boxes around lines.
-class LineTree {
- public:
-  explicit LineTree(const std::vector<NetLine>& lines) : order_(lines.size()) {
-    for (const NetLine& line : lines) boxes_.push_back(geometry::box_of(line.edge));
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    if (!lines.empty()) build(0, lines.size());
-  }
-
-  /// Calls `act` with every line whose box is within `radius` of p.
-  template <typename Act>
-  void within(const Vec2& p, double radius, const Act& act) const {
-    if (!nodes_.empty()) visit(0, p, radius, act);
-  }
-
- private:
-  struct Node {
-    geometry::Box box;
-    std::size_t begin, end;
-    std::size_t second = 0;  ///< the first child follows the node; 0: a leaf
-  };
-
-  std::size_t build(std::size_t begin, std::size_t end) {
-    Node node{{}, begin, end};
-    for (std::size_t i = begin; i < end; ++i) node.box.add(boxes_[order_[i]]);
-    const std::size_t index = nodes_.size();
-    nodes_.push_back(node);
-    if (end - begin <= 4) return index;
-    const Vec2 extent = node.box.high - node.box.low;
-    const int axis = extent.x() >= extent.y() ? 0 : 1;
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::size_t i, std::size_t j) {
-      const double x = boxes_[i].low[axis] + boxes_[i].high[axis], y = boxes_[j].low[axis] + boxes_[j].high[axis];
-      return x < y || (x == y && i < j);
-    });
-    build(begin, middle);
-    const std::size_t second = build(middle, end);
-    nodes_[index].second = second;
-    return index;
-  }
-
-  static bool near(const geometry::Box& box, const Vec2& p, double radius) {
-    return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).norm() <= radius;
-  }
-
-  template <typename Act>
-  void visit(std::size_t index, const Vec2& p, double radius, const Act& act) const {
-    const Node& node = nodes_[index];
-    if (!near(node.box, p, radius)) return;
-    if (node.second != 0) {
-      visit(index + 1, p, radius, act);
-      visit(node.second, p, radius, act);
-      return;
-    }
-    for (std::size_t i = node.begin; i < node.end; ++i)
-      if (near(boxes_[order_[i]], p, radius)) act(order_[i]);
-  }
-
-  std::vector<geometry::Box> boxes_;
-  std::vector<std::size_t> order_;
-  std::vector<Node> nodes_;
-};
+std::vector<geometry::Box> boxes_of(const std::vector<NetLine>& lines) {
+  std::vector<geometry::Box> boxes;
+  for (const NetLine& line : lines) boxes.push_back(geometry::box_of(line.edge));
+  return boxes;
+}
 
 class Finder {
  public:
   Finder(const std::vector<NetLine>& lines, const std::function<double(const Vec2&)>& size, double largest,
          const NarrowOptions& options)
-      : lines_(lines), size_(size), largest_(largest), options_(options), tree_(lines) {}
+      : lines_(lines), size_(size), largest_(largest), options_(options), tree_(boxes_of(lines)) {}
 
   NarrowPlaces run(const std::vector<Vec2>& tips) {
     for (const Vec2& tip : tips) look_at_tip(tip);
@@ -159,7 +100,7 @@ class Finder {
   const std::function<double(const Vec2&)>& size_;
   const double largest_;
   const NarrowOptions options_;
-  LineTree tree_;
+  geometry::BoxTree tree_;
   NarrowPlaces found_;
 };
 

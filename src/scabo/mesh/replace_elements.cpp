@@ -40,6 +40,15 @@ Vec2 centroid(const Cell& cell, const std::vector<Vec2>& nodes) {
   return origin + moment / (3.0 * twice_area);
 }
 
+}  // namespace
+
+void become_superelement(Cell& cell, const std::vector<Vec2>& nodes) {
+  cell.kind = CellKind::superelement;
+  cell.centre = centroid(cell, nodes);
+}
+
+namespace {
+
 void replace_in_cell(Cell& cell, const Replacements& replacements, const std::vector<Vec2>& nodes) {
   std::vector<LineElement> boundary;
   std::vector<int> materials;
@@ -52,8 +61,7 @@ void replace_in_cell(Cell& cell, const Replacements& replacements, const std::ve
   cell.boundary = std::move(boundary);
   if (cell.materials.size() > 1) cell.materials = std::move(materials);
   if (cell.kind == CellKind::superelement || alike) return;
-  cell.kind = CellKind::superelement;
-  cell.centre = centroid(cell, nodes);
+  become_superelement(cell, nodes);
 }
 
 }  // namespace

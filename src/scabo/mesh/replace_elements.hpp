@@ -15,6 +15,9 @@ using Replacements = std::map<std::vector<int>, std::vector<LineElement>>;
 /// that would no longer be ones become super-elements.
 void replace_elements(BodyMesh& mesh, const Replacements& replacements);
 
+/// Makes a finite element a super-element with the centroid as scaling centre.
+void become_superelement(Cell& cell, const std::vector<Vec2>& nodes);
+
 /// Moves end nodes of line elements (node -> new position). Line elements of cells that end there, except the
 /// `replaced` ones, follow: their inner nodes are displaced in proportion to the distance from the other end.
 void move_nodes(BodyMesh& mesh, const std::map<int, Vec2>& moved, const Replacements& replaced);

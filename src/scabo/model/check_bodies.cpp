@@ -222,8 +222,7 @@ bool check_cracks(const BodyCheck& of) {
                              "cracks in a body with outside: true are not available in this version: leave them out");
     return false;
   }
-  const bool many = of.body.mesh.kind == MeshKind::polygons || of.body.mesh.kind == MeshKind::quadtree;
-  if (many) return check_paths(of);
+  if (of.body.mesh.kind != MeshKind::superelement) return check_paths(of);
   if (!cracks.front().path.empty()) {
     of.checking.error(
         of.path, "cracks.0",
@@ -249,7 +248,6 @@ std::string edge_names(const Outline& outline, const std::vector<int>& indices) 
 /// What to do about a body that is no single super-element: it becomes several, unless some key requires one.
 const char* remedy_for_unseen(const Body& body, bool centre_given) {
   if (body.outside || !body.sector_materials.empty()) return "divide the body into several bodies";
-  if (body.mesh.tolerance) return "leave 'tolerance' out, and the body is divided into several super-elements";
   return centre_given ? "leave 'centre' out, and the body is divided into several super-elements"
                       : "use kind: polygons, which divides the body into many super-elements";
 }
@@ -326,19 +324,15 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
   const auto refuse = [&](bool given, const char* key, const char* why) {
     if (given) checking.error_of_key(path, key, why), good = false;
   };
-  refuse(
-      body.mesh.tolerance.has_value() && (body.mesh.kind == MeshKind::parts || body.imported || body.image),
-      "mesh.tolerance",
-      "is available only for a body that is one super-element, and with kind: polygons or kind: quadtree of a shape: "
-      "leave it out");
+  refuse(body.mesh.tolerance.has_value() && body.image, "mesh.tolerance",
+         "is not available for a body that an image shows, whose cells are its pixels: leave it out");
+  refuse(body.mesh.tolerance.has_value() && body.mesh.kind == MeshKind::parts, "mesh.tolerance",
+         "a body of a few parts is not refined: write kind: polygons");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
-  refuse(body.imported && !body.cracks.empty(), "cracks", "is not available for a body from a mesh file: leave it out");
   if (!body.cracks.empty() && body.mesh.kind == MeshKind::parts)
     checking.error(path, "cracks.0", "a crack in a body of several parts needs kind: polygons or kind: quadtree"),
         good = false;
-  refuse(body.imported && !body.mesh.refine.empty(), "mesh.refine",
-         "is not available for a mesh of a file, which has its cells already: leave it out");
   refuse(body.imported && !body.regions.empty(), "regions",
          "the regions of a mesh of a file are those of its cells: give them materials with 'materials'");
   refuse(body.image && body.mesh.kind != MeshKind::quadtree, "mesh.kind",
@@ -350,6 +344,7 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
     const LocalSize& local = body.mesh.refine[i];
     const std::string at = fmt::format("mesh.refine.{}", i);
     good = checking.positive(path, at + ".size", local.size) && good;
+    good = checking.within(path, at + ".growth", local.growth, "0.02", "0.5") && good;
     if (local.near) {
       good = checking.vector(path, at + ".near", *local.near) && good;
     } else if (local.edge < 0 || static_cast<std::size_t>(local.edge) >= body.outline.edges.size()) {
@@ -392,13 +387,8 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
                           "is not available for kind: superelement: use polygons, quadtree or fem"),
         good = false;
   if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty())) {
-    if (mesh.tolerance)
-      checking.error_of_key(path, "mesh.tolerance",
-                            "is available only for a body that is one super-element, without holes and regions: leave "
-                            "it out");
-    else
-      checking.error(path, "mesh",
-                     "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree");
+    checking.error(path, "mesh",
+                   "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree");
     good = false;
   }
   good = checking.whole(path, "mesh.order", mesh.order, limits::order) && good;
@@ -407,20 +397,12 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
       checking.error(path, "mesh.order",
                      fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", mesh.order)),
           good = false;
-    if (mesh.tolerance)
-      checking.error_of_key(path, "mesh.tolerance", "only super-elements are refined: leave 'tolerance' out for fem"),
-          good = false;
-    if (!body.cracks.empty())
-      checking.error(
-          path, "cracks.0",
-          "finite elements cannot have a crack: use polygons, quadtree or superelement, or leave the crack out"),
-          good = false;
     if (body.outside)
       checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
           good = false;
   }
   if (is_divided_inside(body)) good = check_many_cells(checking, path, body) && good;
-  if (mesh.tolerance && mesh.kind != MeshKind::fem) {
+  if (mesh.tolerance) {
     good = checking.within(path, "mesh.tolerance", *mesh.tolerance, "1e-5", "0.5") && good;
   }
   if (mesh.kind != MeshKind::superelement && !body.sector_materials.empty())
@@ -566,8 +548,7 @@ void check_body(Checking& checking, std::size_t index) {
   if (!turned.edges.empty() && of.centre_corner > 0) of.centre_corner = of.edges() - of.centre_corner;
   check_regions(of);
   const bool whole = body.mesh.kind != MeshKind::superelement;  // without side faces
-  const bool many = body.mesh.kind == MeshKind::polygons || body.mesh.kind == MeshKind::quadtree;
-  checking.faces[index] = whole ? !many || check_cracks(of) : check_cracks(of) && check_side_faces(of);
+  checking.faces[index] = check_cracks(of) && (whole || check_side_faces(of));
   if (checking.faces[index]) check_mesh(of, good);
   check_sectors(of);
   check_reference(of);

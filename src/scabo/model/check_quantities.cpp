@@ -11,9 +11,7 @@ namespace {
 
 /// Whether meshes of the body can be refined for a tolerance.
 bool can_be_refined(const Body& body) {
-  const MeshKind kind = body.mesh.kind;
-  return !body.rigid && !body.imported && !body.image &&
-         (kind == MeshKind::superelement || kind == MeshKind::polygons || kind == MeshKind::quadtree);
+  return !body.rigid && !body.image && body.mesh.kind != MeshKind::fem && body.mesh.kind != MeshKind::parts;
 }
 
 /// Whether finer meshes than that of the body can be made, which show its error.
@@ -33,11 +31,12 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
     checking.error(path, "", fmt::format("body '{}' is rigid, and has no stress intensity factors", body.name));
     return;
   }
-  if (body.mesh.kind == MeshKind::fem) {
-    checking.error(path, "",
-                   fmt::format("body '{}' is made of finite elements, which have no stress intensity "
-                               "factors: use kind: superelement, polygons or quadtree",
-                               body.name));
+  if (body.mesh.kind == MeshKind::fem) {  // their order stays, and with it the error of the cell around the tip
+    checking.error(
+        path, "",
+        fmt::format("body '{}' is made of finite elements, whose stress intensity factors have no error bar: "
+                    "use kind: superelement, polygons or quadtree, or cells of a file as super-elements",
+                    body.name));
     return;
   }
   const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')),

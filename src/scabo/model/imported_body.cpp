@@ -287,6 +287,70 @@ class OutlineMaker {
   ImportedBody body_;
 };
 
+/// The sides of a set as chains, each from one of its ends to the other; a closed one begins anywhere.
+std::vector<std::vector<int>> chains_of(const std::vector<Facet>& facets) {
+  std::multimap<int, std::size_t> at_node;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    at_node.emplace(facets[i].start, i), at_node.emplace(facets[i].end, i);
+  std::vector<bool> used(facets.size(), false);
+  std::vector<std::vector<int>> chains;
+  const auto walk = [&](std::size_t first, int node) {
+    std::vector<int> chain{node};
+    for (std::size_t i = first; i < facets.size();) {
+      used[i] = true;
+      node = facets[i].start == node ? facets[i].end : facets[i].start;
+      chain.push_back(node);
+      i = facets.size();
+      if (at_node.count(node) != 2) break;  // an end, or a place where chains meet
+      const auto [from, to] = at_node.equal_range(node);
+      for (auto other = from; other != to; ++other)
+        if (!used[other->second]) i = other->second;
+    }
+    chains.push_back(std::move(chain));
+  };
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    if (!used[i] && at_node.count(facets[i].start) != 2) walk(i, facets[i].start);
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    if (!used[i] && at_node.count(facets[i].end) != 2) walk(i, facets[i].end);
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    if (!used[i]) walk(i, facets[i].start);
+  return chains;
+}
+
+/// Sets of sides of which some lie between cells of the part.
+std::map<std::string, std::vector<std::vector<Vec2>>> lines_of(const ImportedMesh& whole, const ImportedMesh& part,
+                                                               const std::vector<int>& original) {
+  std::map<std::string, std::vector<std::vector<Vec2>>> lines;
+  std::unordered_set<std::uint64_t> boundary, sides;
+  for (const ImportedCell& cell : part.cells)
+    for (int i = 0; i < cell.corners(); ++i) {
+      const Facet side = files::side_of(cell, i);
+      const std::uint64_t key =
+          key_of(original[static_cast<std::size_t>(side.start)], original[static_cast<std::size_t>(side.end)]);
+      if (sides.insert(key).second)
+        boundary.insert(key);
+      else
+        boundary.erase(key);
+    }
+  for (const files::FacetSet& set : whole.facet_sets) {
+    std::vector<Facet> inside;
+    bool within = false;
+    for (const Facet& facet : set.facets) {
+      const std::uint64_t key = key_of(facet.start, facet.end);
+      if (!sides.contains(key)) continue;
+      inside.push_back(facet);
+      within = within || !boundary.contains(key);
+    }
+    if (!within) continue;
+    auto& chains = lines[name_from(set.name)];
+    for (const std::vector<int>& chain : chains_of(inside)) {
+      std::vector<Vec2>& points = chains.emplace_back();
+      for (const int node : chain) points.push_back(at(whole, node));
+    }
+  }
+  return lines;
+}
+
 std::string quoted_list(const std::vector<std::string>& names) {
   std::vector<std::string> quoted;
   for (const std::string& name : names) quoted.push_back("'" + name + "'");
@@ -311,6 +375,7 @@ std::variant<ImportedBody, std::string> body_of(const ImportedMesh& mesh, const 
                        sets.empty() ? "" : "; 'region' may also be one of the sets " + quoted_list(sets));
   }
   ImportedBody body = maker.make();
+  body.lines = lines_of(mesh, part, original);
   part.facet_sets = maker.take_sides();
   body.mesh = std::make_shared<const ImportedMesh>(std::move(part));
   return body;

@@ -33,6 +33,9 @@ struct ImportedBody {
   geometry::Outline outline;  ///< the outer boundary, then the holes
   /// Of every edge that is the first of several pieces of a set: the names of the others.
   std::map<std::string, std::vector<std::string>> pieces;
+  /// Sets of sides that are not all on the boundary, by name: the end points of their sides in chains, in the direction
+  /// of the file where it has one for a whole chain. What a crack may follow.
+  std::map<std::string, std::vector<std::vector<Vec2>>> lines;
   std::map<std::string, Vec2> lost_points;  ///< names of nodes that are no corners because they lie within a named edge
 };
 

@@ -70,14 +70,17 @@ using geometry::Outline;
 /// finite elements.
 enum class MeshKind { superelement, fem, polygons, quadtree, parts, imported };
 
-/// Smaller cells near a point, or on an edge of the outline. Away from it sizes grow by `mesh_growth` of the distance.
+/// Growth of the sizes of cells with the distance from where they are smaller, unless one is given.
+constexpr double mesh_growth = 0.3;
+
+/// Smaller cells near a point, or on an edge of the outline. Away from it sizes grow by `growth` of the distance.
 struct LocalSize {
   std::optional<Vec2> near;
   int edge = -1;      ///< where `near` is not given
   double size = 0.0;  ///< > 0
-  Source source;
+  Source source = {};
+  double growth = mesh_growth;  ///< 0.02 to 0.5
 };
-constexpr double mesh_growth = 0.3;
 
 struct MeshOptions {
   MeshKind kind = MeshKind::superelement;
@@ -104,8 +107,8 @@ struct Crack {
   int edge = -1;    ///< edge with the mouth
   double at = 0.0;  ///< mouth = edge.at(at), 0 <= at < 1; 0 is the corner at the start of the edge
   Source source;
-  /// In a body of many cells: its points from one end to the other, two or more; then `tip` and `mouth` are not used.
-  /// An end on the boundary or on another crack is open, any other end is a tip.
+  /// Between cells and elements: its points from one end to the other, two or more; then `tip` and `mouth` are not
+  /// used. An end on the boundary or on another crack is open, any other end is a tip.
   std::vector<Vec2> path;
 };
 
@@ -130,7 +133,7 @@ struct Body {
   int material = -1;                  ///< index into Model::materials; -1 for a rigid body
   Outline outline;                    ///< with the material on its left
   MeshOptions mesh;                   ///< unused for a rigid body
-  std::vector<Crack> cracks;          ///< at most one
+  std::vector<Crack> cracks;          ///< at most one of one super-element, and all with a path in others
   std::vector<Region> regions;        ///< beside each other, or one inside another: the smallest one counts
   std::vector<int> sector_materials;  ///< per edge: its sector's index into Model::materials; empty: `material`
   /// The mesh of the body, from a file (imported_body.hpp): facet_sets[i] has the sides along edge i of the outline, in
@@ -149,9 +152,9 @@ struct Body {
 /// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
 /// of finite elements in a rectangle.
 inline bool is_divided_inside(const Body& body) {
-  return body.image ||
-         (body.mesh.kind != MeshKind::superelement && !(body.mesh.kind == MeshKind::fem && body.outline.rectangle &&
-                                                        body.regions.empty() && body.mesh.refine.empty()));
+  return body.image || (body.mesh.kind != MeshKind::superelement &&
+                        !(body.mesh.kind == MeshKind::fem && body.outline.rectangle && body.regions.empty() &&
+                          body.mesh.refine.empty() && body.cracks.empty() && !body.mesh.tolerance));
 }
 
 /// Whether the cracks of a body lie between its cells: both faces of each consist of boundary elements.

@@ -27,12 +27,13 @@ model::Body body_of(const test::MeshText& text, model::MeshKind kind, int order 
 }
 
 BodyMesh mesh_of(const test::MeshText& text, model::MeshKind kind, int order = 1) {
-  return std::get<BodyMesh>(cells_of_file(body_of(text, kind, order), 1e6));
+  return std::get<BodyMesh>(cells_of_file(body_of(text, kind, order), SizeField(), 1e6));
 }
 
 TEST(ImportedCells, KeepTheirNodesAndOrders) {
   // 6 x 4 cells: 35 corners, 58 sides.
-  const std::vector<std::array<int, 3>> table{{5, 48, 35}, {9, 24, 35}, {7, 12, 35}, {22, 48, 35 + 82}, {23, 24, 35 + 58}};
+  const std::vector<std::array<int, 3>> table{
+      {5, 48, 35}, {9, 24, 35}, {7, 12, 35}, {22, 48, 35 + 82}, {23, 24, 35 + 58}};
   for (const auto& [type, cells, nodes] : table)
     for (const model::MeshKind kind : {model::MeshKind::imported, model::MeshKind::fem}) {
       if (type == 7 && kind == model::MeshKind::fem) continue;
@@ -78,25 +79,26 @@ TEST(ImportedCells, NameTheCellThatCannotBe) {
   test::MeshText text;
   text.nodes = {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
   text.cells = {{7, {0, 1, 2, 3, 4, 5, 6, 7}, 1}};
-  const auto wrong = cells_of_file(body_of(text, model::MeshKind::imported), 1e6);
+  const auto wrong = cells_of_file(body_of(text, model::MeshKind::imported), SizeField(), 1e6);
   ASSERT_TRUE(std::holds_alternative<Diagnostic>(wrong));
   EXPECT_EQ(std::get<Diagnostic>(wrong).message.substr(0, 27), "cell 0 of part.vtu (polygon");
-  const auto fem = cells_of_file(body_of(text, model::MeshKind::fem), 1e6);
+  const auto fem = cells_of_file(body_of(text, model::MeshKind::fem), SizeField(), 1e6);
   EXPECT_NE(std::get<Diagnostic>(fem).message.find("is no finite element"), std::string::npos);
-  const auto many = cells_of_file(body_of(text, model::MeshKind::imported, 9), 30);
+  const auto many = cells_of_file(body_of(text, model::MeshKind::imported, 9), SizeField(), 30);
   EXPECT_NE(std::get<Diagnostic>(many).message.find("more than the 30 allowed"), std::string::npos);
 }
 
 TEST(ImportedCells, SidesThatBulgeInwardsMustBeSeen) {
-  // A square of side 2 whose bottom is drawn up to y = 1.2 in its middle: the tangents at its ends meet at (1, 2.4), above
-  // the square, so that no point sees the whole bottom.
+  // A square of side 2 whose bottom is drawn up to y = 1.2 in its middle: the tangents at its ends meet at (1, 2.4),
+  // above the square, so that no point sees the whole bottom.
   test::MeshText text;
   text.nodes = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0.4}, {2, 1}, {1, 2}, {0, 1}};
   text.cells = {{36, {0, 1, 2, 3, 4, 5, 6, 7}, 1}};
   const BodyMesh mesh = mesh_of(text, model::MeshKind::imported);  // tangents meet at (1, 0.8)
   EXPECT_GT(mesh.cells[0].centre.y(), 0.8);
   text.nodes[4] = {1, 1.2};
-  EXPECT_TRUE(std::holds_alternative<Diagnostic>(cells_of_file(body_of(text, model::MeshKind::imported), 1e6)));
+  EXPECT_TRUE(
+      std::holds_alternative<Diagnostic>(cells_of_file(body_of(text, model::MeshKind::imported), SizeField(), 1e6)));
 }
 
 }  // namespace
