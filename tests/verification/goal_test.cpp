@@ -279,6 +279,41 @@ TEST(ErrorBars, ToleranceThatCannotBeReachedIsReported) {
   EXPECT_FALSE(solution.increments.back().quantities.front().reached());
 }
 
+// Zero by symmetry: nothing is small relative to it, and what is found of it is rounding. It took a minute and 15 meshes.
+TEST(ErrorBars, ANumberThatIsZeroHasABarOfRounding) {
+  const std::string symmetric = R"(scabo: 1
+materials: {steel: {young: 200e9, poisson: 0.3}}
+bodies: {plate: {material: steel, shape: {rectangle: {corner: [-1, 0], size: [2, 1]}}, mesh: {size: 0.5}}}
+supports: [{on: plate.bottom, fix: [x, y], name: floor}]
+loads: {press: {on: plate.top, pressure: 1e6}}
+output: {points: [{at: [0, 1], name: tip}], error_of: [tip.ux, floor.reaction_x]}
+)";
+  const auto bars = run(symmetric);
+  for (const auto& quantity : last(bars).quantities) EXPECT_LE(std::abs(quantity.value), quantity.bar) << quantity.of;
+  const auto solution = run(symmetric + "tolerance: {of: tip.ux, relative: 1e-3}\n");
+  EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
+  EXPECT_NE(solution.reason.find("the value is zero to rounding"), std::string::npos) << solution.reason;
+  EXPECT_EQ(solution.passes.size(), 1u);
+}
+
+// Side faces of a notch have no elements to divide: a segmentation fault once.
+TEST(ErrorBars, OfASuperElementWithANotch) {
+  const auto solution = run(R"(scabo: 1
+materials: {steel: {young: 10e9, poisson: 0.2}}
+bodies:
+  plate:
+    material: steel
+    shape: {polygon: {vertices: [[0, 0], [1, 0], [1, 1], [-1, 1], [-1, -1], [0, -1]]}}
+    mesh: {size: 1, centre: [0, 0]}
+supports: [{on: plate.edge_5, fix: [x, y]}]
+loads: {press: {on: plate.edge_3, pressure: 1e6}}
+tolerance: {of: plate.vertex_3.uy, relative: 1e-2}
+)");
+  const auto& quantity = last(solution).quantities.front();
+  EXPECT_NEAR(quantity.value, -0.003168, quantity.bar + 4.8e-5);  // of a finer mesh: -0.003168 +- 4.8e-5
+  EXPECT_LE(quantity.bar, 1e-2 * std::abs(quantity.value));
+}
+
 // Every increment has its bars, which do not change the results.
 TEST(ErrorBars, OfEveryIncrement) {
   const std::string steps = "steps: [{increments: 3}]\n";

@@ -114,6 +114,36 @@ element::Vec3 boussinesq(double q, double a, const Vec2& x) {
   return {factor * (turn + sine), factor * (turn - sine), factor * cosine};
 }
 
+// The work of the loads and the elastic energy belong to the displacements that are shown: relative to the reference
+// point. They once were those of the body held far away, erratic under refinement (1625, 1770, 1829, 1777).
+TEST(Outside, EnergiesAreRelativeToTheReferencePoint) {
+  const auto energy = [](double size, double depth) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+materials: {{rock: {{young: 10e9, poisson: 0.2}}}}
+bodies:
+  far:
+    material: rock
+    outside: true
+    shape: {{polygon: {{vertices: [[0, 0], [-2, 0], [-2, -2], [2, -2], [2, 0]]}}}}
+    mesh: {{size: {}, centre: [0, 0]}}
+    reference: [0, {}]
+loads: {{press: {{on: far.edge_3, pressure: 1e6}}}}
+steps: [{{increments: 2}}]
+)",
+                                          size, -depth));
+    const analysis::IncrementResult& at = last(solution);
+    EXPECT_NEAR(at.energy.external / at.energy.elastic, 1.0, 1e-10);
+    return at.energy.elastic;
+  };
+  // Half of the integral of pressure times settlement, by the values along the loaded edge.
+  EXPECT_NEAR(energy(0.5, 50.0), 1702.6, 0.2);
+  EXPECT_NEAR(energy(0.2, 50.0), 1704.2, 0.2);
+  // Moving the point changes them by half the resultant, 4 MN, times the settlement between the two points: far away
+  // that under a line load in plane stress, F 2 ln 2 / (pi E).
+  const double between = 0.5 * 4e6 * (4e6 * 2.0 * std::log(2.0) / (std::numbers::pi * 10e9));
+  EXPECT_NEAR(energy(0.2, 2e4) - energy(0.2, 1e4), between, 1e-3 * between);
+}
+
 TEST(Outside, AStripLoadHasBoussinesqsStresses) {
   double before = HUGE_VAL;
   for (const double size : {0.5, 0.25, 0.125}) {

@@ -73,6 +73,7 @@ mesh::Division enriched_division(mesh::Division division, const Richer& richer) 
   const int parts = static_cast<int>(std::lround(1.0 / richer.size));
   for (mesh::BodyDivision& body : division)
     for (mesh::EdgeDivision& edge : body) {
+      if (edge.orders.empty()) continue;  // a side face
       mesh::EdgeDivision fine;
       fine.breaks = {edge.breaks.front()};
       for (std::size_t k = 0; k < edge.orders.size(); ++k)
@@ -208,7 +209,8 @@ void add_bars(StaticSolution& solution, const model::Model& model, const RicherV
       for (const Values& values : richer.values) finer.push_back(values[i][k]);
       QuantityResult result{quantities[k]->name, J[i][k], bar_of(J[i][k], finer), finer.back(), {}};
       // What the certificate of contact allows, and rounding, are not discretisation errors, but errors.
-      result.bar = std::max(result.bar, model.solver.tolerance * std::abs(result.value));
+      result.bar = std::max(
+          result.bar, rounding_of(solution, solution.increments[i], *quantities[k], model.solver.tolerance));
       if (model.tolerance && k == 0) result.wanted = model.tolerance->relative;
       solution.increments[i].quantities.push_back(std::move(result));
     }
@@ -427,6 +429,17 @@ StaticSolution refine_for_goal(const model::Model& given, const Options& options
     const double J = value_of(solution, solution.increments.back(), quantity).value_or(0.0),
                  wider = value_of(*pass.wider, pass.wider->increments.back(), quantity).value_or(0.0);
     const double wanted = model.tolerance->relative * std::abs(J), quick = bar_factor * std::abs(wider - J);
+    const double rounding = rounding_of(solution, solution.increments.back(), quantity, model.solver.tolerance);
+    if (wanted < rounding) {
+      passes.push_back({degrees_of_freedom(solution.mesh), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
+      add_own_bars(solution, refinement);
+      return end(without_goal(
+          std::move(solution), model,
+          std::max(std::abs(J), std::abs(wider)) <= rounding
+              ? "the value is zero to rounding, and nothing is small relative to that: ask for another number"
+              : fmt::format("a bar below {:.2g} is beyond the certificate and rounding: ask for a larger tolerance",
+                            rounding)));
+    }
     double sum = 0.0;
     MeshErrors errors = goal_errors(pass, sum);
     sums.push_back(sum);

@@ -80,7 +80,12 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
   }
 }
 
-/// Work done on the way between two accepted states, by the trapezoidal rule.
+/// Resultant of nodal forces.
+Vec2 resultant_of(const Vector& forces) { return forces.reshaped(2, forces.size() / 2).rowwise().sum(); }
+
+/// Work done on the way between two accepted states, by the trapezoidal rule; displacements are relative to the
+/// reference point. The nodal displacements are not: there the stiffness of an unbounded body is that of one held far
+/// away, which resists a translation.
 Energy energy_between(const Prepared& prepared, const State& from, const State& to) {
   Energy energy = from.energy;
   energy.elastic = 0.0;
@@ -88,6 +93,19 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.external += 0.5 * (from.forces[p] + to.forces[p]).dot(to.u[p] - from.u[p]);
     energy.external += 0.5 * (from.reactions[p] + to.reactions[p]).dot(to.prescribed[p] - from.prescribed[p]);
     energy.elastic += prepared.structure.parts[p]->elastic_energy(to.u[p]);
+  }
+  if (prepared.reference) {
+    const Vec2 reached = reference_displacement(prepared, to.u),
+               moved = reached - reference_displacement(prepared, from.u);
+    for (std::size_t p = 0; p < to.u.size(); ++p) {
+      const auto loads = [&](const State& state) {  // of a rigid part: force and moment about its centroid
+        return prepared.structure.dofs.is_rigid(p) ? Vec2(state.forces[p].head<2>()) : resultant_of(state.forces[p]);
+      };
+      energy.external -= 0.5 * (loads(from) + loads(to)).dot(moved);
+    }
+    const std::size_t part = prepared.structure.dofs.part_of(prepared.reference->body);
+    energy.elastic -=
+        0.5 * resultant_of(to.forces[part] + prepared.contact.motion[part].transpose() * to.p).dot(reached);
   }
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
     const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)],
@@ -377,6 +395,13 @@ DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attemp
     discrete.number_of_pair.push_back(pair.number);
   }
   return discrete;
+}
+
+Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>& u) {
+  if (!prepared.reference) return Vec2::Zero();
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const auto& [body, N] = *prepared.reference;
+  return N * dofs.of_body(body, u[dofs.part_of(body)]);
 }
 
 IncrementResult describe(const Prepared& prepared, const State& state) {

@@ -1,6 +1,8 @@
 // One load increment: from an accepted state to the next, halved if contact does not converge.
 #pragma once
 
+#include <optional>
+
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/system/contact_system.hpp"
 
@@ -14,7 +16,17 @@ struct Prepared {
   const system::ContactSystem& contact;
   /// Largest nodal force of any load at factor 1: the scale for judging forces, also while all loads are zero.
   double force_scale = 0.0;
+  /// Where an unbounded body has a reference point and no support determines the position of the bodies.
+  struct Reference {
+    int body = 0;
+    Matrix N;  ///< 2 x n: displacement of the point by those of the nodes of the body
+  };
+  std::optional<Reference> reference;
 };
+
+/// Displacement of the reference point, which belongs to all bodies: results are relative to it, and so are the work of
+/// loads and the elastic energy. `u`: per part. Zero where there is none.
+Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>& u);
 
 /// Factors of loads and supports at one time.
 struct Factors {

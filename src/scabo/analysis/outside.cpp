@@ -64,22 +64,32 @@ void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vect
 
 }  // namespace
 
-void refer_displacements(const Prepared& prepared, const StaticSolution& solution, IncrementResult& result) {
-  if (!solution.model.supports.empty()) return;
-  for (std::size_t b = 0; b < solution.model.bodies.size(); ++b) {
-    const model::Body& body = solution.model.bodies[b];
+std::optional<Prepared::Reference> reference_of(const model::Model& model, const mesh::Mesh& mesh,
+                                                const std::vector<element::SolvedCells>& cells) {
+  if (!model.supports.empty()) return std::nullopt;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
     if (!body.outside || !body.reference) continue;
-    const Vec2& centre = unbounded_cell(solution.mesh.bodies[b]).centre;
-    const element::SolvedSuperElement& super_element = *solution.cells[b].front();
-    const auto at = element::locate(super_element.ring, *body.reference - centre, true);
+    const element::SolvedSuperElement& cell = *cells[b].front();
+    const auto at = element::locate(cell.ring, *body.reference - unbounded_cell(mesh.bodies[b]).centre, true);
     ensure(at.has_value(), "the reference point of an outside body lies in it");
-    const element::RadialField field(super_element.solution(), super_element.modes(), result.fields.displacements[b]);
-    result.fields.reference_displacement =
-        element::point_values(super_element.ring, field.at(at->xi), super_element.sectors.D, at->element, at->eta)
-            .displacement;
-    take_off_pairs(prepared, result.fields.reference_displacement, result.contacts);
-    return;  // one point determines all bodies
+    const Eigen::Index n = cell.K().rows();
+    Prepared::Reference reference{static_cast<int>(b), Matrix(2, n)};
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Vector unit = Vector::Unit(n, k);
+      const element::RadialField field(cell.solution(), cell.modes(), unit);
+      reference.N.col(k) =
+          element::point_values(cell.ring, field.at(at->xi), cell.sectors.D, at->element, at->eta).displacement;
+    }
+    return reference;
   }
+  return std::nullopt;
+}
+
+void refer_displacements(const Prepared& prepared, const State& state, IncrementResult& result) {
+  if (!prepared.reference) return;
+  result.fields.reference_displacement = reference_displacement(prepared, state.u);
+  take_off_pairs(prepared, result.fields.reference_displacement, result.contacts);
 }
 
 }  // namespace scabo::analysis

@@ -13,10 +13,13 @@ void check_references(const model::Model& model, const mesh::Mesh& mesh);
 /// empty if there is none.
 std::string without_reference(const Prepared& prepared, const State& state);
 
-/// Computes the displacement of the reference point of an unbounded body if no support determines the position of the
-/// bodies: sets IncrementResult::reference_displacement and subtracts it from the displacements of the pairs. The nodal
-/// displacements, from which fields are recovered, are not changed: the stiffness of an unbounded body is that of one
-/// held far away, and resists a translation.
-void refer_displacements(const Prepared& prepared, const StaticSolution& solution, IncrementResult& result);
+/// The reference point of an unbounded body if no support determines the position of the bodies. One point determines
+/// all bodies.
+std::optional<Prepared::Reference> reference_of(const model::Model& model, const mesh::Mesh& mesh,
+                                                const std::vector<element::SolvedCells>& cells);
+
+/// Sets FieldState::reference_displacement and subtracts it from the displacements of the pairs. The nodal
+/// displacements, from which fields are recovered, are not changed.
+void refer_displacements(const Prepared& prepared, const State& state, IncrementResult& result);
 
 }  // namespace scabo::analysis

@@ -98,6 +98,36 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
   return std::nullopt;
 }
 
+double rounding_of(const StaticSolution& solution, const IncrementResult& increment, const model::Quantity& quantity,
+                   double tolerance) {
+  double largest = 0.0;
+  const auto take = [&](double value) {
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  };
+  switch (quantity.kind) {
+    case Kind::normal_force:
+    case Kind::tangential_force:
+    case Kind::reaction:
+      for (const ContactResult& contact : increment.contacts) take(contact.normal_force), take(contact.tangential_force);
+      for (const Vec2& reaction : increment.reactions) take(reaction.x()), take(reaction.y());
+      break;
+    case Kind::max_gap:
+    case Kind::displacement:
+      for (std::size_t b = 0; b < increment.fields.displacements.size(); ++b)
+        if (!solution.model.bodies[b].rigid && increment.fields.displacements[b].size() > 0)
+          take(increment.fields.displacements[b].lpNorm<Eigen::Infinity>());
+      break;
+    case Kind::stress_intensity:
+      for (const CrackResult& crack : increment.cracks)
+        if (is_named(crack.name, solution.model, quantity)) take(crack.factors.K_I), take(crack.factors.K_II);
+      break;
+    case Kind::elastic_energy:
+      take(increment.energy.elastic);
+      break;
+  }
+  return tolerance * largest;
+}
+
 namespace {
 
 /// Force of the contact on a pair, or its gap, as a function of p and u.

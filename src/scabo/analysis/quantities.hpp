@@ -10,6 +10,11 @@ namespace scabo::analysis {
 std::optional<double> value_of(const StaticSolution& solution, const IncrementResult& increment,
                                const model::Quantity& quantity);
 
+/// What rounding and the tolerance of the certificate leave uncertain of the number, in its unit: `tolerance` times the
+/// largest force, displacement or stress intensity factor of the increment. Zero by symmetry is not found more exactly.
+double rounding_of(const StaticSolution& solution, const IncrementResult& increment, const model::Quantity& quantity,
+                   double tolerance);
+
 /// Throws InputError for points that lie in no body or in several, and for cracks with two tips of which none is named.
 void check_quantities(const model::Model& model, const mesh::Mesh& mesh);
 

@@ -178,9 +178,9 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
 }
 
 /// The results of an accepted state, apart from the history of its increment.
-IncrementResult described(const Prepared& prepared, const StaticSolution& solution, const State& state) {
+IncrementResult described(const Prepared& prepared, const State& state) {
   IncrementResult result = describe(prepared, state);
-  refer_displacements(prepared, solution, result);
+  refer_displacements(prepared, state, result);
   return result;
 }
 
@@ -208,7 +208,7 @@ RunState start_of_run(const Prepared& prepared, StaticSolution& solution, const 
   solution.increments = options.from->increments;
   solution.warnings = options.from->warnings;
   ensure(!solution.increments.empty(), "the state from which the run continues has increments");
-  IncrementResult again = described(prepared, solution, run.state);
+  IncrementResult again = described(prepared, run.state);
   solution.increments.back().fields = std::move(again.fields);
   solution.increments.back().contacts = std::move(again.contacts);
   return run;
@@ -250,7 +250,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
     IncrementResult result;
     if (there)
       result = timed(solution.timing.recover, [&] {
-        IncrementResult of_state = described(prepared, solution, reached.state);
+        IncrementResult of_state = described(prepared, reached.state);
         of_state.cracks = crack_results(solution, of_state);
         return of_state;
       });
@@ -395,7 +395,9 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   if (options.on_mesh) options.on_mesh(solution);
   solution.warnings = solution.model.warnings;
   for (Warning& warning : load_warnings(solution.model, structure)) solution.warnings.push_back(std::move(warning));
-  run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure)}, solution, options);
+  run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure),
+             reference_of(solution.model, solution.mesh, solution.cells)},
+            solution, options);
   for (Warning& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;
 }

@@ -21,22 +21,24 @@ ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement
     : edge(&edge_), element_length(edge_.length()) {
   ensure(!body_elements.empty(), "a contact edge has elements");
   closed = body_elements.front().nodes.front() == body_elements.back().nodes.back();
-  int count = closed ? 0 : 1;
-  for (const LineElement& element : body_elements) count += order_of(element);
-  nodes.resize(count);
-  int first = 0;
   for (const LineElement& element : body_elements) {
     LineElement local;
-    for (int i = 0; i <= order_of(element); ++i) {
-      const int place = (first + i) % count;
-      nodes[place] = element.nodes[i];
-      local.nodes.push_back(place);
+    // An element begins where the one before ends; at the mouth of a crack it has a node of its own there.
+    if (nodes.empty() || nodes.back() != element.nodes.front()) nodes.push_back(element.nodes.front());
+    local.nodes.push_back(static_cast<int>(nodes.size()) - 1);
+    for (int i = 1; i <= order_of(element); ++i) {
+      local.nodes.push_back(static_cast<int>(nodes.size()));
+      nodes.push_back(element.nodes[i]);
     }
-    first += order_of(element);
     const double chord = (body_nodes[element.nodes.back()] - body_nodes[element.nodes.front()]).norm();
     element_length = std::min(element_length, chord);
     elements.push_back(std::move(local));
   }
+  if (closed) {
+    nodes.pop_back();
+    elements.back().nodes.back() = 0;
+  }
+  const int count = size();
   for (const int node : nodes) points.push_back(body_nodes[node]);
 
   // N_i times the normal has degree 2 p - 1, so that Lobatto quadrature at the nodes is exact and reduces the integral

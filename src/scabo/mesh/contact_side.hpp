@@ -15,7 +15,7 @@ struct ContactSide {
   const model::Edge* edge;
   std::vector<LineElement> elements;  ///< their nodes are positions in the lists below
 
-  // Without repetition, in the direction of the boundary of the body:
+  // Without repetition, in the direction of the boundary of the body; at the mouth of a crack the nodes of both sides:
   std::vector<int> nodes;    ///< node numbers of the body
   std::vector<Vec2> points;  ///< their positions
   /// Unit normals out of the body, weighted like nodal forces: each has the direction of the integral of N_i n over the

@@ -223,7 +223,7 @@ class Matching {
 
   bool is_closed() const {
     const ContactSide& side = side_a_ ? *side_a_ : *side_b_;
-    return side.closed && (!side_a_ || !side_b_ || side_b_->closed) && partners_.size() == side.nodes.size();
+    return side.closed && (!side_a_ || !side_b_ || side_b_->closed) && partners_.size() >= side.nodes.size();
   }
 
   void order_pairs() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/mesh/rays.hpp"
@@ -76,13 +77,21 @@ std::vector<int> nearest_nodes(const ContactSide& side, const ContactSide& other
   return found;
 }
 
+/// Whether positions i and i + step are the two nodes at the mouth of a crack.
+bool is_mouth(const ContactSide& side, int i, int step) {
+  const int next = i + step;
+  return next >= 0 && next < side.size() && side.points[next] == side.points[i];
+}
+
 /// The closest pair of nodes that match, if there is one.
 std::optional<std::array<int, 2>> closest_partners(const ContactSide& a, const ContactSide& b,
                                                    const std::vector<int>& nearest_b,
                                                    const std::vector<int>& nearest_a) {
   std::optional<std::array<int, 2>> closest;
   double shortest = std::numeric_limits<double>::max();
+  const auto at_mouth = [](const ContactSide& side, int i) { return is_mouth(side, i, 1) || is_mouth(side, i, -1); };
   const auto consider = [&](int i, int j) {
+    if (at_mouth(a, i) || at_mouth(b, j)) return;  // which of its nodes, the way along the sides will tell
     const double distance = (b.points[j] - a.points[i]).squaredNorm();
     if (!(distance < shortest) || !nodes_match(a, i, b, j)) return;
     shortest = distance;
@@ -93,23 +102,30 @@ std::optional<std::array<int, 2>> closest_partners(const ContactSide& a, const C
   return closest;
 }
 
-/// From the closest pair in both directions as long as the nodes match, in the order of the boundary of A.
+/// From the closest pair in both directions as long as the nodes match, in the order of the boundary of A. Both nodes at
+/// the mouth of a crack are partners of the node that faces them; of two mouths that face each other, those on one side.
 Partners partners_along(const ContactSide& a, const ContactSide& b, const std::array<int, 2>& closest) {
-  const auto step = [&](std::array<int, 2> at, int direction) -> std::optional<std::array<int, 2>> {
-    at[0] += direction;
-    at[1] -= direction;  // both boundaries run counter-clockwise, hence in opposite directions
+  const auto moved = [&](std::array<int, 2> at, int by_a, int by_b) -> std::optional<std::array<int, 2>> {
+    at[0] += by_a;
+    at[1] += by_b;
     if (a.closed) at[0] = (at[0] + a.size()) % a.size();
     if (b.closed) at[1] = (at[1] + b.size()) % b.size();
     if (at[0] < 0 || at[0] >= a.size() || at[1] < 0 || at[1] >= b.size()) return std::nullopt;
     if (!nodes_match(a, at[0], b, at[1])) return std::nullopt;
     return at;
   };
-  const std::size_t most = std::min(a.size(), b.size());
+  const auto step = [&](const std::array<int, 2>& at, int direction) {
+    auto next = moved(at, direction, -direction);  // both boundaries run counter-clockwise, hence in opposite directions
+    if (!next && is_mouth(a, at[0], direction)) next = moved(at, direction, 0);
+    if (!next && is_mouth(b, at[1], -direction)) next = moved(at, 0, -direction);
+    return next;
+  };
+  std::set<std::array<int, 2>> found{closest};  // around a closed interface the way ends where it began
   Partners before;
-  for (auto at = step(closest, -1); at && before.size() + 1 < most; at = step(*at, -1)) before.push_back(*at);
+  for (auto at = step(closest, -1); at && found.insert(*at).second; at = step(*at, -1)) before.push_back(*at);
   Partners partners(before.rbegin(), before.rend());
   partners.push_back(closest);
-  for (auto at = step(closest, 1); at && partners.size() < most; at = step(*at, 1)) partners.push_back(*at);
+  for (auto at = step(closest, 1); at && found.insert(*at).second; at = step(*at, 1)) partners.push_back(*at);
   return partners;
 }
 

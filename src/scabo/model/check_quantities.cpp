@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "scabo/model/checking.hpp"
 
@@ -52,6 +53,27 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
                                                    : "its ends are start and end"));
 }
 
+/// What loads inside a super-element store inside it is in no energy of the results.
+void check_energy(Checking& checking, const std::string& path) {
+  const auto acts_inside = [](const Load& load) {
+    return std::holds_alternative<Gravity>(load.kind) || std::holds_alternative<BodyForce>(load.kind) ||
+           std::holds_alternative<Temperature>(load.kind);
+  };
+  const auto& [loads, bodies] = std::tie(checking.model.loads, checking.model.bodies);
+  const auto load = std::find_if(loads.begin(), loads.end(), acts_inside);
+  if (load == loads.end()) return;
+  const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& of) {
+    const bool acts = !load->on || &of == &bodies[static_cast<std::size_t>(load->on->body)];
+    return acts && !of.rigid && of.mesh.kind != MeshKind::fem;
+  });
+  if (body == bodies.end()) return;
+  checking.error(path, "",
+                 fmt::format("the elastic energy does not contain what load '{}' stores inside the super-elements of "
+                             "body '{}', so that its bar would be wrong: ask for another number, or give the body a "
+                             "mesh of kind fem",
+                             load->name, body->name));
+}
+
 void check_quantity(Checking& checking, const std::string& path, const Quantity& quantity) {
   const Model& model = checking.model;
   switch (quantity.kind) {
@@ -71,6 +93,7 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       check_crack_of(checking, path, quantity);
       break;
     case Quantity::Kind::elastic_energy:
+      check_energy(checking, path);
       break;
   }
 }

@@ -58,19 +58,24 @@ std::vector<double> tributary_lengths(int contact, const model::Model& model, co
   const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(contact)];
   std::vector<double> lengths(interface.pairs.size(), 0.0);
   if (named.a.kind == model::Place::Kind::face) return lengths_of_crack(named, interface, mesh);
-  int sides = 0;
+  std::vector<int> sides(lengths.size(), 0);
   for (const bool on_b : {false, true}) {
     const model::Place& place = on_b ? named.b : named.a;
     if (model.bodies[static_cast<std::size_t>(place.body)].rigid) continue;
     std::vector<int> paired;
     for (const mesh::ContactPair& pair : interface.pairs) paired.push_back(on_b ? pair.node_b : pair.node_a);
     const std::vector<double> of_side = lengths_of_side(place, mesh, paired);
-    for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] += of_side[i];
-    ++sides;
+    std::map<int, int> pairs_of;
+    for (const int node : paired) ++pairs_of[node];
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      if (pairs_of[paired[i]] > 1) continue;  // it faces the mouth of a crack, whose two nodes divide its length
+      lengths[i] += of_side[i];
+      ++sides[i];
+    }
   }
-  for (double& length : lengths) {
-    length /= sides;
-    ensure(length > 0.0, "a node of a contact has no tributary length");
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    lengths[i] /= sides[i];
+    ensure(lengths[i] > 0.0, "a node of a contact has no tributary length");
   }
   return lengths;
 }

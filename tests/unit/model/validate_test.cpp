@@ -118,14 +118,6 @@ std::vector<Mutation> mutations() {
       {"order_zero", [](Model& m) { m.bodies[1].mesh.order = 0; }, "bodies.upper.mesh.order"},
       {"order_17", [](Model& m) { m.bodies[1].mesh.order = 17; }, "bodies.upper.mesh.order"},
       {"order_of_fem", [](Model& m) { make_fem(m.bodies[1]), m.bodies[1].mesh.order = 3; }, "bodies.upper.mesh.order"},
-      {"tolerance_of_fem", [](Model& m) { make_fem(m.bodies[1]), m.bodies[1].mesh.tolerance = 0.1; },
-       "bodies.upper.mesh.tolerance"},
-      {"cracks_of_fem",
-       [](Model& m) {
-         make_fem(m.bodies[2]), m.bodies[2].sector_materials.clear(), m.loads.pop_back(),
-             m.steps[0].load_factors.pop_back();
-       },
-       "bodies.plate.cracks.0"},
       {"sectors_of_polygons",
        [](Model& m) {
          m.bodies[1].mesh.kind = MeshKind::polygons;

@@ -207,7 +207,7 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
                                                       "condense", "newton", "recover", "write", "total"));
   const Json& increment = summary["increments"][0];
   EXPECT_THAT(keys_of(increment),
-              ElementsAre("step", "increment", "factors", "converged", "newton_iterations", "coarse_iterations",
+              ElementsAre("step", "increment", "reached", "factors", "converged", "newton_iterations", "coarse_iterations",
                           "residual", "contacts", "reactions", "cracks", "certificate", "energy", "error"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
               ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure",
