@@ -21,7 +21,11 @@ const Mat2 table_gradient = (Mat2() << 1.1e-3, -0.4e-3, 0.7e-3, -0.9e-3).finishe
 std::vector<std::map<std::string, std::string>> read(const std::string& header, const std::string& rows) {
   const auto cells = [](const std::string& line) {
     std::vector<std::string> found(1);
-    for (const char letter : line) letter == ',' ? found.emplace_back() : found.back() += letter, found.back();
+    for (const char letter : line)
+      if (letter == ',')
+        found.emplace_back();
+      else
+        found.back() += letter;
     return found;
   };
   std::istringstream text(header + rows);
