@@ -129,13 +129,14 @@ class Assembler {
   /// Adds `matrix_of(c, space)` for every cell c; `space` may hold it.
   template <typename Space, typename MatrixOf>
   void add(const MatrixOf& matrix_of) {
-    constexpr std::size_t batch = 8192, together = 64;  // nodes, whose columns one thread fills
-    constexpr int sets = 16;
+    constexpr std::size_t batch = 4096;
+    constexpr int together = 64;                       // nodes, whose columns one thread fills
+    const int sets = threads_ > 1 ? 4 * threads_ : 1;  // of columns: no bit depends on them
     std::vector<Space> spaces(std::min(batch, cells_.count()));
     std::vector<const double*> matrices(spaces.size());
     for (std::size_t begin = 0; begin < cells_.count(); begin += batch) {
       const std::size_t end = std::min(cells_.count(), begin + batch);
-      for_ranges(end - begin, 256, threads_, [&](std::size_t, std::size_t first, std::size_t last) {
+      for_ranges(end - begin, 64, threads_, [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) matrices[k] = matrix_of(begin + k, spaces[k]);
       });
       linalg::parallel_for(sets, threads_, [&](int set) {
@@ -144,7 +145,7 @@ class Assembler {
           const auto n = static_cast<Eigen::Index>(2 * nodes.size());
           const CellMatrix K(matrices[cell - begin], n, n);
           for (std::size_t j = 0; j < nodes.size(); ++j)
-            if (static_cast<int>(static_cast<std::size_t>(nodes[j]) / together % sets) == set) add_columns(nodes, j, K);
+            if (nodes[j] / together % sets == set) add_columns(nodes, j, K);
         }
       });
     }
