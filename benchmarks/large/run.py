@@ -7,6 +7,9 @@ Two rectangles in frictional contact. Equal elements everywhere: the length of t
 X = (factorise + condense + newton) / (factorise + solve): the contact problem beside the same bodies without contact.
 The solve is not measured by itself: it is taken as the part of the factorisation that benchmarks/large_sparse found for
 the same number of degrees of freedom (SOLVE).
+
+The stages are wall seconds, as in summary.json. Processor seconds and X are those of the process at the times at which
+stages end, by /proc, 100 times a second: on a machine with other work they say more. They mean nothing below 0.1 s.
 """
 import argparse
 import json
@@ -17,6 +20,7 @@ import resource
 import subprocess
 import sys
 import tempfile
+import time
 
 import numpy
 
@@ -38,15 +42,18 @@ KINDS = {  # mesh, degrees of freedom for each square of the side `size`
 DOFS = (1e4, 1e5, 1e6, 2e6)
 PAIRS = (32, 300, 1000, 3000)
 STAGES = ("read", "mesh", "super_elements", "assemble", "factorise", "condense", "newton", "recover", "write")
+OF_PROCESSOR = ("assemble", "factorise", "condense", "newton", "fields")
 SOLVE = numpy.array([(1e4, 0.0021 / 0.027), (1e5, 0.026 / 0.396), (1e6, 0.299 / 5.79)])  # solve / factorise
 
 
 def model_of(kind, dofs, pairs):
     """A square block with a smaller one on it; two layers as long as the interface if this is not possible."""
     mesh, dofs_of_square = KINDS[kind]
-    squares = dofs / dofs_of_square
+    squares = min(dofs, 1.96e6) / dofs_of_square  # a model has at most 1e6 nodes
     along = max(1, round((pairs - 1) / 2))  # two pairs a side
     across = max(1, along // 2)
+    if kind == "fem" and dofs > 1e6:  # a body of finite elements has at most 1e6 degrees of freedom
+        across = max(across, round(squares / 2 / along))
     side = math.sqrt(squares - along * across) if squares > along * across else 0.0
     if side > 1.2 * along:
         width = 2 ** round(math.log2(side)) if kind == "quadtree" else round(side)
@@ -59,8 +66,27 @@ def model_of(kind, dofs, pairs):
                         upper=[n * size for n in upper], lower=[n * size for n in lower])
 
 
-def possible(dofs, pairs):
+def possible(kind, dofs, pairs):
+    if kind == "fem" and dofs > 1e6 and pairs < 300:
+        return False  # the upper body would be a needle
     return pairs * 24 <= dofs  # bodies of at least four rows of elements
+
+
+def processor_seconds(pid):
+    try:
+        fields = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+    except OSError:
+        return None
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def processor_of_stages(timing, samples):
+    """Stages follow one another until the end of `newton`; then fields are recovered and written in turn."""
+    ends = numpy.cumsum([timing[stage] for stage in STAGES[:7]])
+    at = numpy.interp(ends, [s[0] for s in samples], [s[1] for s in samples])
+    of = dict(zip(STAGES[:7], numpy.diff(at, prepend=0.0)))
+    of["fields"] = samples[-1][1] - at[-1]
+    return of
 
 
 def run(scabo, text, threads):
@@ -68,11 +94,19 @@ def run(scabo, text, threads):
         model = pathlib.Path(directory) / "model.yaml"
         model.write_text(text, encoding="utf-8")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run([scabo, "run", model, "--threads", str(threads)], capture_output=True, text=True)
+        errors = pathlib.Path(directory) / "errors"
+        with errors.open("w", encoding="utf-8") as stream:
+            begin = time.monotonic()
+            process = subprocess.Popen([scabo, "run", model, "--threads", str(threads)], stdout=subprocess.DEVNULL, stderr=stream)
+            samples = [(0.0, 0.0)]
+            while process.poll() is None:
+                samples.append((time.monotonic() - begin, processor_seconds(process.pid) or samples[-1][1]))
+                time.sleep(0.01)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if done.returncode != 0:
-            return None, done.stderr.strip().splitlines()[-1]
+        if process.returncode != 0:
+            return None, errors.read_text(encoding="utf-8").strip().splitlines()[-1]
         summary = json.loads((model.with_suffix(".results") / "summary.json").read_text())
+        summary["processor_of"] = processor_of_stages(summary["timing"], samples)
         summary["processor"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         summary["written"] = sum(file.stat().st_size for file in model.with_suffix(".results").iterdir())
         return summary, ""
@@ -106,12 +140,12 @@ def main():
     if not options.model:
         print(f"{options.threads} threads, load of the machine {os.getloadavg()[0]:.1f} before the runs\n")
         head = ["mesh", "degrees of freedom", "pairs", *(s.replace("_", "-") for s in STAGES), "total, wall", "processor",
-                "memory, GB", "files, MB", "iterations", "X"]
+                *(f"processor: {s}" for s in OF_PROCESSOR), "memory, GB", "files, MB", "iterations", "X"]
         print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
     for kind in options.kinds.split(","):
         for dofs in DOFS:
             for pairs in pairs_wanted:
-                if not options.least <= dofs <= options.most or not possible(dofs, pairs):
+                if not options.least <= dofs <= options.most or not possible(kind, dofs, pairs):
                     continue
                 text = model_of(kind, dofs, pairs)
                 if options.model:
@@ -122,12 +156,14 @@ def main():
                     print(f"| {kind} | {dofs:.0f} | {pairs} | {reason} |", flush=True)
                     continue
                 timing, model = summary["timing"], summary["model"]
-                solve = timing["factorise"] * numpy.interp(math.log(model["dofs"]), numpy.log(SOLVE[:, 0]), SOLVE[:, 1])
-                X = (timing["factorise"] + timing["condense"] + timing["newton"]) / (timing["factorise"] + solve)
+                part = numpy.interp(math.log(model["dofs"]), numpy.log(SOLVE[:, 0]), SOLVE[:, 1])
+                of = summary["processor_of"]
+                X = (of["factorise"] + of["condense"] + of["newton"]) / (of["factorise"] * (1 + part)) if of["factorise"] > 0.1 else math.nan
                 iterations = sum(increment["newton_iterations"] for increment in summary["increments"])
                 row = [kind, model["dofs"], model["contact_pairs"], *(seconds(timing[s]) for s in STAGES),
-                       seconds(timing["total"]), seconds(summary["processor"]), f"{summary['peak_memory_bytes'] / 1e9:.2f}",
-                       f"{summary['written'] / 1e6:.0f}", iterations, f"{X:.2f}"]
+                       seconds(timing["total"]), seconds(summary["processor"]),
+                       *(seconds(of[s]) for s in OF_PROCESSOR), f"{summary['peak_memory_bytes'] / 1e9:.2f}",
+                       f"{summary['written'] / 1e6:.0f}", iterations, f"{X:.2f}" if math.isfinite(X) else "-"]
                 print("| " + " | ".join(str(entry) for entry in row) + " |", flush=True)
                 runs[kind, dofs, pairs] = summary
     measures = [("processor", lambda s: s["processor"]), ("memory", lambda s: s["peak_memory_bytes"])]
