@@ -49,10 +49,10 @@ SOLVE = numpy.array([(1e4, 0.0021 / 0.027), (1e5, 0.026 / 0.396), (1e6, 0.299 / 
 def model_of(kind, dofs, pairs):
     """A square block with a smaller one on it; two layers as long as the interface if this is not possible."""
     mesh, dofs_of_square = KINDS[kind]
-    squares = min(dofs, 1.96e6) / dofs_of_square  # a model has at most 1e6 nodes
+    squares = 0.97 * dofs / dofs_of_square  # a body has at most 1e6 degrees of freedom, or a model 1e6 nodes
     along = max(1, round((pairs - 1) / 2))  # two pairs a side
     across = max(1, along // 2)
-    if kind == "fem" and dofs > 1e6:  # a body of finite elements has at most 1e6 degrees of freedom
+    if kind == "fem" and dofs > 1e6:
         across = max(across, round(squares / 2 / along))
     side = math.sqrt(squares - along * across) if squares > along * across else 0.0
     if side > 1.2 * along:
