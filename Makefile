@@ -5,6 +5,7 @@
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
 #   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
+#   make bench-large   1e4 to 2e6 degrees of freedom, 32 to 3,000 contact pairs; some minutes and 9 GB
 #   make bench-elements  super-elements against the eigenvector route, one thread
 #   make format      lay the sources out by .clang-format
 #   make packages    everything that apt can bring
@@ -20,7 +21,7 @@ FUZZ_SECONDS ?= 45
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build test test-release test-asan fuzz bench bench-contact bench-elements format packages install clean
+.PHONY: help demo build test test-release test-asan fuzz bench bench-contact bench-large bench-elements format packages install clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -62,6 +63,11 @@ bench-contact:
 	@cmake/install_packages.sh build bench
 	@$(MAKE) --no-print-directory build
 	@/usr/bin/python3 benchmarks/contact/run.py $(PROBLEMS) --scabo build/bin/scabo --output build/bench-contact
+
+bench-large:
+	@cmake/install_packages.sh build bench
+	@$(MAKE) --no-print-directory build
+	@/usr/bin/python3 benchmarks/large/run.py --scabo build/bin/scabo --most 2e6
 
 bench-elements:
 	@cmake/install_packages.sh build bench

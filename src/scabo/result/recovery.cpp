@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <unordered_map>
+#include <utility>
 
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
@@ -21,6 +23,9 @@ double zz_of(const analysis::StaticSolution& solution, int material, const eleme
   return element::stress_zz(stress, solution.model.materials[static_cast<std::size_t>(material)],
                             solution.model.analysis.plane, temperature);
 }
+
+/// How many cells are equal to a super-element.
+using UsesOfCells = std::unordered_map<const element::SolvedSuperElement*, std::size_t>;
 
 // Points and cells
 
@@ -73,7 +78,7 @@ CellType type_of(element::FiniteElementKind kind) {
 
 /// Every cell: the sides at the points that cells of one material share, and what is inside of them. Rings as above.
 CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::SolvedCells& cells, SamplingLibrary& library,
-                    std::int32_t number) {
+                    const UsesOfCells& uses, std::int32_t number) {
   const auto first = static_cast<std::int32_t>(grid.point_count());
   CellsBody made;
   made.cells.resize(cells.size());
@@ -104,7 +109,7 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
       for (const int node : element.nodes()) made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
       continue;
     }
-    made.cells[c].sampling = library.of_cell(*cells[c]);
+    made.cells[c].sampling = library.of_cell(*cells[c], uses.at(cells[c].get()));
     const RingSampling& sampling = *made.cells[c].sampling;
     const std::vector<int> nodes = cell.nodes();
     for (std::size_t k = 0; k < sampling.nodes.size(); ++k)
@@ -197,21 +202,20 @@ Eigen::Matrix3Xd ring_stresses(const element::SolvedSuperElement& super_element,
   return stresses;
 }
 
-/// Values inside a super-element: at the rings from `first_level` on, then at the centre.
-void recover_inside(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
-                    const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
-                    const element::RadialField& field, const element::LinearField& temperature,
-                    std::size_t first_level) {
+/// Values inside a super-element, `set(u, stress, material, x)` for each point in turn: at the rings from `first_level`
+/// on, then at the centre. x is relative to the scaling centre.
+template <typename Set>
+void values_inside(const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
+                   const element::RadialField& field, const element::LinearField& temperature, std::size_t first_level,
+                   const Set& set) {
   for (std::size_t level = first_level; level < sampling.levels.size(); ++level) {
     const double xi = sampling.levels[level];
     const element::RadialField::Values values = field.at(xi);
     const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, xi, temperature);
-    for (std::size_t i = 0; i < sampling.nodes.size(); ++i) {
-      const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(i));
-      fields.set(point++, values.u.segment<2>(2 * sampling.nodes[i]), stress,
-                 zz_of(solution, super_element.sectors.material_of(sampling.sectors[i]), stress,
-                       temperature.at(centre + xi * super_element.ring.node(sampling.nodes[i]))));
-    }
+    for (std::size_t i = 0; i < sampling.nodes.size(); ++i)
+      set(Vec2(values.u.segment<2>(2 * sampling.nodes[i])), element::Vec3(stresses.col(static_cast<Eigen::Index>(i))),
+          super_element.sectors.material_of(sampling.sectors[i]),
+          Vec2(xi * super_element.ring.node(sampling.nodes[i])));
   }
   if (super_element.domain.unbounded) return;
   const element::RadialField::Values values = field.at(0.0);
@@ -225,8 +229,18 @@ void recover_inside(Fields& fields, std::size_t point, const analysis::StaticSol
       for (const int i : sampling.points[e]) stress += stresses.col(i), ++count;
     }
     stress /= count;
-    fields.set(point++, values.u.head<2>(), stress, zz_of(solution, material, stress, temperature.at(centre)));
+    set(Vec2(values.u.head<2>()), stress, material, Vec2::Zero());
   }
+}
+
+void recover_inside(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
+                    const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
+                    const element::RadialField& field, const element::LinearField& temperature,
+                    std::size_t first_level) {
+  values_inside(super_element, centre, sampling, field, temperature, first_level,
+                [&](const Vec2& u, const element::Vec3& stress, int material, const Vec2& x) {
+                  fields.set(point++, u, stress, zz_of(solution, material, stress, temperature.at(centre + x)));
+                });
 }
 
 void recover_super_element(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
@@ -240,6 +254,24 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
   recover_inside(fields, first, solution, super_element, centre, sampling, field, interior.temperature, 0);
   for (std::size_t i = 0; i < sampling.nodes.size(); ++i)  // exactly, without the field
     fields.set_displacement(first + i, boundary.segment<2>(2 * sampling.nodes[i]));
+}
+
+/// By the map of its super-element, which many cells share. Displacements are relative to the first node: the map then
+/// gives a translation no stress, not even by rounding.
+Eigen::Matrix3Xd recover_mapped_cell(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
+                                     const CellsBody::OfCell& of_cell, Vector own) {
+  const CellMap& map = *of_cell.sampling->map;
+  const Vec2 shift = own.head<2>();
+  own.reshaped(2, own.size() / 2).colwise() -= shift;
+  const Vector values = map.values * own;
+  const auto inside = static_cast<Eigen::Index>(map.materials.size());
+  for (Eigen::Index i = 0; i < inside; ++i) {
+    const element::Vec3 stress = values.segment<3>(5 * i + 2);
+    fields.set(point++, Vec2(shift + values.segment<2>(5 * i)), stress,
+               zz_of(solution, map.materials[static_cast<std::size_t>(i)], stress, 0.0));
+  }
+  const Eigen::Index outer = (values.size() - 5 * inside) / 3;
+  return values.tail(3 * outer).reshaped(3, outer);
 }
 
 /// Values inside cell `c` into `fields`; the stresses of its points on the sides are returned.
@@ -257,10 +289,13 @@ Eigen::Matrix3Xd recover_cell(Fields& fields, std::size_t first, const analysis:
   }
   const mesh::Cell& cell = solution.mesh.bodies[body].cells[c];
   const element::InteriorLoads& interior = element::loads_in(state.interior[body], c);
-  const Vector own = state.displacements[body](element::dofs_of(cell));
+  const std::size_t inner = first + static_cast<std::size_t>(of_cell.inner);
+  Vector own = state.displacements[body](element::dofs_of(cell));
+  if (of_cell.sampling->map && interior.loads.empty() && interior.temperature.is_zero())
+    return recover_mapped_cell(fields, inner, solution, of_cell, std::move(own));
   const element::RadialField field(super_element->solution(), super_element->modes(), own, interior.loads);
-  recover_inside(fields, first + static_cast<std::size_t>(of_cell.inner), solution, *super_element, cell.centre,
-                 *of_cell.sampling, field, interior.temperature, 1);
+  recover_inside(fields, inner, solution, *super_element, cell.centre, *of_cell.sampling, field, interior.temperature,
+                 1);
   return ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior.temperature);
 }
 
@@ -396,17 +431,50 @@ std::shared_ptr<const RingSampling> SamplingLibrary::of_body(const element::Solv
   return sampling;
 }
 
-std::shared_ptr<const RingSampling> SamplingLibrary::of_cell(const element::SolvedSuperElement& super_element) {
+namespace {
+
+/// Column by column: the values of a unit displacement.
+CellMap cell_map(const element::SolvedSuperElement& super_element, const RingSampling& sampling) {
+  CellMap map;
+  const auto n = static_cast<Eigen::Index>(2 * super_element.ring.nodes.size());
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const element::RadialField field(super_element.solution(), super_element.modes(), Vector::Unit(n, j));
+    std::vector<double> column;
+    map.materials.clear();
+    values_inside(super_element, Vec2::Zero(), sampling, field, {}, 1,
+                  [&](const Vec2& u, const element::Vec3& stress, int material, const Vec2&) {
+                    column.insert(column.end(), {u[0], u[1], stress[0], stress[1], stress[2]});
+                    map.materials.push_back(material);
+                  });
+    const Eigen::Matrix3Xd outer = ring_stresses(super_element, sampling, field.at(1.0), Vec2::Zero(), 1.0, {});
+    column.insert(column.end(), outer.data(), outer.data() + outer.size());
+    if (j == 0) map.values.resize(static_cast<Eigen::Index>(column.size()), n);
+    map.values.col(j) = Eigen::Map<const Vector>(column.data(), map.values.rows());
+  }
+  return map;
+}
+
+}  // namespace
+
+std::shared_ptr<const RingSampling> SamplingLibrary::of_cell(const element::SolvedSuperElement& super_element,
+                                                             std::size_t cells) {
   std::shared_ptr<const RingSampling>& sampling = known_cells_[&super_element];
   if (sampling) return sampling;
   RingSampling made = ring_sampling(super_element.ring, super_element.sectors, false);
-  if (!super_element.ring.is_open()) made.levels = {1.0, 0.5};  // small: a ring between sides and centre
+  if (!super_element.ring.is_open()) {
+    made.levels = {1.0, 0.5};  // small: a ring between sides and centre
+    if (cells > 4 * super_element.ring.nodes.size()) made.map = cell_map(super_element, made);
+  }
   sampling = std::make_shared<const RingSampling>(std::move(made));
   return sampling;
 }
 
 Recovery::Recovery(const analysis::StaticSolution& solution) {
   SamplingLibrary library;
+  UsesOfCells uses;
+  for (const element::SolvedCells& cells : solution.cells)
+    for (const auto& cell : cells)
+      if (cell) ++uses[cell.get()];
   for (std::size_t b = 0; b < solution.model.bodies.size(); ++b) {
     const mesh::BodyMesh& body = solution.mesh.bodies[b];
     const element::SolvedCells& cells = solution.cells[b];
@@ -419,7 +487,7 @@ Recovery::Recovery(const analysis::StaticSolution& solution) {
       add_super_element(grid_, body, *made.sampling, number);
       bodies_.push_back(std::move(made));
     } else {
-      bodies_.push_back(add_cells(grid_, body, cells, library, number));
+      bodies_.push_back(add_cells(grid_, body, cells, library, uses, number));
     }
   }
   grid_.first_point.push_back(grid_.point_count());

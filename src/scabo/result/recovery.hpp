@@ -10,8 +10,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <optional>
+#include <unordered_map>
 #include <variant>
 #include <vector>
 
@@ -19,6 +20,13 @@
 #include "scabo/result/grid.hpp"
 
 namespace scabo::result {
+
+/// Values in a cell without loads inside, as a linear map of the displacements of its nodes: u_x, u_y and the stress
+/// xx, yy, xy of every point inside, in their order, then the stress of the points on its sides.
+struct CellMap {
+  Matrix values;               ///< (5 points inside + 3 points on sides) x n
+  std::vector<int> materials;  ///< of the points inside
+};
 
 /// Strain matrices of a super-element at the points of a ring. They are valid on every ring and for all bodies that
 /// share the super-element.
@@ -35,6 +43,7 @@ struct RingSampling {
   std::vector<int> centre;               ///< centre point of every element; one for each run of equal material
   std::vector<Sample> samples;
   std::vector<double> levels;  ///< xi of the rings, from the boundary (1) inwards; the centres come after them
+  std::optional<CellMap> map;  ///< of a cell that occurs so often that the map saves time
 };
 RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded);
 
@@ -60,10 +69,11 @@ struct RigidBody {
 class SamplingLibrary {
  public:
   std::shared_ptr<const RingSampling> of_body(const element::SolvedSuperElement& super_element);
-  std::shared_ptr<const RingSampling> of_cell(const element::SolvedSuperElement& super_element);
+  std::shared_ptr<const RingSampling> of_cell(const element::SolvedSuperElement& super_element,
+                                              std::size_t cells);  ///< `cells`: how many are equal to it
 
  private:
-  std::map<const element::SolvedSuperElement*, std::shared_ptr<const RingSampling>> known_, known_cells_;
+  std::unordered_map<const element::SolvedSuperElement*, std::shared_ptr<const RingSampling>> known_, known_cells_;
 };
 
 /// Created once for a mesh; gives the fields of any state.

@@ -1,8 +1,12 @@
 #include "scabo/system/assembly.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <span>
+#include <utility>
 
 #include "scabo/element/finite_element.hpp"
+#include "scabo/linalg/parallel.hpp"
 
 namespace scabo::system {
 
@@ -18,81 +22,242 @@ bool is_whole(const mesh::BodyMesh& mesh) {
   return true;
 }
 
-/// Sum of cell matrices.
-class Assembler {
- public:
-  explicit Assembler(Eigen::Index size) : size_(size) {}
-
-  template <typename Derived>
-  void add(const std::vector<int>& dofs, const Eigen::MatrixBase<Derived>& matrix) {
-    for (std::size_t j = 0; j < dofs.size(); ++j)
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        entries_.emplace_back(dofs[i], dofs[j], matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
-  }
-
-  void reserve(const mesh::BodyMesh& mesh) {
-    std::size_t entries = 0;
-    for (const mesh::Cell& cell : mesh.cells) {
-      std::size_t dofs = 2;
-      for (const mesh::LineElement& element : cell.boundary) dofs += 2 * (element.nodes.size() - 1);
-      entries += dofs * dofs;
-    }
-    entries_.reserve(entries_.size() + entries);
-  }
-
-  linalg::SparseMatrix finish() const {
-    linalg::SparseMatrix matrix(size_, size_);
-    matrix.setFromTriplets(entries_.begin(), entries_.end());
-    return matrix;
-  }
-
- private:
-  Eigen::Index size_;
-  std::vector<Eigen::Triplet<double>> entries_;
-};
-
 const model::Material& material_of(const model::Model& model, const mesh::Cell& cell) {
   return model.materials[static_cast<std::size_t>(cell.materials.front())];
 }
 
-/// Numbers of degrees of freedom of a cell with these nodes.
-using DofsOfNodes = std::function<std::vector<int>(std::span<const int> nodes)>;
+/// Splits 0 ... count - 1 into ranges and calls task(range, begin, end) for each on up to `threads` threads. The ranges
+/// do not depend on the number of threads.
+template <typename Task>
+void for_ranges(std::size_t count, std::size_t length, int threads, const Task& task) {
+  const std::size_t ranges = (count + length - 1) / length;
+  linalg::parallel_for(static_cast<int>(ranges), threads, [&](int k) {
+    const auto range = static_cast<std::size_t>(k);
+    task(range, range * length, std::min(count, (range + 1) * length));
+  });
+}
 
-std::vector<int> numbers_in_body(std::span<const int> nodes) {
+/// Lists of numbers one after another: list i is numbers[start[i]] ... numbers[start[i + 1] - 1].
+struct Lists {
+  std::vector<std::size_t> start{0};
   std::vector<int> numbers;
-  numbers.reserve(2 * nodes.size());
-  for (const int node : nodes) numbers.insert(numbers.end(), {2 * node, 2 * node + 1});
-  return numbers;
+  std::size_t count() const { return start.size() - 1; }
+  std::span<const int> of(std::size_t i) const { return {numbers.data() + start[i], start[i + 1] - start[i]}; }
+};
+
+/// `list_of(i, numbers)` appends list i to `numbers`, on any thread.
+template <typename ListOf>
+Lists make_lists(std::size_t count, int threads, const ListOf& list_of) {
+  constexpr std::size_t length = 4096;
+  struct Range {
+    std::vector<int> numbers;
+    std::vector<std::size_t> sizes;
+  };
+  std::vector<Range> ranges((count + length - 1) / length);
+  for_ranges(count, length, threads, [&](std::size_t r, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t before = ranges[r].numbers.size();
+      list_of(i, ranges[r].numbers);
+      ranges[r].sizes.push_back(ranges[r].numbers.size() - before);
+    }
+  });
+  Lists lists;
+  lists.start.reserve(count + 1);
+  for (const Range& range : ranges)
+    for (const std::size_t size : range.sizes) lists.start.push_back(lists.start.back() + size);
+  lists.numbers.reserve(lists.start.back());
+  for (Range& range : ranges) {
+    lists.numbers.insert(lists.numbers.end(), range.numbers.begin(), range.numbers.end());
+    range.numbers = {};
+  }
+  return lists;
 }
 
-void add_stiffness(Assembler& assembler, const model::Model& model, const mesh::BodyMesh& mesh,
-                   const element::SolvedCells& cells, const DofsOfNodes& dofs_of) {
-  assembler.reserve(mesh);
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const mesh::Cell& cell = mesh.cells[c];
-    if (cells[c]) {
-      assembler.add(dofs_of(cell.nodes()), cells[c]->K());
-      continue;
-    }
-    const element::Mat3 D = element::elasticity_matrix(material_of(model, cell), model.analysis.plane);
-    const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
-    assembler.add(dofs_of(finite.nodes()), element::finite_element_stiffness(finite, D, model.analysis.thickness));
-  }
+/// For each of `count` numbers the lists that contain it, ascending.
+Lists transposed(const Lists& lists, std::size_t count) {
+  Lists result;
+  result.start.assign(count + 1, 0);
+  for (const int number : lists.numbers) ++result.start[static_cast<std::size_t>(number) + 1];
+  for (std::size_t i = 0; i < count; ++i) result.start[i + 1] += result.start[i];
+  result.numbers.resize(lists.numbers.size());
+  std::vector<std::size_t> next(result.start.begin(), result.start.end() - 1);
+  for (std::size_t i = 0; i < lists.count(); ++i)
+    for (const int number : lists.of(i)) result.numbers[next[static_cast<std::size_t>(number)]++] = static_cast<int>(i);
+  return result;
 }
 
-void add_mass(Assembler& assembler, const model::Model& model, const mesh::BodyMesh& mesh,
-              const element::SolvedCells& cells, MassLibrary& masses, const DofsOfNodes& dofs_of) {
-  assembler.reserve(mesh);
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const mesh::Cell& cell = mesh.cells[c];
-    if (cells[c]) {
-      assembler.add(dofs_of(cell.nodes()), *masses.of(*cells[c]));
-      continue;
-    }
-    const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
-    assembler.add(dofs_of(finite.nodes()),
-                  element::finite_element_mass(finite, *material_of(model, cell).density, model.analysis.thickness));
+/// Sum of cell matrices, in compressed columns. The nodes of every column come from the cells around its node; then the
+/// cells are added in their order, each column by one thread, so that the number of threads changes no bit.
+class Assembler {
+ public:
+  /// A cell matrix, which is kept elsewhere until the next batch: 2 n x 2 n, by columns.
+  using CellMatrix = Eigen::Map<const Matrix>;
+
+  /// `nodes_of_cell`: node numbers of each cell; a node has two degrees of freedom.
+  Assembler(std::size_t nodes, Lists nodes_of_cell, int threads)
+      : cells_(std::move(nodes_of_cell)), threads_(nodes < few ? 1 : threads), matrix_(columns(nodes), columns(nodes)) {
+    const Lists cells_at = transposed(cells_, nodes);
+    rows_ = make_lists(nodes, threads_, [&](std::size_t node, std::vector<int>& numbers) {
+      const auto before = static_cast<std::ptrdiff_t>(numbers.size());
+      for (const int cell : cells_at.of(node)) {
+        const std::span<const int> of_cell = cells_.of(static_cast<std::size_t>(cell));
+        numbers.insert(numbers.end(), of_cell.begin(), of_cell.end());
+      }
+      std::sort(numbers.begin() + before, numbers.end());
+      numbers.erase(std::unique(numbers.begin() + before, numbers.end()), numbers.end());
+    });
+    const std::size_t entries = 4 * rows_.numbers.size();
+    ensure(entries <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
+           "a sparse matrix has at most 2^31 - 1 entries");
+    matrix_.resizeNonZeros(static_cast<Eigen::Index>(entries));
+    matrix_.outerIndexPtr()[0] = 0;
+    for_ranges(nodes, 4096, threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t node = begin; node < end; ++node)
+        for (std::size_t k = 0; k < 2; ++k) {
+          const std::span<const int> rows = rows_.of(node);
+          const std::size_t first = first_entry(node) + k * 2 * rows.size();
+          matrix_.outerIndexPtr()[2 * node + k + 1] = static_cast<int>(first + 2 * rows.size());
+          for (std::size_t i = 0; i < rows.size(); ++i) {
+            matrix_.innerIndexPtr()[first + 2 * i] = 2 * rows[i];
+            matrix_.innerIndexPtr()[first + 2 * i + 1] = 2 * rows[i] + 1;
+          }
+          std::fill_n(matrix_.valuePtr() + first, 2 * rows.size(), 0.0);
+        }
+    });
   }
+
+  /// Adds `matrix_of(c, space)` for every cell c; `space` may hold it.
+  template <typename Space, typename MatrixOf>
+  void add(const MatrixOf& matrix_of) {
+    constexpr std::size_t batch = 4096;
+    constexpr int together = 64;                       // nodes, whose columns one thread fills
+    const int sets = threads_ > 1 ? 4 * threads_ : 1;  // of columns: no bit depends on them
+    std::vector<Space> spaces(std::min(batch, cells_.count()));
+    std::vector<const double*> matrices(spaces.size());
+    for (std::size_t begin = 0; begin < cells_.count(); begin += batch) {
+      const std::size_t end = std::min(cells_.count(), begin + batch);
+      for_ranges(end - begin, 64, threads_, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) matrices[k] = matrix_of(begin + k, spaces[k]);
+      });
+      linalg::parallel_for(sets, threads_, [&](int set) {
+        for (std::size_t cell = begin; cell < end; ++cell) {
+          const std::span<const int> nodes = cells_.of(cell);
+          const auto n = static_cast<Eigen::Index>(2 * nodes.size());
+          const CellMatrix K(matrices[cell - begin], n, n);
+          for (std::size_t j = 0; j < nodes.size(); ++j)
+            if (nodes[j] / together % sets == set) add_columns(nodes, j, K);
+        }
+      });
+    }
+  }
+
+  linalg::SparseMatrix finish() && { return std::move(matrix_); }
+
+ private:
+  static constexpr std::size_t few = 4096;  // nodes, of which one thread takes less than a millisecond
+  static Eigen::Index columns(std::size_t nodes) { return static_cast<Eigen::Index>(2 * nodes); }
+  std::size_t first_entry(std::size_t node) const { return 4 * rows_.start[node]; }
+
+  /// The two columns of node j of a cell.
+  void add_columns(std::span<const int> nodes, std::size_t j, const CellMatrix& K) {
+    const auto node = static_cast<std::size_t>(nodes[j]);
+    const std::span<const int> rows = rows_.of(node);
+    double* x = matrix_.valuePtr() + first_entry(node);
+    double* y = x + 2 * rows.size();
+    const auto column = static_cast<Eigen::Index>(2 * j);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto at = 2 * (std::lower_bound(rows.begin(), rows.end(), nodes[i]) - rows.begin());
+      const auto row = static_cast<Eigen::Index>(2 * i);
+      x[at] += K(row, column);
+      x[at + 1] += K(row + 1, column);
+      y[at] += K(row, column + 1);
+      y[at + 1] += K(row + 1, column + 1);
+    }
+  }
+
+  Lists cells_;  // nodes of every cell
+  Lists rows_;   // nodes of every node's columns
+  int threads_;
+  linalg::SparseMatrix matrix_;
+};
+
+/// A body of a part, and the number in the part of each of its nodes; empty: the same.
+struct BodyOfPart {
+  const mesh::BodyMesh& mesh;
+  const element::SolvedCells& cells;
+  std::vector<int> numbers;
+};
+
+std::vector<BodyOfPart> bodies_of(const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells,
+                                  const Dofs& dofs, std::size_t part) {
+  std::vector<BodyOfPart> bodies;
+  for (const int body : dofs.bodies_of(part)) {
+    const auto b = static_cast<std::size_t>(body);
+    std::vector<int> numbers(mesh.bodies[b].nodes.size());
+    for (std::size_t node = 0; node < numbers.size(); ++node)
+      numbers[node] = dofs.of(body, static_cast<int>(node), 0) / 2;
+    bodies.push_back({mesh.bodies[b], cells[b], std::move(numbers)});
+  }
+  return bodies;
+}
+
+/// Sum of the matrices of all cells. `of_solved(cell)`: matrix of a super-element, which stays where it is;
+/// `of_finite(material, element)`: of a finite element.
+template <typename OfSolved, typename OfFinite>
+linalg::SparseMatrix assembled(std::size_t nodes, const std::vector<BodyOfPart>& bodies, int threads,
+                               const OfSolved& of_solved, const OfFinite& of_finite) {
+  std::vector<std::size_t> first;  // number of the first cell of each body
+  std::size_t count = 0;
+  for (const BodyOfPart& body : bodies) {
+    first.push_back(count);
+    count += body.mesh.cells.size();
+  }
+  const auto place_of = [&](std::size_t cell) {
+    const auto b = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), cell) - first.begin()) - 1;
+    return std::pair<const BodyOfPart&, std::size_t>(bodies[b], cell - first[b]);
+  };
+  Lists nodes_of_cell = make_lists(count, threads, [&](std::size_t cell, std::vector<int>& numbers) {
+    const auto place = place_of(cell);
+    const BodyOfPart& body = place.first;
+    const auto add = [&](std::span<const int> of_cell) {
+      for (const int node : of_cell)
+        numbers.push_back(body.numbers.empty() ? node : body.numbers[static_cast<std::size_t>(node)]);
+    };
+    const mesh::Cell& one = body.mesh.cells[place.second];
+    if (body.cells[place.second])
+      add(one.nodes());
+    else
+      add(element::finite_element_of(one, body.mesh.nodes).nodes());
+  });
+  Assembler assembler(nodes, std::move(nodes_of_cell), threads);
+  assembler.add<element::ElementMatrix>([&](std::size_t cell, element::ElementMatrix& space) {
+    const auto place = place_of(cell);
+    const BodyOfPart& body = place.first;
+    if (const auto& solved = body.cells[place.second]) return of_solved(*solved).data();
+    const mesh::Cell& one = body.mesh.cells[place.second];
+    space = of_finite(one, element::finite_element_of(one, body.mesh.nodes));
+    return static_cast<const double*>(space.data());
+  });
+  return std::move(assembler).finish();
+}
+
+linalg::SparseMatrix stiffness_of(const model::Model& model, std::size_t nodes, const std::vector<BodyOfPart>& bodies,
+                                  int threads) {
+  return assembled(
+      nodes, bodies, threads, [](const element::SolvedSuperElement& cell) -> const Matrix& { return cell.K(); },
+      [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
+        const element::Mat3 D = element::elasticity_matrix(material_of(model, cell), model.analysis.plane);
+        return element::finite_element_stiffness(finite, D, model.analysis.thickness);
+      });
+}
+
+linalg::SparseMatrix mass_of(const model::Model& model, std::size_t nodes, const std::vector<BodyOfPart>& bodies,
+                             MassLibrary& masses) {
+  return assembled(
+      nodes, bodies, 1, [&](const element::SolvedSuperElement& cell) -> const Matrix& { return *masses.of(cell); },
+      [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
+        return element::finite_element_mass(finite, *material_of(model, cell).density, model.analysis.thickness);
+      });
 }
 
 double rounding_of(const element::SolvedCells& cells) {
@@ -104,35 +269,29 @@ double rounding_of(const element::SolvedCells& cells) {
 
 }  // namespace
 
-Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells) {
+Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
+                         int threads) {
   Stiffness stiffness;
   stiffness.rounding = rounding_of(cells);
-  if (is_whole(mesh)) {
+  if (is_whole(mesh))
     stiffness.dense = std::shared_ptr<const Matrix>(cells.front(), &cells.front()->K());
-    return stiffness;
-  }
-  Assembler assembler(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
-  add_stiffness(assembler, model, mesh, cells, numbers_in_body);
-  stiffness.sparse = assembler.finish();
+  else
+    stiffness.sparse = stiffness_of(model, mesh.nodes.size(), {{mesh, cells, {}}}, threads);
   return stiffness;
 }
 
 Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, const Dofs& dofs, std::size_t part) {
+                         const std::vector<element::SolvedCells>& cells, const Dofs& dofs, std::size_t part,
+                         int threads) {
   const std::vector<int>& bodies = dofs.bodies_of(part);
   Stiffness stiffness;
   if (bodies.size() == 1) {
     const auto b = static_cast<std::size_t>(bodies.front());
-    stiffness = body_stiffness(model, mesh.bodies[b], cells[b]);
+    stiffness = body_stiffness(model, mesh.bodies[b], cells[b], threads);
   } else {
-    Assembler assembler(dofs.size(part));
-    for (const int body : bodies) {
-      const auto b = static_cast<std::size_t>(body);
-      stiffness.rounding = std::max(stiffness.rounding, rounding_of(cells[b]));
-      add_stiffness(assembler, model, mesh.bodies[b], cells[b],
-                    [&](std::span<const int> nodes) { return dofs.of(body, nodes); });
-    }
-    stiffness.sparse = assembler.finish();
+    for (const int body : bodies)
+      stiffness.rounding = std::max(stiffness.rounding, rounding_of(cells[static_cast<std::size_t>(body)]));
+    stiffness.sparse = stiffness_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), threads);
   }
   stiffness.unbounded = dofs.is_unbounded(part);
   return stiffness;
@@ -147,13 +306,10 @@ std::shared_ptr<const Matrix> MassLibrary::of(const element::SolvedSuperElement&
 Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
                     MassLibrary& masses) {
   Stiffness mass;
-  if (is_whole(mesh)) {
+  if (is_whole(mesh))
     mass.dense = masses.of(*cells.front());
-    return mass;
-  }
-  Assembler assembler(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
-  add_mass(assembler, model, mesh, cells, masses, numbers_in_body);
-  mass.sparse = assembler.finish();
+  else
+    mass.sparse = mass_of(model, mesh.nodes.size(), {{mesh, cells, {}}}, masses);
   return mass;
 }
 
@@ -164,14 +320,8 @@ Stiffness part_mass(const model::Model& model, const mesh::Mesh& mesh, const std
     const auto b = static_cast<std::size_t>(bodies.front());
     return body_mass(model, mesh.bodies[b], cells[b], masses);
   }
-  Assembler assembler(dofs.size(part));
-  for (const int body : bodies) {
-    const auto b = static_cast<std::size_t>(body);
-    add_mass(assembler, model, mesh.bodies[b], cells[b], masses,
-             [&](std::span<const int> nodes) { return dofs.of(body, nodes); });
-  }
   Stiffness mass;
-  mass.sparse = assembler.finish();
+  mass.sparse = mass_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), masses);
   return mass;
 }
 

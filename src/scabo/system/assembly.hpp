@@ -12,12 +12,15 @@
 
 namespace scabo::system {
 
-/// Stiffness of a body: that of its super-element, shared with it, if it is one; otherwise sparse.
-Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells);
+/// Stiffness of a body: that of its super-element, shared with it, if it is one; otherwise sparse. The same bits on any
+/// number of threads.
+Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
+                         int threads = 1);
 
 /// Stiffness of an elastic part; that of several tied bodies is sparse.
 Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, const Dofs& dofs, std::size_t part);
+                         const std::vector<element::SolvedCells>& cells, const Dofs& dofs, std::size_t part,
+                         int threads = 1);
 
 /// Masses of super-elements, each distinct one computed once.
 class MassLibrary {

@@ -84,6 +84,7 @@ namespace {
 /// What equal bodies share.
 struct Factored {
   Stiffness stiffness;
+  double largest_diagonal = 0.0;  // of the stiffness: asked for often, and as long as a product with it
   linalg::SymmetricPositiveSolver solver;
 };
 
@@ -178,7 +179,7 @@ class ElasticBody final : public BodySystem {
     // The factor alone gives it to about this condition times the unit of rounding.
     constexpr double most_entries = 1e9;  // some seconds
     const double entries = static_cast<double>(stiffness().entries()) * static_cast<double>(at.size());
-    if (!at.empty() && stiffness().largest_diagonal() * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
+    if (!at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
       const Vector none = Vector::Zero(size());
       for (std::size_t j = 0; j < at.size(); ++j) {
         Vector force = none;
@@ -223,7 +224,7 @@ class ElasticBody final : public BodySystem {
     return 0.5 * stiffness().rounding * std::sqrt(sum);  // errors of single entries, independent of each other
   }
   double stiff_force(const Vector& u) const override {
-    return stiffness().largest_diagonal() * u.lpNorm<Eigen::Infinity>();
+    return factored_->largest_diagonal * u.lpNorm<Eigen::Infinity>();
   }
 
  private:
@@ -450,6 +451,7 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   for (ElasticPart& part : parts) {
     auto factored = std::make_shared<Factored>();
     factored->stiffness = std::move(part.stiffness);
+    factored->largest_diagonal = factored->stiffness.largest_diagonal();
     auto body = std::make_unique<ElasticBody>(factored, part.nodes, std::move(part.constraints));
     const std::size_t hash = hash_of(factored->stiffness);
     const auto [begin, end] = known.equal_range(hash);

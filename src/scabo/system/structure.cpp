@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "scabo/base/stopwatch.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
@@ -200,7 +201,9 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       continue;
     }
     elastic.push_back(p);
-    parts.push_back({part_stiffness(model, mesh, cells, dofs, p), dofs.nodes(p), std::move(constraints[p])});
+    Stiffness stiffness =
+        timed(structure.assembly_seconds, [&] { return part_stiffness(model, mesh, cells, dofs, p, threads); });
+    parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p])});
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options);

@@ -18,6 +18,7 @@ struct Structure {
   std::vector<std::vector<Vector>> loads;
   /// [load][body][cell]: loads inside the cells, at factor 1; empty where the load does not act inside the body.
   std::vector<std::vector<element::CellLoads>> interior;
+  double assembly_seconds = 0.0;  ///< of `make_structure`, for its stiffness matrices
 };
 
 /// Constraints of every part, from the supports of the model. Throws InputError for supports that contradict each

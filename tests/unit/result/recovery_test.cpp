@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "unit/result/solutions.hpp"
@@ -72,6 +73,49 @@ TEST(Recovery, BodyForceIsPartOfTheInterior) {
     EXPECT_NEAR(fields.stress_yy[i], weight * y, 1e-6 * weight);
     EXPECT_NEAR(fields.stress_xx[i], 0.0, 1e-6 * weight);
     EXPECT_NEAR(fields.displacement[3 * i + 1], weight * y * y / (2.0 * young), 1e-14);
+  }
+}
+
+/// A square of 8 x 8 equal cells, which share one super-element.
+analysis::StaticSolution equal_cells(int order) {
+  model::Body body = elastic("a", rectangle({0.0, 0.0}, {2.0, 2.0}), 0.25, order);
+  body.mesh.kind = model::MeshKind::quadtree;
+  auto solution = solution_of(model_of({body}, model::Plane::strain));
+  for (auto& cell : solution.cells[0]) cell = solution.cells[0][0];
+  return solution;
+}
+
+TEST(Recovery, LinearFieldIsExactInEqualCells) {
+  for (const int order : {1, 2, 3}) {
+    const auto solution = equal_cells(order);
+    ASSERT_EQ(solution.cells[0].size(), 64u);
+    ASSERT_GT(64u, 4 * solution.cells[0][0]->ring.nodes.size());  // a map is worth its cost
+    expect_linear_field(solution, single_precision);
+  }
+}
+
+// A load of zero inside a cell asks for its field itself, not for the map that equal cells share.
+TEST(Recovery, EqualCellsHaveTheFieldOfEach) {
+  const auto solution = equal_cells(2);
+  const Field bent = [](const Vec2& x) {
+    return Vec2(7.0 + 1e-3 * x.x() * x.y() * x.y(), -3.0 + 2e-3 * std::sin(x.x() - 0.3 * x.y()));
+  };
+  auto increment = increment_of(solution, bent);
+  const Recovery recovery(solution);
+  const Fields mapped = recovery.fields(solution, increment.fields);
+  increment.fields.interior[0].resize(64);
+  for (auto& interior : increment.fields.interior[0])
+    interior.loads = element::body_force_loads(solution.cells[0][0]->ring, {0.0}, {0.0}, 0.5);
+  const Fields plain = recovery.fields(solution, increment.fields);
+  const double largest = *std::max_element(plain.von_mises.begin(), plain.von_mises.end());
+  ASSERT_GT(largest, 1e-3 * young);
+  for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {
+    EXPECT_NEAR(mapped.displacement[3 * i], plain.displacement[3 * i], 1e-13 * 7.0) << i;
+    EXPECT_NEAR(mapped.displacement[3 * i + 1], plain.displacement[3 * i + 1], 1e-13 * 7.0) << i;
+    EXPECT_NEAR(mapped.stress_xx[i], plain.stress_xx[i], single_precision * largest) << i;
+    EXPECT_NEAR(mapped.stress_yy[i], plain.stress_yy[i], single_precision * largest) << i;
+    EXPECT_NEAR(mapped.stress_xy[i], plain.stress_xy[i], single_precision * largest) << i;
+    EXPECT_NEAR(mapped.stress_zz[i], plain.stress_zz[i], single_precision * largest) << i;
   }
 }
 
