@@ -26,8 +26,9 @@ struct NewtonDirection::Workspace {
 
 namespace {
 
-constexpr Eigen::Index most_direct = 2500;       // unknowns of a dense factorisation, where there is a choice,
-constexpr Eigen::Index most_after_gmres = 6000;   // and where GMRES has failed
+// Unknowns of a dense factorisation: of the matrix W itself, for which GMRES needs hundreds of products, and of one that
+// would have to be formed first.
+constexpr Eigen::Index most_of_dense = 6000, most_of_formed = 2500;
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
 constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
 
@@ -201,11 +202,10 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   bool solved = false;
   if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = solve_sparse(regularisation);
-  else if (size + m <= most_direct && (problem.W.is_dense() || forces <= most_direct))
+  else if (problem.W.is_dense() ? size + m <= most_of_dense : std::max(size + m, forces) <= most_of_formed)
     solved = solve_dense(regularisation);
   else
-    solved = solve_iteratively(regularisation) ||
-             (problem.W.is_dense() && size + m <= most_after_gmres && solve_dense(regularisation));
+    solved = solve_iteratively(regularisation);
   if (!solved) return false;
   d.resize(forces + m);
   expand(y_, known_);
