@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
+#include <set>
 
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/system/assembly.hpp"
@@ -75,6 +77,7 @@ class ConstraintCollector {
     const Constraint& other = constraints_[part][at->second];
     const bool both_zero = value == 0.0 && other.value == 0.0;
     if (both_zero || (value == other.value && same_history(model_, index, other.support))) return;
+    if (!reported_.insert({index, other.support}).second) return;  // one message, also where edges share many nodes
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
     const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
     diagnostics_.push_back(
@@ -90,6 +93,7 @@ class ConstraintCollector {
   const Dofs& dofs_;
   std::vector<std::vector<Constraint>> constraints_;
   std::vector<std::map<int, std::size_t>> held_by_;
+  std::set<std::array<int, 2>> reported_;  // pairs of supports
   std::vector<Diagnostic> diagnostics_;
 };
 
