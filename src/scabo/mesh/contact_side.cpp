@@ -20,7 +20,8 @@ ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement
                          const std::vector<Vec2>& body_nodes)
     : edge(&edge_), element_length(edge_.length()) {
   ensure(!body_elements.empty(), "a contact edge has elements");
-  closed = body_elements.front().nodes.front() == body_elements.back().nodes.back();
+  // Also where a crack ends at the first point: of its two nodes one is taken, as of any crack on the way.
+  closed = (edge->at(0.0) - edge->at(1.0)).norm() <= 1e-9 * edge->length();
   int count = closed ? 0 : 1;
   for (const LineElement& element : body_elements) count += order_of(element);
   nodes.resize(count);

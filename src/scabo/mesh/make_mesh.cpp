@@ -136,6 +136,7 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
     nodes += static_cast<double>(mesh.bodies[b].nodes.size());
   }
 
+  add(close_mouths(model, mesh.bodies));
   if (auto wrong = add_interfaces(model, mesh); !wrong.empty()) {
     if (auto matched = match_sides(model, mesh.bodies)) {
       mesh.bodies = *std::move(matched);
