@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -489,7 +490,9 @@ std::optional<Diagnostic> close_mouth(const Side& side, const std::string& name,
     if (!is_mouth(other, j) && !is_end(other, j)) continue;
     const double distance = std::abs(foot->t - other.breaks[j].t) * other.length;
     const double element = std::min(side.length_at(i), other.length_at(j));
-    if (distance <= equal_mouths * element || distance > close_mouths_apart * element) continue;
+    // Far from the origin coordinates have fewer digits.
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * mouth.cwiseAbs().maxCoeff();
+    if (distance <= std::max(equal_mouths * element, rounding) || distance > close_mouths_apart * element) continue;
     const Vec2& there = other.breaks[j].point;
     return Diagnostic{
         source, fmt::format("a crack ends at ({:.10g}, {:.10g}) on {}, only {:.2g} from {} at ({:.10g}, {:.10g}) "

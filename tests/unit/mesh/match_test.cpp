@@ -471,15 +471,15 @@ TEST(Matching, ACrackThatEndsWhereTheRimStarts) {
 }
 
 TEST(Matching, RefusesMouthsThatAreAlmostInOnePlace) {
-  const auto message = [](double x) -> std::string {
-    model::Body lower = elastic("lower", rectangle({0, 0}, {2, 1}), 0.3, 2);
-    model::Body upper = elastic("upper", rectangle({0, 1}, {2, 1}), 0.25, 2);
+  const auto message = [](double x, const Vec2& from = {0, 0}) -> std::string {
+    model::Body lower = elastic("lower", rectangle(from, {2, 1}), 0.3, 2);
+    model::Body upper = elastic("upper", rectangle(from + Vec2(0, 1), {2, 1}), 0.25, 2);
     for (model::Body* body : {&lower, &upper}) {
       body->mesh.kind = model::MeshKind::polygons;
       body->cracks.emplace_back().name = "k";
     }
-    lower.cracks[0].path = {{1, 1}, {1, 0.5}};
-    upper.cracks[0].path = {{x, 1}, {x, 1.5}};
+    lower.cracks[0].path = {from + Vec2(1, 1), from + Vec2(1, 0.5)};
+    upper.cracks[0].path = {from + Vec2(x, 1), from + Vec2(x, 1.5)};
     try {
       make_mesh(pair_of(lower, "top", upper, "bottom"));
     } catch (const InputError& error) {
@@ -489,6 +489,7 @@ TEST(Matching, RefusesMouthsThatAreAlmostInOnePlace) {
   };
   EXPECT_EQ(message(1.0), "");
   EXPECT_EQ(message(1.001), "");
+  EXPECT_EQ(message(1.0, {1e7 / 3.0, -1e7 / 7.0}), "");  // the digits that are left
   for (const double apart : {1e-8, 1e-7, 1e-6})
     EXPECT_THAT(message(1.0 + apart), testing::AllOf(HasSubstr("a crack ends at (1, 1) on "),
                                                      HasSubstr(" from the end of a crack at (1.0000")))
