@@ -81,11 +81,12 @@ class ConstraintCollector {
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
     const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
     diagnostics_.push_back(
-        {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
-                                     "another value: give both the same value there, or move one of them",
-                                     component_name[component], x.x(), x.y(),
-                                     model_.supports[static_cast<std::size_t>(other.support)].name,
-                                     model_.supports[static_cast<std::size_t>(other.support)].source.line)});
+        {support.source,
+         fmt::format("support '{}' prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
+                     "another value: give both the same value there, or move one of them",
+                     support.name, component_name[component], x.x(), x.y(),
+                     model_.supports[static_cast<std::size_t>(other.support)].name,
+                     model_.supports[static_cast<std::size_t>(other.support)].source.line)});
   }
 
   const model::Model& model_;
