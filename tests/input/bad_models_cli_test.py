@@ -64,6 +64,8 @@ class BadModels(unittest.TestCase):
                 done = self.run_scabo("run", str(file), "-o", "results")
                 self.assertIn(done.returncode, statuses, done.stdout + done.stderr)
                 self.assertIn(later, done.stderr)
+                if statuses == [1]:
+                    self.assertEqual(done.stderr.count(later), 1, done.stderr)
 
     def test_files_that_are_no_model(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -251,8 +251,8 @@ void read_body(Reading& reading, const Entry& entry) {
   const bool from_file = rigid && !body.rigid && is_from_file(map.get("mesh"));
   map.refuse("file", "is a key of 'mesh': write mesh: {file: part.msh} instead of shape");
   const auto shape = from_file || map.has("file") ? std::nullopt : map.need("shape");
+  const MapEntry* image = shape && shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
   if (shape) {
-    const MapEntry* image = shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
     auto outline = image != nullptr ? read_image(reading, {image->value, shape->path + ".image"}, body)
                                     : read_shape(reading, *shape);
     if (image != nullptr && shape->node->entries.size() > 1)
@@ -275,8 +275,9 @@ void read_body(Reading& reading, const Entry& entry) {
   } else if (from_file) {
     read_imported_body(reading, map, *map.get("mesh"), body, state);
   } else {
-    if (body.image) map.refuse("material", "the image names the materials: leave 'material' out");
-    const auto material = body.image ? std::nullopt : map.need("material");
+    // Also an image that could not be read names the materials.
+    if (image != nullptr) map.refuse("material", "the image names the materials: leave 'material' out");
+    const auto material = image != nullptr ? std::nullopt : map.need("material");
     if (material) body.material = read_material_name(reading, *material).value_or(-1);
     if (const auto regions = map.get("regions")) read_regions(reading, *regions, body);
     const std::size_t before = report.count();

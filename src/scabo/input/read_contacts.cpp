@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <variant>
 
+#include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/touching.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/model/side_faces.hpp"
@@ -89,6 +92,46 @@ struct Touching {
   double reach = 0.0;
 };
 
+/// A point at which one of two bodies lies inside the other, if there is one: of points along the edges of both, or the
+/// first corner of two bodies that are in the same place.
+std::optional<Vec2> overlap_of(const Body& a, const Body& b) {
+  const geometry::Box box_a = geometry::box_of(a.outline), box_b = geometry::box_of(b.outline);
+  if ((box_a.low.array() >= box_b.high.array()).any() || (box_b.low.array() >= box_a.high.array()).any()) return {};
+  const double rounding = 1e-6 * std::min((box_a.high - box_a.low).norm(), (box_b.high - box_b.low).norm());
+  bool same = true;
+  for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (const Edge& edge : one->outline.edges)
+      for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+        const Vec2 point = edge.at(t);
+        double distance = std::numeric_limits<double>::max();
+        for (const Edge& border : other->outline.edges)
+          distance = std::min(distance, (geometry::closest_point(border, point) - point).norm());
+        if (distance <= rounding) continue;
+        same = false;
+        if (geometry::encloses(other->outline, point) != other->outside) return point;
+      }
+  return same ? std::optional(a.outline.edges.front().start) : std::nullopt;
+}
+
+/// Why `between: all`, or two bodies, gives no contact or tie at all.
+std::string nothing_touches(const Reading& reading, const std::vector<const Outline*>& outlines, bool is_tie) {
+  constexpr std::size_t most_bodies = 1000;  // of which all pairs are compared
+  std::vector<const Body*> bodies;
+  for (std::size_t b = 0; b < outlines.size(); ++b)
+    if (outlines[b] != nullptr && bodies.size() < most_bodies) bodies.push_back(&reading.model.bodies[b]);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < bodies.size(); ++j)
+      if (const auto point = overlap_of(*bodies[i], *bodies[j]))
+        return fmt::format(
+            "no two edges of these bodies lie on each other, and '{}' and '{}' overlap at ({:.6g}, "
+            "{:.6g}): move one of them, or name two edges",
+            bodies[i]->name, bodies[j]->name, point->x(), point->y());
+  return is_tie
+             ? "no two edges of these bodies lie on each other: move a body, or name two edges"
+             : "no two edges of these bodies lie on each other: give a 'reach', the distance up to which edges are in "
+               "contact, or name two edges";
+}
+
 void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
   const Entry& entry = *touching.entry;
   const Between& between = touching.between;
@@ -110,9 +153,14 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
     outlines.push_back(named && reading.bodies[b].shape ? &reading.model.bodies[b].outline : nullptr);
   }
   int number = 0;
+  int rigid_body = -1;  // the first that a tie would join
   for (const geometry::TouchingEdges& pair : geometry::touching_edges(outlines, touching.reach)) {
     const int rigid = reading.body(pair.body_a).rigid + reading.body(pair.body_b).rigid;
-    if (rigid == 2 || (is_tie && rigid > 0)) continue;
+    if (rigid == 2) continue;
+    if (is_tie && rigid > 0) {
+      if (rigid_body < 0) rigid_body = reading.body(pair.body_a).rigid ? pair.body_a : pair.body_b;
+      continue;
+    }
     if (model::is_side_face(reading.body(pair.body_a), pair.edge_a) ||
         model::is_side_face(reading.body(pair.body_b), pair.edge_b))
       continue;
@@ -132,10 +180,11 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
       reading.model.ties.push_back(named(std::get<Tie>(touching.law)));
   }
   if (number == 0 && reading.report.clean())
-    reading.report.error(entry.value,
-                         is_tie ? "no two edges of these bodies lie on each other: move a body, or name two edges"
-                                : "no two edges of these bodies lie on each other: give a 'reach', the distance up to "
-                                  "which edges are in contact, or name two edges");
+    reading.report.error(
+        entry.value, rigid_body >= 0
+                         ? fmt::format("'{}' is rigid, but a tie joins elastic bodies: use a contact with 'bond: true'",
+                                       reading.body(rigid_body).name)
+                         : nothing_touches(reading, outlines, is_tie));
 }
 
 std::optional<Contact> read_contact(Reading& reading, const Entry& entry, Between& between_of, double& reach) {

@@ -1,5 +1,7 @@
 #include "scabo/mesh/approximate_nodes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -133,6 +135,11 @@ double approximate_nodes(const model::Body& body) {
                              : body.mesh.size;
   const Density of = density(body.mesh.kind);
   return Integral(body, largest).area_in_sizes() * (of.corners + of.sides * (body.mesh.order - 1));
+}
+
+std::string text_of_count(double nodes, double limit, int digits) {
+  const std::string rounded = fmt::format("{:.{}g}", nodes, digits);
+  return std::stod(rounded) > limit ? rounded : fmt::format("{:.0f}", std::ceil(nodes));
 }
 
 }  // namespace scabo::mesh

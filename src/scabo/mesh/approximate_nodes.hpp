@@ -9,11 +9,17 @@
 // nearly constant.
 #pragma once
 
+#include <string>
+
 #include "scabo/model/model.hpp"
 
 namespace scabo::mesh {
 
 /// Of a body with an outline, `mesh.size` > 0 and every size of `mesh.refine` > 0; within a factor of about 3.
 double approximate_nodes(const model::Body& body);
+
+/// A number of nodes above `limit` for a message, with as many digits (>= 1), or with all where rounding would make it
+/// the limit: `1.6e+06`, `1000008`.
+std::string text_of_count(double nodes, double limit, int digits);
 
 }  // namespace scabo::mesh

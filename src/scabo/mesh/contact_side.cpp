@@ -20,7 +20,7 @@ ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement
                          const std::vector<Vec2>& body_nodes)
     : edge(&edge_), element_length(edge_.length()) {
   ensure(!body_elements.empty(), "a contact edge has elements");
-  closed = body_elements.front().nodes.front() == body_elements.back().nodes.back();
+  closed = (edge->at(0.0) - edge->at(1.0)).norm() <= 1e-9 * edge->length();
   for (const LineElement& element : body_elements) {
     LineElement local;
     // An element begins where the one before ends; at the mouth of a crack it has a node of its own there.
@@ -34,7 +34,7 @@ ContactSide::ContactSide(const model::Edge& edge_, const std::vector<LineElement
     element_length = std::min(element_length, chord);
     elements.push_back(std::move(local));
   }
-  if (closed) {
+  if (closed && nodes.front() == nodes.back()) {  // otherwise a crack ends at the first point
     nodes.pop_back();
     elements.back().nodes.back() = 0;
   }

@@ -1,8 +1,12 @@
 #include "scabo/mesh/image.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "scabo/base/disjoint_sets.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/mesh/quadtree/forest.hpp"
 
@@ -50,6 +54,48 @@ class Blocks {
 
   int at(int level, int x, int y) const { return levels_[level].at(x, y); }
 
+  /// Throws InputError if two parts that have no side in common touch at a corner.
+  void check_corners() const {
+    const Level& pixels = levels_.front();
+    const auto solid = [&](int x, int y) { return pixels.at(x, y) >= 0; };
+    struct Corner {
+      std::array<int, 2> first, second;  // the pixels that touch, the upper one first
+    };
+    std::vector<Corner> corners;
+    for (int y = pixels.height - 1; y > 0; --y)  // from the top, as in the file
+      for (int x = 0; x + 1 < pixels.width; ++x) {
+        const bool falling = solid(x, y) && solid(x + 1, y - 1), rising = solid(x + 1, y) && solid(x, y - 1);
+        if (falling && !solid(x + 1, y) && !solid(x, y - 1)) corners.push_back({{x, y}, {x + 1, y - 1}});
+        if (rising && !solid(x, y) && !solid(x + 1, y - 1)) corners.push_back({{x + 1, y}, {x, y - 1}});
+      }
+    if (corners.empty()) return;
+    const auto number = [&](int x, int y) { return std::size_t(y) * pixels.width + x; };
+    DisjointSets parts(pixels.regions.size());
+    for (int y = 0; y < pixels.height; ++y)
+      for (int x = 0; x < pixels.width; ++x) {
+        if (!solid(x, y)) continue;
+        if (solid(x + 1, y)) parts.join(number(x, y), number(x + 1, y));
+        if (solid(x, y + 1)) parts.join(number(x, y), number(x, y + 1));
+      }
+    const Corner* worst = nullptr;
+    std::size_t count = 0;
+    for (const Corner& at : corners) {
+      if (parts.root(number(at.first[0], at.first[1])) == parts.root(number(at.second[0], at.second[1]))) continue;
+      if (count++ == 0) worst = &at;
+    }
+    if (worst == nullptr) return;
+    const auto text = [&](const std::array<int, 2>& at) {
+      return fmt::format("({}, {})", at[0], pixels.height - 1 - at[1]);
+    };
+    throw InputError(
+        {}, {{{},
+              fmt::format("the image has parts that hang together only at a corner, {}that of pixels {} and {} "
+                          "(column and row from the top left, from 0): give a pixel beside it a material, or make "
+                          "the parts separate bodies",
+                          count > 1 ? fmt::format("at {} places, first at ", count) : "", text(worst->first),
+                          text(worst->second))}});
+  }
+
  private:
   struct Level {
     int width, height;
@@ -79,6 +125,7 @@ PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options) {
   while ((2 << levels) <= std::min(image.width, image.height) && double(2 << levels) <= largest) ++levels;
   const int side = 1 << levels;
   const Blocks blocks(image, options, levels);
+  blocks.check_corners();
   quadtree::Forest forest(Vec2::Zero(), Vec2::Constant(options.pixel * side), (image.width + side - 1) / side,
                           (image.height + side - 1) / side);
   const auto set_region = [&](TreeCell& cell) { cell.region = blocks.at(levels - cell.level, cell.x, cell.y); };

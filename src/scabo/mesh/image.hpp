@@ -25,7 +25,8 @@ struct ImageOptions {
 /// nodes on it. Where pixels at the border are void, successive nodes need not be joined by a side. Borders between
 /// regions and around voids inside are no lines.
 ///
-/// Throws InputError if no pixel belongs to a region.
+/// Throws InputError if no pixel belongs to a region, or if two parts that share no side of a pixel share a corner: a
+/// hinge that the material does not have.
 PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options);
 
 }  // namespace scabo::mesh

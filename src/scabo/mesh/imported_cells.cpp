@@ -11,6 +11,7 @@
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/mesh/approximate_nodes.hpp"
 #include "scabo/mesh/divided_file.hpp"
 #include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/polygon_kernel.hpp"
@@ -73,9 +74,10 @@ class FileCells {
     const double nodes = static_cast<double>(file_.nodes.size()) + (fem_ ? 0.0 : (body_.mesh.order - 1) * sides);
     if (nodes <= most_nodes) return std::nullopt;
     return Diagnostic{body_.mesh.source,
-                      fmt::format("the mesh would have about {:.2g} nodes, more than the {:.7g} allowed: use a coarser "
+                      fmt::format("the mesh would have about {} nodes, more than the {:.7g} allowed: use a coarser "
                                   "mesh{}",
-                                  nodes, most_nodes, body_.mesh.order > 2 ? " or a lower 'order'" : "")};
+                                  text_of_count(nodes, most_nodes, 2), most_nodes,
+                                  body_.mesh.order > 2 ? " or a lower 'order'" : "")};
   }
 
   std::string label(const files::ImportedCell& cell) const {

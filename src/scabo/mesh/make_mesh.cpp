@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
 
+#include "scabo/mesh/approximate_nodes.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/division.hpp"
@@ -21,23 +26,35 @@ namespace {
 /// A larger number in one model is taken as a mistyped size.
 constexpr double most_nodes_of_model = 1e6;
 
+/// Reason why a body that could be divided makes the model too large, found before memory is allocated. Bodies after it
+/// are not looked at, which saves one message for each of many copies.
+std::optional<Diagnostic> too_many_together(const model::Body& body, double nodes_before) {
+  if (nodes_before == 0.0 || body.image || body.imported || body.mesh.kind == model::MeshKind::parts) return {};
+  const bool cells = model::is_divided_inside(body);
+  const double nodes = cells                                    ? approximate_nodes(body)
+                       : body.mesh.kind == model::MeshKind::fem ? count_grid_nodes(body)
+                                                                : count_boundary_nodes(body);
+  if (nodes > most_nodes_of_model || !(nodes_before + nodes > most_nodes_of_model)) return {};
+  return Diagnostic{
+      body.mesh.source,
+      fmt::format("with body '{}' the model would have {}{} nodes, more than the {:.7g} allowed: use "
+                  "larger mesh sizes or fewer bodies",
+                  body.name, cells ? "about " : "",
+                  text_of_count(nodes_before + nodes, most_nodes_of_model, cells ? 2 : 3), most_nodes_of_model)};
+}
+
 /// Reason why the body cannot be divided, found before memory is allocated.
-std::vector<Diagnostic> obstacles(const model::Body& body, double nodes_before) {
+std::vector<Diagnostic> obstacles(const model::Body& body) {
   const bool fem = body.mesh.kind == model::MeshKind::fem;
   if (fem && body.mesh.order > 2) {
     return {{body.mesh.source,
              fmt::format("'kind: fem' uses elements of order 1 or 2, not {}: use one of these", body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
-  if (nodes <= most_nodes_of_model && nodes_before + nodes > most_nodes_of_model) {
-    return {{body.mesh.source, fmt::format("with this body the model would have {:.3g} nodes, more than the {:.7g} "
-                                           "allowed: use larger mesh sizes",
-                                           nodes_before + nodes, most_nodes_of_model)}};
-  }
   if (!(nodes <= most_nodes_of_model)) {
     return {{body.mesh.source,
-             fmt::format("size {:.6g} would give {:.3g} nodes, more than the {:.7g} allowed: use a larger 'size'",
-                         body.mesh.size, nodes, most_nodes_of_model)}};
+             fmt::format("size {:.6g} would give {} nodes, more than the {:.7g} allowed: use a larger 'size'",
+                         body.mesh.size, text_of_count(nodes, most_nodes_of_model, 3), most_nodes_of_model)}};
   }
   return {};
 }
@@ -63,6 +80,15 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
   return mistakes;
 }
 
+/// Each message once: copies of a body have their part of the file in common.
+std::vector<Diagnostic> without_repetitions(std::vector<Diagnostic> mistakes) {
+  std::set<std::tuple<int, int, std::string, std::string>> before;
+  std::erase_if(mistakes, [&](const Diagnostic& one) {
+    return !before.emplace(one.at.line, one.at.column, one.at.path, one.message).second;
+  });
+  return mistakes;
+}
+
 }  // namespace
 
 Mesh make_mesh(const model::Model& model) { return make_mesh(model, Division(model.bodies.size())); }
@@ -81,6 +107,10 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     if (body.rigid) continue;
+    if (const auto too_many = too_many_together(body, nodes)) {
+      mistakes.push_back(*too_many);
+      break;
+    }
     if (model::is_divided_inside(body)) {
       const SizeField& wanted = sizes.empty() ? no_limit : sizes[b];
       auto divided = body.imported ? cells_of_file(body, wanted, most_nodes_of_model - nodes)
@@ -97,7 +127,7 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
       nodes += static_cast<double>(mesh.bodies[b].nodes.size());
       continue;
     }
-    if (add(obstacles(body, nodes))) continue;
+    if (add(obstacles(body))) continue;
     const bool fem = body.mesh.kind == model::MeshKind::fem;
     mesh.bodies[b] = fem                   ? divide_grid(body)
                      : division[b].empty() ? divide_boundary(body)
@@ -106,6 +136,7 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
     nodes += static_cast<double>(mesh.bodies[b].nodes.size());
   }
 
+  add(close_mouths(model, mesh.bodies));
   if (auto wrong = add_interfaces(model, mesh); !wrong.empty()) {
     if (auto matched = match_sides(model, mesh.bodies)) {
       mesh.bodies = *std::move(matched);
@@ -114,7 +145,7 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
     add(std::move(wrong));
   }
   add(ambiguous_points(model, mesh));
-  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+  if (!mistakes.empty()) throw InputError(model.file, without_repetitions(std::move(mistakes)));
   return mesh;
 }
 

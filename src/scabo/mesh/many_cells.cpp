@@ -412,12 +412,12 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
   if (!(nodes <= most_nodes))
     return Diagnostic{body.mesh.source,
                       thin ? fmt::format("the squares of a quadtree are not larger than the body is thick, "
-                                         "{:.3g}, which makes about {:.2g} nodes, more than the {:.7g} "
+                                         "{:.3g}, which makes about {} nodes, more than the {:.7g} "
                                          "allowed: make the body thicker or shorter",
-                                         thickness, nodes, most_nodes)
-                           : fmt::format("size {:.6g} would give about {:.2g} nodes, more than the {:.7g} "
+                                         thickness, text_of_count(nodes, most_nodes, 2), most_nodes)
+                           : fmt::format("size {:.6g} would give about {} nodes, more than the {:.7g} "
                                          "allowed: use a larger 'size'",
-                                         body.mesh.size, nodes, most_nodes)};
+                                         body.mesh.size, text_of_count(nodes, most_nodes, 2), most_nodes)};
   const UnitFree own(body, sizes);
   // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places.
   constexpr std::array<double, 3> turns{0.5, 0.25, 0.125}, sizes_per_width{2.0, 1.4, 1.0};
@@ -464,6 +464,11 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
       const std::string narrow = of.narrow.width > 0.0 ? fmt::format("; its lines are {:.3g} apart near {}", width,
                                                                      in_words(of.narrow.narrowest))
                                                        : "";
+      if (body.mesh.kind == model::MeshKind::parts)  // which has no 'refine'
+        return Diagnostic{body.mesh.source,
+                          fmt::format("this shape could not be divided into a few super-elements ({}{}): write "
+                                      "kind: polygons, with a 'size' below its width",
+                                      refusal_text(refusal.reason(), place), narrow)};
       return Diagnostic{body.mesh.source,
                         fmt::format("this shape could not be divided ({}{}): use a smaller 'size' there, "
                                     "with 'refine', or another kind",

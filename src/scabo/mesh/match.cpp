@@ -1,8 +1,11 @@
 #include "scabo/mesh/match.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -23,6 +26,10 @@ constexpr double snapping = 0.1;
 constexpr double coincidence = matching_tolerance;
 /// Inner nodes that are nearer than this to their places, relative to the element, stay.
 constexpr double in_place = 1e-7;
+/// Mouths of cracks between these fractions of the adjacent elements from each other are neither in one place nor
+/// apart. Measured with two tied bodies, on an edge of length 2 in elements of 0.3: mouths 1e-7 apart leave an
+/// imbalance of 3.0e-10, above the tolerance of the certificate, 1e-10, and 2e-7 apart one of 6.1e-10.
+constexpr double equal_mouths = 1e-9, close_mouths_apart = 1e-5;
 /// Largest cosine of the angle between the normals of points that are made opposite each other. Nodes need a partner up
 /// to `facing_cosine`, and pairs are found up to `pairing_cosine`.
 constexpr double sight_cosine = -0.25;
@@ -76,7 +83,8 @@ Side side_of(const model::Model& model, const model::Place& place, const std::ve
   side.body = place.body;
   side.index = place.index;
   side.length = side.edge->length();
-  side.closed = elements.front().nodes.front() == elements.back().nodes.back();
+  // Also where a crack ends at the first point, so that there are two nodes.
+  side.closed = (side.edge->at(0.0) - side.edge->at(1.0)).norm() <= 1e-9 * side.length;
   const std::set<int>& stay = fixed[static_cast<std::size_t>(place.body)];
   for (std::size_t k = 0; k <= elements.size(); ++k) {
     Break at;
@@ -460,7 +468,61 @@ bool matches(const model::Model& model, const Sides& sides, const std::vector<Bo
   return true;
 }
 
+/// The mouth of a crack, in which two nodes are in one place.
+bool is_mouth(const Side& side, std::size_t i) {
+  const Break& at = side.breaks[i];
+  if (side.closed && (i == 0 || i + 1 == side.breaks.size()))
+    return side.breaks.front().after != side.breaks.back().before;
+  return at.before >= 0 && at.after >= 0 && at.before != at.after;
+}
+
+bool is_end(const Side& side, std::size_t i) { return !side.closed && (i == 0 || i + 1 == side.breaks.size()); }
+
+/// A mouth of `side` that almost lies opposite a mouth or an end of `other`.
+std::optional<Diagnostic> close_mouth(const Side& side, const std::string& name, const Side& other,
+                                      const std::string& other_name, const Source& source) {
+  for (std::size_t i = 0; i < side.breaks.size(); ++i) {
+    if (!is_mouth(side, i)) continue;
+    const Vec2& mouth = side.breaks[i].point;
+    const std::optional<geometry::Foot> foot = geometry::foot_on(*other.edge, mouth);
+    if (!foot) continue;
+    const std::size_t j = other.nearest(foot->t);
+    if (!is_mouth(other, j) && !is_end(other, j)) continue;
+    const double distance = std::abs(foot->t - other.breaks[j].t) * other.length;
+    const double element = std::min(side.length_at(i), other.length_at(j));
+    // Far from the origin coordinates have fewer digits.
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * mouth.cwiseAbs().maxCoeff();
+    if (distance <= std::max(equal_mouths * element, rounding) || distance > close_mouths_apart * element) continue;
+    const Vec2& there = other.breaks[j].point;
+    return Diagnostic{
+        source, fmt::format("a crack ends at ({:.10g}, {:.10g}) on {}, only {:.2g} from {} at ({:.10g}, {:.10g}) "
+                            "on {}, which is {:.1g} of the elements there: give both the same coordinates, or "
+                            "move them farther apart",
+                            mouth.x(), mouth.y(), name, distance,
+                            is_mouth(other, j) ? "the end of a crack" : "the end of the edge", there.x(), there.y(),
+                            other_name, distance / element)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::vector<Diagnostic> close_mouths(const model::Model& model, const std::vector<BodyMesh>& bodies) {
+  std::vector<Diagnostic> mistakes;
+  const FixedNodes none(bodies.size());
+  const auto has_cracks = [&](const model::Place& place) {
+    return !model.bodies[static_cast<std::size_t>(place.body)].cracks.empty();
+  };
+  for (const Joint& joint : joints_of(model)) {
+    if (!has_cracks(joint.a) && !has_cracks(joint.b)) continue;
+    if (!sides_to_match(model, joint, bodies)) continue;
+    const Side a = side_of(model, joint.a, bodies, none), b = side_of(model, joint.b, bodies, none);
+    auto wrong = close_mouth(a, joint.a.text, b, joint.b.text, joint.source);
+    if (!wrong) wrong = close_mouth(b, joint.b.text, a, joint.a.text, joint.source);
+    if (wrong) mistakes.push_back(*std::move(wrong));
+  }
+  return mistakes;
+}
 
 bool is_refined_alike(const model::Model& model, const Joint& joint) {
   const auto is_refined = [&](const model::Place& place) {

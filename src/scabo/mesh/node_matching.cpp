@@ -79,8 +79,8 @@ std::vector<int> nearest_nodes(const ContactSide& side, const ContactSide& other
 
 /// Whether positions i and i + step are the two nodes at the mouth of a crack.
 bool is_mouth(const ContactSide& side, int i, int step) {
-  const int next = i + step;
-  return next >= 0 && next < side.size() && side.points[next] == side.points[i];
+  const int next = side.closed ? (i + step + side.size()) % side.size() : i + step;
+  return next >= 0 && next < side.size() && next != i && side.points[next] == side.points[i];
 }
 
 /// The closest pair of nodes that match, if there is one.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
+#include <set>
 
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
@@ -76,14 +78,16 @@ class ConstraintCollector {
     const Constraint& other = constraints_[part][at->second];
     const bool both_zero = value == 0.0 && other.value == 0.0;
     if (both_zero || (value == other.value && same_history(model_, index, other.support))) return;
+    if (!reported_.insert({index, other.support}).second) return;  // one message, also where edges share many nodes
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
     const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
     diagnostics_.push_back(
-        {support.source, fmt::format("prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
-                                     "another value: give both the same value there, or move one of them",
-                                     component_name[component], x.x(), x.y(),
-                                     model_.supports[static_cast<std::size_t>(other.support)].name,
-                                     model_.supports[static_cast<std::size_t>(other.support)].source.line)});
+        {support.source,
+         fmt::format("support '{}' prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
+                     "another value: give both the same value there, or move one of them",
+                     support.name, component_name[component], x.x(), x.y(),
+                     model_.supports[static_cast<std::size_t>(other.support)].name,
+                     model_.supports[static_cast<std::size_t>(other.support)].source.line)});
   }
 
   const model::Model& model_;
@@ -91,6 +95,7 @@ class ConstraintCollector {
   const Dofs& dofs_;
   std::vector<std::vector<Constraint>> constraints_;
   std::vector<std::map<int, std::size_t>> held_by_;
+  std::set<std::array<int, 2>> reported_;  // pairs of supports
   std::vector<Diagnostic> diagnostics_;
 };
 

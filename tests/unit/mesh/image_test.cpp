@@ -52,15 +52,53 @@ void check_sides(const PolygonMesh& mesh, const Vec2& size) {
   }
 }
 
+TEST(ImageMesh, RefusesPartsThatTouchOnlyAtACorner) {
+  const auto message = [](int width, int height, const std::vector<int>& labels) -> std::string {
+    try {
+      image_mesh({width, height, labels}, {0.5, 0.0, {{3, 0}, {4, 1}}});
+    } catch (const InputError& error) {
+      return error.diagnostics().front().message;
+    }
+    return "";
+  };
+  EXPECT_THAT(message(3, 3,
+                      {3, 3, 7,  //
+                       3, 4, 7,  //
+                       7, 7, 3}),
+              testing::HasSubstr("hang together only at a corner, that of pixels (1, 1) and (2, 2)"));
+  EXPECT_THAT(message(3, 3,
+                      {3, 7, 3,  //
+                       7, 4, 7,  //
+                       3, 3, 3}),
+              testing::HasSubstr("at 2 places, first at that of pixels (0, 0) and (1, 1)"));
+  EXPECT_THAT(message(2, 2,
+                      {7, 3,  //
+                       4, 7}),
+              testing::HasSubstr("pixels (1, 0) and (0, 1)"));
+  // The same corner in a part that is joined by sides elsewhere, and parts that do not touch.
+  EXPECT_EQ(message(3, 3,
+                    {3, 7, 3,  //
+                     3, 3, 7,  //
+                     7, 3, 3}),
+            "the image has parts that hang together only at a corner, that of pixels (2, 0) and (1, 1) (column and row "
+            "from the top left, from 0): give a pixel beside it a material, or make the parts separate bodies");
+  EXPECT_EQ(message(3, 3,
+                    {3, 3, 3,  //
+                     3, 7, 3,  //
+                     3, 3, 7}),
+            "");
+  EXPECT_EQ(message(3, 1, {3, 7, 3}), "");
+}
+
 TEST(ImageMesh, FourByFourPixelsByHand) {
   // The upper right quarter has one pixel of label 7 at its lower left: it is divided, the other three quarters are
   // not.
   const files::Image image{4,
-                    4,
-                    {3, 3, 3, 3,  //
-                     3, 3, 7, 3,  //
-                     3, 3, 3, 3,  //
-                     3, 3, 3, 3}};
+                           4,
+                           {3, 3, 3, 3,  //
+                            3, 3, 7, 3,  //
+                            3, 3, 3, 3,  //
+                            3, 3, 3, 3}};
   const PolygonMesh mesh = image_mesh(image, {0.5, 0.0, {{3, 0}, {7, 1}}});
   using Squares = std::map<std::pair<double, double>, std::pair<double, int>>;
   EXPECT_EQ(squares_of(mesh), (Squares{{{0, 0}, {1, 0}},
@@ -91,9 +129,9 @@ TEST(ImageMesh, FourByFourPixelsByHand) {
 
 TEST(ImageMesh, VoidPixelsHaveNoCells) {
   const files::Image image{3,
-                    2,
-                    {0, 5, 0,  //
-                     0, 0, -1}};
+                           2,
+                           {0, 5, 0,  //
+                            0, 0, -1}};
   const PolygonMesh mesh = image_mesh(image, {});
   const auto squares = squares_of(mesh);
   EXPECT_EQ(squares.size(), 5u);

@@ -440,6 +440,62 @@ TEST(Matching, OfACrackedBodyKeepsMouthAndSectors) {
   EXPECT_EQ(mesh.bodies[0].edges[2].size(), 8u);  // at 2, 3, 4, 6, 8, 9, 10
 }
 
+/// A pin of radius 1 in a plate with a crack from the rim of the hole at `angle` radially outwards.
+model::Model pin_and_cracked_plate(double angle) {
+  model::Body plate = elastic("plate", test::outline({arc("rim", {0, 0}, 2, 0, 2 * pi)}), 0.3, 2);
+  const model::Outline hole = test::outline({arc("h", {0, 0}, 1, 0, -2 * pi)});
+  plate.outline.holes = {1};
+  plate.outline.edges.push_back(hole.edges.front());
+  plate.outline.corners.push_back(hole.corners.front());
+  plate.mesh.kind = model::MeshKind::polygons;
+  model::Crack& crack = plate.cracks.emplace_back();
+  crack.name = "k";
+  crack.path = {polar({0, 0}, 1, angle), polar({0, 0}, 1.5, angle)};
+  model::Body pin = elastic("pin", test::outline({arc("rim", {0, 0}, 1, 0, 2 * pi)}), 0.23, 2);
+  pin.mesh.kind = model::MeshKind::polygons;
+  return pair_of(plate, "h", pin, "rim");
+}
+
+TEST(Matching, ACrackThatEndsWhereTheRimStarts) {
+  // Every node of the pin has a partner, wherever the crack ends.
+  for (const double angle : {0.0, 0.5 * pi}) {
+    const model::Model model = pin_and_cracked_plate(angle);
+    const Mesh mesh = make_mesh(model);
+    const std::vector<LineElement>& rim = mesh.bodies[1].edges[0];
+    std::size_t nodes = 0;
+    for (const LineElement& element : rim) nodes += element.nodes.size() - 1;
+    EXPECT_EQ(mesh.interfaces.front().pairs.size(), nodes) << angle;
+    for (const ContactPair& pair : mesh.interfaces.front().pairs)
+      EXPECT_LT((pair.point_a - pair.point_b).norm(), 1e-9) << angle;
+  }
+}
+
+TEST(Matching, RefusesMouthsThatAreAlmostInOnePlace) {
+  const auto message = [](double x, const Vec2& from = {0, 0}) -> std::string {
+    model::Body lower = elastic("lower", rectangle(from, {2, 1}), 0.3, 2);
+    model::Body upper = elastic("upper", rectangle(from + Vec2(0, 1), {2, 1}), 0.25, 2);
+    for (model::Body* body : {&lower, &upper}) {
+      body->mesh.kind = model::MeshKind::polygons;
+      body->cracks.emplace_back().name = "k";
+    }
+    lower.cracks[0].path = {from + Vec2(1, 1), from + Vec2(1, 0.5)};
+    upper.cracks[0].path = {from + Vec2(x, 1), from + Vec2(x, 1.5)};
+    try {
+      make_mesh(pair_of(lower, "top", upper, "bottom"));
+    } catch (const InputError& error) {
+      return error.diagnostics().front().message;
+    }
+    return "";
+  };
+  EXPECT_EQ(message(1.0), "");
+  EXPECT_EQ(message(1.001), "");
+  EXPECT_EQ(message(1.0, {1e7 / 3.0, -1e7 / 7.0}), "");  // the digits that are left
+  for (const double apart : {1e-8, 1e-7, 1e-6})
+    EXPECT_THAT(message(1.0 + apart), testing::AllOf(HasSubstr("a crack ends at (1, 1) on "),
+                                                     HasSubstr(" from the end of a crack at (1.0000")))
+        << apart;
+}
+
 TEST(Matching, LeavesNodesOfSupportsInPlace) {
   // Points of the sides are 0.05 and 0.1 apart. Those of the lower one stay where a support is.
   model::Model model = blocks(12, 12);
