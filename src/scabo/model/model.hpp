@@ -216,10 +216,29 @@ struct Temperature {
   Linear change;
 };  ///< change of temperature of a body, absolute coordinates
 
+/// A traction or pressure on an edge: linear between the points of a table, zero before the first and after the last.
+struct EdgeTable {
+  enum class Over { length, x, y };  ///< length: from the start of the edge, along it
+  struct Point {
+    double at = 0.0;
+    Vec2 value = Vec2::Zero();  ///< force / length^2; pressure: x, against the outward normal (y is unused)
+  };
+  bool pressure = false;
+  Over over = Over::length;
+  std::vector<Point> points;  ///< two or more, their positions ascending; two at one position are a jump
+};
+
+/// Pressure of still water on an edge: unit_weight times the depth below the level, zero above it.
+struct Water {
+  double level = 0.0;           ///< up . x of the surface
+  double unit_weight = 0.0;     ///< force / length^3, > 0
+  Vec2 up = Vec2(0.0, 1.0);     ///< unit vector
+};
+
 struct Load {
   std::string name;
   std::optional<Place> on;  ///< empty: gravity or temperature of every elastic body
-  std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature> kind;
+  std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature, EdgeTable, Water> kind;
   Source source;
 };
 
