@@ -276,7 +276,7 @@ struct CellStiffness {
   Matrix k;
 };
 CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::size_t c) {
-  if (const auto& cell = solution.cells[b][c]) return {cell->ring.elements, cell->solution.K};
+  if (const auto& cell = solution.cells[b][c]) return {cell->ring.elements, cell->K()};
   const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
   const mesh::Cell& cell = mesh.cells[c];
   std::map<int, int> own;
