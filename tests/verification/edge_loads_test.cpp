@@ -61,10 +61,10 @@ loads: {{load: {{on: wedge.edge_2, {}}}}}
 TEST(EdgeLoads, LinearPressureHasItsResultantAndMomentOnAnyMesh) {
   const Vec2 force = 0.5 * -250.0 * Vec2(0.6, 0.8);
   const double moment = cross(Vec2(4.0 / 3.0, 2.0), force);
-  for (const char* form : {"{at: [[4, 0], [0, 3]], values: [0, 100]}", "{at: [[0, 3], [4, 0]], values: [100, 0]}",
-                           "{over: y, at: [0, 3], values: [0, 100]}", "{over: x, at: [0, 4], values: [100, 0]}",
-                           "{over: length, at: [0, 5], values: [0, 100]}",
-                           "{over: length, at: [0, 2.3, 5], values: [0, 46, 100]}"})
+  for (const char* form :
+       {"{at: [[4, 0], [0, 3]], values: [0, 100]}", "{at: [[0, 3], [4, 0]], values: [100, 0]}",
+        "{over: y, at: [0, 3], values: [0, 100]}", "{over: x, at: [0, 4], values: [100, 0]}",
+        "{over: length, at: [0, 5], values: [0, 100]}", "{over: length, at: [0, 2.3, 5], values: [0, 46, 100]}"})
     for (const int order : {1, 2, 5})
       for (const double size : {5.0, 0.7}) {
         const Resultant sum = resultant_of(triangle(fmt::format("pressure: {}", form), size, order));
@@ -78,23 +78,21 @@ TEST(EdgeLoads, LinearPressureHasItsResultantAndMomentOnAnyMesh) {
 TEST(EdgeLoads, ActOnPartsOfElements) {
   for (const int order : {1, 2, 3})
     for (const double size : {5.0, 1.1}) {
-      const Resultant sum = resultant_of(
-          triangle("traction: {over: length, at: [1, 2, 2, 3.5], values: [[0, -10], [0, -10], [0, -30], [0, 0]]}",
-                   size, order));
+      const Resultant sum = resultant_of(triangle(
+          "traction: {over: length, at: [1, 2, 2, 3.5], values: [[0, -10], [0, -10], [0, -30], [0, 0]]}", size, order));
       EXPECT_NEAR(sum.force.y(), -0.5 * 32.5, 1e-12);
       EXPECT_NEAR(sum.moment, -0.5 * (4.0 * 32.5 - 0.8 * 71.25), 1e-11);
     }
 }
 
-// A cantilever under q (1 - x/L): tip deflection q L^4 / 30 E I by bending, q L^2 / 6 k G A by shear, k = 5/6; in metres,
-// in millimetres, and turned by 37 degrees.
+// A cantilever under q (1 - x/L): tip deflection q L^4 / 30 E I by bending, q L^2 / 6 k G A by shear, k = 5/6; in
+// metres, in millimetres, and turned by 37 degrees.
 TEST(EdgeLoads, BendACantileverUnderATriangularLoad) {
   const auto tip = [](double unit, double angle) {
     const double c = std::cos(angle), s = std::sin(angle), L = 10.0 * unit, h = unit;
-    const auto at = [&](double x, double y) {
-      return fmt::format("[{:.17g}, {:.17g}]", c * x - s * y, s * x + c * y);
-    };
-    const auto solution = run(fmt::format(R"(
+    const auto at = [&](double x, double y) { return fmt::format("[{:.17g}, {:.17g}]", c * x - s * y, s * x + c * y); };
+    const auto solution =
+        run(fmt::format(R"(
 scabo: 1
 analysis: {{thickness: {1:.17g}}}
 materials: {{stuff: {{young: {2:.17g}, poisson: 0}}}}
@@ -106,8 +104,7 @@ bodies:
 supports: [{{on: beam.left, fix: [x, y]}}]
 loads: {{load: {{on: beam.top, pressure: {{at: [{6}, {5}], values: [{7:.17g}, 0]}}}}}}
 )",
-                                          0, h, 1e9 / unit / unit, at(0, 0), at(L, 0), at(L, h), at(0, h),
-                                          1e3 / unit / unit));
+                        0, h, 1e9 / unit / unit, at(0, 0), at(L, 0), at(L, h), at(0, h), 1e3 / unit / unit));
     const Vector& u = last(solution).fields.displacements.front();
     const auto corner = static_cast<std::size_t>(solution.mesh.bodies.front().corners[2]);
     const Vec2 at_tip = u.segment<2>(static_cast<Eigen::Index>(2 * corner));
@@ -128,8 +125,7 @@ TEST(Water, PressesOnADamFaceToItsLevelOnAnyMesh) {
   for (const char* kind : {"superelement", "polygons", "quadtree"})
     for (const double size : {5.0, 0.7}) {
       const int order = kind[0] == 's' ? 3 : 2;
-      const Resultant sum =
-          resultant_of(triangle("water: {level: 2.1, unit_weight: 9810}", size, order, kind));
+      const Resultant sum = resultant_of(triangle("water: {level: 2.1, unit_weight: 9810}", size, order, kind));
       EXPECT_LT((sum.force - along).norm(), 1e-12 * force) << kind;
       EXPECT_NEAR(sum.moment, cross(foot, along), 1e-11 * force) << kind;
     }
@@ -172,8 +168,9 @@ loads:
                      size, order, loads);
 }
 
-// Archimedes: the weight of the water displaced, through its centroid, for the polygon of straight elements exactly, for
-// curved ones as fast as they approach the circle; half submerged, half the disc: centroid does not matter on x = 1.
+// Archimedes: the weight of the water displaced, through its centroid, for the polygon of straight elements exactly,
+// for curved ones as fast as they approach the circle; half submerged, half the disc: centroid does not matter on x
+// = 1.
 TEST(Water, LiftsASubmergedBodyByTheWeightOfTheWater) {
   for (const double size : {0.9, 0.3}) {
     const mesh::Mesh mesh = mesh::make_mesh(input::parse_model(disc(7.0, 1, size), "test.yaml", {}));
@@ -193,8 +190,8 @@ TEST(Water, LiftsASubmergedBodyByTheWeightOfTheWater) {
   EXPECT_LT(resultant_of(disc(0.9, 2, 0.6)).force.norm(), 1e-14);
 }
 
-// A rigid box 2 x 1 of thickness 0.5 whose bottom is 0.6 deep, held at two corners: 10 * 0.6 * 2 * 0.5 = 6 upwards, half
-// at each; a pressure of 8 y / 1 on its left side, 2 in total at 2/3 of the height, changes them by 2 * (2/3) / 2.
+// A rigid box 2 x 1 of thickness 0.5 whose bottom is 0.6 deep, held at two corners: 10 * 0.6 * 2 * 0.5 = 6 upwards,
+// half at each; a pressure of 8 y / 1 on its left side, 2 in total at 2/3 of the height, changes them by 2 * (2/3) / 2.
 TEST(EdgeLoads, ActOnRigidBodiesByForceAndMoment) {
   const std::string text = R"(
 scabo: 1
@@ -212,9 +209,10 @@ loads:
   side: {on: box.left, pressure: {over: y, at: [0, 1], values: [0, 8]}}
 contacts: {c: {between: [box.top, block.bottom]}}
 )";
-  const auto& increment = last(run(text));
+  const auto solution = run(text);
+  const auto& increment = last(solution);
   const double moved = 2.0 * (2.0 / 3.0) / 2.0;
-  EXPECT_LT((increment.reactions[0] - Vec2(-2.0, -3.0 - -1.0 * -moved)).norm(), 1e-12);
+  EXPECT_LT((increment.reactions[0] - Vec2(-2.0, -3.0 - moved)).norm(), 1e-12);
   EXPECT_NEAR(increment.reactions[1].y(), -3.0 + moved, 1e-12);
 }
 

@@ -24,8 +24,8 @@ std::optional<double> read_place_on_edge(Reading& reading, const Value& value, c
   const Vec2 foot = edge.at(std::clamp(position / length, 0.0, 1.0));
   const double distance = (foot - *point).norm();
   if (distance <= 1e-6 * length) return position;
-  reading.report.error(value, fmt::format("is {:.3g} away from the edge {}: its nearest point is {}", distance, name,
-                                          point_text(foot)));
+  reading.report.error(
+      value, fmt::format("is {:.3g} away from the edge {}: its nearest point is {}", distance, name, point_text(foot)));
   return {};
 }
 
@@ -42,9 +42,7 @@ std::optional<EdgeTable> read_table(Reading& reading, const Value& value, const 
   if (over) {
     const auto choice = read_choice(report, *over, {"x", "y", "length"});
     if (choice)
-      table.over = *choice == "x"   ? EdgeTable::Over::x
-                   : *choice == "y" ? EdgeTable::Over::y
-                                    : EdgeTable::Over::length;
+      table.over = *choice == "x" ? EdgeTable::Over::x : *choice == "y" ? EdgeTable::Over::y : EdgeTable::Over::length;
   }
   const auto at = map.need("at"), values = map.need("values");
   const auto places = at ? read_list(report, *at, over ? "[0, 3]" : "[[0, 0], [0, 3]]") : std::nullopt;
@@ -135,8 +133,7 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   const std::size_t before = report.count();
   const MapReader map(report, entry.value,
                       {"on", "force", "traction", "pressure", "water", "gravity", "body_force", "temperature"},
-                      load_example,
-                      {{"moment", "use two opposite forces"}});
+                      load_example, {{"moment", "use two opposite forces"}});
   if (!map.is_map()) return {};
   Load load;
   load.name = entry.key;
@@ -146,12 +143,10 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
     if (map.has(kind)) kinds.emplace_back(kind);
   }
   if (kinds.size() > 1) {
-    report.error(
-        entry.key_source,
-        fmt::format(
-            "needs exactly one of force, traction, pressure, water, gravity, body_force and temperature, not both {} and "
-            "{}",
-            kinds[0], kinds[1]));
+    report.error(entry.key_source, fmt::format("needs exactly one of force, traction, pressure, water, gravity, "
+                                               "body_force and temperature, not both {} and "
+                                               "{}",
+                                               kinds[0], kinds[1]));
     return {};
   }
   if (kinds.empty()) {

@@ -150,7 +150,8 @@ bool check_water(Checking& checking, const std::string& path, const Water& water
       !checking.positive(path, "water.unit_weight", water.unit_weight))
     return false;
   if (std::abs(water.up.norm() - 1.0) <= 1e-9) return true;
-  checking.error(path, "water.up", "must not be [0, 0]: it is the direction in which the depth decreases, as in [0, 1]");
+  checking.error(path, "water.up",
+                 "must not be [0, 0]: it is the direction in which the depth decreases, as in [0, 1]");
   return false;
 }
 
@@ -197,10 +198,11 @@ bool check_on(Checking& checking, const std::string& path, const Load& load) {
   }
   const bool on_edges = std::holds_alternative<EdgeTable>(load.kind) || std::holds_alternative<Water>(load.kind);
   if (on_edges && place.kind == Place::Kind::face) {
-    checking.error(path, kind,
-                   fmt::format("{} acts on edges: on {}", kind == "water" ? "water" : fmt::format("a {} at places", kind),
-                               divided ? "the face of a crack, give a constant pressure or traction"
-                                       : "a side face, give a pressure or traction in powers of xi"));
+    checking.error(
+        path, kind,
+        fmt::format("{} acts on edges: on {}", kind == "water" ? "water" : fmt::format("a {} at places", kind),
+                    divided ? "the face of a crack, give a constant pressure or traction"
+                            : "a side face, give a pressure or traction in powers of xi"));
     return false;
   }
   if (!in_powers && place.kind == Place::Kind::face && !divided) {

@@ -230,9 +230,9 @@ struct EdgeTable {
 
 /// Pressure of still water on an edge: unit_weight times the depth below the level, zero above it.
 struct Water {
-  double level = 0.0;           ///< up . x of the surface
-  double unit_weight = 0.0;     ///< force / length^3, > 0
-  Vec2 up = Vec2(0.0, 1.0);     ///< unit vector
+  double level = 0.0;          ///< up . x of the surface
+  double unit_weight = 0.0;    ///< force / length^3, > 0
+  Vec2 up = Vec2(0.0, 1.0);    ///< unit vector
 };
 
 struct Load {

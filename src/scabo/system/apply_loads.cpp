@@ -184,8 +184,7 @@ class Applied {
   /// Force and moment of a traction on the edge of a rigid body.
   void apply_to_rigid(const VaryingTraction& varying) {
     const EdgeElements edge = elements_of(body_.outline.edges[static_cast<std::size_t>(place_->index)]);
-    const Vector forces =
-        traction_forces(edge.elements, edge.nodes, thickness(), varying.traction, varying.breaks);
+    const Vector forces = traction_forces(edge.elements, edge.nodes, thickness(), varying.traction, varying.breaks);
     nodal = Vector::Zero(3);
     for (std::size_t i = 0; i < edge.nodes.size(); ++i)
       nodal += rigid_point(edge.nodes[i], part_.reference(), part_.lever()).transpose() *

@@ -93,7 +93,9 @@ VaryingTraction varying_traction(const model::EdgeTable& table, const model::Edg
   VaryingTraction varying;
   switch (table.over) {
     case model::EdgeTable::Over::length:
-      varying.breaks.position = [edge, length = edge.length()](const Vec2& x) { return length * geometry::closest_position(edge, x); };
+      varying.breaks.position = [edge, length = edge.length()](const Vec2& x) {
+        return length * geometry::closest_position(edge, x);
+      };
       break;
     case model::EdgeTable::Over::x:
       varying.breaks.position = [](const Vec2& x) { return x.x(); };
@@ -122,10 +124,9 @@ VaryingTraction varying_traction(const model::EdgeTable& table, const model::Edg
 
 VaryingTraction varying_traction(const model::Water& water) {
   const auto depth = [water](const Vec2& x) { return water.level - water.up.dot(x); };
-  return {[water, depth](const Vec2& x, const Vec2& n) -> Vec2 {
-            return -water.unit_weight * std::max(depth(x), 0.0) * n;
-          },
-          {depth, {0.0}}};
+  return {
+      [water, depth](const Vec2& x, const Vec2& n) -> Vec2 { return -water.unit_weight * std::max(depth(x), 0.0) * n; },
+      {depth, {0.0}}};
 }
 
 EdgeElements elements_of(const model::Edge& edge) {
