@@ -174,12 +174,18 @@ struct Place {
   Source source;
 };
 
+/// Axes of the displacement that a support prescribes: x and y; the outward normal of its edge and the tangent a quarter
+/// turn counter-clockwise from it, at every point; or a direction and the one a quarter turn from it.
+enum class SupportAxes { xy, edge, direction };
+
 /// Prescribed displacement of a place; a component without a value is free.
 struct Support {
   std::string name;  ///< given by the user, or the text of the place, made unique
   Place on;
-  std::array<std::optional<double>, 2> displacement;  ///< length, at factor 1; `fix` gives 0
+  std::array<std::optional<double>, 2> displacement;  ///< length, at factor 1, along its axes; `fix` gives 0
   Source source;
+  SupportAxes axes = SupportAxes::xy;
+  Vec2 along = Vec2(1.0, 0.0);  ///< unit vector, of SupportAxes::direction
 };
 
 struct Force {
