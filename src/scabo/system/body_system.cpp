@@ -142,7 +142,7 @@ class InclinedNodes {
     for (const Constraint& constraint : constraints)
       held[constraint.dof / 2][static_cast<std::size_t>(constraint.dof % 2)] = &constraint;
     for (const auto& [node, at] : held) {
-      if (!((at[0] && at[0]->component != 0) || (at[1] && at[1]->component != 1))) continue;
+      if (!((at[0] && at[0]->component < 0) || (at[1] && at[1]->component < 0))) continue;
       Mat2 rows;
       for (int k = 0; k < 2; ++k)
         if (const Constraint* constraint = at[static_cast<std::size_t>(k)]) rows.row(k) = constraint->direction();

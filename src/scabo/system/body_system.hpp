@@ -50,7 +50,7 @@ struct Constraint {
   double value = 0.0;         ///< length, at factor 1
   Vec2 inclined = Vec2::Zero();  ///< unit vector, of component -1
 
-  Vec2 direction() const { return component < 0 ? inclined : Vec2(Vec2::Unit(component)); }
+  Vec2 direction() const { return component < 0 ? inclined : Vec2(Vec2::Unit(dof >= 0 ? dof % 2 : component)); }
 };
 
 class BodySystem {

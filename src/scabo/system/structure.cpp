@@ -117,6 +117,7 @@ class ConstraintCollector {
       return;
     }
     const int place = others.empty() ? std::max(made.component, 0) : 1 - other(0).dof % 2;
+    if (made.component != place) made.inclined = made.direction(), made.component = -1;
     made.dof = first + place;
     made.point = Vec2::Zero();
     others.push_back(constraints_[part].size());
