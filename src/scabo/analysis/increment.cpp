@@ -186,8 +186,7 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
     certificate.equilibrium = std::max(certificate.equilibrium, part.imbalance(state.u[p], forces) / scale);
     // Of a rigid body imbalance() is the balance; what acts on an unbounded part goes to infinity.
     if (dofs.is_rigid(p) || dofs.is_unbounded(p)) continue;
-    for (std::size_t c = 0; c < part.constraints().size(); ++c)
-      forces[part.constraints()[c].dof] += state.reactions[p][static_cast<Eigen::Index>(c)];
+    system::add_reactions(part.constraints(), state.reactions[p], forces);
     // Against all forces on the part: those of a fine mesh are small, and many.
     const double unbalanced = resultant(part, dofs.nodes(p), forces).lpNorm<Eigen::Infinity>();
     certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / std::max(scale, forces.lpNorm<1>()));
@@ -422,8 +421,8 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
     const std::vector<system::Constraint>& constraints = prepared.structure.parts[p]->constraints();
     for (std::size_t c = 0; c < constraints.size(); ++c) {
       if (constraints[c].rotation) continue;
-      result.reactions[static_cast<std::size_t>(constraints[c].support)][constraints[c].component] +=
-          state.reactions[p][static_cast<Eigen::Index>(c)];
+      result.reactions[static_cast<std::size_t>(constraints[c].support)] +=
+          state.reactions[p][static_cast<Eigen::Index>(c)] * constraints[c].direction();
     }
   }
   const system::Dofs& dofs = prepared.structure.dofs;

@@ -155,8 +155,8 @@ void add_reaction(const Prepared& prepared, const model::Quantity& quantity, Fun
     Vector moved = Vector::Zero(static_cast<Eigen::Index>(part.constraints().size()));
     for (std::size_t c = 0; c < part.constraints().size(); ++c) {
       const system::Constraint& constraint = part.constraints()[c];
-      if (constraint.support == quantity.index && constraint.component == quantity.component && !constraint.rotation)
-        moved[static_cast<Eigen::Index>(c)] = 1.0;
+      if (constraint.support == quantity.index && !constraint.rotation)
+        moved[static_cast<Eigen::Index>(c)] = constraint.direction()[quantity.component];
     }
     if (moved.isZero()) continue;
     const Vector phi = part.displacement(Vector::Zero(part.size()), moved);
@@ -218,9 +218,8 @@ void add_stress_intensity(const Prepared& prepared, const StaticSolution& soluti
 void add_energy(const Prepared& prepared, const State& state, Functional& of) {
   for (std::size_t p = 0; p < of.c.size(); ++p) {
     of.c[p] += state.forces[p] + prepared.contact.motion[p].transpose() * state.p;
-    const auto& constraints = prepared.structure.parts[p]->constraints();
-    for (std::size_t c = 0; c < constraints.size(); ++c)
-      if (constraints[c].dof >= 0) of.c[p][constraints[c].dof] += state.reactions[p][static_cast<Eigen::Index>(c)];
+    if (!prepared.structure.dofs.is_rigid(p))
+      system::add_reactions(prepared.structure.parts[p]->constraints(), state.reactions[p], of.c[p]);
   }
 }
 

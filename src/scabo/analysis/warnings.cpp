@@ -203,7 +203,15 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
         if (motions.cols() > 0) moving = std::max(moving, (motions.transpose() * forces).lpNorm<Eigen::Infinity>());
         continue;
       }
-      for (const system::Constraint& constraint : part.constraints()) forces[constraint.dof] = 0.0;
+      for (std::size_t c = 0; c < part.constraints().size(); ++c) {
+        const system::Constraint& constraint = part.constraints()[c];
+        const auto both = [&](const system::Constraint& other) { return other.dof == (constraint.dof ^ 1); };
+        auto at = forces.segment<2>(constraint.dof / 2 * 2);
+        if (constraint.component < 0 && std::any_of(part.constraints().begin(), part.constraints().end(), both))
+          at.setZero();
+        else
+          at -= Vec2(constraint.direction().dot(at) * constraint.direction());
+      }
       moving = std::max(moving, forces.lpNorm<Eigen::Infinity>());
     }
     if (inside || moving > 1e-12 * largest) continue;

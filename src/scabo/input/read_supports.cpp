@@ -32,40 +32,99 @@ std::string meant_components(std::string_view text) {
           {"all", "both", "xy", "yx", "uxuy", "12", "u1u2", "true", "yes", "fixed", "clamped", "encastre", "pinned"}))
     return "[x, y]";
   if (is_one_of({"x", "ux", "u1", "1", "u", "horizontal"})) return "x";
+  if (is_one_of({"n", "un", "perpendicular", "symmetry"})) return "normal";
+  if (is_one_of({"t", "ut", "tangential"})) return "tangent";
   if (is_one_of({"y", "uy", "u2", "2", "v", "vertical"})) return "y";
   return "";
 }
 
-std::optional<Displacement> read_fix(Reading& reading, const Value& value) {
+/// What a support prescribes: its axes and the displacement along them.
+struct Prescribed {
+  Displacement displacement;
+  SupportAxes axes = SupportAxes::xy;
+  Vec2 along = Vec2(1.0, 0.0);
+};
+
+constexpr const char* fix_forms = "x, y, [x, y], normal, tangent or {along: [1, 2]}";
+
+/// `along: [1, 2]`, of any length; false if it is broken.
+bool read_along(Reading& reading, const std::optional<Value>& value, Prescribed& prescribed) {
+  const auto direction = value ? read_vector(reading.report, *value) : std::nullopt;
+  if (!direction) return false;
+  prescribed.axes = SupportAxes::direction;
+  prescribed.along = direction->norm() > 0.0 ? Vec2(direction->stableNormalized()) : Vec2(Vec2::Zero());
+  return true;
+}
+
+std::optional<Prescribed> read_fix(Reading& reading, const Value& value) {
+  Prescribed prescribed;
+  if (value.node->kind == Node::Kind::map) {
+    const MapReader map(reading.report, value, {"along"}, "{along: [1, 2]}");
+    if (!read_along(reading, map.need("along"), prescribed)) return {};
+    prescribed.displacement[0] = 0.0;
+    return prescribed;
+  }
   std::vector<Value> items{value};
   if (value.node->kind == Node::Kind::sequence) {
     items = *read_list(reading.report, value, "[x, y]");
   }
-  Displacement displacement;
-  bool good = !items.empty();
+  if (items.empty()) {
+    reading.report.error(value, fmt::format("must be {}, not an empty list", fix_forms));
+    return {};
+  }
   for (const Value& item : items) {
     const Node& node = *item.node;
-    const bool x = node.kind == Node::Kind::scalar && node.text == "x";
-    const bool y = node.kind == Node::Kind::scalar && node.text == "y";
-    if (!x && !y) {
+    constexpr std::array<const char*, 4> names = {"x", "y", "normal", "tangent"};
+    const auto name = node.kind == Node::Kind::scalar ? std::find(names.begin(), names.end(), node.text) : names.end();
+    if (name == names.end()) {
       const std::string meant = node.kind == Node::Kind::scalar ? meant_components(node.text) : "";
-      reading.report.error(item, fmt::format("must be x, y or [x, y], not {}{}", describe(node),
+      reading.report.error(item, fmt::format("must be {}, not {}{}", fix_forms, describe(node),
                                              meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant)));
       return {};
     }
-    auto& component = displacement[x ? 0 : 1];
+    const auto number = static_cast<std::size_t>(name - names.begin());
+    const SupportAxes axes = number < 2 ? SupportAxes::xy : SupportAxes::edge;
+    if (&item != &items.front() && axes != prescribed.axes) {
+      reading.report.error(item,
+                           "x and y do not go together with normal and tangent: use two supports, or [x, y] to "
+                           "fix both components");
+      return {};
+    }
+    prescribed.axes = axes;
+    auto& component = prescribed.displacement[number % 2];
     if (component) {
       reading.report.error(item, fmt::format("{} is given twice: remove one of the two", node.text));
       return {};
     }
     component = 0.0;
   }
-  if (!good) reading.report.error(value, "must be x, y or [x, y], not an empty list");
-  return good ? std::optional(displacement) : std::nullopt;
+  return prescribed;
 }
 
-std::optional<Displacement> read_displacement(Reading& reading, const Value& value) {
+std::optional<Prescribed> read_displacement(Reading& reading, const Value& value) {
   const Node& node = *value.node;
+  Prescribed prescribed;
+  if (node.kind == Node::Kind::map) {
+    const std::size_t before = reading.report.count();
+    const MapReader map(reading.report, value, {"normal", "tangent", "along", "value"},
+                        "{normal: -1e-3} or {along: [1, 2], value: 1e-3}");
+    if (map.has("along")) {
+      for (const char* key : {"normal", "tangent"})
+        if (map.has(key)) map.refuse(key, "does not go together with along: use two supports");
+      read_along(reading, map.get("along"), prescribed);
+      prescribed.displacement[0] = number_or_unread(reading, map.need("value"));
+    } else {
+      prescribed.axes = SupportAxes::edge;
+      if (map.has("value")) map.refuse("value", "needs along: [1, 2], its direction");
+      if (const auto normal = map.get("normal")) prescribed.displacement[0] = number_or_unread(reading, normal);
+      if (const auto tangent = map.get("tangent")) prescribed.displacement[1] = number_or_unread(reading, tangent);
+      if (map.all_known() && reading.report.count() == before && !prescribed.displacement[0] &&
+          !prescribed.displacement[1])
+        reading.report.error(value, "needs normal or tangent, or along and value");
+    }
+    if (reading.report.count() > before) return {};
+    return prescribed;
+  }
   if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
     reading.report.error(value,
                          fmt::format("must be [ux, uy], with null for a free component, not {}",
@@ -73,15 +132,14 @@ std::optional<Displacement> read_displacement(Reading& reading, const Value& val
                                                                        : describe(node)));
     return {};
   }
-  Displacement displacement;
   bool good = true;
   for (std::size_t i = 0; i < 2; ++i) {
     if (node.items[i]->kind == Node::Kind::null) continue;
-    displacement[i] = read_number(reading.report, value.item(i));
-    good = good && displacement[i].has_value();
+    prescribed.displacement[i] = read_number(reading.report, value.item(i));
+    good = good && prescribed.displacement[i].has_value();
   }
   if (!good) return {};
-  return displacement;
+  return prescribed;
 }
 
 /// One support; nothing if it is broken. A name given by the user is recorded in any case.
@@ -103,19 +161,21 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   const ReadPlace place = on ? read_place(reading, *on) : ReadPlace{};
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
-  std::optional<Displacement> displacement;
+  std::optional<Prescribed> prescribed;
   if (map.has("fix") == map.has("displacement")) {
     if (map.has("fix") || report.count() == before) {
       report.error(value, map.has("fix") ? "needs one of fix and displacement, not both" : "needs fix or displacement");
     }
   } else if (const auto fix = map.get("fix")) {
-    displacement = read_fix(reading, *fix);
+    prescribed = read_fix(reading, *fix);
   } else {
-    displacement = read_displacement(reading, *map.get("displacement"));
+    prescribed = read_displacement(reading, *map.get("displacement"));
   }
-  if (report.count() > before || !place.place || !displacement) return {};
+  if (report.count() > before || !place.place || !prescribed) return {};
   support.on = *place.place;
-  support.displacement = *displacement;
+  support.displacement = prescribed->displacement;
+  support.axes = prescribed->axes;
+  support.along = prescribed->along;
   return support;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "scabo/model/checking.hpp"
@@ -25,7 +26,9 @@ const char* key_of(const Load& load) {
       Cases{[](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
             [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
             [](const BodyForce&) { return "body_force"; }, [](const Temperature&) { return "temperature"; },
-            [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; }},
+            [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; },
+            [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
+            [](const Water&) { return "water"; }},
       load.kind);
 }
 
@@ -74,7 +77,6 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
       return "a force on an elastic body acts on a corner, a point or an edge: name one of these, or use gravity";
     return "";
   }
-  if (of.rigid) return fmt::format("'{}' is rigid: apply a force to the body instead", body);
   if (place.kind != Place::Kind::edge)
     return fmt::format("{} acts on an edge, but this is {}: name an edge", kind, kind_text(place.kind));
   return "";
@@ -114,6 +116,45 @@ bool check_linear(Checking& checking, const std::string& path, const std::string
          checking.number(path, kind + ".x", linear.per_x) && checking.number(path, kind + ".y", linear.per_y);
 }
 
+bool check_table(Checking& checking, const std::string& path, const std::string& kind, const EdgeTable& table) {
+  if (table.points.size() < 2) {
+    checking.error(path, kind + ".at", fmt::format("needs two or more places, not {}", table.points.size()));
+    return false;
+  }
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    const EdgeTable::Point& point = table.points[i];
+    if (!checking.number(path, fmt::format("{}.at.{}", kind, i), point.at) ||
+        !checking.vector(path, fmt::format("{}.values.{}", kind, i), point.value))
+      return false;
+    if (i > 0 && point.at < table.points[i - 1].at) {
+      checking.error(path, fmt::format("{}.at.{}", kind, i),
+                     fmt::format("is smaller than the place before it, {}: give places in ascending order",
+                                 number_text(table.points[i - 1].at)));
+      return false;
+    }
+    if (i > 1 && point.at == table.points[i - 2].at) {
+      checking.error(path, fmt::format("{}.at.{}", kind, i),
+                     "is the third value at one place: two make a jump, leave out the others");
+      return false;
+    }
+  }
+  if (table.points.front().at == table.points.back().at) {
+    checking.error(path, kind + ".at", "has all its places at one point, where no load can act: spread them");
+    return false;
+  }
+  return true;
+}
+
+bool check_water(Checking& checking, const std::string& path, const Water& water) {
+  if (!checking.number(path, "water.level", water.level) ||
+      !checking.positive(path, "water.unit_weight", water.unit_weight))
+    return false;
+  if (std::abs(water.up.norm() - 1.0) <= 1e-9) return true;
+  checking.error(path, "water.up",
+                 "must not be [0, 0]: it is the direction in which the depth decreases, as in [0, 1]");
+  return false;
+}
+
 bool check_values(Checking& checking, const std::string& path, const Load& load) {
   const std::string kind = key_of(load);
   const auto of_vector = [&](const auto& with) { return checking.vector(path, kind, with.value); };
@@ -126,7 +167,9 @@ bool check_values(Checking& checking, const std::string& path, const Load& load)
             [&](const BodyForce& force) {
               return check_linear(checking, path, kind, force.x) && check_linear(checking, path, kind, force.y);
             },
-            [&](const Temperature& temperature) { return check_linear(checking, path, kind, temperature.change); }},
+            [&](const Temperature& temperature) { return check_linear(checking, path, kind, temperature.change); },
+            [&](const EdgeTable& table) { return check_table(checking, path, kind, table); },
+            [&](const Water& water) { return check_water(checking, path, water); }},
       load.kind);
 }
 
@@ -151,6 +194,15 @@ bool check_on(Checking& checking, const std::string& path, const Load& load) {
                    fmt::format("powers and points of xi are available only on side faces{}: on {}, give a constant {}",
                                divided ? " of a body that is one super-element" : "",
                                divided ? "the face of a crack between cells" : "an edge", kind));
+    return false;
+  }
+  const bool on_edges = std::holds_alternative<EdgeTable>(load.kind) || std::holds_alternative<Water>(load.kind);
+  if (on_edges && place.kind == Place::Kind::face) {
+    checking.error(
+        path, kind,
+        fmt::format("{} acts on edges: on {}", kind == "water" ? "water" : fmt::format("a {} at places", kind),
+                    divided ? "the face of a crack, give a constant pressure or traction"
+                            : "a side face, give a pressure or traction in powers of xi"));
     return false;
   }
   if (!in_powers && place.kind == Place::Kind::face && !divided) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -10,6 +11,36 @@
 #include "scabo/model/checking.hpp"
 
 namespace scabo::model {
+
+namespace {
+
+const char* key_of_component(SupportAxes axes, std::size_t component) {
+  if (axes == SupportAxes::edge) return component == 0 ? "displacement.normal" : "displacement.tangent";
+  if (axes == SupportAxes::direction) return "displacement.value";
+  return component == 0 ? "displacement.0" : "displacement.1";
+}
+
+/// Whether a support has the axes that it prescribes displacements along.
+bool check_axes(Checking& checking, const std::string& path, const Support& support) {
+  if (support.axes == SupportAxes::xy) return true;
+  if (checking.model.analysis.type == AnalysisType::modal) {
+    checking.error(path, "", "a modal analysis takes supports along x and y only: fix x, y or both");
+    return false;
+  }
+  if (support.axes == SupportAxes::direction && std::abs(support.along.norm() - 1.0) > 1e-9) {
+    checking.error(path, "", "the direction along must not be [0, 0]: give the direction in which the place is held");
+    return false;
+  }
+  if (support.axes != SupportAxes::edge || support.on.kind == Place::Kind::edge || support.on.kind == Place::Kind::face)
+    return true;
+  checking.error(path, "on",
+                 fmt::format("normal and tangent are those of an edge, which '{}' is not: name an edge, or give a "
+                             "direction, along: [1, 2]",
+                             text_of(checking.model, support.on)));
+  return false;
+}
+
+}  // namespace
 
 void check_supports(Checking& checking) {
   const Model& model = checking.model;
@@ -33,9 +64,10 @@ void check_supports(Checking& checking) {
                                      : "a side face, which has no nodes between its ends"));
       good = false;
     }
+    good = check_axes(checking, path, support) && good;
     for (std::size_t c = 0; c < 2; ++c)
       if (support.displacement[c] &&
-          !checking.number(path, c == 0 ? "displacement.0" : "displacement.1", *support.displacement[c]))
+          !checking.number(path, key_of_component(support.axes, c), *support.displacement[c]))
         good = false;
     if (!support.displacement[0] && !support.displacement[1]) {
       checking.error(path, "displacement", "prescribes no displacement: give a number for x or y");
@@ -154,7 +186,8 @@ void check_conflicting_supports(Checking& checking) {
   std::vector<Places> of_body(model.bodies.size());
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];
-    if (!checking.support[i]) continue;
+    // Along other directions they are compared at the nodes (system/structure.cpp).
+    if (!checking.support[i] || support.axes != SupportAxes::xy) continue;
     Places& places = of_body[static_cast<std::size_t>(support.on.body)];
     const auto at = places.find(key_of(support.on));
     // A whole body shares points with all places; once one was compared, another like it adds nothing.

@@ -174,12 +174,18 @@ struct Place {
   Source source;
 };
 
+/// Axes of the displacement that a support prescribes: x and y; the outward normal of its edge and the tangent a quarter
+/// turn counter-clockwise from it, at every point; or a direction and the one a quarter turn from it.
+enum class SupportAxes { xy, edge, direction };
+
 /// Prescribed displacement of a place; a component without a value is free.
 struct Support {
   std::string name;  ///< given by the user, or the text of the place, made unique
   Place on;
-  std::array<std::optional<double>, 2> displacement;  ///< length, at factor 1; `fix` gives 0
+  std::array<std::optional<double>, 2> displacement;  ///< length, at factor 1, along its axes; `fix` gives 0
   Source source;
+  SupportAxes axes = SupportAxes::xy;
+  Vec2 along = Vec2(1.0, 0.0);  ///< unit vector, of SupportAxes::direction
 };
 
 struct Force {
@@ -216,10 +222,29 @@ struct Temperature {
   Linear change;
 };  ///< change of temperature of a body, absolute coordinates
 
+/// A traction or pressure on an edge: linear between the points of a table, zero before the first and after the last.
+struct EdgeTable {
+  enum class Over { length, x, y };  ///< length: from the start of the edge, along it
+  struct Point {
+    double at = 0.0;
+    Vec2 value = Vec2::Zero();  ///< force / length^2; pressure: x, against the outward normal (y is unused)
+  };
+  bool pressure = false;
+  Over over = Over::length;
+  std::vector<Point> points;  ///< two or more, their positions ascending; two at one position are a jump
+};
+
+/// Pressure of still water on an edge: unit_weight times the depth below the level, zero above it.
+struct Water {
+  double level = 0.0;          ///< up . x of the surface
+  double unit_weight = 0.0;    ///< force / length^3, > 0
+  Vec2 up = Vec2(0.0, 1.0);    ///< unit vector
+};
+
 struct Load {
   std::string name;
   std::optional<Place> on;  ///< empty: gravity or temperature of every elastic body
-  std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature> kind;
+  std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature, EdgeTable, Water> kind;
   Source source;
 };
 

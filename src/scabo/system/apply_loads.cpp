@@ -46,15 +46,23 @@ class Applied {
   }
 
   void operator()(const model::Traction& traction) {
+    if (body_.rigid) return apply_to_rigid({[&](const Vec2&, const Vec2&) { return traction.value; }, {}});
     apply_traction(mesh::nodes_of(*place_, mesh_), [&](const Vec2&, const Vec2&) { return traction.value; });
     add_at_tips([&](const Vec2&) { return traction.value; });
   }
 
   void operator()(const model::Pressure& pressure) {
     const auto along_normal = [&](const Vec2& n) { return Vec2(-pressure.value * n); };
+    if (body_.rigid) return apply_to_rigid({[&](const Vec2&, const Vec2& n) { return along_normal(n); }, {}});
     apply_traction(mesh::nodes_of(*place_, mesh_), [&](const Vec2&, const Vec2& n) { return along_normal(n); });
     add_at_tips(along_normal);
   }
+
+  void operator()(const model::EdgeTable& table) {
+    apply(varying_traction(table, body_.outline.edges[static_cast<std::size_t>(place_->index)]));
+  }
+
+  void operator()(const model::Water& water) { apply(varying_traction(water)); }
 
   void operator()(const model::Gravity& gravity) {
     const auto density_of = [&](int material) {
@@ -166,6 +174,21 @@ class Applied {
   double thickness() const { return model_.analysis.thickness; }
   void apply_traction(const mesh::PlaceNodes& at, const TractionField& traction) {
     nodal = traction_forces(at.elements, body_mesh_.nodes, thickness(), traction);
+  }
+
+  void apply(const VaryingTraction& varying) {
+    if (body_.rigid) return apply_to_rigid(varying);
+    nodal = traction_forces(mesh::nodes_of(*place_, mesh_).elements, body_mesh_.nodes, thickness(), varying.traction,
+                            varying.breaks);
+  }
+  /// Force and moment of a traction on the edge of a rigid body.
+  void apply_to_rigid(const VaryingTraction& varying) {
+    const EdgeElements edge = elements_of(body_.outline.edges[static_cast<std::size_t>(place_->index)]);
+    const Vector forces = traction_forces(edge.elements, edge.nodes, thickness(), varying.traction, varying.breaks);
+    nodal = Vector::Zero(3);
+    for (std::size_t i = 0; i < edge.nodes.size(); ++i)
+      nodal += rigid_point(edge.nodes[i], part_.reference(), part_.lever()).transpose() *
+               forces.segment<2>(static_cast<Eigen::Index>(2 * i));
   }
 
   const model::Model& model_;

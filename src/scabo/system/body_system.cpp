@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <unordered_map>
 
@@ -74,9 +77,15 @@ Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint
   Matrix held(static_cast<Eigen::Index>(constraints.size()), 3);
   for (std::size_t c = 0; c < constraints.size(); ++c)
     held.row(static_cast<Eigen::Index>(c)) =
-        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever)
-            .row(constraints[c].dof % 2);
+        constraints[c].direction().transpose() *
+        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever);
   return null_space(held);
+}
+
+void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces) {
+  for (std::size_t c = 0; c < constraints.size(); ++c)
+    forces.segment<2>(constraints[c].dof / 2 * 2) +=
+        reactions[static_cast<Eigen::Index>(c)] * constraints[c].direction();
 }
 
 namespace {
@@ -122,11 +131,94 @@ std::size_t hash_of(const Stiffness& stiffness) {
                                         static_cast<std::size_t>(stiffness.entries()) * sizeof(double)});
 }
 
+/// Nodes that are held along inclined directions. Their displacements are u = M v, with v along the directions of the
+/// constraints, of which the second one, if it is missing, is at right angles to the first. A force f has the
+/// components M'f, and K becomes T'K T, with M on the diagonal of T at these nodes and 1 at all others. Exact: no
+/// spring, no multiplier.
+class InclinedNodes {
+ public:
+  InclinedNodes() = default;
+  explicit InclinedNodes(const std::vector<Constraint>& constraints) {
+    std::map<int, std::array<const Constraint*, 2>> held;
+    for (const Constraint& constraint : constraints)
+      held[constraint.dof / 2][static_cast<std::size_t>(constraint.dof % 2)] = &constraint;
+    for (const auto& [node, at] : held) {
+      if (!((at[0] && at[0]->component < 0) || (at[1] && at[1]->component < 0))) continue;
+      Mat2 rows;
+      for (int k = 0; k < 2; ++k)
+        if (const Constraint* constraint = at[static_cast<std::size_t>(k)]) rows.row(k) = constraint->direction();
+      if (!at[1]) rows.row(1) << -rows(0, 1), rows(0, 0);
+      if (!at[0]) rows.row(0) << rows(1, 1), -rows(1, 0);
+      nodes_.push_back({node, rows, Mat2(rows.inverse())});
+    }
+  }
+
+  bool none() const { return nodes_.empty(); }
+  bool operator==(const InclinedNodes& other) const {
+    return std::equal(nodes_.begin(), nodes_.end(), other.nodes_.begin(), other.nodes_.end(),
+                      [](const Inclined& a, const Inclined& b) { return a.node == b.node && a.rows == b.rows; });
+  }
+  /// M of a node, or nothing.
+  const Mat2* of(int node) const {
+    const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), node,
+                                     [](const Inclined& inclined, int wanted) { return inclined.node < wanted; });
+    return at != nodes_.end() && at->node == node ? &at->M : nullptr;
+  }
+
+  // Displacements v as u, u as v; forces along x and y as components.
+  Vector displacements(Vector v) const {
+    return with(std::move(v), [](const Inclined& at) { return at.M; });
+  }
+  Vector along(Vector u) const {
+    return with(std::move(u), [](const Inclined& at) { return at.rows; });
+  }
+  Vector components(Vector f) const {
+    return with(std::move(f), [](const Inclined& at) { return Mat2(at.M.transpose()); });
+  }
+  Vector forces(Vector components) const {
+    return with(std::move(components), [](const Inclined& at) { return Mat2(at.rows.transpose()); });
+  }
+
+  Matrix stiffness(Matrix K) const {
+    for (const Inclined& at : nodes_) K.middleCols<2>(2 * at.node) = (K.middleCols<2>(2 * at.node) * at.M).eval();
+    for (const Inclined& at : nodes_)
+      K.middleRows<2>(2 * at.node) = (at.M.transpose() * K.middleRows<2>(2 * at.node)).eval();
+    return K;
+  }
+  linalg::SparseMatrix stiffness(const linalg::SparseMatrix& K) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int node = 0; node < static_cast<int>(K.rows() / 2); ++node) {
+      const Mat2* M = of(node);
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+          if (M || i == j) entries.emplace_back(2 * node + i, 2 * node + j, M ? (*M)(i, j) : 1.0);
+    }
+    linalg::SparseMatrix T(K.rows(), K.cols());
+    T.setFromTriplets(entries.begin(), entries.end());
+    const linalg::SparseMatrix KT = K * T, transposed = T.transpose();
+    return transposed * KT;
+  }
+
+ private:
+  struct Inclined {
+    int node;
+    Mat2 rows, M;
+  };
+  template <typename MatrixOf>
+  Vector with(Vector values, const MatrixOf& matrix_of) const {
+    for (const Inclined& at : nodes_)
+      values.segment<2>(2 * at.node) = (matrix_of(at) * values.segment<2>(2 * at.node)).eval();
+    return values;
+  }
+  std::vector<Inclined> nodes_;  // ascending
+};
+
 class ElasticBody final : public BodySystem {
  public:
   ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes, std::vector<Constraint> constraints)
       : factored_(std::move(factored)), free_(static_cast<std::size_t>(2 * nodes.size()), true) {
     constraints_ = std::move(constraints);
+    inclined_ = InclinedNodes(constraints_);
     find_rigid_motions(nodes);
     find_turn(nodes);
     for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
@@ -138,6 +230,7 @@ class ElasticBody final : public BodySystem {
   }
 
   const std::vector<int>& solved_dofs() const { return dofs_; }
+  const InclinedNodes& inclined() const { return inclined_; }
   const std::shared_ptr<Factored>& factored() const { return factored_; }
   void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
   const void* factor() const override { return factored_.get(); }
@@ -145,9 +238,14 @@ class ElasticBody final : public BodySystem {
   void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes) {
     for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
     if (stiffness().dense)
-      factored_->solver = linalg::SymmetricPositiveSolver(Matrix((*stiffness().dense)(dofs_, dofs_)));
+      factored_->solver = linalg::SymmetricPositiveSolver(
+          inclined_.none() ? Matrix((*stiffness().dense)(dofs_, dofs_))
+                           : Matrix(inclined_.stiffness(*stiffness().dense)(dofs_, dofs_)));
     else
-      factored_->solver = linalg::SymmetricPositiveSolver(principal_part(stiffness().sparse, dofs_, place_), options);
+      factored_->solver = linalg::SymmetricPositiveSolver(
+          principal_part(inclined_.none() ? stiffness().sparse : inclined_.stiffness(stiffness().sparse), dofs_,
+                         place_),
+          options);
   }
 
   Eigen::Index size() const override { return stiffness().size(); }
@@ -156,46 +254,43 @@ class ElasticBody final : public BodySystem {
     Vector u = Vector::Zero(size());
     for (std::size_t c = 0; c < constraints_.size(); ++c)
       u[constraints_[c].dof] = prescribed[static_cast<Eigen::Index>(c)];
-    for (int round = 0; round < 2; ++round) {  // the second refines: the certificate is judged at 1e-10
-      const Vector load = f - internal_forces(u);
-      u(dofs_) += solver().solve(load(dofs_)).col(0);
-    }
+    u = inclined_.displacements(std::move(u));
+    for (int round = 0; round < 2; ++round)  // the second refines: the certificate is judged at 1e-10
+      u += solved(f - internal_forces(u));
+
     if (rounding_matters(u, f)) u = linalg::rounded(refined(u, f).u);
     return u;
   }
 
   Matrix flexibility(const std::vector<int>& dofs) const override {
-    std::vector<int> places, at;
+    const bool any = !inclined_.none() &&
+                     std::any_of(dofs.begin(), dofs.end(), [&](int dof) { return inclined_.of(dof / 2) != nullptr; });
+    if (!any) return flexibility_along(dofs);
+    // u = T v on these degrees of freedom, with both of every inclined node.
+    std::vector<int> both;
+    std::vector<Eigen::Triplet<double>> entries;
+    std::map<int, int> column_of;
     for (std::size_t i = 0; i < dofs.size(); ++i) {
-      const int place = place_[static_cast<std::size_t>(dofs[i])];
-      if (place >= 0) places.push_back(place), at.push_back(static_cast<int>(i));
-    }
-    Matrix A = solver().inverse_block(places);
-    if (at.size() < dofs.size()) {
-      const Matrix of_solved = std::move(A);
-      A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
-      A(at, at) = of_solved;
-    }
-    // The factor alone gives it to about this condition times the unit of rounding.
-    constexpr double most_entries = 1e9;  // some seconds
-    const double entries = static_cast<double>(stiffness().entries()) * static_cast<double>(at.size());
-    if (!at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
-      const Vector none = Vector::Zero(size());
-      for (std::size_t j = 0; j < at.size(); ++j) {
-        Vector force = none;
-        force[dofs[static_cast<std::size_t>(at[j])]] = 1.0;
-        Vector u = none;
-        u(dofs_) = solver().solve(force(dofs_)).col(0);
-        u = linalg::rounded(refined(u, force).u);
-        for (std::size_t i = 0; i < at.size(); ++i) A(at[i], at[j]) = u[dofs[static_cast<std::size_t>(at[i])]];
+      const auto row = static_cast<int>(i);
+      const int node = dofs[i] / 2;
+      const Eigen::Matrix2d* M = inclined_.of(node);
+      if (!M) {
+        entries.emplace_back(row, static_cast<int>(both.size()), 1.0);
+        both.push_back(dofs[i]);
+        continue;
       }
-      A = 0.5 * (A + A.transpose()).eval();
+      const auto [at, added] = column_of.emplace(node, static_cast<int>(both.size()));
+      if (added) both.insert(both.end(), {2 * node, 2 * node + 1});
+      for (int k = 0; k < 2; ++k) entries.emplace_back(row, at->second + k, (*M)(dofs[i] % 2, k));
     }
-    return A;
+    Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(both.size()));
+    T.setFromTriplets(entries.begin(), entries.end());
+    const Matrix half = T * flexibility_along(both), A = T * half.transpose();
+    return 0.5 * (A + A.transpose());
   }
 
   Vector reactions(const Vector& u, const Vector& f) const override {
-    const Vector remaining = unbalanced(u, f);
+    const Vector remaining = inclined_.components(unbalanced(u, f));
     Vector forces(static_cast<Eigen::Index>(constraints_.size()));
     for (std::size_t c = 0; c < constraints_.size(); ++c)
       forces[static_cast<Eigen::Index>(c)] = remaining[constraints_[c].dof];
@@ -203,7 +298,7 @@ class ElasticBody final : public BodySystem {
   }
 
   double imbalance(const Vector& u, const Vector& f) const override {
-    const Vector remaining = unbalanced(u, f);
+    const Vector remaining = inclined_.components(unbalanced(u, f));
     double largest = 0.0;
     for (std::size_t i = 0; i < free_.size(); ++i)
       if (free_[i]) largest = std::max(largest, std::abs(remaining[static_cast<Eigen::Index>(i)]));
@@ -228,6 +323,44 @@ class ElasticBody final : public BodySystem {
   }
 
  private:
+  /// A along the directions of the constraints, on degrees of freedom of v.
+  Matrix flexibility_along(const std::vector<int>& dofs) const {
+    std::vector<int> places, at;
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      const int place = place_[static_cast<std::size_t>(dofs[i])];
+      if (place >= 0) places.push_back(place), at.push_back(static_cast<int>(i));
+    }
+    Matrix A = solver().inverse_block(places);
+    if (at.size() < dofs.size()) {
+      const Matrix of_solved = std::move(A);
+      A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
+      A(at, at) = of_solved;
+    }
+    // The factor alone gives it to about this condition times the unit of rounding.
+    constexpr double most_entries = 1e9;  // some seconds
+    const double entries = static_cast<double>(stiffness().entries()) * static_cast<double>(at.size());
+    if (!at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
+      const Vector none = Vector::Zero(size());
+      for (std::size_t j = 0; j < at.size(); ++j) {
+        Vector force = none;
+        force[dofs[static_cast<std::size_t>(at[j])]] = 1.0;
+        force = inclined_.forces(std::move(force));
+        const Vector u = inclined_.along(linalg::rounded(refined(solved(force), force).u));
+        for (std::size_t i = 0; i < at.size(); ++i) A(at[i], at[j]) = u[dofs[static_cast<std::size_t>(at[i])]];
+      }
+      A = 0.5 * (A + A.transpose()).eval();
+    }
+    return A;
+  }
+
+  /// The displacement under f, by the factor alone.
+  Vector solved(const Vector& f) const {
+    const Vector load = inclined_.components(f);
+    Vector v = Vector::Zero(size());
+    v(dofs_) = solver().solve(load(dofs_)).col(0);
+    return inclined_.displacements(std::move(v));
+  }
+
   /// K u, without the part that a translation of the whole body would add by rounding.
   Vector internal_forces(Vector u) const {
     if (stiffness().unbounded) return stiffness().times(u);
@@ -288,24 +421,27 @@ class ElasticBody final : public BodySystem {
     Refined best{linalg::twofold(u), {}};
     best.left = forces_left(best.u, f);
     if (dofs_.empty()) return best;
-    const auto size_of = [&](const Vector& left) { return Vector(left(dofs_)).lpNorm<Eigen::Infinity>(); };
+    const auto solved_part = [&](const Vector& left) { return Vector(inclined_.components(left)(dofs_)); };
+    const auto size_of = [&](const Vector& left) { return solved_part(left).lpNorm<Eigen::Infinity>(); };
     const Vector nothing = Vector::Zero(size());
     Refined now = best;
-    Vector direction = nothing;
+    Vector along = nothing;  // the direction, in the components of `solved_part`
     double before = 0.0;
     constexpr int most = 40, patience = 5;
     int since_best = 0;
     for (int k = 0; k < most && since_best < patience && size_of(best.left) > 1e-14 * f.lpNorm<Eigen::Infinity>();
          ++k) {
-      const Vector left = now.left(dofs_), correction = solver().solve(left).col(0);
+      const Vector left = solved_part(now.left), correction = solver().solve(left).col(0);
       const double decrease = left.dot(correction);
-      direction *= before > 0.0 ? decrease / before : 0.0;
-      direction(dofs_) -= correction;
+      along *= before > 0.0 ? decrease / before : 0.0;
+      along(dofs_) -= correction;
       before = decrease;
+      const Vector direction = inclined_.displacements(along);
       const double curvature = direction.dot(forces_left(linalg::twofold(direction), nothing));
       if (!(curvature > 0.0)) break;
-      const linalg::Twofold step{-left.dot(Vector(direction(dofs_))) / curvature, 0.0};
-      for (const int dof : dofs_) {
+      const linalg::Twofold step{-left.dot(Vector(along(dofs_))) / curvature, 0.0};
+      for (Eigen::Index dof = 0; dof < direction.size(); ++dof) {
+        if (direction[dof] == 0.0) continue;
         linalg::Twofold& component = now.u[static_cast<std::size_t>(dof)];
         component = component + step * linalg::Twofold{direction[dof], 0.0};
       }
@@ -349,7 +485,11 @@ class ElasticBody final : public BodySystem {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       rigid_motions_.middleRows<2>(static_cast<Eigen::Index>(2 * i)) =
           rigid_point(nodes[i], reference_, lever_) * rigid_coordinates_;
-    for (const Constraint& constraint : constraints_) rigid_motions_.row(constraint.dof).setZero();
+    for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) {
+      Vector along = inclined_.along(rigid_motions_.col(k));
+      for (const Constraint& constraint : constraints_) along[constraint.dof] = 0.0;
+      rigid_motions_.col(k) = inclined_.displacements(std::move(along));
+    }
   }
 
   /// As many degrees of freedom as there are rigid motions, chosen so that holding them stops every motion.
@@ -358,7 +498,9 @@ class ElasticBody final : public BodySystem {
     if (rigid_motions_.cols() == 0) return chosen;
     // Equal pivots are common, of equal corners for one. Rounded, they are equal in every unit of length, and the
     // choice, on which W and the iterations depend, is the same.
-    const Matrix rounded = (rigid_motions_.transpose().array() * 0x1p30).round() * 0x1p-30;
+    Matrix along = rigid_motions_;
+    for (Eigen::Index k = 0; k < along.cols(); ++k) along.col(k) = inclined_.along(along.col(k));
+    const Matrix rounded = (along.transpose().array() * 0x1p30).round() * 0x1p-30;
     const Eigen::ColPivHouseholderQR<Matrix> qr(rounded);
     for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) chosen.push_back(qr.colsPermutation().indices()[k]);
     return chosen;
@@ -368,6 +510,7 @@ class ElasticBody final : public BodySystem {
   const linalg::SymmetricPositiveSolver& solver() const { return factored_->solver; }
 
   std::shared_ptr<Factored> factored_;
+  InclinedNodes inclined_;
   linalg::TwofoldVector turn_;  // the rotation about the mean of the nodes
   std::vector<bool> free_;      // by supports
   std::vector<bool> solved_;    // free, and not among the further dofs
@@ -384,9 +527,9 @@ class RigidBody final : public BodySystem {
     for (std::size_t c = 0; c < constraints_.size(); ++c) {
       const Constraint& constraint = constraints_[c];
       held_.row(static_cast<Eigen::Index>(c)) =
-          constraint.rotation
-              ? Eigen::RowVector3d(0.0, 0.0, 1.0)
-              : Eigen::RowVector3d(rigid_point(constraint.point, reference_, lever_).row(constraint.component));
+          constraint.rotation ? Eigen::RowVector3d(0.0, 0.0, 1.0)
+                              : Eigen::RowVector3d(constraint.direction().transpose() *
+                                                   rigid_point(constraint.point, reference_, lever_));
     }
     rigid_motions_ = rigid_coordinates_ = null_space(held_);
     constrained_.compute(held_);
@@ -457,7 +600,8 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
     const auto [begin, end] = known.equal_range(hash);
     const auto same = std::find_if(begin, end, [&](const auto& entry) {
       const ElasticBody& other = *bodies[entry.second];
-      return other.solved_dofs() == body->solved_dofs() && equal(other.factored()->stiffness, factored->stiffness);
+      return other.solved_dofs() == body->solved_dofs() && other.inclined() == body->inclined() &&
+             equal(other.factored()->stiffness, factored->stiffness);
     });
     if (same != end) {
       body->share(bodies[same->second]->factored());

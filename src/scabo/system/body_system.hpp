@@ -40,14 +40,17 @@ struct Stiffness {
   Eigen::Index entries() const { return dense ? dense->size() : sparse.nonZeros(); }
 };
 
-/// A linear combination of degrees of freedom that a support holds at a prescribed value.
+/// The displacement of a point along a direction, which a support holds at a prescribed value.
 struct Constraint {
-  int dof = -1;               ///< elastic body: the degree of freedom
+  int dof = -1;  ///< elastic body: 2 x node + place of this constraint at the node, 0 or 1; along x 0, along y 1
   Vec2 point = Vec2::Zero();  ///< rigid body: the point (absolute)
-  int component = 0;          ///< rigid body: 0 x, 1 y
+  int component = 0;          ///< 0: along x, 1: along y, -1: along `inclined`
   bool rotation = false;      ///< rigid body: its rotation, held by a support on the whole body
   int support = -1;           ///< index into Model::supports
   double value = 0.0;         ///< length, at factor 1
+  Vec2 inclined = Vec2::Zero();  ///< unit vector, of component -1
+
+  Vec2 direction() const { return component < 0 ? inclined : Vec2(Vec2::Unit(dof >= 0 ? dof % 2 : component)); }
 };
 
 class BodySystem {
@@ -88,7 +91,11 @@ class BodySystem {
   double lever_ = 1.0;
 };
 
-/// An elastic body. `nodes` give the rigid motions; constraints have distinct `dof`s.
+/// Adds the forces of constraints, one for each, to those on the nodes of an elastic body.
+void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces);
+
+/// An elastic body. `nodes` give the rigid motions; constraints have distinct `dof`s, and two at one node are not
+/// parallel.
 std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
                                          std::vector<Constraint> constraints);
 

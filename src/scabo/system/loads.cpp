@@ -1,5 +1,8 @@
 #include "scabo/system/loads.hpp"
 
+#include <algorithm>
+
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::system {
@@ -25,7 +28,128 @@ void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes,
   }
 }
 
+/// Parameters of an element between which the position passes no break: -1, ..., 1.
+std::vector<double> parts_of(const mesh::LineElement& element, const geometry::LineBasis& basis,
+                             const std::vector<Vec2>& nodes, const Breaks& breaks) {
+  const auto position = [&](double eta) {
+    const Vector N = basis.values(eta);
+    Vec2 x = Vec2::Zero();
+    for (std::size_t i = 0; i < element.nodes.size(); ++i)
+      x += N[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
+    return breaks.position(x);
+  };
+  constexpr int samples = 16;  // a curved element may pass a break twice
+  std::vector<double> eta, value, ends{-1.0, 1.0};
+  for (int k = 0; k <= samples; ++k) {
+    eta.push_back(-1.0 + 2.0 * k / samples);
+    value.push_back(position(eta.back()));
+  }
+  for (const double at : breaks.at)
+    for (std::size_t k = 0; k < samples; ++k) {
+      if (k > 0 && value[k] == at) ends.push_back(eta[k]);
+      if (!((value[k] - at) * (value[k + 1] - at) < 0.0)) continue;
+      double low = eta[k], high = eta[k + 1];
+      const bool rises = value[k + 1] > at;
+      for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high))
+        ((position(middle) > at) == rises ? high : low) = middle;
+      ends.push_back(high);
+    }
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
 }  // namespace
+
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
+                       const TractionField& traction, const Breaks& breaks) {
+  Vector f = Vector::Zero(static_cast<Eigen::Index>(2 * nodes.size()));
+  for (const mesh::LineElement& element : elements) {
+    const int order = static_cast<int>(element.nodes.size()) - 1;
+    const auto& basis = geometry::LineBasis::of_order(order);
+    const geometry::GaussRule rule = geometry::gauss_rule(3 * order / 2 + 2);  // N, x and x,eta of curved elements
+    const std::vector<double> ends = parts_of(element, basis, nodes, breaks);
+    for (std::size_t part = 0; part + 1 < ends.size(); ++part) {
+      const double half = 0.5 * (ends[part + 1] - ends[part]);
+      for (std::size_t q = 0; half > 0.0 && q < rule.points.size(); ++q) {
+        const double eta = ends[part] + half * (1.0 + rule.points[q]);
+        const Vector N = basis.values(eta), N_eta = basis.derivatives(eta);
+        Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
+        for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+          x += N[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
+          x_eta += N_eta[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
+        }
+        const double length = x_eta.norm();
+        const Vec2 force =
+            traction(x, Vec2(x_eta.y(), -x_eta.x()) / length) * (half * rule.weights[q] * length * thickness);
+        for (std::size_t i = 0; i < element.nodes.size(); ++i)
+          f.segment<2>(2 * element.nodes[i]) += N[static_cast<Eigen::Index>(i)] * force;
+      }
+    }
+  }
+  return f;
+}
+
+VaryingTraction varying_traction(const model::EdgeTable& table, const model::Edge& edge) {
+  VaryingTraction varying;
+  switch (table.over) {
+    case model::EdgeTable::Over::length:
+      varying.breaks.position = [edge, length = edge.length()](const Vec2& x) {
+        return length * geometry::closest_position(edge, x);
+      };
+      break;
+    case model::EdgeTable::Over::x:
+      varying.breaks.position = [](const Vec2& x) { return x.x(); };
+      break;
+    case model::EdgeTable::Over::y:
+      varying.breaks.position = [](const Vec2& x) { return x.y(); };
+      break;
+  }
+  for (const model::EdgeTable::Point& point : table.points) varying.breaks.at.push_back(point.at);
+  varying.traction = [table, position = varying.breaks.position](const Vec2& x, const Vec2& n) -> Vec2 {
+    const double at = position(x);
+    const auto after = std::upper_bound(table.points.begin(), table.points.end(), at,
+                                        [](double value, const auto& point) { return value < point.at; });
+    if (after == table.points.begin()) return Vec2::Zero();
+    const auto before = after - 1;
+    Vec2 value = before->value;
+    if (after == table.points.end()) {
+      if (at > before->at) return Vec2::Zero();
+    } else {
+      value += (at - before->at) / (after->at - before->at) * (after->value - before->value);
+    }
+    return table.pressure ? Vec2(-value.x() * n) : value;
+  };
+  return varying;
+}
+
+VaryingTraction varying_traction(const model::Water& water) {
+  const auto depth = [water](const Vec2& x) { return water.level - water.up.dot(x); };
+  return {
+      [water, depth](const Vec2& x, const Vec2& n) -> Vec2 { return -water.unit_weight * std::max(depth(x), 0.0) * n; },
+      {depth, {0.0}}};
+}
+
+EdgeElements elements_of(const model::Edge& edge) {
+  EdgeElements made;
+  const auto add = [&](const std::vector<Vec2>& points) {  // of the next element
+    mesh::LineElement& element = made.elements.emplace_back();
+    for (const Vec2& x : points) {
+      element.nodes.push_back(static_cast<int>(made.nodes.size()));
+      made.nodes.push_back(x);
+    }
+  };
+  if (!edge.arc) {
+    for (int i = 0; i < edge.segments(); ++i) add({edge.chain_point(i), edge.chain_point(i + 1)});
+    return made;
+  }
+  constexpr int parts = 32, order = 6;
+  for (int k = 0; k < parts; ++k) {
+    std::vector<Vec2> points;
+    for (const double eta : geometry::lobatto_points(order)) points.push_back(edge.at((k + 0.5 + 0.5 * eta) / parts));
+    add(points);
+  }
+  return made;
+}
 
 Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
                        const TractionField& traction) {

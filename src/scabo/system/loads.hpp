@@ -14,6 +14,30 @@ using TractionField = std::function<Vec2(const Vec2& x, const Vec2& n)>;
 Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
                        const TractionField& traction);
 
+/// The same of a traction that is smooth but where `position(x)` takes one of the values `breaks`: elements are
+/// integrated in parts there. Exact on straight elements for a traction that is linear between the breaks.
+struct Breaks {
+  std::function<double(const Vec2& x)> position;
+  std::vector<double> at;
+};
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
+                       const TractionField& traction, const Breaks& breaks);
+
+/// A traction on an edge that varies along it, and where it is not smooth.
+struct VaryingTraction {
+  TractionField traction;
+  Breaks breaks;
+};
+VaryingTraction varying_traction(const model::EdgeTable& table, const model::Edge& edge);
+VaryingTraction varying_traction(const model::Water& water);
+
+/// Line elements of the edge of a rigid body, which has no mesh: exact for lines, to rounding for arcs.
+struct EdgeElements {
+  std::vector<Vec2> nodes;
+  std::vector<mesh::LineElement> elements;
+};
+EdgeElements elements_of(const model::Edge& edge);
+
 /// Length of the elements as divided.
 double length_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes);
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
@@ -46,12 +48,15 @@ class ConstraintCollector {
       if (!value) continue;
       if (model_.bodies[body].rigid) {
         for (const Vec2& point : rigid_points(support.on, model_.bodies[body]))
-          constraints_[part].push_back({-1, point, component, false, index, *value});
+          constraints_[part].push_back(constraint_along(support, component, point, index, *value));
         if (support.on.kind == model::Place::Kind::body && !holds_rotation(part))
-          constraints_[part].push_back({-1, Vec2::Zero(), component, true, index, 0.0});
+          constraints_[part].push_back({-1, Vec2::Zero(), component, true, index, 0.0, Vec2::Zero()});
         continue;
       }
-      for (int node : mesh::nodes_of(support.on, mesh_).nodes) add_dof(support.on.body, node, component, index, *value);
+      for (int node : mesh::nodes_of(support.on, mesh_).nodes)
+        add(support.on.body, node,
+            constraint_along(support, component, mesh_.bodies[body].nodes[static_cast<std::size_t>(node)], index,
+                             *value));
     }
   }
 
@@ -67,35 +72,83 @@ class ConstraintCollector {
     return false;
   }
 
-  void add_dof(int body, int node, int component, int index, double value) {
-    const std::size_t part = dofs_.part_of(body);
-    const int dof = dofs_.of(body, node, component);
-    const auto [at, added] = held_by_[part].emplace(dof, constraints_[part].size());
-    if (added) {
-      constraints_[part].push_back({dof, Vec2::Zero(), component, false, index, value});
-      return;
+  /// A constraint at a point along axis 0 or 1 of a support; axes along x or y, in either sense, become x and y.
+  Constraint constraint_along(const model::Support& support, int axis, const Vec2& point, int index,
+                              double value) const {
+    Constraint made{-1, point, axis, false, index, value, Vec2::Zero()};
+    if (support.axes == model::SupportAxes::xy) return made;
+    Vec2 first = support.along;
+    if (support.axes == model::SupportAxes::edge) {
+      const model::Outline& outline = model_.bodies[static_cast<std::size_t>(support.on.body)].outline;
+      first = geometry::foot_on(outline.edges[static_cast<std::size_t>(support.on.index)], point)->normal;
     }
-    const Constraint& other = constraints_[part][at->second];
-    const bool both_zero = value == 0.0 && other.value == 0.0;
-    if (both_zero || (value == other.value && same_history(model_, index, other.support))) return;
-    if (!reported_.insert({index, other.support}).second) return;  // one message, also where edges share many nodes
-    const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
-    const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
-    diagnostics_.push_back(
-        {support.source,
-         fmt::format("support '{}' prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
-                     "another value: give both the same value there, or move one of them",
-                     support.name, component_name[component], x.x(), x.y(),
-                     model_.supports[static_cast<std::size_t>(other.support)].name,
-                     model_.supports[static_cast<std::size_t>(other.support)].source.line)});
+    const Vec2 along = axis == 0 ? first : Vec2(-first.y(), first.x());
+    for (int k = 0; k < 2; ++k)
+      if (std::abs(along[1 - k]) < 1e-14) {
+        made.component = k;
+        made.value = std::copysign(1.0, along[k]) * value;
+        return made;
+      }
+    made.component = -1;
+    made.inclined = along;
+    return made;
   }
 
+  /// Adds a constraint of a node, unless others hold it already.
+  void add(int body, int node, Constraint made) {
+    const std::size_t part = dofs_.part_of(body);
+    const int first = dofs_.of(body, node, 0);
+    std::vector<std::size_t>& others = held_by_[part][first];
+    const auto other = [&](std::size_t k) -> const Constraint& { return constraints_[part][others[k]]; };
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      if (std::abs(cross(made.direction(), other(k).direction())) > parallel) continue;
+      const double value = std::copysign(made.value, made.value * made.direction().dot(other(k).direction()));
+      const bool both_zero = value == 0.0 && other(k).value == 0.0;
+      const bool same = both_zero || (value == other(k).value && same_history(model_, made.support, other(k).support));
+      if (!same) report(body, node, made, other(k));
+      return;
+    }
+    if (others.size() == 2) {  // it follows from the two
+      const Vec2 d = made.direction(), a = other(0).direction(), b = other(1).direction();
+      const double of_a = cross(d, b) / cross(a, b), of_b = cross(a, d) / cross(a, b);
+      const double follows = of_a * other(0).value + of_b * other(1).value;
+      const double size = std::abs(of_a * other(0).value) + std::abs(of_b * other(1).value) + std::abs(made.value);
+      const bool same = std::abs(follows - made.value) <= 1e-12 * size &&
+                        (size == 0.0 || (same_history(model_, made.support, other(0).support) &&
+                                         same_history(model_, made.support, other(1).support)));
+      if (!same) report(body, node, made, other(0));
+      return;
+    }
+    const int place = others.empty() ? std::max(made.component, 0) : 1 - other(0).dof % 2;
+    if (made.component != place) made.inclined = made.direction(), made.component = -1;
+    made.dof = first + place;
+    made.point = Vec2::Zero();
+    others.push_back(constraints_[part].size());
+    constraints_[part].push_back(made);
+  }
+
+  void report(int body, int node, const Constraint& made, const Constraint& other) {
+    if (!reported_.insert({made.support, other.support}).second) return;  // one message, also where edges share many nodes
+    const model::Support& support = model_.supports[static_cast<std::size_t>(made.support)];
+    const model::Support& with = model_.supports[static_cast<std::size_t>(other.support)];
+    const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
+    diagnostics_.push_back(
+        {support.source, fmt::format("support '{}' prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
+                                     "another value: give both the same value there, or move one of them",
+                                     support.name,
+                                     made.component < 0 ? fmt::format("the displacement along ({:.4g}, {:.4g})",
+                                                                      made.inclined.x(), made.inclined.y())
+                                                        : component_name[made.component],
+                                     x.x(), x.y(), with.name, with.source.line)});
+  }
+
+  static constexpr double parallel = 1e-6;  // sine of the angle between directions that count as one
   const model::Model& model_;
   const mesh::Mesh& mesh_;
   const Dofs& dofs_;
   std::vector<std::vector<Constraint>> constraints_;
-  std::vector<std::map<int, std::size_t>> held_by_;
-  std::set<std::array<int, 2>> reported_;  // pairs of supports
+  std::vector<std::map<int, std::vector<std::size_t>>> held_by_;  // per node, by its first degree of freedom
+  std::set<std::array<int, 2>> reported_;                         // pairs of supports
   std::vector<Diagnostic> diagnostics_;
 };
 
