@@ -9,7 +9,6 @@
 namespace scabo::verification {
 namespace {
 
-
 /// Coordinates turned about the origin.
 struct Turned {
   double c = 1.0, s = 0.0;

@@ -279,7 +279,8 @@ TEST(ErrorBars, ToleranceThatCannotBeReachedIsReported) {
   EXPECT_FALSE(solution.increments.back().quantities.front().reached());
 }
 
-// Zero by symmetry: nothing is small relative to it, and what is found of it is rounding. It took a minute and 15 meshes.
+// Zero by symmetry: nothing is small relative to it, and what is found of it is rounding. It took a minute and 15
+// meshes.
 TEST(ErrorBars, ANumberThatIsZeroHasABarOfRounding) {
   const std::string symmetric = R"(scabo: 1
 materials: {steel: {young: 200e9, poisson: 0.3}}

@@ -54,7 +54,8 @@ TEST_P(Mouths, SidesMayBeSwapped) {
   const auto text = [&](const char* between) {
     return blocks(GetParam(), "0.25", "0.25", 0.7, fmt::format("contacts: {{joint: {{{}, friction: 0.3}}}}", between));
   };
-  const auto one = run(text("between: [lower.top, upper.bottom]")), two = run(text("between: [upper.bottom, lower.top]"));
+  const auto one = run(text("between: [lower.top, upper.bottom]")),
+             two = run(text("between: [upper.bottom, lower.top]"));
   ASSERT_EQ(contact_of(last(one)).pairs.size(), contact_of(last(two)).pairs.size());
   EXPECT_EQ(contact_of(last(one)).normal_force, contact_of(last(two)).normal_force);
 }
@@ -66,8 +67,8 @@ TEST_P(Mouths, OfACrackInATieLeaveAUniformPressureUniform) {
   EXPECT_NEAR(last(solution).cracks[0].factors.K_II, 0.0, 1e-3);
 }
 
-// A crack that runs through two tied bodies is that of one body: left is tied to left, right to right. Tied crosswise it
-// was held shut at the tie, K_I 18 % too small.
+// A crack that runs through two tied bodies is that of one body: left is tied to left, right to right. Tied crosswise
+// it was held shut at the tie, K_I 18 % too small.
 TEST(MouthsThatMeet, AreOneCrack) {
   const std::string base = R"(scabo: 1
 materials: {stone: {young: 10e9, poisson: 0.2}}

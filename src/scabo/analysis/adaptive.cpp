@@ -422,8 +422,9 @@ std::vector<double> element_errors(const StaticSolution& solution, const Increme
     const element::SolvedSuperElement &narrow = *solution.cells[body][c], &wide = *wider.cells[body][c];
     const Vector u = displacement_of(solution, increment, body, c),
                  U = displacement_of(wider, wider_increment, body, c);
-    for (const double error : element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), u},
-                                                          {wide.ring, wide.solution(), wide.modes(), U}, wide.sectors.D))
+    for (const double error :
+         element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), u},
+                                     {wide.ring, wide.solution(), wide.modes(), U}, wide.sectors.D))
       errors.push_back(error);
   }
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);

@@ -209,8 +209,8 @@ void add_bars(StaticSolution& solution, const model::Model& model, const RicherV
       for (const Values& values : richer.values) finer.push_back(values[i][k]);
       QuantityResult result{quantities[k]->name, J[i][k], bar_of(J[i][k], finer), finer.back(), {}};
       // What the certificate of contact allows, and rounding, are not discretisation errors, but errors.
-      result.bar = std::max(
-          result.bar, rounding_of(solution, solution.increments[i], *quantities[k], model.solver.tolerance));
+      result.bar =
+          std::max(result.bar, rounding_of(solution, solution.increments[i], *quantities[k], model.solver.tolerance));
       if (model.tolerance && k == 0) result.wanted = model.tolerance->relative;
       solution.increments[i].quantities.push_back(std::move(result));
     }

@@ -108,7 +108,8 @@ double rounding_of(const StaticSolution& solution, const IncrementResult& increm
     case Kind::normal_force:
     case Kind::tangential_force:
     case Kind::reaction:
-      for (const ContactResult& contact : increment.contacts) take(contact.normal_force), take(contact.tangential_force);
+      for (const ContactResult& contact : increment.contacts)
+        take(contact.normal_force), take(contact.tangential_force);
       for (const Vec2& reaction : increment.reactions) take(reaction.x()), take(reaction.y());
       break;
     case Kind::max_gap:

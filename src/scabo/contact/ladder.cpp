@@ -3,13 +3,13 @@
 #include <cmath>
 #include <optional>
 
-#include "scabo/contact/starts/bonded_start.hpp"
-#include "scabo/contact/starts/cold_start.hpp"
-#include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/interior_point.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/lemke.hpp"
 #include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/starts/bonded_start.hpp"
+#include "scabo/contact/starts/cold_start.hpp"
+#include "scabo/contact/starts/gauss_seidel.hpp"
 
 namespace scabo::contact {
 

@@ -1,11 +1,11 @@
 // The fallback strategies of solve() in order: starts for Newton, each followed by Newton on the original problem.
 #pragma once
 
-#include "scabo/contact/starts/cold_start.hpp"
 #include "scabo/contact/interior_point.hpp"
-#include "scabo/contact/starts/long_sweeps.hpp"
 #include "scabo/contact/newton.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/contact/starts/cold_start.hpp"
+#include "scabo/contact/starts/long_sweeps.hpp"
 
 namespace scabo::contact {
 

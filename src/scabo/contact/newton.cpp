@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/newton_direction.hpp"
+#include "scabo/contact/starts/bonded_start.hpp"
 
 namespace scabo::contact {
 
@@ -170,8 +170,8 @@ class Newton {
   double best_merit_ = HUGE_VAL, step_ = 0.0;
   double halved_merit_ = HUGE_VAL;  // the smallest one when it was last halved,
   int halved_at_ = 0;               // and the iteration
-  int unchecked_ = 0;             // full steps without descent
-  int watch_ = 0, patience_ = 0;  // full steps since watched_; line searches to go before the next
+  int unchecked_ = 0;               // full steps without descent
+  int watch_ = 0, patience_ = 0;    // full steps since watched_; line searches to go before the next
   Vector watched_p_, watched_a_;
   double watched_merit_ = 0.0;
 };

@@ -26,16 +26,16 @@ struct NewtonDirection::Workspace {
 
 namespace {
 
-// Unknowns of a dense factorisation: of the matrix W itself, for which GMRES needs hundreds of products, and of one that
-// would have to be formed first.
+// Unknowns of a dense factorisation: of the matrix W itself, for which GMRES needs hundreds of products, and of one
+// that would have to be formed first.
 constexpr Eigen::Index most_of_dense = 6000, most_of_formed = 2500;
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
-constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
+constexpr Eigen::Index least_sparse = 120;     // unknowns below which dense is faster
 
 // Pairs of three bodies that meet in a point, or of a body wedged between others, are redundant: their forces are not
 // unique, and the matrix is singular for good. It is factorised with this much on the diagonal of the force rows (the
-// mean W_ii is 1), and GMRES with that factor as its preconditioner solves the singular system itself. With 1e-6 and less
-// rounding drifts in the null space (walls of blocks: 14 to 38 iterations instead of 1 to 5).
+// mean W_ii is 1), and GMRES with that factor as its preconditioner solves the singular system itself. With 1e-6 and
+// less rounding drifts in the null space (walls of blocks: 14 to 38 iterations instead of 1 to 5).
 constexpr double raise = 1e-4;
 constexpr GmresOptions singular_gmres{1e-12, 40, 80};
 /// Residual, relative to the right-hand side, up to which a direction solves its equations; up to `descending` it is
@@ -49,7 +49,8 @@ std::vector<bool> immovable_components(const Problem& problem) {
   if (!problem.W.is_dense()) return immovable;
   const Matrix& W = problem.W.dense();
   for (Eigen::Index k = 0; k < W.rows(); ++k) {
-    if (W(k, k) != 0.0 || !W.col(k).isZero(0.0) || !W.row(k).isZero(0.0) || !problem.G.dense().row(k).isZero(0.0)) continue;
+    if (W(k, k) != 0.0 || !W.col(k).isZero(0.0) || !W.row(k).isZero(0.0) || !problem.G.dense().row(k).isZero(0.0))
+      continue;
     immovable.resize(static_cast<std::size_t>(W.rows()), false);
     immovable[static_cast<std::size_t>(k)] = true;
   }

@@ -13,9 +13,10 @@
 // At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the
 // branches of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
 //
-// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Its preconditioner
-// is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da = ..., then y from D. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions
-// GMRES on the matrix itself.
+// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Its
+// preconditioner is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da =
+// ..., then y from D. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions GMRES
+// on the matrix itself.
 #pragma once
 
 #include <Eigen/LU>
@@ -32,9 +33,9 @@ class NewtonDirection {
   explicit NewtonDirection(const BDifferentiableEquations& equations);
   ~NewtonDirection();
 
-  /// Which branches are followed at ties. free: the one that holds least (open, slip), one linear system; of redundant pairs
-  /// that just slip, stick would make the matrix nearly singular and the direction huge. as_d_takes_them: those of d itself,
-  /// up to eight systems and more.
+  /// Which branches are followed at ties. free: the one that holds least (open, slip), one linear system; of redundant
+  /// pairs that just slip, stick would make the matrix nearly singular and the direction huge. as_d_takes_them: those
+  /// of d itself, up to eight systems and more.
   enum class Ties { free, as_d_takes_them };
 
   /// d = [dp; da] for the branches of `at`, which at ties may be changed to those of d. False where there is none.

@@ -37,12 +37,13 @@ bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b, double 
 
 /// The error of a super-element in the terms of the model file.
 Diagnostic ill_posed(const model::Body& body, const IllPosed& error) {
-  return {body.source,
-          fmt::format(
-              "{}; its material constants differ too much for double precision (Poisson's ratio too close to 1/2, or "
-              "moduli that differ by a factor of 1e12 or more), the body is too slender (3000:1 or more), or the scaling "
-              "centre is too close to the boundary",
-              error.what())};
+  return {
+      body.source,
+      fmt::format(
+          "{}; its material constants differ too much for double precision (Poisson's ratio too close to 1/2, or "
+          "moduli that differ by a factor of 1e12 or more), the body is too slender (3000:1 or more), or the scaling "
+          "centre is too close to the boundary",
+          error.what())};
 }
 
 constexpr std::size_t fewest_of_a_batch = 64, most_of_a_batch = 16384;
@@ -113,12 +114,12 @@ std::optional<Diagnostic> folded_elements(const model::Body& body, const mesh::B
       first = c;
   if (count == 0) return std::nullopt;
   const FiniteElement element = finite_element_of(mesh.cells[first], mesh.nodes);
-  return Diagnostic{body.source, fmt::format("{} of {} finite elements of body '{}' {} folded: number {}, with a corner "
-                                             "at ({:.6g}, {:.6g}), has a Jacobian of {:.3g}, which must be positive "
-                                             "everywhere: move its nodes",
-                                             count, mesh.count(mesh::CellKind::finite_element), body.name,
-                                             count == 1 ? "is" : "are", first + 1, element.x[0].x(), element.x[0].y(),
-                                             least_jacobian(element))};
+  return Diagnostic{body.source,
+                    fmt::format("{} of {} finite elements of body '{}' {} folded: number {}, with a corner "
+                                "at ({:.6g}, {:.6g}), has a Jacobian of {:.3g}, which must be positive "
+                                "everywhere: move its nodes",
+                                count, mesh.count(mesh::CellKind::finite_element), body.name, count == 1 ? "is" : "are",
+                                first + 1, element.x[0].x(), element.x[0].y(), least_jacobian(element))};
 }
 
 /// Equal for super-elements that are alike (but for coordinates whose rounding falls on two sides of a step, which only
@@ -162,8 +163,8 @@ void SolvedSuperElement::set(Matrix K, double rounding) {
 const SuperElementSolution& SolvedSuperElement::solution() const {
   if (whole_) return *whole_;
   std::call_once(solution_flag_, [&] {
-    solution_ = std::make_unique<const SuperElementSolution>(
-        solve_super_element(ring, sectors.D, thickness, threads, domain));
+    solution_ =
+        std::make_unique<const SuperElementSolution>(solve_super_element(ring, sectors.D, thickness, threads, domain));
   });
   return *solution_;
 }
@@ -202,8 +203,8 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
       wanted->thickness = model.analysis.thickness;
       const std::size_t hash = hash_of(*wanted);
       const auto [first, last] = known.equal_range(hash);
-      const auto same =
-          std::find_if(first, last, [&](const auto& entry) { return are_alike(*wanted, *distinct[entry.second], rounding); });
+      const auto same = std::find_if(
+          first, last, [&](const auto& entry) { return are_alike(*wanted, *distinct[entry.second], rounding); });
       if (same != last) {
         solved[b].push_back(distinct[same->second]);
         continue;

@@ -39,16 +39,18 @@ std::map<int, int> read_materials_of_labels(Reading& reading, const Value& value
   const std::map<int, long> labels = image != nullptr ? labels_of(*image) : std::map<int, long>{};
   for (const MapEntry& entry : value.node->entries) {
     const Value named{entry.value, value.path + "." + entry.key};
-    const bool number = !entry.key.empty() && entry.key.size() < 6 &&
-                        entry.key.find_first_not_of("0123456789") == std::string::npos;
+    const bool number =
+        !entry.key.empty() && entry.key.size() < 6 && entry.key.find_first_not_of("0123456789") == std::string::npos;
     if (!number) {
-      reading.report.error(named, fmt::format("'{}' is not a level of grey: write a whole number, 0 to 255", entry.key));
+      reading.report.error(named,
+                           fmt::format("'{}' is not a level of grey: write a whole number, 0 to 255", entry.key));
       continue;
     }
     const int label = std::stoi(entry.key);
     const auto material = read_material_name(reading, named);
     if (image != nullptr && !labels.contains(label))
-      reading.report.error(named, fmt::format("no pixel of the image has the level {}: it has {}", label, list_of(labels)));
+      reading.report.error(named,
+                           fmt::format("no pixel of the image has the level {}: it has {}", label, list_of(labels)));
     if (material) materials[label] = *material;
   }
   return materials;
@@ -78,7 +80,8 @@ std::optional<Outline> read_image(Reading& reading, const Value& value, Body& bo
   }
   Vec2 corner = Vec2::Zero();
   if (const auto at = map.get("corner")) corner = read_vector(report, *at).value_or(Vec2::Zero());
-  if (const auto materials = map.need("materials")) shape.materials = read_materials_of_labels(reading, *materials, image.get());
+  if (const auto materials = map.need("materials"))
+    shape.materials = read_materials_of_labels(reading, *materials, image.get());
   if (report.count() > before || image == nullptr) return {};
   shape.image = image;
   body.image = shape;

@@ -11,8 +11,8 @@ namespace scabo::linalg {
 /// after all threads have ended.
 void parallel_for(int count, int threads, const std::function<void(int)>& task);
 
-/// The same for tasks of different sizes, `work` in any unit: the largest begin first. If one is more than two thirds of
-/// all work, they run one after another, each with `threads` threads of BLAS.
+/// The same for tasks of different sizes, `work` in any unit: the largest begin first. If one is more than two thirds
+/// of all work, they run one after another, each with `threads` threads of BLAS.
 void parallel_for(const std::vector<double>& work, int threads, const std::function<void(int)>& task);
 
 }  // namespace scabo::linalg

@@ -102,8 +102,9 @@ std::optional<std::array<int, 2>> closest_partners(const ContactSide& a, const C
   return closest;
 }
 
-/// From the closest pair in both directions as long as the nodes match, in the order of the boundary of A. Both nodes at
-/// the mouth of a crack are partners of the node that faces them; of two mouths that face each other, those on one side.
+/// From the closest pair in both directions as long as the nodes match, in the order of the boundary of A. Both nodes
+/// at the mouth of a crack are partners of the node that faces them; of two mouths that face each other, those on one
+/// side.
 Partners partners_along(const ContactSide& a, const ContactSide& b, const std::array<int, 2>& closest) {
   const auto moved = [&](std::array<int, 2> at, int by_a, int by_b) -> std::optional<std::array<int, 2>> {
     at[0] += by_a;
@@ -115,7 +116,8 @@ Partners partners_along(const ContactSide& a, const ContactSide& b, const std::a
     return at;
   };
   const auto step = [&](const std::array<int, 2>& at, int direction) {
-    auto next = moved(at, direction, -direction);  // both boundaries run counter-clockwise, hence in opposite directions
+    auto next =
+        moved(at, direction, -direction);  // both boundaries run counter-clockwise, hence in opposite directions
     if (!next && is_mouth(a, at[0], direction)) next = moved(at, direction, 0);
     if (!next && is_mouth(b, at[1], -direction)) next = moved(at, 0, -direction);
     return next;

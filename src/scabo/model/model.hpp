@@ -174,8 +174,8 @@ struct Place {
   Source source;
 };
 
-/// Axes of the displacement that a support prescribes: x and y; the outward normal of its edge and the tangent a quarter
-/// turn counter-clockwise from it, at every point; or a direction and the one a quarter turn from it.
+/// Axes of the displacement that a support prescribes: x and y; the outward normal of its edge and the tangent a
+/// quarter turn counter-clockwise from it, at every point; or a direction and the one a quarter turn from it.
 enum class SupportAxes { xy, edge, direction };
 
 /// Prescribed displacement of a place; a component without a value is free.
@@ -236,9 +236,9 @@ struct EdgeTable {
 
 /// Pressure of still water on an edge: unit_weight times the depth below the level, zero above it.
 struct Water {
-  double level = 0.0;          ///< up . x of the surface
-  double unit_weight = 0.0;    ///< force / length^3, > 0
-  Vec2 up = Vec2(0.0, 1.0);    ///< unit vector
+  double level = 0.0;        ///< up . x of the surface
+  double unit_weight = 0.0;  ///< force / length^3, > 0
+  Vec2 up = Vec2(0.0, 1.0);  ///< unit vector
 };
 
 struct Load {

@@ -98,8 +98,7 @@ void PointEvaluation::prepare(const analysis::StaticSolution& solution, Group& g
           "stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
           solution.model.bodies[b].name, point.at.x(), point.at.y(), point.name));
   }
-  const double bytes =
-      40.0 * static_cast<double>(super_element.K().rows()) * static_cast<double>(group.rows.size());
+  const double bytes = 40.0 * static_cast<double>(super_element.K().rows()) * static_cast<double>(group.rows.size());
   if (super_element.domain.unbounded || !worth_condensing(group.rows.size(), increments) ||
       bytes > most_condensed_bytes)
     return;

@@ -1,5 +1,6 @@
 // XML files of VTK for ParaView: .vtu (an unstructured grid with fields, appended binary data, compressed if there is
-// much of it) and .pvd (the .vtu files of a run over time). docs/decisions/0002-vtu-writer.md explains why they are not written by the VTK library.
+// much of it) and .pvd (the .vtu files of a run over time). docs/decisions/0002-vtu-writer.md explains why they are not
+// written by the VTK library.
 #pragma once
 
 #include <filesystem>

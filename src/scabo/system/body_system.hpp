@@ -43,11 +43,11 @@ struct Stiffness {
 /// The displacement of a point along a direction, which a support holds at a prescribed value.
 struct Constraint {
   int dof = -1;  ///< elastic body: 2 x node + place of this constraint at the node, 0 or 1; along x 0, along y 1
-  Vec2 point = Vec2::Zero();  ///< rigid body: the point (absolute)
-  int component = 0;          ///< 0: along x, 1: along y, -1: along `inclined`
-  bool rotation = false;      ///< rigid body: its rotation, held by a support on the whole body
-  int support = -1;           ///< index into Model::supports
-  double value = 0.0;         ///< length, at factor 1
+  Vec2 point = Vec2::Zero();     ///< rigid body: the point (absolute)
+  int component = 0;             ///< 0: along x, 1: along y, -1: along `inclined`
+  bool rotation = false;         ///< rigid body: its rotation, held by a support on the whole body
+  int support = -1;              ///< index into Model::supports
+  double value = 0.0;            ///< length, at factor 1
   Vec2 inclined = Vec2::Zero();  ///< unit vector, of component -1
 
   Vec2 direction() const { return component < 0 ? inclined : Vec2(Vec2::Unit(dof >= 0 ? dof % 2 : component)); }

@@ -128,18 +128,20 @@ class ConstraintCollector {
   }
 
   void report(int body, int node, const Constraint& made, const Constraint& other) {
-    if (!reported_.insert({made.support, other.support}).second) return;  // one message, also where edges share many nodes
+    if (!reported_.insert({made.support, other.support}).second)
+      return;  // one message, also where edges share many nodes
     const model::Support& support = model_.supports[static_cast<std::size_t>(made.support)];
     const model::Support& with = model_.supports[static_cast<std::size_t>(other.support)];
     const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
     diagnostics_.push_back(
-        {support.source, fmt::format("support '{}' prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
-                                     "another value: give both the same value there, or move one of them",
-                                     support.name,
-                                     made.component < 0 ? fmt::format("the displacement along ({:.4g}, {:.4g})",
-                                                                      made.inclined.x(), made.inclined.y())
-                                                        : component_name[made.component],
-                                     x.x(), x.y(), with.name, with.source.line)});
+        {support.source,
+         fmt::format("support '{}' prescribes {} at ({:.6g}, {:.6g}), where support '{}' (line {}) prescribes "
+                     "another value: give both the same value there, or move one of them",
+                     support.name,
+                     made.component < 0
+                         ? fmt::format("the displacement along ({:.4g}, {:.4g})", made.inclined.x(), made.inclined.y())
+                         : component_name[made.component],
+                     x.x(), x.y(), with.name, with.source.line)});
   }
 
   static constexpr double parallel = 1e-6;  // sine of the angle between directions that count as one

@@ -68,8 +68,8 @@ TEST(IterativeDirections, OfAFreeBodyHoldIt) {
   Eigen::Vector3d resultant = Eigen::Vector3d::Zero();
   int open = 0;
   for (int i = 0; i < pairs; ++i) {
-    resultant += Eigen::Vector3d(solution.p[2 * i], solution.p[2 * i + 1],
-                                 solution.p[2 * i] * (2.0 * i / (pairs - 1.0) - 1.0));
+    resultant +=
+        Eigen::Vector3d(solution.p[2 * i], solution.p[2 * i + 1], solution.p[2 * i] * (2.0 * i / (pairs - 1.0) - 1.0));
     open += solution.states[static_cast<std::size_t>(i)] == ContactState::open;
   }
   EXPECT_LT((resultant - Eigen::Vector3d(300.0, -60.0, -30.0)).norm(), 1e-8 * 300.0);

@@ -206,9 +206,9 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   EXPECT_THAT(keys_of(summary["timing"]), ElementsAre("read", "mesh", "super_elements", "assemble", "factorise",
                                                       "condense", "newton", "recover", "write", "total"));
   const Json& increment = summary["increments"][0];
-  EXPECT_THAT(keys_of(increment),
-              ElementsAre("step", "increment", "reached", "factors", "converged", "newton_iterations", "coarse_iterations",
-                          "residual", "contacts", "reactions", "cracks", "certificate", "energy", "error"));
+  EXPECT_THAT(keys_of(increment), ElementsAre("step", "increment", "reached", "factors", "converged",
+                                              "newton_iterations", "coarse_iterations", "residual", "contacts",
+                                              "reactions", "cracks", "certificate", "energy", "error"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
               ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure",
                           "first_pair_in_contact", "last_pair_in_contact"));
