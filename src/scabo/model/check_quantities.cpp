@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "scabo/model/checking.hpp"
 
@@ -59,7 +58,8 @@ void check_energy(Checking& checking, const std::string& path) {
     return std::holds_alternative<Gravity>(load.kind) || std::holds_alternative<BodyForce>(load.kind) ||
            std::holds_alternative<Temperature>(load.kind);
   };
-  const auto& [loads, bodies] = std::tie(checking.model.loads, checking.model.bodies);
+  const std::vector<Load>& loads = checking.model.loads;
+  const std::vector<Body>& bodies = checking.model.bodies;
   const auto load = std::find_if(loads.begin(), loads.end(), acts_inside);
   if (load == loads.end()) return;
   const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& of) {
