@@ -104,8 +104,10 @@ void read_increments(Reading& reading, const Value& value, Step& step) {
   };
   read("largest", automatic.largest);
   read("smallest", automatic.smallest);
-  if (!map.has("smallest")) automatic.smallest = std::min(automatic.smallest, automatic.largest);
-  if (!map.has("first")) automatic.first = std::min(std::max(automatic.first, automatic.smallest), automatic.largest);
+  if (automatic.largest >= limits::smallest_increment) {  // a mistake is told once, not of what follows from it
+    if (!map.has("smallest")) automatic.smallest = std::min(automatic.smallest, automatic.largest);
+    if (!map.has("first")) automatic.first = std::min(std::max(automatic.first, automatic.smallest), automatic.largest);
+  }
   read("first", automatic.first);
   step.automatic = automatic;
 }

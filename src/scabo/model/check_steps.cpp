@@ -51,7 +51,8 @@ void check_automatic(Checking& checking, const std::string& path, const Automati
 /// Only a program gives these.
 void check_ends(Checking& checking, const std::string& path, const Step& step) {
   if (step.ends.empty()) return;
-  const bool ascending = std::is_sorted(step.ends.begin(), step.ends.end(), std::less_equal<>());
+  const bool ascending =
+      std::adjacent_find(step.ends.begin(), step.ends.end(), std::greater_equal<>()) == step.ends.end();
   if (static_cast<int>(step.ends.size()) != step.increments || !ascending || !(step.ends.front() > 0.0) ||
       step.ends.back() != 1.0)
     checking.error(path, "", "gives ends of increments that are not as many as its increments, ascending, up to 1");

@@ -6,7 +6,6 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -16,6 +15,7 @@
 
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/linalg/twofold.hpp"
+#include "scabo/system/inclined_nodes.hpp"
 
 namespace scabo::system {
 
@@ -131,88 +131,6 @@ std::size_t hash_of(const Stiffness& stiffness) {
                                         static_cast<std::size_t>(stiffness.entries()) * sizeof(double)});
 }
 
-/// Nodes that are held along inclined directions. Their displacements are u = M v, with v along the directions of the
-/// constraints, of which the second one, if it is missing, is at right angles to the first. A force f has the
-/// components M'f, and K becomes T'K T, with M on the diagonal of T at these nodes and 1 at all others. Exact: no
-/// spring, no multiplier.
-class InclinedNodes {
- public:
-  InclinedNodes() = default;
-  explicit InclinedNodes(const std::vector<Constraint>& constraints) {
-    std::map<int, std::array<const Constraint*, 2>> held;
-    for (const Constraint& constraint : constraints)
-      held[constraint.dof / 2][static_cast<std::size_t>(constraint.dof % 2)] = &constraint;
-    for (const auto& [node, at] : held) {
-      if (!((at[0] && at[0]->component < 0) || (at[1] && at[1]->component < 0))) continue;
-      Mat2 rows;
-      for (int k = 0; k < 2; ++k)
-        if (const Constraint* constraint = at[static_cast<std::size_t>(k)]) rows.row(k) = constraint->direction();
-      if (!at[1]) rows.row(1) << -rows(0, 1), rows(0, 0);
-      if (!at[0]) rows.row(0) << rows(1, 1), -rows(1, 0);
-      nodes_.push_back({node, rows, Mat2(rows.inverse())});
-    }
-  }
-
-  bool none() const { return nodes_.empty(); }
-  bool operator==(const InclinedNodes& other) const {
-    return std::equal(nodes_.begin(), nodes_.end(), other.nodes_.begin(), other.nodes_.end(),
-                      [](const Inclined& a, const Inclined& b) { return a.node == b.node && a.rows == b.rows; });
-  }
-  /// M of a node, or nothing.
-  const Mat2* of(int node) const {
-    const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), node,
-                                     [](const Inclined& inclined, int wanted) { return inclined.node < wanted; });
-    return at != nodes_.end() && at->node == node ? &at->M : nullptr;
-  }
-
-  // Displacements v as u, u as v; forces along x and y as components.
-  Vector displacements(Vector v) const {
-    return with(std::move(v), [](const Inclined& at) { return at.M; });
-  }
-  Vector along(Vector u) const {
-    return with(std::move(u), [](const Inclined& at) { return at.rows; });
-  }
-  Vector components(Vector f) const {
-    return with(std::move(f), [](const Inclined& at) { return Mat2(at.M.transpose()); });
-  }
-  Vector forces(Vector components) const {
-    return with(std::move(components), [](const Inclined& at) { return Mat2(at.rows.transpose()); });
-  }
-
-  Matrix stiffness(Matrix K) const {
-    for (const Inclined& at : nodes_) K.middleCols<2>(2 * at.node) = (K.middleCols<2>(2 * at.node) * at.M).eval();
-    for (const Inclined& at : nodes_)
-      K.middleRows<2>(2 * at.node) = (at.M.transpose() * K.middleRows<2>(2 * at.node)).eval();
-    return K;
-  }
-  linalg::SparseMatrix stiffness(const linalg::SparseMatrix& K) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int node = 0; node < static_cast<int>(K.rows() / 2); ++node) {
-      const Mat2* M = of(node);
-      for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j)
-          if (M || i == j) entries.emplace_back(2 * node + i, 2 * node + j, M ? (*M)(i, j) : 1.0);
-    }
-    linalg::SparseMatrix T(K.rows(), K.cols());
-    T.setFromTriplets(entries.begin(), entries.end());
-    const linalg::SparseMatrix KT = K * T, transposed = T.transpose();
-    return transposed * KT;
-  }
-
- private:
-  struct Inclined {
-    int node;
-    Mat2 rows, M;
-  };
-  template <typename MatrixOf>
-  Vector with(Vector values, const MatrixOf& matrix_of) const {
-    for (const Inclined& at : nodes_)
-      values.segment<2>(2 * at.node) = (matrix_of(at) * values.segment<2>(2 * at.node)).eval();
-    return values;
-  }
-  std::vector<Inclined> nodes_;  // ascending
-};
-
 class ElasticBody final : public BodySystem {
  public:
   ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes, std::vector<Constraint> constraints)
@@ -273,7 +191,7 @@ class ElasticBody final : public BodySystem {
     for (std::size_t i = 0; i < dofs.size(); ++i) {
       const auto row = static_cast<int>(i);
       const int node = dofs[i] / 2;
-      const Eigen::Matrix2d* M = inclined_.of(node);
+      const Mat2* M = inclined_.of(node);
       if (!M) {
         entries.emplace_back(row, static_cast<int>(both.size()), 1.0);
         both.push_back(dofs[i]);
