@@ -128,6 +128,14 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
         plan.bytes += costs.own_cell_bytes * n;
         plan.cells += costs.own_cell_seconds * n;
       }
+      for (const mesh::Cell& cell : mesh.bodies[b].cells) {
+        if (cell.kind != mesh::CellKind::superelement) continue;
+        const double m = 2.0 * static_cast<double>(cell.nodes().size());
+        if (m < costs.least_large_cell) continue;
+        plan.bytes += (8.0 + costs.block_bytes) * m * m;
+        plan.cells += costs.dense_seconds * m * m * m;
+        if (written > 0.0) plan.fields += 0.5 * costs.dense_seconds * m * m * m;
+      }
       plan.mesh += costs.mesh_seconds * n;
       plan.cells += costs.cell_seconds * n;
       plan.factorise += costs.factor_seconds * std::pow(n, 1.5);

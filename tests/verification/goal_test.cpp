@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
 #include "scabo/analysis/quantities.hpp"
+#include "support/mesh_text.hpp"
 #include "verification/models.hpp"
 #include "verification/run.hpp"
 
@@ -115,6 +117,21 @@ loads: {{p: {{on: ring.bore, pressure: 1}}}}
                      mesh_of(kind, size, order));
 }
 
+/// The unbounded plate around a hole of radius 1 under an inner pressure of 1.
+std::string tunnel(double size, int order) {
+  return fmt::format(R"(scabo: 1
+materials: {{m: {{young: 1000, poisson: 0.3}}}}
+bodies:
+  ground:
+    material: m
+    outside: true
+    shape: {{circle: {{centre: [0, 0], radius: 1}}}}
+    mesh: {{size: {}, order: {}}}
+loads: {{p: {{on: ground.rim, pressure: 1}}}}
+)",
+                     size, order);
+}
+
 /// L-shaped body with free faces at its re-entrant corner.
 std::string corner(const std::string& kind, double size, int order) {
   return fmt::format(R"(scabo: 1
@@ -128,6 +145,40 @@ supports: [{{on: body.edge_5, fix: x}}, {{on: body.edge_2, fix: y}}]
 loads: {{right: {{on: body.edge_3, traction: [1, 0]}}, up: {{on: body.edge_4, traction: [0, 0.5]}}}}
 )",
                      mesh_of(kind, size, order));
+}
+
+/// corner() from a file of squares of side 1 / parts, or of their halves.
+std::string corner_from_file(const std::string& mesh, bool triangles, int parts) {
+  test::MeshText text;
+  std::map<std::pair<int, int>, int> numbers;
+  const auto node = [&](int i, int j) {
+    const auto [found, is_new] = numbers.emplace(std::pair(i, j), static_cast<int>(text.nodes.size()));
+    if (is_new) text.nodes.push_back(Vec2(i, j) / parts);
+    return found->second;
+  };
+  const auto side = [&](int region, int from, int to) { text.cells.push_back({3, {from, to}, region}); };
+  for (int i = -parts; i < parts; ++i)
+    for (int j = -parts; j < parts; ++j) {
+      if (i < 0 && j < 0) continue;
+      const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
+      if (triangles) {
+        text.cells.push_back({5, {a, b, c}});
+        text.cells.push_back({5, {a, c, d}});
+      } else {
+        text.cells.push_back({9, {a, b, c, d}});
+      }
+      if (j == -parts) side(2, a, b);
+      if (i + 1 == parts) side(3, b, c);
+      if (j + 1 == parts) side(4, c, d);
+      if (i == -parts) side(5, d, a);
+    }
+  return fmt::format(R"(scabo: 1
+materials: {{steel: {{young: 1, poisson: 0.3}}}}
+bodies: {{body: {{material: steel, mesh: {{file: {}, {}}}}}}}
+supports: [{{on: body.boundary_5, fix: x}}, {{on: body.boundary_2, fix: y}}]
+loads: {{right: {{on: body.boundary_3, traction: [1, 0]}}, up: {{on: body.boundary_4, traction: [0, 0.5]}}}}
+)",
+                     text.file(), mesh);
 }
 
 /// Half of a cylinder of radius 1, moved by 0.01 into a block.
@@ -181,6 +232,10 @@ std::vector<GoalCase> goal_cases() {
   cases.push_back({"Beam_1e4", beams("superelement", 0.375, 2), "joint.normal_force", beam, 1e-4});
   cases.push_back({"Beam_friction", beams("superelement", 0.375, 2), "joint.tangential_force", 0.2 * beam, 1e-3});
   cases.push_back({"Beam_reaction", beams("superelement", 0.375, 2), "lower.left.reaction_y", beam, 1e-3});
+  // Beam ends: super-elements, quadtrees and polygons of orders 4 and 6 agree to 4e-7.
+  for (const char* kind : {"superelement", "quadtree", "fem"})
+    cases.push_back(
+        {fmt::format("Beam_deflection_{}", kind), beams(kind, 0.375, 2), "lower.top_right.uy", -1.2788944e-3, 1e-3});
   cases.push_back({"Hertz_superelement", hertz("superelement", 0.1, 2), "joint.normal_force", cylinder, 1e-2});
   cases.push_back({"Hertz_quadtree", hertz("quadtree", 0.1, 2), "joint.normal_force", cylinder, 1e-3});
   cases.push_back({"Hertz_polygons", hertz("polygons", 0.1, 2), "joint.normal_force", cylinder, 1e-2});
@@ -190,6 +245,31 @@ std::vector<GoalCase> goal_cases() {
   cases.push_back({"Ring_quadtree", ring("quadtree", 0.25, 2), "ring.vertex_1.ux", widening});
   cases.push_back({"Ring_polygons", ring("polygons", 0.25, 2), "ring.vertex_1.ux", widening});
   cases.push_back({"Ring_linear", ring("quadtree", 0.25, 1), "ring.vertex_1.ux", widening});
+  cases.push_back(
+      {"Crack_fem", edge_crack("fem", 1, 0.4, 0.125, 2), "plate.flaw.end.K_I", 2.11276 * std::sqrt(0.4 * pi), 1e-3});
+  cases.push_back(
+      {"Crack_fem_linear", edge_crack("fem", 1, 0.4, 0.125, 1), "plate.flaw.end.K_I", 2.11276 * std::sqrt(0.4 * pi)});
+  cases.push_back({"Beam_fem", beams("fem", 0.375, 2), "joint.normal_force", beam});
+  cases.push_back({"Beam_fem_refined", beams("fem", 0.375, 2), "joint.normal_force", beam, 1e-3});
+  cases.push_back({"Beam_fem_linear", beams("fem", 0.25, 1), "joint.normal_force", beam, 1e-2});
+  cases.push_back({"Hertz_fem", hertz("fem", 0.1, 2), "joint.normal_force", cylinder, 1e-2});
+  cases.push_back({"PressFit_fem", press_fit("fem", 12.5, 2), "joint.normal_force", fit});
+  cases.push_back({"Ring_fem", ring("fem", 0.25, 2), "ring.vertex_1.ux", widening, 1e-4});
+  cases.push_back({"Ring_fem_linear", ring("fem", 0.125, 1), "ring.vertex_1.ux", widening});
+  cases.push_back({"Corner_fem", corner("fem", 0.25, 2), "elastic_energy", corner_energy, 1e-2});
+  cases.push_back({"Corner_fem_linear", corner("fem", 0.25, 1), "elastic_energy", corner_energy});
+  for (const auto& [name, triangles] : {std::pair("triangles", true), std::pair("squares", false)}) {
+    cases.push_back({fmt::format("Corner_fem_of_a_file_{}", name), corner_from_file("elements: fem", triangles, 4),
+                     "elastic_energy", corner_energy});
+    cases.push_back({fmt::format("Corner_fem_of_a_file_{}_refined", name),
+                     corner_from_file("elements: fem", triangles, 4), "elastic_energy", corner_energy, 1e-2});
+  }
+  cases.push_back({"Corner_of_a_file", corner_from_file("order: 2", false, 2), "elastic_energy", corner_energy});
+  cases.push_back(
+      {"Corner_of_a_file_refined", corner_from_file("order: 2", false, 2), "elastic_energy", corner_energy, 1e-2});
+  // A hole in the infinite plate under an inner pressure: p a (1 + nu) / E (Lame).
+  cases.push_back({"Tunnel", tunnel(0.5, 2), "ground.rim_start.ux", 1.3e-3});
+  cases.push_back({"Tunnel_refined", tunnel(0.5, 1), "ground.rim_start.ux", 1.3e-3, 1e-4});
   cases.push_back({"Corner", corner("superelement", 0.25, 2), "elastic_energy", corner_energy});
   cases.push_back({"Corner_superelement", corner("superelement", 0.25, 2), "elastic_energy", corner_energy, 1e-3});
   cases.push_back({"Corner_quadtree", corner("quadtree", 0.25, 2), "elastic_energy", corner_energy, 1e-2});

@@ -128,17 +128,14 @@ void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::
 
 bool has_estimate(const StaticSolution& solution, std::size_t body) { return !solution.cells[body].empty(); }
 
-bool is_of_superelements(const StaticSolution& solution, std::size_t body) {
-  const element::SolvedCells& cells = solution.cells[body];
-  return !cells.empty() && std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell != nullptr; });
-}
+namespace {
 
-Flags frozen_elements(const StaticSolution& solution, bool at_singular_places) {
-  const mesh::Mesh& mesh = solution.mesh;
+/// frozen_elements() with the places beside which elements are frozen.
+Flags frozen_elements(const model::Model& model, const mesh::Mesh& mesh, const std::vector<model::Place>& singular) {
   Flags frozen(mesh.bodies.size());
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
-    if (has_estimate(solution, b)) frozen[b].assign(boundary_elements(mesh.bodies[b]), false);
-  for (const model::Place& place : at_singular_places ? singular_places(solution) : std::vector<model::Place>{}) {
+    frozen[b].assign(boundary_elements(mesh.bodies[b]), false);  // none of a rigid body
+  for (const model::Place& place : singular) {
     const auto b = static_cast<std::size_t>(place.body);
     if (frozen[b].empty()) continue;
     const std::vector<int> nodes = mesh::nodes_of(place, mesh).nodes;
@@ -150,7 +147,7 @@ Flags frozen_elements(const StaticSolution& solution, bool at_singular_places) {
         ++place_in_body;
       }
   }
-  const mesh::PairedElements paired = mesh::paired_elements(solution.model, mesh);
+  const mesh::PairedElements paired = mesh::paired_elements(model, mesh);
   const auto flag = [&](const mesh::EdgeElement& at) -> std::vector<bool>::reference {
     const auto b = static_cast<std::size_t>(at.body);
     return frozen[b][static_cast<std::size_t>(mesh::boundary_element(mesh.bodies[b], at.edge, at.element))];
@@ -161,12 +158,23 @@ Flags frozen_elements(const StaticSolution& solution, bool at_singular_places) {
     const bool divided_a = !frozen[static_cast<std::size_t>(a.body)].empty(),
                divided_b = !frozen[static_cast<std::size_t>(b.body)].empty();
     if (divided_a != divided_b)
-      flag(divided_a ? a : b) = true;  // finite elements are not changed
+      flag(divided_a ? a : b) = true;  // the other body is rigid
     else if (divided_a && (flag(a) || flag(b)))
       flag(a) = flag(b) = true;
   }
-  for (std::size_t b = 0; b < frozen.size(); ++b) freeze_faces_alike(solution.model, mesh, b, frozen[b]);
+  for (std::size_t b = 0; b < frozen.size(); ++b) freeze_faces_alike(model, mesh, b, frozen[b]);
   return frozen;
+}
+
+}  // namespace
+
+Flags frozen_elements(const StaticSolution& solution, bool at_singular_places) {
+  return frozen_elements(solution.model, solution.mesh,
+                         at_singular_places ? singular_places(solution) : std::vector<model::Place>{});
+}
+
+mesh::Mesh raised(const model::Model& model, const mesh::Mesh& mesh) {
+  return mesh::enriched(model, mesh, frozen_elements(model, mesh, {}));
 }
 
 void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
@@ -307,13 +315,10 @@ std::vector<double> squared_errors(const StaticSolution& solution, const Increme
       squared.push_back(0.0);
       continue;
     }
-    const CellStiffness narrow = stiffness_of(solution, b, c);
-    const element::SolvedSuperElement& wide = *wider.cells[b][c];
-    const Vector u = displacement_of(solution, increment, b, c), U = displacement_of(wider, wider_increment, b, c);
     // Loads inside a cell are not among the forces on its boundary.
     const bool relaxed = element::loads_in(increment.fields.interior[b], c).loads.empty();
-    squared.push_back(
-        element::squared_difference({narrow.elements, narrow.k, u, wide.ring.elements, wide.K(), U, relaxed}));
+    squared.push_back(squared_difference(solution, increment.fields.displacements[b], wider,
+                                         wider_increment.fields.displacements[b], b, c, relaxed));
   }
   return squared;
 }
@@ -408,6 +413,15 @@ void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
 }
 
 }  // namespace
+
+double squared_difference(const StaticSolution& solution, const Vector& u, const StaticSolution& wider, const Vector& U,
+                          std::size_t body, std::size_t cell, bool relaxed) {
+  const CellStiffness narrow = stiffness_of(solution, body, cell);
+  const element::SolvedSuperElement& wide = *wider.cells[body][cell];
+  return element::squared_difference({narrow.elements, narrow.k,
+                                      u(element::dofs_of(solution.mesh.bodies[body].cells[cell])), wide.ring.elements,
+                                      wide.K(), U(element::dofs_of(wider.mesh.bodies[body].cells[cell])), relaxed});
+}
 
 ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
                        const IncrementResult& wider_increment) {

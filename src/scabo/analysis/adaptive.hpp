@@ -75,10 +75,15 @@ void replay(StaticSolution& solution, const Options& options);
 /// Whether the error of the body is estimated: it is elastic. The wider displacement of finite elements is that of
 /// super-elements of the next order in their place.
 bool has_estimate(const StaticSolution& solution, std::size_t body);
-/// Whether all cells of the body are super-elements.
-bool is_of_superelements(const StaticSolution& solution, std::size_t body);
 /// [body][boundary element of all cells]: elements that cannot be changed without separating pairs of nodes and, if
 /// `at_singular_places`, those beside point forces and the like.
 std::vector<std::vector<bool>> frozen_elements(const StaticSolution& solution, bool at_singular_places);
+/// The mesh with all sides of cells one order higher, except where that would separate pairs of nodes; finite elements
+/// become super-elements. Sides keep their curves.
+mesh::Mesh raised(const model::Model& model, const mesh::Mesh& mesh);
+/// Squared error in the energy norm of a cell, force times length, of displacements `u` of its body against `U` on the
+/// mesh of higher order. `relaxed`: whether no loads act inside the cell.
+double squared_difference(const StaticSolution& solution, const Vector& u, const StaticSolution& wider, const Vector& U,
+                          std::size_t body, std::size_t cell, bool relaxed);
 
 }  // namespace scabo::analysis

@@ -28,12 +28,11 @@ constexpr double most_of_boundary = 4000, most_of_cells = 1e6;
 
 /// How a richer mesh differs from that of the results.
 struct Richer {
-  double size = 1.0;         ///< of elements and cells, relative
-  int raised = 0;            ///< orders
-  double finite_size = 1.0;  ///< of finite elements, relative
+  double size = 1.0;  ///< of elements and cells, relative
+  int raised = 0;     ///< orders
 };
-constexpr Richer same_elements{1.0, 1, 0.5}, halved{0.5, 1, 0.25}, halved_and_raised{0.5, 2, 0.25},
-    raised_twice{1.0, 2, 0.25}, raised_thrice{1.0, 3, 0.25};
+constexpr Richer same_elements{1.0, 1}, halved{0.5, 1}, halved_and_raised{0.5, 2}, raised_twice{1.0, 2},
+    raised_thrice{1.0, 3};
 
 std::vector<const model::Quantity*> quantities_of(const model::Model& model) {
   std::vector<const model::Quantity*> quantities;
@@ -53,17 +52,22 @@ int order_of(const model::Body& body) {
   return std::max(body.mesh.order, quadratic ? 2 : 1);
 }
 
+/// Whether any body is made of finite elements. They have no order that could be raised, but become super-elements of
+/// the next order, and the other bodies with them.
+bool has_finite_elements(const model::Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const model::Body& body) { return !body.rigid && body.mesh.kind == model::MeshKind::fem; });
+}
+
 /// The model whose meshes are richer than those of `model`.
 model::Model enriched_model(model::Model model, const Richer& richer) {
   for (model::Body& body : model.bodies) {
     if (body.rigid) continue;
     model::MeshOptions& mesh = body.mesh;
-    const bool finite = mesh.kind == model::MeshKind::fem;
-    const double factor = finite ? richer.finite_size : richer.size;
-    mesh.size *= factor;
-    mesh.min_size *= factor;
-    for (model::LocalSize& local : mesh.refine) local.size *= factor;
-    if (!finite) mesh.order = std::min(order_of(body) + richer.raised, highest_order);
+    mesh.size *= richer.size;
+    mesh.min_size *= richer.size;
+    for (model::LocalSize& local : mesh.refine) local.size *= richer.size;
+    if (mesh.kind != model::MeshKind::fem) mesh.order = std::min(order_of(body) + richer.raised, highest_order);
   }
   return model;
 }
@@ -95,15 +99,17 @@ struct MeshSource {
   const mesh::Mesh* mesh = nullptr;             ///< a mesh refined for tolerances of bodies; only its orders are raised
 };
 
-mesh::Mesh richer_mesh(const MeshSource& source, const model::Model& model, const Richer& richer) {
-  if (source.mesh) {
-    mesh::Mesh mesh = *source.mesh;
-    for (int k = 0; k < richer.raised; ++k) mesh = mesh::enriched(model, mesh, {});
-    return mesh;
-  }
-  if (!source.refinement) return mesh::make_mesh(model);
-  return mesh::make_mesh(model, enriched_division(source.refinement->boundaries.division(), richer),
-                         source.refinement->cells.scaled_sizes(richer.size));
+mesh::Mesh richer_mesh(const MeshSource& source, const Richer& richer) {
+  const bool raised_after = source.mesh || has_finite_elements(source.model);
+  const Richer before{richer.size, raised_after ? 0 : richer.raised};
+  const model::Model model = enriched_model(source.model, before);
+  mesh::Mesh mesh = source.mesh ? *source.mesh
+                    : source.refinement
+                        ? mesh::make_mesh(model, enriched_division(source.refinement->boundaries.division(), before),
+                                          source.refinement->cells.scaled_sizes(richer.size))
+                        : mesh::make_mesh(model);
+  for (int k = 0; raised_after && k < richer.raised; ++k) mesh = raised(model, mesh);
+  return mesh;
 }
 
 /// Whether the richer mesh would take too long, judged by the present one.
@@ -112,9 +118,8 @@ bool is_too_large(const mesh::Mesh& mesh, const model::Model& model, const Riche
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const mesh::BodyMesh& body = mesh.bodies[b];
     const model::MeshOptions& options = model.bodies[b].mesh;
-    const bool one = body.cells.size() == 1, finite = options.kind == model::MeshKind::fem;
-    const double factor = finite ? richer.finite_size : richer.size, order = std::max(options.order, 1);
-    const double raised = finite ? 1.0 : (order + richer.raised) / order;
+    const bool one = body.cells.size() == 1;
+    const double factor = richer.size, order = std::max(options.order, 1), raised = (order + richer.raised) / order;
     const double dofs = 2.0 * static_cast<double>(body.nodes.size()) * raised / (one ? factor : factor * factor);
     if (one && dofs > most_of_boundary) return true;
     all += dofs;
@@ -139,9 +144,8 @@ Values values_of(const StaticSolution& solution, const std::vector<const model::
 std::optional<StaticSolution> solve_richer(const MeshSource& source, const Richer& richer, const Options& options,
                                            const std::string& what, std::string& why) {
   try {
-    model::Model model = enriched_model(source.model, richer);
-    mesh::Mesh mesh = richer_mesh(source, model, richer);
-    StaticSolution solution = solve_on_mesh(std::move(model), std::move(mesh), quiet(options, what));
+    StaticSolution solution =
+        solve_on_mesh(enriched_model(source.model, richer), richer_mesh(source, richer), quiet(options, what));
     if (solution.outcome == Outcome::solved) return solution;
     why = solution.reason;
   } catch (const InputError& error) {
@@ -167,10 +171,10 @@ bool agree(const Values& J, const RicherValues& richer) {
 RicherValues richer_values(const MeshSource& source, const StaticSolution& solution, const Options& options) {
   const auto quantities = quantities_of(source.model);
   const Values J = values_of(solution, quantities);
-  // Cells of a file have no size that could be halved everywhere.
-  const bool from_file = std::any_of(source.model.bodies.begin(), source.model.bodies.end(),
-                                     [](const model::Body& body) { return body.imported != nullptr; });
-  const bool divided = !source.mesh && !from_file && !is_too_large(solution.mesh, source.model, halved);
+  // Cells of files and images have no size that could be halved everywhere.
+  const bool given = std::any_of(source.model.bodies.begin(), source.model.bodies.end(),
+                                 [](const model::Body& body) { return body.imported || body.image; });
+  const bool divided = !source.mesh && !given && !is_too_large(solution.mesh, source.model, halved);
   RicherValues richer;
   for (const Richer& next :
        {same_elements, divided ? halved : raised_twice, divided ? halved_and_raised : raised_thrice}) {
@@ -272,16 +276,15 @@ std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b,
   const bool in_cells = model::is_divided_inside(solution.model.bodies[b]);
   std::vector<double> squared;
   for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
-    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *pass.wider->cells[b][c];
-    const Vector of_narrow = u(element::dofs_of(solution.mesh.bodies[b].cells[c])),
-                 of_wide = U(element::dofs_of(pass.wider->mesh.bodies[b].cells[c]));
     const bool relaxed = !loaded || element::loads_in(solution.increments.back().fields.interior[b], c).loads.empty();
-    const double whole = element::squared_difference(
-        {narrow.ring.elements, narrow.K(), of_narrow, wide.ring.elements, wide.K(), of_wide, relaxed});
+    const double whole = squared_difference(solution, u, *pass.wider, U, b, c, relaxed);
     if (in_cells) {
       squared.push_back(whole);
       continue;
     }
+    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *pass.wider->cells[b][c];
+    const Vector of_narrow = u(element::dofs_of(solution.mesh.bodies[b].cells[c])),
+                 of_wide = U(element::dofs_of(pass.wider->mesh.bodies[b].cells[c]));
     const std::vector<double> sectors =
         element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), of_narrow},
                                     {wide.ring, wide.solution(), wide.modes(), of_wide}, wide.sectors.D);
@@ -298,7 +301,7 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
   errors.shares.resize(solution.model.bodies.size());
   sum = 0.0;
   for (std::size_t b = 0; b < errors.shares.size(); ++b) {
-    if (!is_of_superelements(solution, b)) continue;
+    if (!has_estimate(solution, b)) continue;
     const std::vector<double> primal =
                                   squared_errors_of_parts(pass, b, solution.increments.back().fields.displacements[b],
                                                           pass.wider->increments.back().fields.displacements[b], true),
@@ -317,8 +320,7 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
 model::Model with_tolerances(model::Model model) {
   for (model::Body& body : model.bodies) {
     const model::MeshKind kind = body.mesh.kind;
-    if (!body.rigid && !body.image && kind != model::MeshKind::fem && kind != model::MeshKind::parts)
-      body.mesh.tolerance = model.tolerance->relative;
+    if (!body.rigid && !body.image && kind != model::MeshKind::parts) body.mesh.tolerance = model.tolerance->relative;
   }
   try {
     check_refinable(model, mesh::make_mesh(model));

@@ -10,8 +10,8 @@
 // corners r is 0.2 to 0.35, elsewhere smaller, so that the bar is between 1.3 and 3 times the error. The last two
 // agree if they differ by at most half of |R - J|; if they do not, J may be right by chance, and R3 decides.
 //
-// Meshes of half the size are made anew from the outline, so that arcs count. Finite elements have their size halved
-// and halved again, because their order is 2 at most.
+// Meshes of half the size are made anew from the outline, so that arcs count. Finite elements become super-elements of
+// the next orders. Cells of files and images keep their size; their orders are raised three times.
 //
 // Refinement for one number marks by the error of the displacement and of the dual problem (quantities.hpp, eq. 2):
 // the share of a part is the product of the two in the energy norm (Mommer and Stevenson 2009), of the last

@@ -107,7 +107,7 @@ int divided_element(const geometry::Edge& edge, const mesh::EdgeDivision& divisi
 }  // namespace
 
 BoundaryRefinement::BoundaryRefinement(const model::Model& model)
-    : model_(model), division_(mesh::uniform_division(model)) {
+    : model_(model), division_(mesh::initial_division(model)) {
   for (const mesh::BodyDivision& body : division_) {
     auto& of_body = predicted_.emplace_back();
     for (const mesh::EdgeDivision& edge : body)

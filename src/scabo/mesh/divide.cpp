@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/mesh/graded_edge.hpp"
 
 namespace scabo::mesh {
 
@@ -58,8 +60,29 @@ double elements_of(const model::Edge& edge, const Run& run, double size) {
   return edge.arc ? std::max(by_length, elements_along(part * std::abs(edge.arc->sweep), largest_turn)) : by_length;
 }
 
+/// More nodes are a mistyped size of mesh.refine.
+constexpr double most_elements = 1e6;
+
+/// Where an edge is divided along a run, ascending; nothing if into more than `most_elements`.
+std::vector<double> breaks_of_run(const model::Body& body, const Run& run) {
+  const geometry::Edge& edge = body.outline.edges[static_cast<std::size_t>(run.edge)];
+  const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
+  if (!body.mesh.refine.empty())
+    return graded_breaks(edge, {low, high}, [&](const Vec2& x) { return wanted_size(body, {}, x); },
+                         {.turn = largest_turn, .most = most_elements});
+  const double elements = elements_of(edge, run, body.mesh.size);
+  if (elements > most_elements) return {};
+  std::vector<double> breaks;
+  for (int k = 0; k < elements; ++k) breaks.push_back(std::lerp(low, high, k / elements));
+  breaks.push_back(high);
+  return breaks;
+}
+
 double elements_of(const model::Body& body, const Run& run) {
-  return elements_of(body.outline.edges[static_cast<std::size_t>(run.edge)], run, body.mesh.size);
+  if (body.mesh.refine.empty())
+    return elements_of(body.outline.edges[static_cast<std::size_t>(run.edge)], run, body.mesh.size);
+  const std::vector<double> breaks = breaks_of_run(body, run);
+  return breaks.empty() ? std::numeric_limits<double>::infinity() : static_cast<double>(breaks.size()) - 1.0;
 }
 
 }  // namespace
@@ -75,23 +98,21 @@ double count_boundary_nodes(const model::Body& body) {
   return elements * body.mesh.order + (body.open() ? 1.0 : 0.0);
 }
 
-BodyDivision uniform_division(const model::Body& body) {
+BodyDivision initial_division(const model::Body& body) {
   BodyDivision division(body.outline.edges.size());
   for (const Run& run : runs_of(body)) {
-    const int elements = static_cast<int>(elements_of(body, run));
-    const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
     EdgeDivision& divided = division[static_cast<std::size_t>(run.edge)];
-    std::vector<double> breaks;
-    for (int k = 0; k <= elements; ++k)
-      breaks.push_back(k == elements ? high : std::lerp(low, high, static_cast<double>(k) / elements));
+    std::vector<double> breaks = breaks_of_run(body, run);
+    ensure(!breaks.empty(), "the number of elements of an edge was checked");
+    const std::size_t elements = breaks.size() - 1;
     if (!divided.breaks.empty()) breaks.pop_back();  // the last part beside a crack ends where the first began
     divided.breaks.insert(divided.breaks.begin(), breaks.begin(), breaks.end());
-    divided.orders.insert(divided.orders.end(), static_cast<std::size_t>(elements), body.mesh.order);
+    divided.orders.insert(divided.orders.end(), elements, body.mesh.order);
   }
   return division;
 }
 
-BodyMesh divide_boundary(const model::Body& body) { return divide_boundary(body, uniform_division(body)); }
+BodyMesh divide_boundary(const model::Body& body) { return divide_boundary(body, initial_division(body)); }
 
 namespace {
 

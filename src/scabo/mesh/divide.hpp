@@ -3,7 +3,8 @@
 // the edges of a BodyMesh keep the direction of the outline.
 //
 // Unless a Division (division.hpp) specifies otherwise, every edge is divided into n equal elements, none longer than
-// `size` and none turning by more than 60 degrees, with nodes at the Gauss-Lobatto-Legendre points of the arc length of
+// `size` and none turning by more than 60 degrees; with mesh.refine into elements of graded lengths (graded_edge.hpp).
+// Nodes are at the Gauss-Lobatto-Legendre points of the arc length of
 // the edge. Between the nodes of an arc the boundary is the interpolating polynomial. The visibility of the whole
 // boundary from the scaling centre must therefore be checked again: |J| = x y,eta - y x,eta > 0, with x and y relative
 // to the centre.
@@ -23,8 +24,8 @@ double elements_along(double length, double size);
 /// Number of nodes that divide_boundary would create.
 double count_boundary_nodes(const model::Body& body);
 
-/// The division of every edge into equal elements of the body's order, as described above.
-BodyDivision uniform_division(const model::Body& body);
+/// The division of every edge into elements of the body's order, as described above.
+BodyDivision initial_division(const model::Body& body);
 
 /// The body as one super-element.
 BodyMesh divide_boundary(const model::Body& body);

@@ -125,11 +125,11 @@ void pair_elements(const Joint& contact, const Interface& interface, const Mesh&
 
 }  // namespace
 
-Division uniform_division(const model::Model& model) {
+Division initial_division(const model::Model& model) {
   Division division(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (!body.rigid && body.mesh.kind == model::MeshKind::superelement) division[b] = uniform_division(body);
+    if (!body.rigid && body.mesh.kind == model::MeshKind::superelement) division[b] = initial_division(body);
   }
   return division;
 }

@@ -23,7 +23,7 @@ using BodyDivision = std::vector<EdgeDivision>;  ///< one for each edge of the o
 using Division = std::vector<BodyDivision>;      ///< one for each body; an empty one stands for its mesh options
 
 /// The division that follows from the mesh options, for every super-element.
-Division uniform_division(const model::Model& model);
+Division initial_division(const model::Model& model);
 
 /// Upper limits of the sizes of cells, one for each body; those of bodies without many cells are not used.
 using Sizes = std::vector<SizeField>;

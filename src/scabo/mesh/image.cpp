@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "scabo/base/disjoint_sets.hpp"
 #include "scabo/base/error.hpp"
@@ -54,46 +56,33 @@ class Blocks {
 
   int at(int level, int x, int y) const { return levels_[level].at(x, y); }
 
-  /// Throws InputError if two parts that have no side in common touch at a corner.
-  void check_corners() const {
+  /// Throws InputError if there are several parts that have no side in common, whether they touch at a corner or not.
+  void check_connected() const {
     const Level& pixels = levels_.front();
-    const auto solid = [&](int x, int y) { return pixels.at(x, y) >= 0; };
-    struct Corner {
-      std::array<int, 2> first, second;  // the pixels that touch, the upper one first
-    };
-    std::vector<Corner> corners;
-    for (int y = pixels.height - 1; y > 0; --y)  // from the top, as in the file
-      for (int x = 0; x + 1 < pixels.width; ++x) {
-        const bool falling = solid(x, y) && solid(x + 1, y - 1), rising = solid(x + 1, y) && solid(x, y - 1);
-        if (falling && !solid(x + 1, y) && !solid(x, y - 1)) corners.push_back({{x, y}, {x + 1, y - 1}});
-        if (rising && !solid(x, y) && !solid(x + 1, y - 1)) corners.push_back({{x + 1, y}, {x, y - 1}});
-      }
-    if (corners.empty()) return;
-    const auto number = [&](int x, int y) { return std::size_t(y) * pixels.width + x; };
+    if (std::all_of(pixels.regions.begin(), pixels.regions.end(), [](int region) { return region >= 0; })) return;
     DisjointSets parts(pixels.regions.size());
     for (int y = 0; y < pixels.height; ++y)
       for (int x = 0; x < pixels.width; ++x) {
-        if (!solid(x, y)) continue;
-        if (solid(x + 1, y)) parts.join(number(x, y), number(x + 1, y));
-        if (solid(x, y + 1)) parts.join(number(x, y), number(x, y + 1));
+        if (!pixels.is_solid(x, y)) continue;
+        if (pixels.is_solid(x + 1, y)) parts.join(pixels.number(x, y), pixels.number(x + 1, y));
+        if (pixels.is_solid(x, y + 1)) parts.join(pixels.number(x, y), pixels.number(x, y + 1));
       }
-    const Corner* worst = nullptr;
-    std::size_t count = 0;
-    for (const Corner& at : corners) {
-      if (parts.root(number(at.first[0], at.first[1])) == parts.root(number(at.second[0], at.second[1]))) continue;
-      if (count++ == 0) worst = &at;
-    }
-    if (worst == nullptr) return;
-    const auto text = [&](const std::array<int, 2>& at) {
-      return fmt::format("({}, {})", at[0], pixels.height - 1 - at[1]);
-    };
+    check_corners(parts);
+    std::map<std::size_t, std::size_t> size_of_part;  // by its first pixel
+    for (std::size_t k = 0; k < pixels.regions.size(); ++k)
+      if (pixels.regions[k] >= 0) ++size_of_part[parts.root(k)];
+    if (size_of_part.size() < 2) return;
+    const auto smallest = std::min_element(size_of_part.begin(), size_of_part.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto width = static_cast<std::size_t>(pixels.width);
+    const std::array<int, 2> at{static_cast<int>(smallest->first % width), static_cast<int>(smallest->first / width)};
     throw InputError(
         {}, {{{},
-              fmt::format("the image has parts that hang together only at a corner, {}that of pixels {} and {} "
-                          "(column and row from the top left, from 0): give a pixel beside it a material, or make "
-                          "the parts separate bodies",
-                          count > 1 ? fmt::format("at {} places, first at ", count) : "", text(worst->first),
-                          text(worst->second))}});
+              fmt::format("the image has {} parts that have no side in common, the smallest of {} {} at {} (column and "
+                          "row from the top left, from 0), but a body is connected: leave the pixels of all but one "
+                          "without a material, or make the parts separate bodies",
+                          size_of_part.size(), smallest->second, smallest->second == 1 ? "pixel" : "pixels",
+                          text_of(at))}});
   }
 
  private:
@@ -104,7 +93,44 @@ class Blocks {
     int at(int x, int y) const {
       return x < width && y < height ? regions[std::size_t(y) * width + x] : int(TreeCell::outside);
     }
+    bool is_solid(int x, int y) const { return at(x, y) >= 0; }
+    std::size_t number(int x, int y) const { return std::size_t(y) * width + x; }
   };
+
+  /// Throws InputError if two of the parts touch at a corner.
+  void check_corners(DisjointSets& parts) const {
+    const Level& pixels = levels_.front();
+    const auto solid = [&](int x, int y) { return pixels.is_solid(x, y); };
+    struct Corner {
+      std::array<int, 2> first, second;  // the pixels that touch, the upper one first
+    };
+    std::optional<Corner> worst;
+    std::size_t count = 0;
+    const auto add = [&](const Corner& at) {
+      if (parts.root(pixels.number(at.first[0], at.first[1])) == parts.root(pixels.number(at.second[0], at.second[1])))
+        return;
+      if (count++ == 0) worst = at;
+    };
+    for (int y = pixels.height - 1; y > 0; --y)  // from the top, as in the file
+      for (int x = 0; x + 1 < pixels.width; ++x) {
+        const bool falling = solid(x, y) && solid(x + 1, y - 1), rising = solid(x + 1, y) && solid(x, y - 1);
+        if (falling && !solid(x + 1, y) && !solid(x, y - 1)) add({{x, y}, {x + 1, y - 1}});
+        if (rising && !solid(x, y) && !solid(x + 1, y - 1)) add({{x + 1, y}, {x, y - 1}});
+      }
+    if (!worst) return;
+    throw InputError(
+        {}, {{{},
+              fmt::format("the image has parts that hang together only at a corner, {}that of pixels {} and {} "
+                          "(column and row from the top left, from 0): give a pixel beside it a material, or make "
+                          "the parts separate bodies",
+                          count > 1 ? fmt::format("at {} places, first at ", count) : "", text_of(worst->first),
+                          text_of(worst->second))}});
+  }
+
+  /// Column and row from the top left.
+  std::string text_of(const std::array<int, 2>& pixel) const {
+    return fmt::format("({}, {})", pixel[0], levels_.front().height - 1 - pixel[1]);
+  }
 
   static int region_of(int label, const ImageOptions& options) {
     if (options.regions.empty()) return label < 0 ? int(TreeCell::outside) : label;
@@ -125,7 +151,7 @@ PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options) {
   while ((2 << levels) <= std::min(image.width, image.height) && double(2 << levels) <= largest) ++levels;
   const int side = 1 << levels;
   const Blocks blocks(image, options, levels);
-  blocks.check_corners();
+  blocks.check_connected();
   quadtree::Forest forest(Vec2::Zero(), Vec2::Constant(options.pixel * side), (image.width + side - 1) / side,
                           (image.height + side - 1) / side);
   const auto set_region = [&](TreeCell& cell) { cell.region = blocks.at(levels - cell.level, cell.x, cell.y); };

@@ -18,6 +18,7 @@
 #include "scabo/mesh/match.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/mesh/tip_rings.hpp"
+#include "scabo/model/limits.hpp"
 
 namespace scabo::mesh {
 
@@ -56,7 +57,23 @@ std::vector<Diagnostic> obstacles(const model::Body& body) {
              fmt::format("size {:.6g} would give {} nodes, more than the {:.7g} allowed: use a larger 'size'",
                          body.mesh.size, text_of_count(nodes, most_nodes_of_model, 3), most_nodes_of_model)}};
   }
+  if (!body.mesh.refine.empty() && 2.0 * nodes > model::limits::superelement_dofs) {
+    return {{body.mesh.refine.front().source,
+             fmt::format("the sizes of 'refine' give {:.6g} degrees of freedom, but one super-element may have at most "
+                         "{:.6g}: use larger sizes, or kind: polygons or quadtree",
+                         2.0 * nodes, model::limits::superelement_dofs)}};
+  }
   return {};
+}
+
+/// A super-element too large to be solved among the few of a shape, as beside a narrow place.
+std::vector<Diagnostic> too_large_parts(const model::Body& body, const BodyMesh& mesh) {
+  std::size_t nodes = 0;
+  for (const Cell& cell : mesh.cells) nodes = std::max(nodes, cell.nodes().size());
+  if (2.0 * static_cast<double>(nodes) <= model::limits::superelement_dofs) return {};
+  return {{body.mesh.source, fmt::format("one of the {} super-elements of body '{}' would have {} degrees of freedom, "
+                                         "more than the {:.6g} allowed: write kind: polygons, or use larger sizes",
+                                         mesh.cells.size(), body.name, 2 * nodes, model::limits::superelement_dofs)}};
 }
 
 /// Places `near` the mouth of a crack, where two nodes are equally close.
@@ -120,6 +137,7 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
         continue;
       }
       mesh.bodies[b] = std::get<BodyMesh>(std::move(divided));
+      if (body.mesh.kind == model::MeshKind::parts && add(too_large_parts(body, mesh.bodies[b]))) continue;
       if (const std::vector<int> cracks = cracks_in_contact(model, static_cast<int>(b)); !cracks.empty()) {
         divide_faces_alike(mesh.bodies[b], cracks);
         add_tip_rings(mesh.bodies[b], body, cracks);

@@ -58,30 +58,9 @@ std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge, 
                           std::ceil(by_turn - rounding)});
     for (int k = 1; k < count; ++k) breaks.push_back(k / count);
   } else {
-    // As many elements as the integral of 1 / size, each with an equal part of it. Steps are short compared with the
-    // size, which changes by less than the distance.
-    constexpr int samples = 1000;
-    constexpr double longest_step = 0.25;
-    std::vector<double> ends{0.0}, sum{0.0};
-    const auto add = [&](const auto& self, double low, double high) -> void {
-      const double step = (high - low) * edge.length();
-      const double size = std::min(sizing.at(edge.at(0.5 * (low + high))), length / by_turn);
-      if (step > longest_step * size && step > 1e-9 * length) {
-        self(self, low, 0.5 * (low + high));
-        self(self, 0.5 * (low + high), high);
-        return;
-      }
-      ends.push_back(high);
-      sum.push_back(sum.back() + step / size);
-    };
-    for (int i = 0; i < samples; ++i) add(add, double(i) / samples, (i + 1.0) / samples);
-    const double count = std::max<double>(least_count, std::ceil(sum.back() - rounding));
-    std::size_t i = 0;
-    for (int k = 1; k < count; ++k) {
-      const double part = k / count * sum.back();
-      while (sum[i + 1] < part) ++i;
-      breaks.push_back(std::lerp(ends[i], ends[i + 1], (part - sum[i]) / (sum[i + 1] - sum[i])));
-    }
+    return graded_breaks(
+        edge, {}, sizing.at,
+        {static_cast<double>(least_count), largest_turn_of_side, rounding, std::numeric_limits<double>::infinity()});
   }
   breaks.push_back(1.0);
   return breaks;
@@ -176,18 +155,6 @@ PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double tu
 }
 
 }  // namespace
-
-double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x) {
-  const double largest = body.imported ? std::numeric_limits<double>::infinity() : body.mesh.size;
-  double size = std::min(largest, sizes.at(x));
-  for (const model::LocalSize& local : body.mesh.refine) {
-    const double distance = local.near
-                                ? (*local.near - x).norm()
-                                : geometry::distance_to(body.outline.edges[static_cast<std::size_t>(local.edge)], x);
-    size = std::min(size, local.size + local.growth * distance);
-  }
-  return size;
-}
 
 BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options) {
   BodyDomain made;
@@ -464,7 +431,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
       const std::string narrow = of.narrow.width > 0.0 ? fmt::format("; its lines are {:.3g} apart near {}", width,
                                                                      in_words(of.narrow.narrowest))
                                                        : "";
-      if (body.mesh.kind == model::MeshKind::parts)  // which has no 'refine'
+      if (body.mesh.kind == model::MeshKind::parts)
         return Diagnostic{body.mesh.source,
                           fmt::format("this shape could not be divided into a few super-elements ({}{}): write "
                                       "kind: polygons, with a 'size' below its width",

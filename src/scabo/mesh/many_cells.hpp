@@ -4,15 +4,12 @@
 #include <variant>
 
 #include "scabo/mesh/domain.hpp"
+#include "scabo/mesh/graded_edge.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/mesh/narrow_places.hpp"
 #include "scabo/mesh/size_field.hpp"
 
 namespace scabo::mesh {
-
-/// Wanted length of the sides of cells at a point of the body: mesh.size (from a file: any), less near places of
-/// mesh.refine, and no more than `sizes`.
-double wanted_size(const model::Body& body, const SizeField& sizes, const Vec2& x);
 
 /// The outline, the regions and the cracks of a body as lines, divided by wanted_size or less in narrow places. It
 /// holds on to `body` and to `sizes`. If the cells in narrow places are too many (NarrowOptions), it has no lines.

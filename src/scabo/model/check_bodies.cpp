@@ -15,7 +15,6 @@ namespace scabo::model {
 
 namespace {
 
-constexpr double most_superelement_dofs = 20'000;  // dense matrices: 3 GB each at this number
 constexpr double most_fem_dofs = 1e6;
 
 /// One body under check; `outline` runs counter-clockwise, for unbounded bodies as well.
@@ -383,10 +382,6 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
     checking.error(path, "mesh", "cells of a file are super-elements (kind: imported) or finite elements (kind: fem)"),
         good = false;
   good = (body.imported || check_min_size(checking, path, mesh)) && good;
-  if (mesh.kind == MeshKind::superelement && !mesh.refine.empty())
-    checking.error_of_key(path, "mesh.refine",
-                          "is not available for kind: superelement: use polygons, quadtree or fem"),
-        good = false;
   if (mesh.kind == MeshKind::superelement && (!body.outline.holes.empty() || !body.regions.empty())) {
     checking.error(path, "mesh",
                    "a body with holes or regions is not one super-element: write kind: polygons or kind: quadtree");
@@ -414,7 +409,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
 bool check_dofs(const BodyCheck& of) {
   const bool fem = of.body.mesh.kind == MeshKind::fem;
   const double dofs = estimated_dofs(of.outline, of.body.mesh);
-  const double most = fem ? most_fem_dofs : most_superelement_dofs;
+  const double most = fem ? most_fem_dofs : limits::superelement_dofs;
   if (dofs <= most) return true;
   of.checking.error(of.path, "mesh.size",
                     fmt::format("gives {:.6g} degrees of freedom, but {} at most {:.6g}: use a larger size{}", dofs,

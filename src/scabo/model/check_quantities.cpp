@@ -10,12 +10,7 @@ namespace scabo::model {
 namespace {
 
 /// Whether meshes of the body can be refined for a tolerance.
-bool can_be_refined(const Body& body) {
-  return !body.rigid && !body.image && body.mesh.kind != MeshKind::fem && body.mesh.kind != MeshKind::parts;
-}
-
-/// Whether finer meshes than that of the body can be made, which show its error.
-bool has_finer_meshes(const Body& body) { return !(body.imported && body.mesh.kind == MeshKind::fem); }
+bool can_be_refined(const Body& body) { return !body.rigid && !body.image && body.mesh.kind != MeshKind::parts; }
 
 bool check_number_of(Checking& checking, const std::string& path, const char* what, int index, std::size_t count) {
   if (index >= 0 && static_cast<std::size_t>(index) < count) return true;
@@ -29,14 +24,6 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
   const Body& body = checking.body(quantity.index);
   if (body.rigid) {
     checking.error(path, "", fmt::format("body '{}' is rigid, and has no stress intensity factors", body.name));
-    return;
-  }
-  if (body.mesh.kind == MeshKind::fem) {  // their order stays, and with it the error of the cell around the tip
-    checking.error(
-        path, "",
-        fmt::format("body '{}' is made of finite elements, whose stress intensity factors have no error bar: "
-                    "use kind: superelement, polygons or quadtree, or cells of a file as super-elements",
-                    body.name));
     return;
   }
   const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')),
@@ -117,8 +104,8 @@ void check_tolerance(Checking& checking, const QuantityTolerance& tolerance) {
     }
   if (!checking.gaps.bodies && std::none_of(bodies.begin(), bodies.end(), can_be_refined))
     checking.error_of_key("tolerance", "",
-                          "no body of this model can be refined: give one a mesh of kind superelement, polygons or "
-                          "quadtree, or ask for the bar alone with output: {error_of: [...]}");
+                          "no body of this model can be refined: give one a mesh of a shape or of a file, or ask for "
+                          "the bar alone with output: {error_of: [...]}");
 }
 
 }  // namespace
@@ -135,16 +122,6 @@ void check_quantities(Checking& checking) {
     check_quantity(checking, "tolerance.of", model.tolerance->of);
     check_tolerance(checking, *model.tolerance);
   }
-  if (!model.tolerance && model.output.error_of.empty()) return;
-  for (const Body& body : model.bodies)
-    if (!has_finer_meshes(body)) {
-      checking.enter(model.tolerance ? model.tolerance->source : model.output.error_of.front().source);
-      checking.error_of_key(model.tolerance ? "tolerance" : "output.error_of", "",
-                            fmt::format("body '{}' has its finite elements from a file, of which no finer mesh can be "
-                                        "made to show their error: use its cells as super-elements",
-                                        body.name));
-      return;
-    }
 }
 
 }  // namespace scabo::model

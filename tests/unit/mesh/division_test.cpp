@@ -45,6 +45,35 @@ TEST(BoundaryDivision, GivesThePapersBeam80Nodes) {
   EXPECT_EQ(mesh.nodes[40], Vec2(6.0, 1.5));
 }
 
+// Near the corner elements have the length 0.01 + 0.1 r up to 0.5: their number along an edge of length 6 is the
+// integral of 1 / length, 10 ln(1 + 10 (0.49 / 0.1)) + (6 - 4.9) / 0.5, rounded up.
+TEST(BoundaryDivision, IsGradedWhereRefineAsks) {
+  model::Body beam = elastic("beam", test::rectangle({0, 0}, {6, 1.5}), 0.5, 1);
+  model::LocalSize near;
+  near.near = Vec2(6, 0);
+  near.size = 0.01;
+  near.growth = 0.1;
+  beam.mesh.refine = {near};
+  for (const double scale : {1.0, 1e-3, 1e3}) {  // no unit counts
+    model::Body scaled = elastic("beam", test::rectangle({0, 0}, {6 * scale, 1.5 * scale}), 0.5 * scale, 1);
+    scaled.mesh.refine = beam.mesh.refine;
+    *scaled.mesh.refine.front().near *= scale;
+    scaled.mesh.refine.front().size *= scale;
+    const BodyMesh mesh = mesh_of(scaled);
+    const double bottom = std::ceil(10 * std::log(50.0) + 1.1 / 0.5), right = std::ceil(10 * std::log(16.0));
+    EXPECT_EQ(mesh.edges[0].size(), static_cast<std::size_t>(bottom));
+    EXPECT_EQ(mesh.edges[1].size(), static_cast<std::size_t>(right));
+    for (const std::size_t edge : {0u, 1u, 2u, 3u})
+      for (const LineElement& element : mesh.edges[edge]) {
+        const Vec2 from = mesh.nodes[static_cast<std::size_t>(element.nodes.front())] / scale,
+                   to = mesh.nodes[static_cast<std::size_t>(element.nodes.back())] / scale;
+        const double middle = (0.5 * (from + to) - Vec2(6, 0)).norm();
+        EXPECT_LE((to - from).norm(), 1.001 * std::min(0.5, 0.01 + 0.1 * middle));
+        EXPECT_GE((to - from).norm(), 0.6 * std::min(0.5, 0.01 + 0.1 * middle));
+      }
+  }
+}
+
 TEST(BoundaryDivision, RunsCounterClockwiseAndCloses) {
   for (const int order : {1, 2, 3, 8}) {
     const BodyMesh mesh = mesh_of(elastic("disc", quarter_disc(), 0.4, order));

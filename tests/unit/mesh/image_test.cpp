@@ -52,7 +52,7 @@ void check_sides(const PolygonMesh& mesh, const Vec2& size) {
   }
 }
 
-TEST(ImageMesh, RefusesPartsThatTouchOnlyAtACorner) {
+TEST(ImageMesh, RefusesPartsWithoutASideInCommon) {
   const auto message = [](int width, int height, const std::vector<int>& labels) -> std::string {
     try {
       image_mesh({width, height, labels}, {0.5, 0.0, {{3, 0}, {4, 1}}});
@@ -75,7 +75,7 @@ TEST(ImageMesh, RefusesPartsThatTouchOnlyAtACorner) {
                       {7, 3,  //
                        4, 7}),
               testing::HasSubstr("pixels (1, 0) and (0, 1)"));
-  // The same corner in a part that is joined by sides elsewhere, and parts that do not touch.
+  // The same corner in a part that is joined by sides elsewhere, and a part alone.
   EXPECT_EQ(message(3, 3,
                     {3, 7, 3,  //
                      3, 3, 7,  //
@@ -87,7 +87,16 @@ TEST(ImageMesh, RefusesPartsThatTouchOnlyAtACorner) {
                      3, 7, 3,  //
                      3, 3, 7}),
             "");
-  EXPECT_EQ(message(3, 1, {3, 7, 3}), "");
+  EXPECT_EQ(
+      message(3, 3,
+              {3, 3, 7,  //
+               7, 7, 7,  //
+               3, 4, 3}),
+      "the image has 2 parts that have no side in common, the smallest of 2 pixels at (0, 0) (column and row from "
+      "the top left, from 0), but a body is connected: leave the pixels of all but one without a material, or "
+      "make the parts separate bodies");
+  EXPECT_THAT(message(3, 1, {3, 7, 3}), testing::HasSubstr("has 2 parts that have no side in common, the smallest of 1 "
+                                                           "pixel at (0, 0)"));
 }
 
 TEST(ImageMesh, FourByFourPixelsByHand) {

@@ -39,7 +39,7 @@ TEST(MixedDivision, GivesEveryElementItsLengthAndOrder) {
 TEST(MixedDivision, IsTheOldOneWhereItIsUniform) {
   const model::Model model =
       one(elastic("disc", outline({arc("a", {0, 0}, 1, 0, pi), arc("b", {0, 0}, 1, pi, pi)}), 0.3, 3));
-  const Mesh plain = make_mesh(model), divided = make_mesh(model, uniform_division(model));
+  const Mesh plain = make_mesh(model), divided = make_mesh(model, initial_division(model));
   EXPECT_EQ(plain.bodies[0].nodes, divided.bodies[0].nodes);
 }
 
@@ -106,7 +106,7 @@ TEST(PairedElements, OfAnotherOrderStayAlone) {
 
 TEST(Enriched, KeepsContactPairsTogetherAlsoWithMixedOrders) {
   const model::Model model = stacked(4.0, 1.0, 2);
-  Division division = uniform_division(model);
+  Division division = initial_division(model);
   division[0][2].orders = {2, 4, 1, 3};
   division[1][0].orders = {3, 1, 4, 2};
   const Mesh mesh = make_mesh(model, division);
