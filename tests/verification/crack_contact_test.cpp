@@ -130,6 +130,16 @@ TEST_P(CrackContact, PressureInAContact) {
   }
 }
 
+/// Beside the tips of a crack of half length 1, pressures were 3.5 times too large and zero by turns.
+void expect_uniform_pressure(const analysis::StaticSolution& solution, double pressure, double away = 0.01) {
+  for (const analysis::PairResult& pair : contact_of(last(solution)).pairs) {
+    const double to_tip = 1.0 - pair.position.norm();
+    const double bound = to_tip > 1e-6 ? away : 0.1;
+    EXPECT_NEAR(pair.pressure / pressure, 1.0, bound) << "at " << to_tip << " from the tip";
+  }
+  EXPECT_NEAR(contact_of(last(solution)).max_pressure / pressure, 1.0, 0.1);
+}
+
 // Slanted crack under compression: K_I = 0, K_II = -(tau - mu sigma) sqrt(pi a).
 TEST_P(CrackContact, ClosedCrackSlides) {
   for (const double angle : {30.0, 60.0})
@@ -140,28 +150,26 @@ TEST_P(CrackContact, ClosedCrackSlides) {
       for (const char* end : {"plate.flaw.start", "plate.flaw.end"}) {
         const element::StressIntensity& tip = factors_at(last(solution), end);
         EXPECT_NEAR(tip.K_II / exact, 1.0, 6e-4) << angle << " " << friction;
-        EXPECT_NEAR(tip.K_I / exact, 0.0, 1e-3) << angle << " " << friction;
+        EXPECT_NEAR(tip.K_I / exact, 0.0, 2e-5) << angle << " " << friction;
         EXPECT_FALSE(tip.T_left || tip.T_right);  // not known in the innermost ring
       }
-      // Uniform pressure, except where the discretised singular field of K_II is no longer free of it.
-      for (const analysis::PairResult& pair : contact_of(last(solution)).pairs)
-        if (pair.position.norm() < 1.0 - 1e-3) {
-          EXPECT_NEAR(pair.pressure, c * c, 0.01) << pair.position.transpose();
-          EXPECT_NEAR(pair.shear / pair.pressure, pair.slip < 0.0 ? friction : -friction, 1e-9);
-        } else if (pair.position.norm() < 1.0 - 1e-6) {
-          EXPECT_EQ(pair.state, contact::ContactState::slip) << pair.position.transpose();
-        }
+      expect_uniform_pressure(solution, c * c);
+      for (const analysis::PairResult& pair : contact_of(last(solution)).pairs) {
+        EXPECT_NEAR(pair.shear / pair.pressure, pair.slip < 0.0 ? friction : -friction, 1e-9);
+        EXPECT_EQ(pair.state, contact::ContactState::slip) << pair.position.transpose();
+      }
     }
 }
 
 // The same with linear and quadratic elements of the body: the rings have a higher order than these.
 TEST_P(CrackContact, LowOrdersSlideToo) {
-  for (const auto& [order, bound] : {std::pair(1, 1e-2), std::pair(2, 1e-3)}) {
+  for (const auto& [order, bound] : {std::pair(1, 1.3e-2), std::pair(2, 1e-3)}) {
     CrackedPlate plate = with_contact(this->plate(45, -1), 0.3);
     plate.order = order;
     const auto solution = run(plate.text());
     for (const char* end : {"plate.flaw.start", "plate.flaw.end"})
       EXPECT_NEAR(factors_at(last(solution), end).K_II / (-0.35 * root_pi), 1.0, bound) << order;
+    expect_uniform_pressure(solution, 0.5, order == 1 ? 0.02 : 0.01);
   }
 }
 
@@ -177,6 +185,7 @@ TEST_P(CrackContact, CrackThatSticksIsNoCrack) {
     EXPECT_EQ(pair.state, contact::ContactState::stick) << pair.position.transpose();
     EXPECT_NEAR(pair.pressure, 0.75, 1e-3);
   }
+  expect_uniform_pressure(solution, 0.75);
   EXPECT_LT(deviation(solution, 0.0, -1.0, 0.0), 1e-9);
 }
 

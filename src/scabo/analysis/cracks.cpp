@@ -6,7 +6,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <set>
+#include <map>
+#include <numbers>
 
 #include "scabo/mesh/crack_faces.hpp"
 
@@ -30,15 +31,57 @@ bool in_resonance(const element::StressIntensity& factors, const std::vector<ele
   });
 }
 
-/// Cells at the tips of cracks whose faces are in contact. They are the innermost of many rings, so small that T is
-/// lost in the discretised singular field, and without the contact's tractions on their own faces.
-std::set<std::size_t> tips_in_contact(const StaticSolution& solution, std::size_t body) {
-  std::set<std::size_t> cells;
+/// Cells at the tips of cracks whose faces are in contact, and the cracks. They are the innermost of many rings, so
+/// small that T is lost in the discretised singular field, and without the contact's tractions on their own faces.
+std::map<std::size_t, int> tips_in_contact(const StaticSolution& solution, std::size_t body) {
+  std::map<std::size_t, int> cells;
   const std::vector<int> cracks = mesh::cracks_in_contact(solution.model, static_cast<int>(body));
   if (cracks.empty()) return cells;
   for (const mesh::TipFace& tip : mesh::tip_faces(solution.model.bodies[body], solution.mesh.bodies[body]))
-    if (std::find(cracks.begin(), cracks.end(), tip.crack) != cracks.end()) cells.insert(tip.cell);
+    if (std::find(cracks.begin(), cracks.end(), tip.crack) != cracks.end()) cells[tip.cell] = tip.crack;
   return cells;
+}
+
+/// Tractions at the tip of a closed crack.
+struct TipTraction {
+  double pressure = 0.0, shear = 0.0;                         ///< of the pairs nearest to it, in the mean; magnitudes
+  contact::ContactState state = contact::ContactState::open;  ///< of the nearest one
+};
+TipTraction traction_at(const StaticSolution& solution, const IncrementResult& increment, std::size_t body, int crack,
+                        const Vec2& tip) {
+  constexpr std::size_t several = 5;  // because they swing by a few per cent about their mean
+  std::vector<std::pair<double, const PairResult*>> pairs;
+  for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
+    const model::Place& side = solution.model.contacts[c].a;
+    if (side.kind != model::Place::Kind::face || side.body != static_cast<int>(body) || side.index / 2 != crack)
+      continue;
+    for (const PairResult& pair : increment.contacts[c].pairs) pairs.emplace_back((pair.position - tip).norm(), &pair);
+  }
+  TipTraction traction;
+  if (pairs.empty()) return traction;
+  const auto count = std::min(several, pairs.size());
+  std::partial_sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(count), pairs.end());
+  traction.state = pairs.front().second->state;
+  for (std::size_t k = 0; k < count; ++k) {
+    traction.pressure += pairs[k].second->pressure / static_cast<double>(count);
+    traction.shear += std::abs(pairs[k].second->shear) / static_cast<double>(count);
+  }
+  return traction;
+}
+
+/// Adds what the tractions of a closed crack, p and s, would do on the innermost faces, of length d, which are free of
+/// them: sqrt(pi d / 2) times the traction where it keeps the faces together (a crack of length d), and
+/// 2 sqrt(2 d / pi) times it where they slide (a load at the tip). Friction opposes the slip.
+void add_innermost_tractions(element::StressIntensity& factors, const TipTraction& at, double d) {
+  if (at.state == contact::ContactState::open) return;
+  const double before = std::hypot(factors.K_I, factors.K_II);
+  const double held = std::sqrt(0.5 * std::numbers::pi * d), sliding = 2.0 * std::sqrt(2.0 * d / std::numbers::pi);
+  factors.K_I += at.pressure * held;
+  const double shear = at.shear * (at.state == contact::ContactState::slip ? sliding : held);
+  factors.K_II -= std::copysign(shear, factors.K_II);
+  const double ratio = before > 0.0 ? std::pow(std::hypot(factors.K_I, factors.K_II) / before, 2) : 1.0;
+  if (factors.G) *factors.G *= ratio;
+  if (factors.J) *factors.J *= ratio;
 }
 
 void take_back(element::StressIntensity& factors) {
@@ -101,7 +144,7 @@ std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment) {
   std::vector<CrackResult> results;
   for (std::size_t b = 0; b < solution.cells.size(); ++b) {
-    const std::set<std::size_t> touching = tips_in_contact(solution, b);
+    const std::map<std::size_t, int> touching = tips_in_contact(solution, b);
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
       const auto& super_element = solution.cells[b][c];
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
@@ -110,7 +153,13 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
       results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre),
                          super_element->corner().of(u, loads)});
       element::StressIntensity& factors = results.back().factors;
-      if (touching.contains(c)) factors.T_left.reset(), factors.T_right.reset();
+      if (const auto tip = touching.find(c); tip != touching.end()) {
+        factors.T_left.reset(), factors.T_right.reset();
+        const mesh::Cell& cell = solution.mesh.bodies[b].cells[c];
+        const Vec2& end = solution.mesh.bodies[b].nodes[static_cast<std::size_t>(cell.boundary.back().nodes.back())];
+        add_innermost_tractions(factors, traction_at(solution, increment, b, tip->second, cell.centre),
+                                (end - cell.centre).norm());
+      }
       if (in_resonance(factors, loads)) take_back(factors);
     }
   }

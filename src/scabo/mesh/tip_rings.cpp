@@ -21,55 +21,69 @@ struct DividedTip {
 
 LineElement inverted(const LineElement& element) { return {{element.nodes.rbegin(), element.nodes.rend()}}; }
 
+/// The points of an element of the boundary from the tip, at the nodes of a higher order on the same curve.
+std::vector<Vec2> raised_arms(const LineElement& element, const std::vector<Vec2>& nodes, const Vec2& tip, int order) {
+  const int own = static_cast<int>(element.nodes.size()) - 1;
+  const Matrix N = geometry::LineBasis::of_order(own).values_at(geometry::lobatto_points(order));
+  std::vector<Vec2> arms;
+  for (Eigen::Index k = 0; k < N.rows(); ++k) {
+    Vec2 arm = Vec2::Zero();
+    for (std::size_t j = 0; j < element.nodes.size(); ++j)
+      arm += N(k, static_cast<Eigen::Index>(j)) * (nodes[static_cast<std::size_t>(element.nodes[j])] - tip);
+    arms.push_back(arm);
+  }
+  return arms;
+}
+
 /// `smallest`: the innermost copy is no smaller than this.
 DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings& rings, double smallest) {
   DividedTip made;
   made.innermost = tip;
-  const std::vector<int> own = tip.nodes();
-  std::vector<Vec2> arms;  // from the tip to each node of the boundary
-  for (const int node : own) arms.push_back(nodes[static_cast<std::size_t>(node)] - tip.centre);
-  const auto add = [&](std::size_t i, double xi) {
-    nodes.push_back(tip.centre + xi * arms[i]);
+  std::vector<std::vector<Vec2>> arms;  // of every boundary element, for the copies
+  std::vector<std::vector<int>> outer;  // nodes of every boundary element of the last copy
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const LineElement& element : tip.boundary) {
+    const int order = static_cast<int>(element.nodes.size()) - 1;
+    arms.push_back(raised_arms(element, nodes, tip.centre, std::max(order, rings.order)));
+    outer.push_back(element.nodes);
+    for (const Vec2& arm : arms.back()) shortest = std::min(shortest, arm.norm());
+  }
+  const auto add = [&](const Vec2& arm, double xi) {
+    nodes.push_back(tip.centre + xi * arm);
     return static_cast<int>(nodes.size()) - 1;
   };
-
-  std::vector<int> outer = own;
-  double xi = 1.0, shortest = arms.front().norm();
-  for (const Vec2& arm : arms) shortest = std::min(shortest, arm.norm());
+  double xi = 1.0;
   for (int ring = 0; ring < rings.count; ++ring) {
     const double next = xi * rings.ratio;
     if (next * shortest < smallest) break;
-    std::vector<int> inner;
-    for (std::size_t i = 0; i < own.size(); ++i) inner.push_back(add(i, next));
+    std::vector<std::vector<int>> inner;
+    for (const std::vector<Vec2>& of_element : arms) {
+      std::vector<int>& copy = inner.emplace_back();
+      for (std::size_t k = 0; k < of_element.size(); ++k)
+        copy.push_back(k == 0 && inner.size() > 1 ? inner[inner.size() - 2].back() : add(of_element[k], next));
+    }
     // Sides from the outer copy to the inner one.
-    const auto side = [&](std::size_t i, std::size_t order) {
-      order = std::max(order, static_cast<std::size_t>(rings.order));
-      LineElement element{{outer[i]}};
+    const auto side = [&](int from, int to, const Vec2& arm, std::size_t order) {
+      LineElement element{{from}};
       const std::vector<double> points = geometry::lobatto_points(static_cast<int>(order));
       for (std::size_t k = 1; k < order; ++k)
-        element.nodes.push_back(add(i, std::lerp(xi, next, 0.5 * (1.0 + points[k]))));
-      element.nodes.push_back(inner[i]);
+        element.nodes.push_back(add(arm, std::lerp(xi, next, 0.5 * (1.0 + points[k]))));
+      element.nodes.push_back(to);
       return element;
     };
-    std::size_t start = 0;
     LineElement before;
     for (std::size_t e = 0; e < tip.boundary.size(); ++e) {
-      const std::size_t order = tip.boundary[e].nodes.size() - 1;
-      if (e == 0) made.first.push_back(before = side(0, order));
-      const LineElement after = side(start + order, order);
-      LineElement out, in;
-      for (std::size_t k = 0; k <= order; ++k) {
-        out.nodes.push_back(outer[start + k]);
-        in.nodes.push_back(inner[start + order - k]);
-      }
+      const std::size_t order = arms[e].size() - 1;
+      if (e == 0) made.first.push_back(before = side(outer[0].front(), inner[0].front(), arms[0].front(), order));
+      const LineElement after = side(outer[e].back(), inner[e].back(), arms[e].back(), order);
+      const LineElement in = inverted({inner[e]});
       Cell& cell = made.cells.emplace_back();
-      cell.boundary = {out, after, in, inverted(before)};
+      cell.boundary = {{outer[e]}, after, in, inverted(before)};
       for (const LineElement& element : cell.boundary)
         cell.centre += 0.25 * nodes[static_cast<std::size_t>(element.nodes.front())];
       cell.materials = {tip.materials.size() > 1 ? tip.materials[e] : tip.materials.front()};
-      made.innermost.boundary[e] = inverted(in);
+      made.innermost.boundary[e] = {inner[e]};
       before = after;
-      start += order;
     }
     made.last.push_back(before);
     outer = inner;

@@ -6,9 +6,11 @@
 //     ring k: xi_(k+1) < xi < xi_k,   k = 0 ... count - 1
 //
 // and each ring into a quadrilateral super-element for every boundary element. The sides of these along the two side
-// faces are elements of the faces of the crack, with nodes as on any other. The innermost copy remains an open
-// super-element with faces free of traction: from it come the stress intensity factors. A traction p on its faces is
-// missing, which changes them by 2 p sqrt(2 d / pi), d = xi_count times the size of the cell.
+// faces are elements of the faces of the crack, with nodes as on any other. The copies have a higher order than the
+// boundary: what a discretised field of K_II leaves of pressure on the faces grows towards the tip as r^(-1/2). The
+// innermost copy remains an open super-element with faces free of traction: from it come the stress intensity factors.
+// The traction that is missing on its faces, of length d = xi_count times the size of the cell, is accounted for in the
+// factors (analysis/cracks.cpp) and in the pressures beside them (system/tributary_lengths.hpp).
 #pragma once
 
 #include <vector>
@@ -17,13 +19,12 @@
 
 namespace scabo::mesh {
 
-/// With these values a crack that slides everywhere has K_II to 1.3e-4 and |K_I| below 8e-5 K_II, for a cell of a tenth
-/// of its half length; the number of the rings determines K_I, their ratio and order the rest
-/// (docs/methods/22_many_cells.md).
+/// With these values a crack that slides everywhere has K_II to 7e-6 and |K_I| below 5e-7 K_II, for a cell of a tenth
+/// of its half length, and its pressure is uniform to 2e-4 from 1e-6 of the tip on (docs/methods/22_many_cells.md).
 struct TipRings {
   int count = 14;      ///< 1 or more; fewer where the coordinates do not have enough digits
   double ratio = 0.3;  ///< of the sizes of neighbouring copies, between 0 and 1
-  int order = 4;       ///< of the sides between copies, at least; otherwise that of the boundary elements
+  int order = 8;       ///< of all sides of copies and between them, at least; otherwise that of the boundary elements
 };
 
 /// Divides the cells at the tips of `cracks`.

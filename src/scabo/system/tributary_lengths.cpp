@@ -1,5 +1,7 @@
 #include "scabo/system/tributary_lengths.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "scabo/geometry/line_basis.hpp"
@@ -38,16 +40,77 @@ std::vector<double> lengths_of_side(const model::Place& place, const mesh::Mesh&
   return lengths;
 }
 
+/// A tip at which the faces of a crack are closed but, over a short length, free of traction (mesh/tip_rings.hpp).
+struct ClosedTip {
+  Vec2 at = Vec2::Zero();
+  double free = 0.0;  ///< length, > 0
+};
+
+/// Eq. (2), at a distance r > d from the tip.
+double amplification(const ClosedTip& tip, double r) { return (r - 0.5 * tip.free) / std::sqrt(r * (r - tip.free)); }
+
+/// Integrals of N_i over an element of a face, with the amplification of eq. (2) where a tip is near. Near the end of
+/// the free length with r - d = s^2, so that the integrand is smooth.
+std::vector<double> amplified_lengths(const std::vector<Vec2>& points, const std::vector<ClosedTip>& tips) {
+  constexpr double far = 3000.0;  // times the free length: there eq. (2) is 1 to 1e-8
+  const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(points.size()) - 1);
+  const Vec2 &from = points.front(), &to = points.back();
+  const double length = (to - from).norm();
+  std::vector<double> lengths;
+  for (const double weight : basis.weights()) lengths.push_back(0.5 * weight * length);
+  for (const ClosedTip& tip : tips) {
+    const double r_from = (from - tip.at).norm(), r_to = (to - tip.at).norm(), nearer = std::min(r_from, r_to);
+    if (nearer > far * tip.free) continue;
+    static const geometry::GaussRule rule = geometry::gauss_rule(40);
+    std::fill(lengths.begin(), lengths.end(), 0.0);
+    const double first = std::sqrt(std::max(nearer - tip.free, 0.0)),
+                 last = std::sqrt(std::max(r_from, r_to) - tip.free);
+    for (std::size_t k = 0; k < rule.points.size(); ++k) {
+      const double s = std::lerp(first, last, 0.5 * (1.0 + rule.points[k])), r = tip.free + s * s;
+      const double part = (r - nearer) / length, eta = r_from < r_to ? 2.0 * part - 1.0 : 1.0 - 2.0 * part;
+      const Vector N = basis.values(eta);
+      for (std::size_t i = 0; i < lengths.size(); ++i)  // dr = 2 s ds
+        lengths[i] += rule.weights[k] * 0.5 * (last - first) * 2.0 * (r - 0.5 * tip.free) / std::sqrt(r) *
+                      N[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return lengths;
+}
+
+std::vector<ClosedTip> closed_tips(const model::Body& body, const mesh::BodyMesh& mesh, int crack) {
+  std::vector<ClosedTip> tips;
+  for (const mesh::TipFace& face : mesh::tip_faces(body, mesh)) {
+    if (face.crack != crack || !face.last) continue;
+    const mesh::Cell& cell = mesh.cells[face.cell];
+    const Vec2& end = mesh.nodes[static_cast<std::size_t>(cell.boundary.back().nodes.back())];
+    tips.push_back({cell.centre, (end - cell.centre).norm()});
+  }
+  return tips;
+}
+
 /// Of the two faces of a crack. Where other cracks end on it, two pairs may share a node but not their lengths.
 std::vector<double> lengths_of_crack(const model::Contact& contact, const mesh::Interface& interface,
-                                     const mesh::Mesh& mesh) {
-  std::map<std::pair<int, int>, double> of_pair;
-  for (const mesh::FacePair& pair :
-       mesh::face_pairs(mesh.bodies[static_cast<std::size_t>(contact.a.body)], contact.a.index / 2))
-    of_pair[std::minmax(pair.left, pair.right)] = pair.normal.norm();
+                                     const model::Model& model, const mesh::Mesh& mesh) {
+  const auto b = static_cast<std::size_t>(contact.a.body);
+  const mesh::BodyMesh& body = mesh.bodies[b];
+  const int crack = contact.a.index / 2;
+  std::map<std::pair<int, int>, Vec2> of_pair;  // sums of vectors, as at a kink
+  const std::vector<ClosedTip> tips = closed_tips(model.bodies[b], body, crack);
+  const std::vector<mesh::LineElement>&left = body.faces[static_cast<std::size_t>(2 * crack + 1)],
+        &right = body.faces[static_cast<std::size_t>(2 * crack)];
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    const std::vector<int>&here = left[k].nodes, &there = right[right.size() - 1 - k].nodes;
+    std::vector<Vec2> points;
+    for (const int node : here) points.push_back(body.nodes[static_cast<std::size_t>(node)]);
+    const std::vector<double> lengths = amplified_lengths(points, tips);
+    const Vec2 along = (points.back() - points.front()).normalized();
+    for (std::size_t i = 0; i < here.size(); ++i)
+      of_pair.try_emplace(std::minmax(here[i], there[there.size() - 1 - i]), Vec2::Zero()).first->second +=
+          lengths[i] * along;
+  }
   std::vector<double> lengths;
   for (const mesh::ContactPair& pair : interface.pairs)
-    lengths.push_back(of_pair.at(std::minmax(pair.node_a, pair.node_b)));
+    lengths.push_back(of_pair.at(std::minmax(pair.node_a, pair.node_b)).norm());
   return lengths;
 }
 
@@ -57,7 +120,7 @@ std::vector<double> tributary_lengths(int contact, const model::Model& model, co
   const model::Contact& named = model.contacts[static_cast<std::size_t>(contact)];
   const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(contact)];
   std::vector<double> lengths(interface.pairs.size(), 0.0);
-  if (named.a.kind == model::Place::Kind::face) return lengths_of_crack(named, interface, mesh);
+  if (named.a.kind == model::Place::Kind::face) return lengths_of_crack(named, interface, model, mesh);
   std::vector<int> sides(lengths.size(), 0);
   for (const bool on_b : {false, true}) {
     const model::Place& place = on_b ? named.b : named.a;

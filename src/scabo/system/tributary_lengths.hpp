@@ -14,6 +14,13 @@
 // without such an element keeps the lengths of all its elements. If both sides are elastic, the mean of both is used.
 // It does not change if the sides are swapped, and on matching elements both sides agree except for the gap between
 // curved sides.
+// Beside the tip of a crack whose faces are in contact, a length d of them is free of traction (mesh/tip_rings.hpp),
+// though the crack is closed there. What it would carry passes beside it, as at a crack of length d that a pressure p
+// closes: at the distance r from the tip
+//
+//     p (r - d / 2) / sqrt(r (r - d)),                                                                       (2)
+//
+// so that w_i is the integral of N_i times this amplification, and p is the pressure of all pairs.
 #pragma once
 
 #include <vector>
