@@ -24,6 +24,7 @@ ALLOWED = {
     "system": ["base", "linalg", "contact", "geometry", "files", "model", "mesh", "element"],
     "analysis": ["base", "linalg", "contact", "geometry", "files", "model", "mesh", "element", "system"],
     "result": ["base", "geometry", "files", "model", "mesh", "element", "analysis"],
+    "run": ["base", "linalg", "contact", "geometry", "files", "model", "mesh", "element", "system", "analysis", "result"],
     "compare": ["base", "linalg", "contact"],  # beside src, for comparison
 }
 

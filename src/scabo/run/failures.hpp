@@ -6,9 +6,17 @@
 #include <new>
 
 #include "scabo/result/results_directory.hpp"
-#include "startup.hpp"
 
-namespace scabo::app {
+namespace scabo::run {
+
+/// Thrown by who observes a run, to end it at once, before its first increment has finished: it is then `interrupted`,
+/// without increments.
+struct Stopped {};
+
+/// What std::bad_alloc means.
+constexpr const char* not_enough_memory =
+    "not enough memory for this model or problem: make its mesh coarser (`scabo check` prints the sizes), or raise the "
+    "limit (`ulimit -v`)";
 
 /// Returns the result of the function. If it throws, the failure is recorded in summary.json in `directory` before the
 /// exception is passed on.
@@ -16,6 +24,9 @@ template <typename Function>
 auto marking_failures(const std::filesystem::path& directory, Function function) {
   try {
     return function();
+  } catch (const Stopped&) {
+    result::mark_failed(directory, "interrupted");
+    throw;
   } catch (const std::bad_alloc&) {
     result::mark_failed(directory, not_enough_memory);
     throw;
@@ -25,4 +36,4 @@ auto marking_failures(const std::filesystem::path& directory, Function function)
   }
 }
 
-}  // namespace scabo::app
+}  // namespace scabo::run
