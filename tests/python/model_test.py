@@ -42,10 +42,11 @@ def problems_of(run):
 
 
 class BrokenFiles(unittest.TestCase):
-    def test_every_file_has_the_messages_of_the_program(self):
+    def test_every_file(self):
+        """As files, with the text of the program. As dictionaries, as far as another reader of YAML can read them: the same
+        paths, without lines."""
         files = sorted(BAD.glob("*.yaml"))
-        self.assertGreaterEqual(len(files), 80)
-        found = 0
+        as_file = as_dictionary = 0
         for file in files:
             with self.subTest(file=file.name):
                 done = program("check", file)
@@ -53,43 +54,40 @@ class BrokenFiles(unittest.TestCase):
                 if done.returncode == 0:  # found by `scabo run` only
                     self.assertIsNone(error)
                     continue
-                found += 1
-                self.assertEqual(f"{error}\n", done.stderr)
-                self.assertEqual(error.file, str(file))
-                lines = []
-                for path, line, column, text in error.problems:
-                    place = f":{line}:{column}" if line else ""
-                    lines.append(f"{file}{place}: {path + ': ' if path else ''}{text}\n")
-                self.assertEqual("".join(lines), done.stderr)
-        self.assertGreaterEqual(found, 80)
+                as_file += 1
+                self.check_text(file, error, done.stderr)
+                as_dictionary += self.check_dictionary(file, error, done.stderr)
+        self.assertGreaterEqual(as_file, 0.8 * len(files))
+        self.assertGreaterEqual(as_dictionary, 0.7 * len(files))
 
-    def test_the_same_as_dictionaries(self):
-        """As far as a reader of YAML can read them: the same paths, without lines."""
-        compared = 0
-        for file in sorted(BAD.glob("*.yaml")):
-            done = program("check", file)
-            try:
-                data = yaml.load(file.read_text(encoding="utf-8"), Loader=Yaml12)
-            except (yaml.YAMLError, ValueError, UnicodeDecodeError):
-                continue
-            if done.returncode == 0 or not isinstance(data, dict):
-                continue
-            with self.subTest(file=file.name):
-                error = problems_of(lambda: scabo.Model(data, file=file).check())
-                if error is None:  # a key given twice, a tag: not in the dictionary
-                    self.assertRegex(done.stderr, "given twice|tags|quotation|YAML|is read as 'on'|smaller in size")
-                    continue
-                compared += 1
-                self.assertEqual({problem.line for problem in error.problems}, {None})
-                expected = scabo_problems(file)
-                if len(expected) == len(error.problems):
-                    self.assertEqual(sorted(problem.path for problem in error.problems),
-                                     sorted(problem.path for problem in expected))
-        self.assertGreaterEqual(compared, 80)
+    def check_text(self, file, error, expected):
+        self.assertEqual(f"{error}\n", expected)
+        self.assertEqual(error.file, str(file))
+        lines = []
+        for path, line, column, text in error.problems:
+            place = f":{line}:{column}" if line else ""
+            lines.append(f"{file}{place}: {path + ': ' if path else ''}{text}\n")
+        self.assertEqual("".join(lines), expected)
 
-
-def scabo_problems(file):
-    return problems_of(lambda: scabo.read(file).check()).problems
+    def check_dictionary(self, file, error, expected):
+        """Whether the file is a dictionary with the same mistakes."""
+        if file.name.startswith("syntax_") or file.name == "later_copies_of_too_many_nodes.yaml":  # nine seconds
+            return False
+        try:
+            data = yaml.load(file.read_text(encoding="utf-8"), Loader=Yaml12)
+        except (yaml.YAMLError, ValueError, UnicodeDecodeError):
+            return False
+        if not isinstance(data, dict):
+            return False
+        found = problems_of(lambda: scabo.Model(data, file=file).check())
+        if found is None:  # a key given twice, a tag: not in the dictionary
+            self.assertRegex(expected, "given twice|tags|quotation|YAML|is read as 'on'|smaller in size")
+            return False
+        self.assertEqual({problem.line for problem in found.problems}, {None})
+        if len(found.problems) == len(error.problems):  # more than 200 are counted only
+            self.assertEqual(sorted(problem.path for problem in found.problems),
+                             sorted(problem.path for problem in error.problems))
+        return True
 
 
 class Dictionaries(InTemporaryDirectory):
