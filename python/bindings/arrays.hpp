@@ -52,7 +52,8 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 inline std::vector<Vec2> points_of(const Numbers& array) {
   if (array.ndim() != 2 || array.shape(1) != 2) throw py::value_error("points must be an array of shape (n, 2)");
   std::vector<Vec2> points(static_cast<std::size_t>(array.shape(0)));
-  for (py::ssize_t i = 0; i < array.shape(0); ++i) points[static_cast<std::size_t>(i)] = {array.at(i, 0), array.at(i, 1)};
+  for (py::ssize_t i = 0; i < array.shape(0); ++i)
+    points[static_cast<std::size_t>(i)] = {array.at(i, 0), array.at(i, 1)};
   return points;
 }
 

@@ -41,6 +41,8 @@ void bind_errors(py::module_&) {
       raise(error_class("InternalError")(error.what()));
     } catch (const run::Stopped&) {
       raise(error_class("Interrupted")("interrupted; no increment was finished"));
+    } catch (const run::NotEnoughMemory& error) {
+      PyErr_SetString(PyExc_MemoryError, error.what());
     } catch (const std::bad_alloc&) {
       PyErr_SetString(PyExc_MemoryError, run::not_enough_memory);
     }

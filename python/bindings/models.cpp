@@ -75,10 +75,9 @@ void bind_models(py::module_& module) {
       .def_readonly("file", &Document::file)
       .def("data", [](const Document& document) { return to_python(*document.root); });
   py::class_<CheckedModel>(module, "CheckedModel")
-      .def_property_readonly("is_modal",
-                             [](const CheckedModel& checked) {
-                               return checked.model.analysis.type == model::AnalysisType::modal;
-                             })
+      .def_property_readonly(
+          "is_modal",
+          [](const CheckedModel& checked) { return checked.model.analysis.type == model::AnalysisType::modal; })
       .def_property_readonly("bodies", [](const CheckedModel& checked) { return names_of(checked.model.bodies); })
       .def_property_readonly("warnings", [](const CheckedModel& checked) { return texts_of(checked.model.warnings); })
       .def("sizes", &sizes);

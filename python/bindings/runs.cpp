@@ -25,15 +25,15 @@ namespace {
 /// What a callback is told.
 struct Progress {
   std::string stage;
-  int increment = 0;              ///< finished increments
-  std::optional<int> increments;  ///< of the whole analysis; nothing if their size is automatic
-  double fraction = 0.0;          ///< of the analysis, by the factors of the loads, 0 to 1
+  int increment = 0;                     ///< finished increments
+  std::optional<int> increments;         ///< of the whole analysis; nothing if their size is automatic
+  double fraction = 0.0;                 ///< of the analysis, by the factors of the loads, 0 to 1
   std::optional<int> newton_iterations;  ///< of the last finished increment
   std::optional<double> residual;
 };
 
-/// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an exception
-/// of a signal handler, stop the run: at once if nothing is finished, or else after the current increment.
+/// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an
+/// exception of a signal handler, stop the run: at once if nothing is finished, or else after the current increment.
 class Watch {
  public:
   explicit Watch(py::object callback) : callback_(std::move(callback)) {}
@@ -68,8 +68,7 @@ class Watch {
       const py::gil_scoped_acquire acquire;
       try {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!callback_.is_none() && !stopped_)
-          stopped_ = callback_(py::cast(now_)).is(py::bool_(false));
+        if (!callback_.is_none() && !stopped_) stopped_ = callback_(py::cast(now_)).is(py::bool_(false));
       } catch (py::error_already_set& raised) {
         error_ = raised.value();
         if (raised.trace()) error_.attr("__traceback__") = raised.trace();
@@ -176,7 +175,8 @@ void write_results(const StaticResult& solved, const std::string& output) {
 
 void bind_runs(py::module_& module) {
   py::class_<Progress>(module, "Progress", "How far a run is, for its callback.")
-      .def_readonly("stage", &Progress::stage, "What is being done, as 'factorisation' or 'step press, increment 2 of 10'.")
+      .def_readonly("stage", &Progress::stage,
+                    "What is being done, as 'factorisation' or 'step press, increment 2 of 10'.")
       .def_readonly("increment", &Progress::increment, "Number of finished increments.")
       .def_readonly("increments", &Progress::increments,
                     "Number of increments of all steps; None if their size is automatic.")

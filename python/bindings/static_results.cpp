@@ -90,7 +90,8 @@ std::vector<int> bodies_of(const StaticResult& solved, const std::vector<Vec2>& 
       std::string names;
       for (const int body : bodies)
         names += (names.empty() ? "'" : ", '") + model.bodies[static_cast<std::size_t>(body)].name + "'";
-      fail("it lies in several bodies (" + names + "): name one of them, as in body=" + names.substr(0, names.find(',')));
+      fail("it lies in several bodies (" + names +
+           "): name one of them, as in body=" + names.substr(0, names.find(',')));
     }
     found.push_back(bodies.empty() ? -1 : bodies.front());
   }
@@ -167,16 +168,13 @@ std::vector<std::string> body_names(const StaticResult& solved) {
 void bind_static_results(py::module_& module) {
   py::class_<StaticResult, std::shared_ptr<StaticResult>>(module, "StaticResult")
       .def_readonly("record", &StaticResult::record)
-      .def_property_readonly("status",
-                             [](const StaticResult& solved) {
-                               return std::string(result::name_of(solved.solution.outcome));
-                             })
+      .def_property_readonly(
+          "status", [](const StaticResult& solved) { return std::string(result::name_of(solved.solution.outcome)); })
       .def_property_readonly("writes_problems",
                              [](const StaticResult& solved) { return solved.solution.model.output.discrete_problems; })
       .def_property_readonly("contacts", &contact_names)
       .def_property_readonly("bodies", &body_names)
-      .def_property_readonly("increments",
-                             [](const StaticResult& solved) { return solved.solution.increments.size(); })
+      .def_property_readonly("increments", [](const StaticResult& solved) { return solved.solution.increments.size(); })
       .def("pairs", &pairs, py::arg("increment"), py::arg("contact"))
       .def("keeps_fields", &keeps_fields, py::arg("increment"))
       .def("nodes", &nodes, py::arg("body"))

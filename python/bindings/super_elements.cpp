@@ -50,9 +50,9 @@ class SuperElement {
     std::vector<std::optional<element::PointValues>> all;
     for (const Vec2& x : points) {
       const auto place = element::locate(ring_, x, solution_.domain.unbounded);
-      all.push_back(place ? std::optional(element::point_values(ring_, field.at(place->xi), D_, place->element,
-                                                                place->eta))
-                          : std::nullopt);
+      all.push_back(
+          place ? std::optional(element::point_values(ring_, field.at(place->xi), D_, place->element, place->eta))
+                : std::nullopt);
     }
     return all;
   }
@@ -130,10 +130,8 @@ void bind_super_elements(py::module_& module) {
   py::class_<SuperElement, std::shared_ptr<SuperElement>>(module, "SuperElement")
       .def(py::init(&make), py::arg("nodes"), py::arg("centre"), py::arg("open"), py::arg("order"), py::arg("young"),
            py::arg("poisson"), py::arg("plane_strain"), py::arg("thickness"), py::arg("unbounded"), py::arg("threads"))
-      .def_property_readonly("stiffness",
-                             [](const py::object& self) {
-                               return view(self.cast<const SuperElement&>().stiffness(), self);
-                             })
+      .def_property_readonly(
+          "stiffness", [](const py::object& self) { return view(self.cast<const SuperElement&>().stiffness(), self); })
       .def_property_readonly("exponents", &exponents)
       .def("coefficients", &coefficients)
       .def("values", &values, py::arg("displacement"), py::arg("points"));

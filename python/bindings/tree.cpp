@@ -36,7 +36,8 @@ class TreeMaker {
     if (depth > limits_.depth) refuse(path, fmt::format("values are nested deeper than {} levels", limits_.depth));
     if (++count_ > limits_.nodes) refuse("", fmt::format("the model has more than {} values", limits_.nodes));
     if (py::isinstance<py::dict>(value)) return map(py::reinterpret_borrow<py::dict>(value), before, path, depth);
-    if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return sequence(value, before, path, depth);
+    if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
+      return sequence(value, before, path, depth);
     if (py::hasattr(value, "tolist"))  // arrays and numbers of NumPy
       return make(value.attr("tolist")(), before, path, depth + 1);
     return leaf(value, before, path);
@@ -68,8 +69,8 @@ class TreeMaker {
     if (py::isinstance<py::str>(key)) return key.cast<std::string>();
     if (key.is(py::bool_(true))) return "true";  // `on` as read by a reader of YAML 1.1
     if (py::isinstance<py::int_>(key) || py::isinstance<py::float_>(key)) return py::repr(key).cast<std::string>();
-    throw py::type_error(fmt::format("{}: a key must be text or a number, not {}",
-                                     path.empty() ? "the model" : path, py::repr(key).cast<std::string>()));
+    throw py::type_error(fmt::format("{}: a key must be text or a number, not {}", path.empty() ? "the model" : path,
+                                     py::repr(key).cast<std::string>()));
   }
 
   NodePtr map(const py::dict& value, const NodePtr& before, const std::string& path, int depth) {

@@ -12,8 +12,8 @@ namespace scabo::python {
 py::object to_python(const input::Node& node);
 
 /// The tree of a Python value. Nodes of `before` whose value is the same are taken over with their lines; without
-/// changes that is `before` itself. New nodes have no line. Throws TypeError for values that a model cannot contain, and
-/// InputError, about `file`, for too many of them.
+/// changes that is `before` itself. New nodes have no line. Throws TypeError for values that a model cannot contain,
+/// and InputError, about `file`, for too many of them.
 input::NodePtr tree_of(py::handle value, const input::NodePtr& before, const std::string& file);
 
 }  // namespace scabo::python

@@ -19,6 +19,8 @@ from .modes import Mode, ModalResult
 from .result import Contact, Increment, Result
 from .super_element import SuperElement, boundary_nodes
 
+Progress.__module__ = "scabo"
+
 __all__ = [
     "Contact", "DiscreteSolution", "Error", "Increment", "Infeasible", "InternalError", "Interrupted", "Mechanism",
     "ModalResult", "Mode", "Model", "ModelError", "ModelWarning", "NotConverged", "Problem", "Progress", "Result", "Sizes",

@@ -54,7 +54,7 @@ class Model(dict):
     def __init__(self, data: Mapping[str, Any] | None = None, *, file: str | os.PathLike[str] = "model") -> None:
         """``file`` stands in messages, and mesh files and images that the model names are relative to its folder."""
         super().__init__(copy.deepcopy(dict(data or {})))
-        self._file = os.fspath(file)
+        self._file = os.fsdecode(file)
         self._document: _core.Document | None = None
 
     @property
@@ -106,10 +106,12 @@ class Model(dict):
 
         Returns a ``Result``, or a ``ModalResult`` of a modal analysis. Other Python threads go on while it solves.
         Raises ``ModelError``; ``NotConverged`` or ``Mechanism``, with the finished increments in ``result``;
-        ``WriteError``. Warnings are issued as ``ModelWarning``.
+        ``WriteError``; ``MemoryError``. Warnings are issued as ``ModelWarning``.
         """
+        if progress is not None and not callable(progress):
+            raise TypeError(f"progress must be a function, not {type(progress).__name__}")
         checked = self._checked()
-        target = None if output is None else os.fspath(output)
+        target = None if output is None else os.fsdecode(output)
         if target == "":
             raise ValueError("output: the name of the directory is empty: name one, or leave it out")
         count = threads_of(threads)
@@ -159,7 +161,7 @@ def read(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None) 
     Raises ``ModelError`` with every mistake, its line, its column and its remedy.
     """
     settings = [_setting(path, value) for path, value in (set or {}).items()]
-    document = _core.read(os.fspath(file), settings)
+    document = _core.read(os.fsdecode(file), settings)
     model = Model(document.data(), file=document.file)
     model._document = document
     return model

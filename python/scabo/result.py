@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import pathlib
 import tempfile
@@ -224,16 +225,16 @@ class Result:
 
     def save(self, directory: str | os.PathLike[str]) -> None:
         """Writes the files that ``scabo run`` writes. Needs the fields of all increments (``keep_fields``)."""
-        self._write(os.fspath(directory))
-        self._directory = os.fspath(directory)
+        self._directory = self._write(os.fsdecode(directory))
 
-    def _write(self, directory: str) -> None:
+    def _write(self, directory: str) -> str:
         if self._core.writes_problems:
             raise ValueError("the model asks for the discrete problems (output.discrete_problems), which are written "
                              "only during a run: use run(output=...)")
         for increment in range(len(self._increments)):
             self._with_fields(increment)
         _core.write_results(self._core, directory)
+        return directory
 
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
         """A figure of Matplotlib, by ``scabo.plot.figure``, which describes ``what`` and the options. Results that are
@@ -259,6 +260,10 @@ class Result:
     def _number(self, increment: int) -> int:
         """Its index from 0."""
         count = len(self._increments)
+        try:
+            increment = operator.index(increment)
+        except TypeError:
+            raise TypeError(f"increment must be a whole number, not {increment!r}") from None
         if not -count <= increment < count:
             raise IndexError(f"there is no increment {increment}: "
                              + (f"they are 0 to {count - 1}" if count else "none was finished"))

@@ -109,6 +109,9 @@ class Tables(InTemporaryDirectory):
             result.contact["bse"]
         with self.assertRaisesRegex(KeyError, "no body named 'blok'"):
             result.nodes("blok")
+        for wrong in (0.5, "last", None):
+            with self.assertRaisesRegex(TypeError, "increment must be"):
+                result.contact["base"].table(wrong)
         for wrong in (1, -2):
             with self.assertRaisesRegex(IndexError, "no increment"):
                 result.contact["base"].table(wrong)

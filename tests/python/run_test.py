@@ -117,6 +117,23 @@ class SameAsTheProgram(InTemporaryDirectory):
         self.assertTrue(all(warning.category is scabo.ModelWarning for warning in caught))
         self.assertEqual(caught[0].filename, __file__)
 
+    def test_memory_that_is_not_available(self):
+        script = """
+import resource, scabo, sys
+model = scabo.read(sys.argv[1], set={f"bodies.{body}.mesh.size": 0.02 for body in ("lower", "upper")})
+pages = int(open("/proc/self/statm").read().split()[0])
+limit = pages * resource.getpagesize() + 300_000_000
+resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+try:
+    model.run()
+except MemoryError as error:
+    print(error)
+"""
+        done = subprocess.run([sys.executable, "-c", script, str(BEAM)], text=True, capture_output=True, timeout=1200,
+                              env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+        self.assertRegex(done.stdout, "^not enough memory: the analysis needs about 440 MB, and `ulimit -v` leaves .*"
+                                      "or start it with ignore_memory=True\n$", done.stderr)
+
     def test_a_directory_that_cannot_be_written(self):
         file = self.directory / "file"
         file.write_text("")
@@ -140,6 +157,10 @@ class Progress(InTemporaryDirectory):
         self.assertIsNone(seen[0].residual)
         self.assertLess(seen[-1].residual, 1e-10)
         self.assertGreater(seen[-1].newton_iterations, 0)
+
+    def test_what_is_no_function(self):
+        with self.assertRaisesRegex(TypeError, "progress must be a function, not str"):
+            in_steps(2).run(progress="tqdm")
 
     def test_number_of_automatic_increments_is_not_known(self):
         seen = []

@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <stdexcept>
 
 #include "scabo/result/results_directory.hpp"
 
@@ -12,6 +13,11 @@ namespace scabo::run {
 /// Thrown by who observes a run, to end it at once, before its first increment has finished: it is then `interrupted`,
 /// without increments.
 struct Stopped {};
+
+/// The estimated memory is not available; says how to start nevertheless.
+struct NotEnoughMemory : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// What std::bad_alloc means.
 constexpr const char* not_enough_memory =

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/model/wording.hpp"
@@ -86,7 +85,7 @@ analysis::StaticSolution stopped_before_any_increment(const StaticRun& run) {
 analysis::StaticSolution solve_and_write(const StaticRun& run) {
   if (run.plan && !run.anyway.empty())
     if (const std::string why = why_it_does_not_fit(*run.plan, available_memory(), run.anyway); !why.empty())
-      throw std::runtime_error(why);
+      throw NotEnoughMemory(why);
   if (run.plan && run.observer.on_plan) run.observer.on_plan(*run.plan);
   Checkpoints checkpoints(run);
   analysis::Options options;

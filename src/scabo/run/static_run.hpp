@@ -20,7 +20,7 @@ namespace scabo::run {
 
 /// What the caller of a run is told while it goes on. Each function may be empty, and may throw `Stopped`.
 struct Observer {
-  std::function<void(const Plan&)> on_plan;               ///< when the estimated memory is known to be available
+  std::function<void(const Plan&)> on_plan;  ///< when the estimated memory is known to be available
   std::function<void(const std::string& stage)> on_stage;
   std::function<void(const analysis::StaticSolution&)> on_mesh;
   std::function<void(const analysis::StaticSolution&, const analysis::IncrementResult&)> on_increment;
@@ -48,7 +48,7 @@ analysis::RunOrigin origin_of(const model::Model& model, const std::vector<std::
                               const std::filesystem::path& output, int threads);
 
 /// Runs the model. Timing contains reading and total. Throws what solve_static and ResultsDirectory throw, and
-/// std::runtime_error if memory is not available; a failure is recorded in the directory.
+/// NotEnoughMemory; a failure is recorded in the directory.
 analysis::StaticSolution solve(const StaticRun& run);
 
 /// Part of the whole analysis that is done after `increment`, 0 to 1.
