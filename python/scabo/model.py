@@ -39,7 +39,7 @@ class Sizes:
     seconds: float
 
 
-class Model(dict):
+class Model(dict[str, Any]):
     """A model: a dictionary with the keys of a model file (docs/model_file.md), nested dictionaries and lists.
 
     >>> model = scabo.Model({"scabo": 1, "materials": {...}, "bodies": {...}})
@@ -125,7 +125,7 @@ class Model(dict):
         result = Result(solved)
         _warn(solved.record.warnings)
         if solved.record.error is not None:
-            solved.record.error.result = result
+            solved.record.error.result = result  # type: ignore[attr-defined]
             raise solved.record.error
         if not solved.record.why_not_solved:
             return result

@@ -86,8 +86,9 @@ class SuperElement:
         self._centre = np.array(centre, dtype=float)
         if self._centre.shape != (2,) or not np.isfinite(self._centre).all():
             raise ValueError("centre must be a point, as in [x, y]")
-        self._core = _core.SuperElement(self._nodes, tuple(self._centre), bool(open), order, young, poisson,
-                                        plane == "strain", thickness, bool(unbounded), threads_of(threads))
+        at = (float(self._centre[0]), float(self._centre[1]))
+        self._core = _core.SuperElement(self._nodes, at, bool(open), order, young, poisson, plane == "strain", thickness,
+                                        bool(unbounded), threads_of(threads))
 
     @property
     def nodes(self) -> np.ndarray:

@@ -2,6 +2,7 @@
 
     model_test.py FOLDER_OF_BROKEN_MODELS
 """
+import ast
 import copy
 import json
 import pathlib
@@ -88,6 +89,31 @@ class BrokenFiles(unittest.TestCase):
             self.assertEqual(sorted(problem.path for problem in found.problems),
                              sorted(problem.path for problem in error.problems))
         return True
+
+
+class Types(unittest.TestCase):
+    def test_stubs_name_what_is_in_the_extension_module(self):
+        from scabo import _core
+        tree = ast.parse((ROOT / "python" / "scabo" / "_core.pyi").read_text(encoding="utf-8"))
+        public = {name for name in dir(_core) if not name.startswith("_")}
+        named = {part.name if isinstance(part, (ast.ClassDef, ast.FunctionDef)) else part.target.id
+                 for part in tree.body if isinstance(part, (ast.ClassDef, ast.FunctionDef, ast.AnnAssign))}
+        self.assertEqual(named, public)
+        for part in tree.body:
+            if not isinstance(part, ast.ClassDef):
+                continue
+            members = {item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in part.body
+                       if isinstance(item, (ast.FunctionDef, ast.AnnAssign))}
+            real = {name for name in dir(getattr(_core, part.name)) if not name.startswith("_")}
+            self.assertEqual(members - {"__init__"}, real, part.name)
+
+    def test_everything_public_has_a_docstring(self):
+        for name in scabo.__all__:
+            thing = getattr(scabo, name)
+            self.assertTrue(isinstance(thing, str) or thing.__doc__, name)
+            for member, value in vars(thing).items() if isinstance(thing, type) else ():
+                if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                    self.assertTrue(value.__doc__, f"{name}.{member}")
 
 
 class Dictionaries(InTemporaryDirectory):

@@ -102,8 +102,14 @@ class Closed(unittest.TestCase):
                 scabo.boundary_nodes(**wrong)
 
 
-class Threads(unittest.TestCase):
-    def test_threads_of_numpy_are_restored(self):
+class NumPy(unittest.TestCase):
+    def test_its_products_stay_the_same(self):
+        A = np.random.default_rng(1).normal(size=(300, 300))
+        before = A @ A
+        scabo.SuperElement(scabo.boundary_nodes(SQUARE, 0.05), 1.0, 0.3).exponents
+        np.testing.assert_array_equal(A @ A, before)
+
+    def test_its_threads_are_restored(self):
         names = [line.split()[-1] for line in pathlib.Path("/proc/self/maps").read_text().splitlines()
                  if "libopenblas" in line]
         if not names:
