@@ -36,11 +36,15 @@ class ModelError(Error, ValueError):
 
 
 class NotConverged(Error, RuntimeError):
-    """No solution was found. ``result`` holds the increments finished before (of ``solve_contact``: the best iterate)."""
+    """No solution was found. ``result`` holds the increments finished before (of ``solve_contact``: the best iterate);
+    it is None in another process than that of the run."""
 
     def __init__(self, text: str, result: Any = None) -> None:
         super().__init__(text)
         self.result = result
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (str(self),)
 
 
 class Mechanism(NotConverged):
@@ -58,6 +62,9 @@ class Interrupted(Error):
     def __init__(self, text: str, result: Any = None) -> None:
         super().__init__(text)
         self.result = result
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (str(self),)
 
 
 class WriteError(Error, OSError):

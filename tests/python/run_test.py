@@ -3,6 +3,7 @@ import functools
 import operator
 import os
 import pathlib
+import pickle
 import signal
 import subprocess
 import sys
@@ -100,6 +101,8 @@ class SameAsTheProgram(InTemporaryDirectory):
         self.assertEqual(run.stderr, f"scabo: {failed.exception}\n")
         self.assertEqual(failed.exception.result.status, "mechanism")
         self.assertEqual(failed.exception.result.increments, [])
+        again = pickle.loads(pickle.dumps(failed.exception))  # as multiprocessing does
+        self.assertEqual((type(again), str(again), again.result), (scabo.Mechanism, str(failed.exception), None))
 
     def test_warnings_are_those_of_the_program(self):
         content = block()
