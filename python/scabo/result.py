@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["Contact", "Increment", "Result"]
 
 _STATES = np.array(["open", "stick", "slip"])
+_PICTURES = ("stress", "contact", "mesh", "convergence", "history")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
 
 
@@ -237,19 +238,26 @@ class Result:
         return directory
 
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
-        """A figure of Matplotlib, by ``scabo.plot.figure``, which describes ``what`` and the options. Results that are
-        not in a directory are first written to a temporary one."""
+        """A figure of Matplotlib by ``scabo.plot``, whose functions describe the options: what="stress" on the deformed
+        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence" or "history". Results that are not in a
+        directory are first written to a temporary one."""
+        if what not in _PICTURES:
+            raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")
         try:
             from . import plot
         except ImportError as error:
             raise ImportError(f"plot() needs scabo.plot and Matplotlib (python3-matplotlib): {error}") from None
-        self._number(increment)
+        number = self._number(increment)
+        if what in ("stress", "contact"):
+            options["increment"] = number + 1  # files and pictures count from 1
+
+        def draw(directory: str) -> Any:
+            return getattr(plot, what)(plot.Results(directory), **options)
+
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
-            return plot.figure(self.directory, what=what, increment=increment, **options)
+            return draw(self.directory)
         with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
-            directory = os.path.join(folder, "results")
-            self._write(directory)
-            return plot.figure(directory, what=what, increment=increment, **options)
+            return draw(self._write(os.path.join(folder, "results")))
 
     def _body(self, name: str) -> int:
         bodies = self._core.bodies

@@ -246,7 +246,9 @@ class Plot(InTemporaryDirectory):
         super().setUp()
         self.calls = []
         module = types.ModuleType("scabo.plot")
-        module.figure = self.figure
+        module.Results = pathlib.Path
+        module.stress, module.contact = self.draw("stress"), self.draw("contact")
+        module.history = self.draw("history")
         patched = unittest.mock.patch.dict(sys.modules, {"scabo.plot": module})
         patched.start()
         self.addCleanup(patched.stop)
@@ -254,22 +256,33 @@ class Plot(InTemporaryDirectory):
         attribute.start()
         self.addCleanup(attribute.stop)
 
-    def figure(self, directory, **options):
-        self.calls.append((directory, sorted(path.name for path in pathlib.Path(directory).iterdir()), options))
-        return "figure"
+    def draw(self, what):
+        def function(results, **options):
+            self.calls.append((what, str(results), sorted(path.name for path in results.iterdir()), options))
+            return "figure"
+        return function
 
     def test_directory_of_the_run(self):
-        result = scabo.Model(block()).run(output=self.directory / "results")
-        self.assertEqual(result.plot("contact", increment=0, title="a"), "figure")
-        [(directory, names, options)] = self.calls
-        self.assertEqual((directory, options), (result.directory, {"what": "contact", "increment": 0, "title": "a"}))
+        model = scabo.Model(block())
+        model["steps"] = [{"name": "press", "increments": 3}]
+        result = model.run(output=self.directory / "results")
+        for increment, number in ((0, 1), (2, 3), (-1, 3), (-3, 1)):  # pictures and files count from 1
+            self.assertEqual(result.plot("contact", increment=increment, component="slip"), "figure")
+            what, directory, _, options = self.calls.pop()
+            self.assertEqual((what, directory), ("contact", result.directory))
+            self.assertEqual(options, {"increment": number, "component": "slip"})
+        result.plot("history")
+        self.assertEqual(self.calls.pop()[3], {})
         with self.assertRaises(IndexError):
-            result.plot(increment=1)
+            result.plot(increment=3)
+        with self.assertRaisesRegex(ValueError, "what must be stress, .* or history, not 'strees'"):
+            result.plot("strees")
 
     def test_temporary_directory(self):
         result = scabo.Model(block()).run()
         result.plot()
-        [(directory, names, options)] = self.calls
+        [(what, directory, names, _)] = self.calls
+        self.assertEqual(what, "stress")
         self.assertIn("fields_0001.vtu", names)
         self.assertFalse(pathlib.Path(directory).exists())
         self.assertIsNone(result.directory)
