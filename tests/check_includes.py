@@ -67,7 +67,7 @@ def violations(root):
     """Every violation below `root`, as `file:line: reason`."""
     source = root / "src"
     found = []
-    for folder in ("src", "compare", "apps", "tests", "benchmarks", "examples"):
+    for folder in ("src", "compare", "apps", "python", "tests", "benchmarks", "examples"):
         for path in files(root / folder):
             own = path.relative_to(source / "scabo" if folder == "src" else root).as_posix()
             if folder not in ("src", "compare"):
