@@ -1,12 +1,15 @@
 # Two commands do everything on Debian and Ubuntu, packages included: make demo, make test.
 #   make demo        build, run the double cantilever beam, compare with the paper
 #   make test        every test: release, sanitizers, fuzzers; all of them run, then those that failed are named
-#   make build       the program, build/bin/scabo
+#   make build       the program, build/bin/scabo; the Python package too if what it needs is installed
+#   make python      the Python package, build/python
+#   make wheel       the same as a wheel, build/wheel
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
 #   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
 #   make bench-large   1e4 to 2e6 degrees of freedom, 32 to 3,000 contact pairs; some minutes and 9 GB
 #   make bench-elements  super-elements against the eigenvector route, one thread
+#   make bench-python    the Python package against the program
 #   make format      lay the sources out by .clang-format
 #   make packages    everything that apt can bring
 #   make install     to PREFIX (/usr/local)
@@ -21,21 +24,30 @@ FUZZ_SECONDS ?= 45
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build test test-release test-asan fuzz bench bench-contact bench-large bench-elements format packages install clean
+.PHONY: help demo build python wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python format packages install clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
 demo:
 	@cmake/install_packages.sh build
-	@$(MAKE) --no-print-directory build
+	@$(configure) release
+	@cmake --build --preset release --target scabo_program --parallel $(JOBS)
 	@$(with_python) examples/01_double_cantilever/compare.py --scabo build/bin/scabo
 
 build:
 	@$(configure) release
 	@cmake --build --preset release --target product --parallel $(JOBS)
 
+python:
+	@cmake/install_packages.sh build python
+	@$(configure) release -DSCABO_PYTHON_MODULE=ON
+	@cmake --build --preset release --target python_package --parallel $(JOBS)
+
+wheel: python
+	@cmake --build --preset release --target wheel
+
 test:
-	@cmake/install_packages.sh build test
+	@cmake/install_packages.sh build test python
 	@MAKE="$(MAKE)" cmake/run_stages.sh "Release build and tests" test-release \
 	  "Sanitizer build and tests" test-asan "Fuzzers" fuzz
 
@@ -75,12 +87,16 @@ bench-elements:
 	@cmake --build --preset release --target super_elements --parallel $(JOBS)
 	@OPENBLAS_NUM_THREADS=1 build/bin/super_elements
 
+bench-python: python
+	@$(MAKE) --no-print-directory build
+	@export PYTHONPATH=build/python && $(with_python) benchmarks/python/run.py --scabo build/bin/scabo
+
 format:
 	@cmake/install_packages.sh format
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
 packages:
-	@cmake/install_packages.sh build test cad bench
+	@cmake/install_packages.sh build test python cad bench
 
 install: build
 	@cmake --install build --prefix "$(PREFIX)"

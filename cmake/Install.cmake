@@ -1,6 +1,7 @@
 # What `make build` builds and `cmake --install` installs:
 #   bin/scabo, lib/libscabo, include/scabo/<part>/*.hpp, lib/cmake/scabo (find_package(scabo)),
-#   share/scabo/model.schema.json, share/scabo/examples, share/doc/scabo.
+#   share/scabo/model.schema.json, share/scabo/examples, share/doc/scabo;
+#   the Python package (python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/scabo)
 

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "plan.hpp"
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/input/settings.hpp"
+#include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
-#include "settings.hpp"
-#include "sizes.hpp"
+#include "scabo/run/plan.hpp"
 #include "terminal.hpp"
 
 namespace scabo::app {
@@ -20,8 +20,8 @@ std::string bodies_table(const model::Model& model, const mesh::Mesh& mesh) {
     const int super_elements = body.count(mesh::CellKind::superelement);
     const int finite = body.count(mesh::CellKind::finite_element);
     std::string kind = model.bodies[i].rigid ? "rigid" : "";
-    if (super_elements > 0) kind = count(static_cast<size_t>(super_elements), "super-element");
-    if (finite > 0) kind += (kind.empty() ? "" : ", ") + count(static_cast<size_t>(finite), "finite element");
+    if (super_elements > 0) kind = model::counted(static_cast<size_t>(super_elements), "super-element");
+    if (finite > 0) kind += (kind.empty() ? "" : ", ") + model::counted(static_cast<size_t>(finite), "finite element");
     rows.push_back(
         {model.bodies[i].name, fmt::format("{}", body.nodes.size()), fmt::format("{}", 2 * body.nodes.size()), kind});
   }
@@ -30,7 +30,7 @@ std::string bodies_table(const model::Model& model, const mesh::Mesh& mesh) {
 
 std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<std::vector<std::string>> rows = {{"contact", "between", "law", "pairs"}};
-  const std::vector<int> pairs = moving_pairs(model, mesh);
+  const std::vector<int> pairs = run::moving_pairs(model, mesh);
   for (size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const model::Contact& contact = model.contacts[mesh.interfaces[i].contact];
     rows.push_back({contact.name, contact.a.text + ", " + contact.b.text, result::describe_law(contact),
@@ -46,7 +46,7 @@ std::string increments_text(const model::Step& step) {
 
 std::string steps_table(const model::Model& model) {
   if (model.analysis.type == model::AnalysisType::modal)
-    return fmt::format("Modal analysis: the lowest {}.\n", count(model.analysis.modes, "mode"));
+    return fmt::format("Modal analysis: the lowest {}.\n", model::counted(model.analysis.modes, "mode"));
   std::vector<std::vector<std::string>> rows = {{"step", "increments"}};
   for (const model::Step& step : model.steps) rows.push_back({step.name, increments_text(step)});
   return result::table(rows);
@@ -55,12 +55,13 @@ std::string steps_table(const model::Model& model) {
 }  // namespace
 
 ExitStatus check(const CheckOptions& options) {
-  const model::Model model = input::read_model(options.model, parse_settings(options.settings));
+  const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
   const mesh::Mesh mesh = analysis::check(model);
   for (const Warning& warning : model.warnings) print_warning(warning.text);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
-  text += model.analysis.type == model::AnalysisType::modal ? describe_sizes(sizes_of(model, mesh)) + "\n"
-                                                            : describe(plan_of(model, mesh));
+  text += model.analysis.type == model::AnalysisType::modal
+              ? run::describe_sizes(run::sizes_of(model, mesh)) + "\n"
+              : run::describe(run::plan_of(model, mesh));
   text += "\n" + bodies_table(model, mesh);
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);
   text += "\n" + steps_table(model) + "\nNo mistakes found.\n";

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "scabo/model/wording.hpp"
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/report.hpp"
 #include "terminal.hpp"
@@ -92,7 +93,7 @@ std::string forces_table(const contact::SavedProblem& saved, const contact::Solu
 std::string uniqueness_line(const contact::UniquenessReport& report) {
   std::string text = fmt::format("Unique: {}", contact::name_of(report.unique));
   if (!report.others.empty())
-    text += fmt::format(" ({}{})", count(static_cast<int>(report.others.size()), "other"),
+    text += fmt::format(" ({}{})", model::counted(static_cast<int>(report.others.size()), "other"),
                         report.complete ? ", no more" : "");
   text += std::isfinite(report.bound) ? fmt::format(", bound {:.3g}", report.bound) : ", bound does not apply";
   if (report.index != 0) text += fmt::format(", index {}", report.index);
@@ -118,15 +119,15 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
   const contact::Solution& solution = judged.solution;
   std::string text = fmt::format("{}: {}\n", file, saved.layout);
   if (!saved.title.empty()) text += saved.title + "\n";
-  text += fmt::format("{} in {}D, {}", count(problem.pairs(), "pair"), problem.dimension, describe_matrix(problem));
-  if (problem.G.cols() > 0) text += ", " + count(problem.G.cols(), "rigid motion");
+  text += fmt::format("{} in {}D, {}", model::counted(problem.pairs(), "pair"), problem.dimension, describe_matrix(problem));
+  if (problem.G.cols() > 0) text += ", " + model::counted(problem.G.cols(), "rigid motion");
   if (saved.start.p.size() > 0) text += ", with a start";
 
   std::string outcome(name_of(solution.status));
   outcome[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(outcome[0])));
   std::replace(outcome.begin(), outcome.end(), '_', ' ');
   text += fmt::format(
-      "\n\n{} by {}: {}{}, {:.3g} s\n\n", outcome, judged.solver, count(solution.iterations, "iteration"),
+      "\n\n{} by {}: {}{}, {:.3g} s\n\n", outcome, judged.solver, model::counted(solution.iterations, "iteration"),
       solution.coarse_iterations > 0 ? fmt::format(" and {} on fewer pairs", solution.coarse_iterations) : "",
       judged.seconds);
 

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "scabo/input/settings.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/input/read_model.hpp"
 #include "scabo/result/report.hpp"
-#include "settings.hpp"
 #include "terminal.hpp"
 
 namespace scabo::app {
@@ -41,7 +41,7 @@ nlohmann::ordered_json json_of(const analysis::BodyExponents& found) {
 }  // namespace
 
 ExitStatus print_exponents(const ExponentsOptions& options) {
-  const model::Model model = input::read_model(options.model, parse_settings(options.settings));
+  const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
   const std::vector<analysis::BodyExponents> all = analysis::exponents_of(model);
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   std::string text;

@@ -15,6 +15,7 @@
 #include "commands.hpp"
 #include "compare/solvers.hpp"
 #include "scabo/result/version.hpp"
+#include "scabo/run/failures.hpp"
 #include "startup.hpp"
 #include "terminal.hpp"
 
@@ -244,7 +245,7 @@ ExitStatus main_program(const std::vector<std::string>& words) {
     print_mistakes(error);
     return ExitStatus::wrong_input;
   } catch (const std::bad_alloc&) {
-    print_error(not_enough_memory);
+    print_error(run::not_enough_memory);
   } catch (const std::exception& error) {
     print_error(error.what());
   }

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "sizes.hpp"
+#include "scabo/model/wording.hpp"
+#include "scabo/run/static_run.hpp"
 #include "terminal.hpp"
 
 namespace scabo::app {
@@ -16,9 +17,9 @@ constexpr std::chrono::milliseconds shortest_between_lines{50};
 
 /// `4 iterations, 27 open, 0 stick, 5 slip`
 std::string outcome_of(const analysis::IncrementResult& result) {
-  std::string text = count(result.newton_iterations, "iteration");
+  std::string text = model::counted(result.newton_iterations, "iteration");
   if (result.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", result.coarse_iterations);
-  if (result.halvings > 0) text += fmt::format(", halved {}", count(result.halvings, "time"));
+  if (result.halvings > 0) text += fmt::format(", halved {}", model::counted(result.halvings, "time"));
   if (!result.converged) return text + (result.reason.starts_with("mechanism") ? ", mechanism" : ", not converged");
   if (result.contacts.empty()) return text;
   int open = 0, stick = 0, slip = 0;
@@ -51,11 +52,11 @@ void Progress::stage(const std::string& name) {
   show(fmt::format("{}{}{}", increment_at_work(), time_left(), before_.empty() ? "" : "; before: " + before_));
 }
 
-void Progress::plan(const Plan& plan) {
+void Progress::plan(const run::Plan& plan) {
   planned_dofs_ = plan.sizes.dofs;
   if (style_ == Style::silent) return;
-  std::string text = describe(plan);
-  if (style_ == Style::terminal && !is_long(plan)) {  // stays until the first stage is shown
+  std::string text = run::describe(plan);
+  if (style_ == Style::terminal && !run::is_long(plan)) {  // stays until the first stage is shown
     text.pop_back();
     show(text);
   } else {
@@ -64,11 +65,11 @@ void Progress::plan(const Plan& plan) {
 }
 
 void Progress::meshed(const analysis::StaticSolution& solution) {
-  increments_ = increments_of(solution.model);
+  increments_ = run::increments_of(solution.model);
   for (const model::Step& step : solution.model.steps) automatic_ = automatic_ || step.automatic.has_value();
   began_ = std::chrono::steady_clock::now();
-  const Sizes sizes = sizes_of(solution.model, solution.mesh);
-  if (style_ == Style::lines && sizes.dofs != planned_dofs_) show(describe_sizes(sizes));
+  const run::Sizes sizes = run::sizes_of(solution.model, solution.mesh);
+  if (style_ == Style::lines && sizes.dofs != planned_dofs_) show(run::describe_sizes(sizes));
 }
 
 void Progress::resumed(int increments) { done_ = increments; }
@@ -80,7 +81,7 @@ void Progress::increment(const analysis::StaticSolution& solution, const analysi
     if (automatic_) step = fmt::format(" (step {}, {:.4g} %)", result.step_name, 100.0 * result.reached);
     show(fmt::format("{}{}: {}", increment_at_work(), step, before_));
   }
-  const double part = (result.step - 1 + result.reached) / static_cast<double>(solution.model.steps.size());
+  const double part = run::part_done(solution.model, result);
   if (solution.increments.size() == 1 || part_done_ == 0.0)
     begun_at_ = solution.increments.size() == 1 ? 0.0 : part;  // the first one of a run that was resumed is not timed
   if (begun_at_ == part) began_ = std::chrono::steady_clock::now();
@@ -98,7 +99,7 @@ std::string Progress::time_left() const {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   if (seconds < 3.0 || part_done_ <= begun_at_) return "";
   const double left = seconds * (1.0 - part_done_) / (part_done_ - begun_at_);
-  return left < 5.0 ? "" : fmt::format("; about {} left", duration_text(left));
+  return left < 5.0 ? "" : fmt::format("; about {} left", run::duration_text(left));
 }
 
 void Progress::clear() {

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <string>
 
-#include "plan.hpp"
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/run/plan.hpp"
 
 namespace scabo::app {
 
@@ -21,7 +21,7 @@ class Progress {
 
   void stage(const std::string& name);
   /// Sizes, memory and time, before the work begins.
-  void plan(const Plan& plan);
+  void plan(const run::Plan& plan);
   void meshed(const analysis::StaticSolution& solution);
   void resumed(int increments);  ///< so many were finished in earlier sessions
   void increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result);

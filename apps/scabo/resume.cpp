@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "scabo/input/settings.hpp"
+#include "scabo/model/wording.hpp"
 #include "scabo/result/version.hpp"
-#include "settings.hpp"
 #include "startup.hpp"
 #include "static_run.hpp"
 #include "terminal.hpp"
@@ -64,7 +65,7 @@ ExitStatus resume(const ResumeOptions& options) {
   analysis::Checkpoint checkpoint = analysis::read_checkpoint(options.directory, std::string(result::version()));
   const analysis::RunOrigin& origin = checkpoint.origin;
   const std::string path = model_of(options, origin);
-  model::Model model = input::read_model(path, parse_settings(origin.settings));
+  model::Model model = input::read_model(path, input::parse_settings(origin.settings));
   check_files(model, origin);
   model.file = origin.model;  // results do not depend on the place from which the run is resumed
   const double reading = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -73,16 +74,21 @@ ExitStatus resume(const ResumeOptions& options) {
   const int wanted = options.threads > 0 ? options.threads : origin.threads, threads = threads_that_fit(wanted);
   if (!options.quiet) {
     const std::size_t finished = checkpoint.from.increments.size();
-    print_to_stderr(finished > 0 ? fmt::format("Resuming after {}\n", count(static_cast<long>(finished), "increment"))
-                                 : std::string("No increment was finished: the run starts from the beginning\n"));
+    print_to_stderr(finished > 0
+                        ? fmt::format("Resuming after {}\n", model::counted(static_cast<long>(finished), "increment"))
+                        : std::string("No increment was finished: the run starts from the beginning\n"));
   }
   if (threads != origin.threads)
     print_warning(fmt::format("the run began with {} and continues with {}: the last digits of results may differ",
-                              count(origin.threads, "thread"), threads));
+                              model::counted(origin.threads, "thread"), threads));
   const Interrupt interrupt;
   result::ResultsDirectory directory(options.directory, std::move(lock), model, checkpoint.results);
-  return solve_and_write(
-      {model, directory, interrupt, std::move(checkpoint), reading, start, threads, options.quiet, {}, false});
+  run::StaticRun run{model, &directory};
+  run.begun = std::move(checkpoint);
+  run.reading = reading;
+  run.start = start;
+  run.threads = threads;
+  return solve_and_report(std::move(run), interrupt, options.quiet);
 }
 
 }  // namespace scabo::app

@@ -2,10 +2,8 @@
 #include <chrono>
 
 #include "commands.hpp"
-#include "plan.hpp"
 #include "scabo/analysis/static_analysis.hpp"
-#include "scabo/result/version.hpp"
-#include "settings.hpp"
+#include "scabo/input/settings.hpp"
 #include "startup.hpp"
 #include "static_run.hpp"
 
@@ -22,28 +20,11 @@ fs::path default_output(const std::string& model) {
   return path.replace_extension("results");
 }
 
-/// What a checkpoint says about the origin of this run.
-analysis::RunOrigin origin_of(const RunOptions& options, const model::Model& model, const fs::path& output,
-                              int threads) {
-  analysis::RunOrigin origin;
-  std::error_code error;
-  origin.version = result::version();
-  origin.model = options.model;
-  origin.folder = fs::current_path(error).string();
-  const fs::path beside = fs::relative(options.model, output, error);
-  if (!error) origin.beside = beside.string();
-  origin.files.push_back(analysis::source_file(options.model));
-  for (const std::string& file : model.files) origin.files.push_back(analysis::source_file(file));
-  origin.settings = options.settings;
-  origin.threads = threads;
-  return origin;
-}
-
 }  // namespace
 
 ExitStatus run(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
-  const model::Model model = input::read_model(options.model, parse_settings(options.settings));
+  const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
   const double reading = std::chrono::duration<double>(Clock::now() - start).count();
   const auto output = options.output.empty() ? default_output(options.model) : options.output;
   if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);
@@ -52,16 +33,20 @@ ExitStatus run(const RunOptions& options) {
   // The model is checked before the directory is created or cleared, and the directory is created before the solve: a
   // mistake in either then costs seconds and no results. Meshing twice takes a hundredth of the time of a solve.
   mesh::Mesh mesh = analysis::check(model);
-  const Plan plan = plan_of(model, mesh);
+  const run::Plan plan = run::plan_of(model, mesh);
   const Interrupt interrupt;
   result::ResultsDirectory directory(output, model, std::move(mesh));
-  const int threads = threads_that_fit(options.threads);
-  StaticRun begun{model, directory, interrupt, {}, reading, start, threads, options.quiet, plan, options.ignore_memory};
-  if (keeps_checkpoints(model)) {
-    begun.begun.origin = origin_of(options, model, output, threads);
-    begun.begun.results = directory.written();
+  run::StaticRun run{model, &directory};
+  run.threads = threads_that_fit(options.threads);
+  run.reading = reading;
+  run.start = start;
+  run.plan = plan;
+  if (!options.ignore_memory) run.anyway = "start it with --ignore-memory";
+  if (run::keeps_checkpoints(model)) {
+    run.begun.origin = run::origin_of(model, options.settings, output, run.threads);
+    run.begun.results = directory.written();
   }
-  return solve_and_write(std::move(begun));
+  return solve_and_report(std::move(run), interrupt, options.quiet);
 }
 
 }  // namespace scabo::app

@@ -27,8 +27,4 @@ int threads_that_fit(int wanted);
 /// For runs, whose results are files.
 void ignore_broken_pipes();
 
-constexpr const char* not_enough_memory =
-    "not enough memory for this model or problem: make its mesh coarser (`scabo check` prints the sizes), or raise the "
-    "limit (`ulimit -v`)";
-
 }  // namespace scabo::app

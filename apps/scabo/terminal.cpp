@@ -73,8 +73,4 @@ void print_summary(std::string_view text) {
   }
 }
 
-std::string count(long number, std::string_view noun) {
-  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
-}
-
 }  // namespace scabo::app

@@ -28,7 +28,4 @@ void print_output(std::string_view text);
 /// the reader has ended (`| head`) or standard output is closed (`>&-`).
 void print_summary(std::string_view text);
 
-/// `1 node`, `2 nodes`.
-std::string count(long number, std::string_view noun);
-
 }  // namespace scabo::app

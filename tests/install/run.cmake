@@ -23,6 +23,10 @@ foreach(file bin/scabo include/scabo/input/read_model.hpp ${libdir}/cmake/scabo/
   endif()
 endforeach()
 run(${prefix}/bin/scabo --version)
+if(python_directory)  # the Python package
+  run(${CMAKE_COMMAND} -E env --unset=PYTHONHOME PYTHONPATH=${prefix}/${python_directory} PYTHONDONTWRITEBYTECODE=1
+      ${python} -c "import scabo, sys\nsys.exit(not scabo.__file__.startswith('${prefix}') or not scabo.schema())")
+endif()
 
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${consumer} -G ${generator}
     -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=${build_type})

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "scabo/input/document.hpp"
 #include "scabo/input/overrides.hpp"
 #include "scabo/input/reading.hpp"
 
@@ -164,9 +165,19 @@ Gaps gaps_of(const Reading& reading) {
   return gaps;
 }
 
+/// The model of a tree, with the mistakes that were found in its text.
+Model read_tree(Reading& reading, const NodePtr& root, const std::string& file) {
+  const Value whole{root, ""};
+  read_sections(reading, whole);
+  reading.report.add(whole, validate(reading.model, gaps_of(reading)));
+  tell_what_has_no_effect(reading, whole);
+  reading.report.throw_if_any(file);
+  return std::move(reading.model);
+}
+
 }  // namespace
 
-Model parse_model(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
+Document parse_document(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
   Reading reading;
   reading.model.file = file;
   std::vector<Diagnostic> mistakes;
@@ -175,13 +186,17 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
   if (!root) reading.report.throw_if_any(file);
   if (root->kind == Node::Kind::null) refuse_file(file, "is empty: a model file starts with 'scabo: 1'");
   root = apply_overrides(root, overrides, reading.report);
+  return {root, read_tree(reading, root, file)};
+}
 
-  const Value whole{root, ""};
-  read_sections(reading, whole);
-  reading.report.add(whole, validate(reading.model, gaps_of(reading)));
-  tell_what_has_no_effect(reading, whole);
-  reading.report.throw_if_any(file);
-  return std::move(reading.model);
+Model parse_model(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
+  return parse_document(text, file, overrides).model;
+}
+
+Model model_of_tree(const NodePtr& root, const std::string& file) {
+  Reading reading;
+  reading.model.file = file;
+  return read_tree(reading, root, file);
 }
 
 Model read_model(const std::string& file, const std::vector<Override>& overrides) {

@@ -4,6 +4,7 @@
 #include <lapacke.h>
 
 #include <algorithm>
+#include <mutex>
 #include <new>
 
 #include "scabo/base/error.hpp"
@@ -13,13 +14,44 @@ namespace scabo::linalg {
 
 extern "C" {
 void openblas_set_num_threads(int threads);
+int openblas_get_num_threads();
 [[gnu::weak]] void omp_set_num_threads(int threads);  // exists if CHOLMOD was built with OpenMP
+[[gnu::weak]] int omp_get_max_threads();
 }
 
 void set_blas_threads(int threads) {
   choose_blas_kernels();
   openblas_set_num_threads(threads);
   if (omp_set_num_threads) omp_set_num_threads(threads);
+}
+
+namespace {
+
+struct KeptThreads {
+  std::mutex lock;
+  int keepers = 0, blas = 1, omp = 1;
+};
+KeptThreads& kept_threads() {
+  static KeptThreads kept;
+  return kept;
+}
+
+}  // namespace
+
+KeptBlasThreads::KeptBlasThreads() {
+  KeptThreads& kept = kept_threads();
+  const std::lock_guard guard(kept.lock);
+  if (kept.keepers++ > 0) return;
+  kept.blas = openblas_get_num_threads();
+  if (omp_get_max_threads) kept.omp = omp_get_max_threads();
+}
+
+KeptBlasThreads::~KeptBlasThreads() {
+  KeptThreads& kept = kept_threads();
+  const std::lock_guard guard(kept.lock);
+  if (--kept.keepers > 0) return;
+  openblas_set_num_threads(kept.blas);
+  if (omp_set_num_threads) omp_set_num_threads(kept.omp);
 }
 
 namespace {

@@ -8,6 +8,16 @@ namespace scabo::linalg {
 /// Number of threads that BLAS, LAPACK and CHOLMOD may use in this process.
 void set_blas_threads(int threads);
 
+/// Keeps the number of threads that others in this process have chosen (NumPy in Python): it is restored when the last
+/// of these objects ends.
+class KeptBlasThreads {
+ public:
+  KeptBlasThreads();
+  ~KeptBlasThreads();
+  KeptBlasThreads(const KeptBlasThreads&) = delete;
+  KeptBlasThreads& operator=(const KeptBlasThreads&) = delete;
+};
+
 /// A' B.
 Matrix multiply_transposed(const Matrix& A, const Matrix& B);
 

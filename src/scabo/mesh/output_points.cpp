@@ -181,6 +181,12 @@ bool holds(const model::Body& body, const Vec2& point) {
   return !geometry::encloses(body.outline, point) && between_side_faces(body, point, slack);
 }
 
+BodyFinder::BodyFinder(const model::Model& model) : model_(model), boxes_(boxes_of(model)) {}
+
+std::vector<int> BodyFinder::at(const Vec2& point, int only) const { return bodies_at(model_, boxes_, point, only); }
+
+std::string BodyFinder::why_outside(const Vec2& point, int only) const { return lies_outside(model_, point, only); }
+
 OutputPoints output_points(const model::Model& model) {
   OutputPoints found;
   std::vector<Diagnostic> mistakes;

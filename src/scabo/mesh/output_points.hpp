@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scabo/geometry/box.hpp"
 #include "scabo/mesh/mesh.hpp"
 
 namespace scabo::mesh {
@@ -25,6 +26,20 @@ struct OutputPoints {
 /// Throws InputError for points, and points of lines, that lie in no body. Points of a grid that lie in no body are
 /// left out.
 OutputPoints output_points(const model::Model& model);
+
+/// The bodies that contain each of many points.
+class BodyFinder {
+ public:
+  explicit BodyFinder(const model::Model& model);  ///< keeps a reference
+  /// Indices of the bodies, ascending; with `only` (an index), that body or none.
+  std::vector<int> at(const Vec2& point, int only = -1) const;
+  /// Why a point that no body contains has no value, with a remedy.
+  std::string why_outside(const Vec2& point, int only = -1) const;
+
+ private:
+  const model::Model& model_;
+  std::vector<geometry::Box> boxes_;
+};
 
 /// Whether the body contains the point.
 bool holds(const model::Body& body, const Vec2& point);

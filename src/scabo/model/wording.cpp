@@ -33,6 +33,10 @@ std::string named_like_a_support(const std::string& name) {
   return fmt::format("a support is also named '{}', and a step could mean either: rename one of them", name);
 }
 
+std::string counted(long number, std::string_view noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
 bool is_name(std::string_view text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto is_rest = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };

@@ -13,6 +13,9 @@ namespace scabo::model {
 /// The shortest text that reads back as the same number: `3`, `0.3`, `1e-9`.
 std::string number_text(double value);
 
+/// `1 node`, `2 nodes`.
+std::string counted(long number, std::string_view noun);
+
 /// `(x, y)`.
 std::string point_text(const Vec2& point);
 

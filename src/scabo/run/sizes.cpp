@@ -1,14 +1,14 @@
-#include "sizes.hpp"
+#include "scabo/run/sizes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/model/wording.hpp"
 #include "scabo/system/structure.hpp"
-#include "terminal.hpp"
 
-namespace scabo::app {
+namespace scabo::run {
 
 namespace {
 
@@ -69,10 +69,10 @@ Sizes sizes_of(const model::Model& model, const mesh::Mesh& mesh) {
 std::string describe_sizes(const Sizes& sizes) {
   std::string text = fmt::format("{}, {}, {} degrees of freedom",
                                  sizes.bodies == 1 ? "1 body" : fmt::format("{} bodies", sizes.bodies),
-                                 count(sizes.nodes, "node"), sizes.dofs);
-  if (sizes.super_elements > 0) text += ", " + count(sizes.super_elements, "super-element");
-  if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
-  return text + ", " + count(sizes.contact_pairs, "contact pair");
+                                 model::counted(sizes.nodes, "node"), sizes.dofs);
+  if (sizes.super_elements > 0) text += ", " + model::counted(sizes.super_elements, "super-element");
+  if (sizes.finite_elements > 0) text += ", " + model::counted(sizes.finite_elements, "finite element");
+  return text + ", " + model::counted(sizes.contact_pairs, "contact pair");
 }
 
 int increments_of(const model::Model& model) {
@@ -81,4 +81,4 @@ int increments_of(const model::Model& model) {
   return increments;
 }
 
-}  // namespace scabo::app
+}  // namespace scabo::run

@@ -6,9 +6,9 @@
 
 #include "scabo/input/read_model.hpp"
 
-namespace scabo::app {
+namespace scabo::input {
 
 /// Throws InputError with every setting that cannot be understood.
-std::vector<input::Override> parse_settings(const std::vector<std::string>& settings);
+std::vector<Override> parse_settings(const std::vector<std::string>& settings);
 
-}  // namespace scabo::app
+}  // namespace scabo::input

@@ -1,14 +1,14 @@
-#include "settings.hpp"
+#include "scabo/input/settings.hpp"
 
-namespace scabo::app {
+namespace scabo::input {
 
-std::vector<input::Override> parse_settings(const std::vector<std::string>& settings) {
-  std::vector<input::Override> overrides;
+std::vector<Override> parse_settings(const std::vector<std::string>& settings) {
+  std::vector<Override> overrides;
   std::vector<Diagnostic> mistakes;
   std::string file;
   for (const std::string& setting : settings) {
     try {
-      overrides.push_back(input::parse_override(setting));
+      overrides.push_back(parse_override(setting));
     } catch (const InputError& error) {
       file = error.file();
       mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
@@ -18,4 +18,4 @@ std::vector<input::Override> parse_settings(const std::vector<std::string>& sett
   return overrides;
 }
 
-}  // namespace scabo::app
+}  // namespace scabo::input

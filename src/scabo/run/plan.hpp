@@ -15,12 +15,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
-#include "sizes.hpp"
+#include "scabo/run/sizes.hpp"
 
-namespace scabo::app {
+namespace scabo::run {
 
 /// Measured on one thread of a Xeon with AVX-512 (family 6, model 207). Bytes, or seconds.
 struct CostConstants {
@@ -68,7 +69,8 @@ struct Memory {
 };
 std::optional<Memory> available_memory();
 
-/// Why the analysis does not fit, with a remedy; empty if it does.
-std::string why_it_does_not_fit(const Plan& plan, const std::optional<Memory>& available);
+/// Why the analysis does not fit, with remedies, the last of them `anyway`: how to start it nevertheless. Empty if it
+/// fits.
+std::string why_it_does_not_fit(const Plan& plan, const std::optional<Memory>& available, std::string_view anyway);
 
-}  // namespace scabo::app
+}  // namespace scabo::run

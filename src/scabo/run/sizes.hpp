@@ -6,7 +6,7 @@
 
 #include "scabo/mesh/mesh.hpp"
 
-namespace scabo::app {
+namespace scabo::run {
 
 struct Sizes {
   int bodies = 0;
@@ -28,4 +28,4 @@ std::string describe_sizes(const Sizes& sizes);
 /// Increments of all steps together.
 int increments_of(const model::Model& model);
 
-}  // namespace scabo::app
+}  // namespace scabo::run

@@ -1,4 +1,4 @@
-#include "plan.hpp"
+#include "scabo/run/plan.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -10,10 +10,10 @@
 #include <tuple>
 
 #include "scabo/geometry/box.hpp"
+#include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
-#include "terminal.hpp"
 
-namespace scabo::app {
+namespace scabo::run {
 
 namespace {
 
@@ -174,7 +174,7 @@ std::string describe(const Plan& plan) {
   add("super-elements", plan.cells);
   add("factorisation", plan.factorise);
   add("condensation to the contact pairs", plan.condense);
-  add(count(plan.increments, "increment"), plan.contact);
+  add(model::counted(plan.increments, "increment"), plan.contact);
   add("fields and files", plan.fields);
   return text + result::table(rows);
 }
@@ -194,13 +194,13 @@ std::optional<Memory> available_memory() {
   return least;
 }
 
-std::string why_it_does_not_fit(const Plan& plan, const std::optional<Memory>& available) {
+std::string why_it_does_not_fit(const Plan& plan, const std::optional<Memory>& available, std::string_view anyway) {
   const CostConstants costs;
   if (!available || plan.bytes - costs.base_bytes <= available->bytes) return {};  // the program is there already
   return fmt::format(
       "not enough memory: the analysis needs about {}, and {} leaves {}: make the mesh coarser, use a larger machine, "
-      "or start it with --ignore-memory",
-      size_text(plan.bytes), available->limit, size_text(available->bytes));
+      "or {}",
+      size_text(plan.bytes), available->limit, size_text(available->bytes), anyway);
 }
 
-}  // namespace scabo::app
+}  // namespace scabo::run

@@ -1,0 +1,129 @@
+// Discrete contact problems, as `scabo contact` solves them.
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "arrays.hpp"
+#include "scabo/contact/solve.hpp"
+#include "scabo/linalg/dense.hpp"
+#include "solved.hpp"
+
+namespace scabo::python {
+
+namespace {
+
+using contact::Certificate;
+using contact::Problem;
+using contact::Solution;
+
+Matrix matrix_of(const Numbers& array) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(array.data(), array.shape(0), array.shape(1));
+}
+
+/// Of the columns as SciPy keeps them (csc): where each begins, rows, values.
+contact::Delassus operator_of(const py::tuple& columns, Eigen::Index size) {
+  using Indices = py::array_t<int, py::array::c_style | py::array::forcecast>;
+  using Sparse = Eigen::SparseMatrix<double>;
+  const auto starts = columns[0].cast<Indices>(), rows = columns[1].cast<Indices>();
+  const auto values = columns[2].cast<Numbers>();
+  return contact::Delassus(
+      Sparse(Eigen::Map<const Sparse>(size, size, values.size(), starts.data(), rows.data(), values.data())));
+}
+
+std::shared_ptr<Solution> solve(const std::optional<Numbers>& dense, const std::optional<py::tuple>& columns,
+                                const Numbers& q, const Numbers& mu, int dimension, const Numbers& cohesion,
+                                const Numbers& tension, const std::optional<Numbers>& G, const Numbers& f,
+                                const Numbers& start_forces, const Numbers& start_motions, double tolerance,
+                                bool by_certificate, int iterations, double force_scale, double seconds, int threads) {
+  Problem problem;
+  problem.dimension = dimension;
+  problem.q = vector_of(q);
+  problem.mu = vector_of(mu);
+  problem.cohesion = vector_of(cohesion);
+  problem.tension = vector_of(tension);
+  if (columns)
+    problem.W = operator_of(*columns, problem.q.size());
+  else
+    problem.W = matrix_of(*dense);
+  if (G)
+    problem.G = matrix_of(*G);
+  else
+    problem.G.resize(problem.q.size(), 0);
+  problem.f = vector_of(f);
+  const contact::Start start{vector_of(start_forces), vector_of(start_motions)};
+  contact::SolverOptions options;
+  options.tolerance = tolerance;
+  options.judge = by_certificate ? contact::Judge::certificate : contact::Judge::natural_map;
+  options.iterations = iterations;
+  options.force_scale = force_scale;
+  const py::gil_scoped_release release;
+  if (seconds > 0.0) options.deadline = contact::Deadline::in(seconds);
+  const linalg::KeptBlasThreads kept;
+  linalg::set_blas_threads(threads);
+  return std::make_shared<Solution>(contact::solve(problem, start, options));
+}
+
+std::string status_of(const Solution& solution) {
+  switch (solution.status) {
+    case contact::Status::solved:
+      return "solved";
+    case contact::Status::not_converged:
+      return "not_converged";
+    case contact::Status::mechanism:
+      return "mechanism";
+    case contact::Status::infeasible:
+      return "infeasible";
+  }
+  throw BrokenInvariant("a status without a name");
+}
+
+py::dict certificate_of(const Solution& solution) {
+  const Certificate& found = solution.certificate;
+  py::dict certificate;
+  certificate["equilibrium"] = found.equilibrium;
+  certificate["penetration"] = found.penetration;
+  certificate["tension"] = found.tension;
+  certificate["friction_excess"] = found.friction_excess;
+  certificate["complementarity"] = found.complementarity;
+  certificate["slip_direction"] = found.slip_direction;
+  certificate["rigid_balance"] = found.rigid_balance;
+  return certificate;
+}
+
+/// A member that is a vector, as a view.
+template <Vector Solution::*member>
+py::array vector_view(const py::object& self) {
+  return view(self.cast<const Solution&>().*member, self);
+}
+
+}  // namespace
+
+void bind_contact(py::module_& module) {
+  py::class_<Solution, std::shared_ptr<Solution>>(module, "DiscreteSolution")
+      .def_property_readonly("status", &status_of)
+      .def_property_readonly("forces", &vector_view<&Solution::p>)
+      .def_property_readonly("rigid_motions", &vector_view<&Solution::a>)
+      .def_property_readonly("gap", &vector_view<&Solution::gap>)
+      .def_property_readonly("slip", &vector_view<&Solution::slip_increment>)
+      .def_property_readonly("unrestrained_motion", &vector_view<&Solution::motion>)
+      .def_property_readonly("proof", &vector_view<&Solution::proof>)
+      .def_property_readonly("states",
+                             [](const py::object& self) {
+                               const auto& states = self.cast<const Solution&>().states;
+                               return view(reinterpret_cast<const int*>(states.data()),
+                                           {static_cast<py::ssize_t>(states.size())},
+                                           {static_cast<py::ssize_t>(sizeof(int))}, self);
+                             })
+      .def_readonly("iterations", &Solution::iterations)
+      .def_readonly("natural_map_residual", &Solution::natural_map_residual)
+      .def_readonly("rounding", &Solution::rounding)
+      .def_readonly("reason", &Solution::reason)
+      .def_property_readonly("certificate", &certificate_of);
+  module.def("solve_contact", &solve, py::arg("dense"), py::arg("columns"), py::arg("q"), py::arg("mu"),
+             py::arg("dimension"), py::arg("cohesion"), py::arg("tension"), py::arg("G"), py::arg("f"),
+             py::arg("start_forces"), py::arg("start_motions"), py::arg("tolerance"), py::arg("by_certificate"),
+             py::arg("iterations"), py::arg("force_scale"), py::arg("seconds"), py::arg("threads"));
+}
+
+}  // namespace scabo::python

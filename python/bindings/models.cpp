@@ -1,0 +1,89 @@
+// Reading and checking of models.
+#include "models.hpp"
+
+#include <pybind11/stl.h>
+
+#include "bindings.hpp"
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/base/stopwatch.hpp"
+#include "scabo/input/document.hpp"
+#include "scabo/input/settings.hpp"
+#include "scabo/run/plan.hpp"
+#include "tree.hpp"
+
+namespace scabo::python {
+
+namespace {
+
+/// Also checks the model: what is wrong with the text and what is wrong with the model is reported together.
+Document read(const std::string& file, const std::vector<std::string>& settings) {
+  const py::gil_scoped_release release;
+  Document document{file, settings, nullptr};
+  document.root = input::parse_document(input::read_text_file(file), file, input::parse_settings(settings)).root;
+  return document;
+}
+
+CheckedModel checked_model(py::handle data, const std::string& file, const Document* document) {
+  CheckedModel checked;
+  const Stopwatch reading(checked.reading);
+  const input::NodePtr before = document ? document->root : nullptr;
+  const input::NodePtr root = tree_of(data, before, file);
+  const py::gil_scoped_release release;
+  checked.model = input::model_of_tree(root, file);
+  checked.is_of_file = document && root == before;
+  if (checked.is_of_file) checked.settings = document->settings;
+  return checked;
+}
+
+/// What `scabo check` finds out, without solving.
+py::dict sizes(const CheckedModel& checked) {
+  run::Plan plan;
+  std::vector<int> pairs;
+  {
+    const py::gil_scoped_release release;
+    const mesh::Mesh mesh = analysis::check(checked.model);
+    plan = run::plan_of(checked.model, mesh);
+    pairs = run::moving_pairs(checked.model, mesh);
+  }
+  py::dict contacts;
+  for (std::size_t i = 0; i < pairs.size(); ++i) contacts[py::str(checked.model.contacts[i].name)] = pairs[i];
+  py::dict found;
+  found["bodies"] = plan.sizes.bodies;
+  found["nodes"] = plan.sizes.nodes;
+  found["dofs"] = plan.sizes.dofs;
+  found["super_elements"] = plan.sizes.super_elements;
+  found["finite_elements"] = plan.sizes.finite_elements;
+  found["contact_pairs"] = plan.sizes.contact_pairs;
+  found["contacts"] = contacts;
+  found["increments"] = plan.increments;
+  found["memory_bytes"] = plan.bytes;
+  found["seconds"] = plan.seconds();
+  return found;
+}
+
+template <typename Part>
+std::vector<std::string> names_of(const std::vector<Part>& parts) {
+  std::vector<std::string> names;
+  for (const Part& part : parts) names.push_back(part.name);
+  return names;
+}
+
+}  // namespace
+
+void bind_models(py::module_& module) {
+  py::class_<Document>(module, "Document")
+      .def_readonly("file", &Document::file)
+      .def("data", [](const Document& document) { return to_python(*document.root); });
+  py::class_<CheckedModel>(module, "CheckedModel")
+      .def_property_readonly(
+          "is_modal",
+          [](const CheckedModel& checked) { return checked.model.analysis.type == model::AnalysisType::modal; })
+      .def_property_readonly("bodies", [](const CheckedModel& checked) { return names_of(checked.model.bodies); })
+      .def_property_readonly("warnings", [](const CheckedModel& checked) { return texts_of(checked.model.warnings); })
+      .def("sizes", &sizes);
+  module.def("read", &read, py::arg("file"), py::arg("settings"));
+  module.def("checked_model", &checked_model, py::arg("data"), py::arg("file"), py::arg("document").none(true));
+  module.def("schema", [] { return std::string(input::model_schema()); });
+}
+
+}  // namespace scabo::python

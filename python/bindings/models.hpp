@@ -1,0 +1,28 @@
+// Models as the extension module keeps them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scabo/input/yaml_document.hpp"
+#include "scabo/model/model.hpp"
+
+namespace scabo::python {
+
+/// The tree of a model file, with the settings in it.
+struct Document {
+  std::string file;
+  std::vector<std::string> settings;  ///< `path=value`
+  input::NodePtr root;
+};
+
+/// A model that has been read and validated.
+struct CheckedModel {
+  model::Model model;
+  double reading = 0.0;  ///< seconds
+  /// If the model is that of the file with these settings: it can be read again by `scabo resume`.
+  bool is_of_file = false;
+  std::vector<std::string> settings;
+};
+
+}  // namespace scabo::python

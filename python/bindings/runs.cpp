@@ -1,0 +1,203 @@
+// Runs without the interpreter lock, with a callback that can cancel them.
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "bindings.hpp"
+#include "models.hpp"
+#include "scabo/linalg/dense.hpp"
+#include "scabo/result/modal_results.hpp"
+#include "scabo/result/results_directory.hpp"
+#include "scabo/result/summary.hpp"
+#include "scabo/run/modal_run.hpp"
+#include "scabo/run/sizes.hpp"
+#include "scabo/run/static_run.hpp"
+#include "solved.hpp"
+
+namespace scabo::python {
+
+namespace {
+
+/// What a callback is told.
+struct Progress {
+  std::string stage;
+  int increment = 0;                     ///< finished increments
+  std::optional<int> increments;         ///< of the whole analysis; nothing if their size is automatic
+  double fraction = 0.0;                 ///< of the analysis, by the factors of the loads, 0 to 1
+  std::optional<int> newton_iterations;  ///< of the last finished increment
+  std::optional<double> residual;
+};
+
+/// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an
+/// exception of a signal handler, stop the run: at once if nothing is finished, or else after the current increment.
+class Watch {
+ public:
+  explicit Watch(py::object callback) : callback_(std::move(callback)) {}
+
+  const std::atomic<bool>& stopped() const { return stopped_; }
+  /// With the interpreter lock.
+  py::object error() const { return error_; }
+
+  void begin(const model::Model& model) {
+    bool automatic = false;
+    for (const model::Step& step : model.steps) automatic = automatic || step.automatic.has_value();
+    if (!automatic) now_.increments = run::increments_of(model);
+  }
+
+  // Called by the run, without the lock.
+  void stage(const std::string& name) {
+    now_.stage = name;
+    tell();
+  }
+  void increment(const model::Model& model, const analysis::IncrementResult& result) {
+    if (!result.converged) return;
+    ++now_.increment;
+    now_.fraction = run::part_done(model, result);
+    now_.newton_iterations = result.newton_iterations;
+    now_.residual = result.residual;
+    tell();
+  }
+
+ private:
+  void tell() {
+    {
+      const py::gil_scoped_acquire acquire;
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!callback_.is_none() && !stopped_) stopped_ = callback_(py::cast(now_)).is(py::bool_(false));
+      } catch (py::error_already_set& raised) {
+        error_ = raised.value();
+        if (raised.trace()) error_.attr("__traceback__") = raised.trace();
+        stopped_ = true;
+      }
+    }
+    if (stopped_ && now_.increment == 0) throw run::Stopped{};
+  }
+
+  py::object callback_;
+  py::object error_ = py::none();
+  Progress now_;
+  std::atomic<bool> stopped_{false};
+};
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+analysis::StaticSolution run_in_directory(run::StaticRun& run, const CheckedModel& checked, const std::string& output,
+                                          mesh::Mesh mesh, RunRecord& record) {
+  result::ResultsDirectory directory(output, checked.model, std::move(mesh));
+  run.directory = &directory;
+  if (checked.is_of_file && run::keeps_checkpoints(checked.model)) {
+    run.begun.origin = run::origin_of(checked.model, checked.settings, output, run.threads);
+    run.begun.results = directory.written();
+  }
+  analysis::StaticSolution solution = run::solve(run);
+  record.directory = output;
+  record.summary = text_of_file(directory.path() / "summary.json");
+  record.warnings = texts_of(solution.warnings);
+  record.warnings.insert(record.warnings.end(), directory.warnings().begin(), directory.warnings().end());
+  return solution;
+}
+
+std::shared_ptr<StaticResult> solve_static(const CheckedModel& checked, const std::optional<std::string>& output,
+                                           int threads, bool keep_fields, bool ignore_memory,
+                                           const py::object& progress) {
+  auto solved = std::make_shared<StaticResult>();
+  Watch watch(progress);
+  watch.begin(checked.model);
+  {
+    const py::gil_scoped_release release;
+    const linalg::KeptBlasThreads kept;
+    run::StaticRun run{checked.model};
+    run.reading = checked.reading;
+    run.threads = threads;
+    run.stop = &watch.stopped();
+    run.keep_fields = keep_fields;
+    if (!ignore_memory) run.anyway = "start it with ignore_memory=True";
+    run.observer.on_stage = [&](const std::string& stage) { watch.stage(stage); };
+    run.observer.on_increment = [&](const auto&, const auto& increment) { watch.increment(checked.model, increment); };
+    mesh::Mesh mesh = analysis::check(checked.model);
+    run.plan = run::plan_of(checked.model, mesh);
+    if (output) {
+      solved->solution = run_in_directory(run, checked, *output, std::move(mesh), solved->record);
+    } else {
+      solved->solution = run::solve(run);
+      solved->record.summary = result::summary_content(solved->solution, solved->solution.timing, false);
+      solved->record.warnings = texts_of(solved->solution.warnings);
+    }
+    const bool interrupted = solved->solution.outcome == analysis::Outcome::interrupted;
+    solved->record.why_not_solved = run::why_not_solved(solved->solution, interrupted);
+  }
+  solved->record.error = watch.error();
+  return solved;
+}
+
+std::shared_ptr<ModalRunResult> solve_modal(const CheckedModel& checked, const std::optional<std::string>& output,
+                                            int threads, const py::object& progress) {
+  auto solved = std::make_shared<ModalRunResult>();
+  Watch watch(progress);
+  try {
+    const py::gil_scoped_release release;
+    const linalg::KeptBlasThreads kept;
+    run::ModalRun run{checked.model};
+    run.reading = checked.reading;
+    run.threads = threads;
+    if (output) run.output = *output;
+    run.on_stage = [&](const std::string& stage) { watch.stage(stage); };
+    solved->result = run::solve(run);
+    solved->record.directory = output;
+    solved->record.warnings = texts_of(solved->result.warnings);
+    solved->record.summary = output ? text_of_file(std::filesystem::path(*output) / "summary.json")
+                                    : result::modal_summary_content(solved->result);
+  } catch (const run::Stopped&) {
+    if (watch.error().is_none()) throw;
+    solved->record.error = watch.error();
+  }
+  return solved;
+}
+
+/// Writes results that are in memory.
+void write_results(const StaticResult& solved, const std::string& output) {
+  const py::gil_scoped_release release;
+  const analysis::StaticSolution& solution = solved.solution;
+  result::ResultsDirectory directory(output, solution.model, solution.mesh);
+  for (const analysis::IncrementResult& increment : solution.increments) directory.add(solution, increment);
+  directory.finish(solution);
+}
+
+}  // namespace
+
+void bind_runs(py::module_& module) {
+  py::class_<Progress>(module, "Progress", "How far a run is, for its callback.")
+      .def_readonly("stage", &Progress::stage,
+                    "What is being done, as 'factorisation' or 'step press, increment 2 of 10'.")
+      .def_readonly("increment", &Progress::increment, "Number of finished increments.")
+      .def_readonly("increments", &Progress::increments,
+                    "Number of increments of all steps; None if their size is automatic.")
+      .def_readonly("fraction", &Progress::fraction, "Part of the steps that is done, 0 to 1.")
+      .def_readonly("newton_iterations", &Progress::newton_iterations,
+                    "Of the last finished increment; None before it.")
+      .def_readonly("residual", &Progress::residual, "Of the last finished increment; None before it.")
+      .def("__repr__", [](const Progress& progress) {
+        return py::str("Progress(stage={!r}, increment={}, increments={}, fraction={})")
+            .format(progress.stage, progress.increment, progress.increments, progress.fraction);
+      });
+  py::class_<RunRecord>(module, "RunRecord")
+      .def_readonly("summary", &RunRecord::summary)
+      .def_readonly("directory", &RunRecord::directory)
+      .def_readonly("warnings", &RunRecord::warnings)
+      .def_readonly("error", &RunRecord::error)
+      .def_readonly("why_not_solved", &RunRecord::why_not_solved);
+  module.def("solve_static", &solve_static, py::arg("model"), py::arg("output"), py::arg("threads"),
+             py::arg("keep_fields"), py::arg("ignore_memory"), py::arg("progress"));
+  module.def("solve_modal", &solve_modal, py::arg("model"), py::arg("output"), py::arg("threads"), py::arg("progress"));
+  module.def("write_results", &write_results, py::arg("result"), py::arg("output"));
+}
+
+}  // namespace scabo::python

@@ -1,0 +1,185 @@
+// Arrays of a static analysis.
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <memory>
+
+#include "arrays.hpp"
+#include "scabo/mesh/output_points.hpp"
+#include "scabo/result/point_tables.hpp"
+#include "scabo/result/stress.hpp"
+#include "scabo/result/summary.hpp"
+#include "solved.hpp"
+
+namespace scabo::python {
+
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+const analysis::IncrementResult& increment_of(const StaticResult& solved, std::size_t increment) {
+  return solved.solution.increments.at(increment);
+}
+
+/// The members of the pairs of a contact, each as an array over the pairs; the memory is that of the solution.
+py::dict pairs(const py::object& self, std::size_t increment, std::size_t contact) {
+  const auto& solved = self.cast<const StaticResult&>();
+  const std::vector<analysis::PairResult>& list = increment_of(solved, increment).contacts.at(contact).pairs;
+  static const analysis::PairResult nothing;
+  const analysis::PairResult& first = list.empty() ? nothing : list.front();
+  const auto count = static_cast<py::ssize_t>(list.size());
+  constexpr py::ssize_t stride = sizeof(analysis::PairResult);
+  py::dict table;
+  const auto add = [&](const char* name, const double& member) {
+    table[name] = view(&member, {count}, {stride}, self);
+  };
+  static_assert(sizeof(contact::ContactState) == sizeof(int));
+  table["pair"] = view(&first.pair, {count}, {stride}, self);
+  add("x", first.position.x());
+  add("y", first.position.y());
+  add("normal_x", first.normal.x());
+  add("normal_y", first.normal.y());
+  add("gap", first.gap);
+  add("slip", first.slip);
+  add("normal_force", first.normal_force);
+  add("tangential_force", first.tangential_force);
+  add("pressure", first.pressure);
+  add("shear", first.shear);
+  table["state"] = view(reinterpret_cast<const int*>(&first.state), {count}, {stride}, self);
+  add("normal_displacement_a", first.displacement_a.x());
+  add("tangential_displacement_a", first.displacement_a.y());
+  add("normal_displacement_b", first.displacement_b.x());
+  add("tangential_displacement_b", first.displacement_b.y());
+  return table;
+}
+
+bool keeps_fields(const StaticResult& solved, std::size_t increment) {
+  return !increment_of(solved, increment).fields.displacements.empty();
+}
+
+/// n x 2, or [u_x, u_y, rotation] of a rigid body; relative to the reference point, which takes a copy if that moves.
+py::array displacement(const py::object& self, std::size_t increment, std::size_t body) {
+  const auto& solved = self.cast<const StaticResult&>();
+  const analysis::FieldState& state = increment_of(solved, increment).fields;
+  const Vector& u = state.displacements.at(body);
+  const bool rigid = solved.solution.model.bodies[body].rigid;
+  if (state.reference_displacement.isZero(0.0)) return rigid ? view(u, self) : view(u, 2, self);
+  Vector moved = u;
+  for (Eigen::Index i = 0; i < (rigid ? 2 : moved.size()); ++i) moved[i] -= state.reference_displacement[i % 2];
+  const auto [held, owner] = kept(std::move(moved));
+  return rigid ? view(*held, owner) : view(*held, 2, owner);
+}
+
+py::array nodes(const py::object& self, std::size_t body) {
+  return view(self.cast<const StaticResult&>().solution.mesh.bodies.at(body).nodes, self);
+}
+
+/// The body of every point; -1 for points outside, if they are allowed.
+std::vector<int> bodies_of(const StaticResult& solved, const std::vector<Vec2>& points, int only, bool allow_outside) {
+  const model::Model& model = solved.solution.model;
+  const mesh::BodyFinder finder(model);
+  std::vector<int> found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto fail = [&](const std::string& why) {
+      throw std::invalid_argument("point " + std::to_string(i) + ": " + why);
+    };
+    if (!points[i].allFinite()) fail("its coordinates are not finite");
+    const std::vector<int> bodies = finder.at(points[i], only);
+    if (bodies.empty() && !allow_outside) fail(finder.why_outside(points[i], only) + ", or use outside='nan'");
+    if (bodies.size() > 1) {
+      std::string names;
+      for (const int body : bodies)
+        names += (names.empty() ? "'" : ", '") + model.bodies[static_cast<std::size_t>(body)].name + "'";
+      fail("it lies in several bodies (" + names +
+           "): name one of them, as in body=" + names.substr(0, names.find(',')));
+    }
+    found.push_back(bodies.empty() ? -1 : bodies.front());
+  }
+  return found;
+}
+
+/// Arrays over points that are filled after they were made.
+py::array_t<double> columns(std::size_t points, int count) {
+  return py::array_t<double>({static_cast<py::ssize_t>(points), static_cast<py::ssize_t>(count)});
+}
+
+py::dict values(const StaticResult& solved, std::size_t increment, const Numbers& at, int only, bool allow_outside) {
+  const std::vector<Vec2> points = points_of(at);
+  std::vector<result::PointResult> results;
+  std::vector<int> bodies;
+  {
+    const py::gil_scoped_release release;
+    bodies = bodies_of(solved, points, only, allow_outside);
+    std::vector<mesh::OutputPoint> places;
+    for (std::size_t i = 0; i < points.size(); ++i) places.push_back({"", bodies[i], points[i], 0.0});
+    const result::PointEvaluation evaluation(solved.solution, std::move(places), 1);
+    results = evaluation.at(solved.solution, increment_of(solved, increment));
+  }
+  const std::size_t n = results.size();
+  py::array_t<double> displacements = columns(n, 2), stress = columns(n, 4), strain = columns(n, 3),
+                      principal = columns(n, 3);
+  py::array_t<double> angle(static_cast<py::ssize_t>(n)), von_mises(static_cast<py::ssize_t>(n)),
+      energy(static_cast<py::ssize_t>(n));
+  py::array_t<int> body(static_cast<py::ssize_t>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    const result::PointResult& value = results[i];
+    const bool inside = bodies[i] >= 0, stressed = inside && value.has_stress;
+    const result::StressMeasures measures =
+        stressed ? result::stress_measures(value.values.stress, value.stress_zz) : result::StressMeasures();
+    body.mutable_at(row) = bodies[i];
+    for (int k = 0; k < 2; ++k) displacements.mutable_at(row, k) = inside ? value.values.displacement[k] : no_number;
+    for (int k = 0; k < 3; ++k) {
+      stress.mutable_at(row, k) = stressed ? value.values.stress[k] : no_number;
+      strain.mutable_at(row, k) = stressed ? value.values.strain[k] : no_number;
+      principal.mutable_at(row, k) = stressed ? measures.principal[static_cast<std::size_t>(k)] : no_number;
+    }
+    stress.mutable_at(row, 3) = stressed ? value.stress_zz : no_number;
+    angle.mutable_at(row) = stressed ? measures.angle : no_number;
+    von_mises.mutable_at(row) = stressed ? measures.von_mises : no_number;
+    energy.mutable_at(row) = stressed ? value.energy_density : no_number;
+  }
+  py::dict table;
+  table["body"] = body;
+  table["displacement"] = displacements;
+  table["stress"] = stress;
+  table["strain"] = strain;
+  table["principal"] = principal;
+  table["principal_angle"] = angle;
+  table["von_mises"] = von_mises;
+  table["energy_density"] = energy;
+  return table;
+}
+
+std::vector<std::string> contact_names(const StaticResult& solved) {
+  std::vector<std::string> names;
+  for (const model::Contact& contact : solved.solution.model.contacts) names.push_back(contact.name);
+  return names;
+}
+
+std::vector<std::string> body_names(const StaticResult& solved) {
+  std::vector<std::string> names;
+  for (const model::Body& body : solved.solution.model.bodies) names.push_back(body.name);
+  return names;
+}
+
+}  // namespace
+
+void bind_static_results(py::module_& module) {
+  py::class_<StaticResult, std::shared_ptr<StaticResult>>(module, "StaticResult")
+      .def_readonly("record", &StaticResult::record)
+      .def_property_readonly(
+          "status", [](const StaticResult& solved) { return std::string(result::name_of(solved.solution.outcome)); })
+      .def_property_readonly("writes_problems",
+                             [](const StaticResult& solved) { return solved.solution.model.output.discrete_problems; })
+      .def_property_readonly("contacts", &contact_names)
+      .def_property_readonly("bodies", &body_names)
+      .def_property_readonly("increments", [](const StaticResult& solved) { return solved.solution.increments.size(); })
+      .def("pairs", &pairs, py::arg("increment"), py::arg("contact"))
+      .def("keeps_fields", &keeps_fields, py::arg("increment"))
+      .def("nodes", &nodes, py::arg("body"))
+      .def("displacement", &displacement, py::arg("increment"), py::arg("body"))
+      .def("values", &values, py::arg("increment"), py::arg("points"), py::arg("only"), py::arg("allow_outside"));
+}
+
+}  // namespace scabo::python

@@ -1,0 +1,28 @@
+"""Scabo computes frictional contact between elastic bodies by the scaled boundary finite element method.
+
+>>> import scabo
+>>> result = scabo.read("model.yaml").run()
+>>> result.contact["joint"].table()["pressure"]
+
+A model is a dictionary with the content of a model file (docs/model_file.md), read from one or built in Python; both are
+checked alike, with the same messages. Results are NumPy arrays that show the memory of the solver without a copy.
+For researchers: ``SuperElement`` (stiffness, exponents and fields of one super-element) and ``solve_contact`` (a discrete
+contact problem by itself). docs/python.md has the manual.
+"""
+from ._core import Progress
+from ._core import version as __version__
+from .discrete import DiscreteSolution, solve_contact
+from .errors import (Error, Infeasible, InternalError, Interrupted, Mechanism, ModelError, ModelWarning, NotConverged,
+                     Problem, WriteError)
+from .model import Model, Sizes, read, schema
+from .modes import Mode, ModalResult
+from .result import Contact, Increment, Result
+from .super_element import SuperElement, boundary_nodes
+
+Progress.__module__ = "scabo"
+
+__all__ = [
+    "Contact", "DiscreteSolution", "Error", "Increment", "Infeasible", "InternalError", "Interrupted", "Mechanism",
+    "ModalResult", "Mode", "Model", "ModelError", "ModelWarning", "NotConverged", "Problem", "Progress", "Result", "Sizes",
+    "SuperElement", "WriteError", "__version__", "boundary_nodes", "read", "schema", "solve_contact",
+]

@@ -1,0 +1,172 @@
+"""Models: dictionaries with the content of a model file, which can be checked and run."""
+from __future__ import annotations
+
+import copy
+import json
+import os
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from . import _core
+from .arguments import threads_of
+from .errors import Interrupted, Mechanism, ModelWarning, NotConverged
+from .modes import ModalResult
+from .result import Result
+
+__all__ = ["Model", "Sizes", "read", "schema"]
+
+Callback = Callable[["_core.Progress"], Any]
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """What ``Model.check`` finds out without solving. Memory and time are estimates, usually right within a factor of
+    two; of a model that is refined, they are those of the first mesh."""
+
+    bodies: int
+    nodes: int
+    dofs: int
+    super_elements: int
+    finite_elements: int
+    contact_pairs: int
+    """Pairs that can move; those that supports hold on both sides do not count."""
+    contacts: dict[str, int]
+    """Such pairs of every contact."""
+    increments: int
+    memory_bytes: float
+    seconds: float
+
+
+class Model(dict[str, Any]):
+    """A model: a dictionary with the keys of a model file (docs/model_file.md), nested dictionaries and lists.
+
+    >>> model = scabo.Model({"scabo": 1, "materials": {...}, "bodies": {...}})
+    >>> model["contacts"]["joint"]["friction"] = 0.5
+    >>> result = model.run()
+
+    Values may be numbers and arrays of NumPy. What is given is copied, so that several models made from one dictionary
+    are independent. Every check is made by ``check`` and ``run``, with the messages of the program: by key path, and
+    for unchanged parts of a model that was read from a file also with line and column.
+    """
+
+    def __init__(self, data: Mapping[str, Any] | None = None, *, file: str | os.PathLike[str] = "model") -> None:
+        """``file`` stands in messages, and mesh files and images that the model names are relative to its folder."""
+        super().__init__(copy.deepcopy(dict(data or {})))
+        self._file = os.fsdecode(file)
+        self._document: _core.Document | None = None
+
+    @property
+    def file(self) -> str:
+        """The model file, or what stands in messages for it."""
+        return self._file
+
+    def copy(self) -> Model:
+        """A model that can be changed without an effect on this one."""
+        twin = Model(self, file=self._file)
+        twin._document = self._document
+        return twin
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Model:
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _remade, (dict(self), self._file)
+
+    def _checked(self) -> _core.CheckedModel:
+        return _core.checked_model(self, self._file, self._document)
+
+    def check(self) -> Sizes:
+        """Checks and meshes the model without solving it. Raises ``ModelError`` with every mistake."""
+        checked = self._checked()
+        sizes = checked.sizes()
+        _warn(checked.warnings)
+        return Sizes(**sizes)
+
+    def run(self, output: str | os.PathLike[str] | None = None, *, progress: Callback | None = None,
+            threads: int | None = None, keep_fields: bool = True, ignore_memory: bool = False) -> Result | ModalResult:
+        """Solves the model.
+
+        output
+            Directory for the files that ``scabo run`` writes (docs/results.md); None: nothing is written.
+        progress
+            Called with a ``Progress`` at every stage and after every increment. If it returns False, the run ends after
+            the current increment and raises ``Interrupted``; if it raises, the run ends in the same way and the
+            exception is passed on, with the finished increments as its attribute ``result``. Ctrl-C does the same.
+        threads
+            Upper limit; small models use one. None: all processors.
+        keep_fields
+            False: displacements and contact tables are kept of the last increment only, so that memory hardly grows
+            with the number of increments.
+        ignore_memory
+            True: starts even if the estimated memory is not available.
+
+        Returns a ``Result``, or a ``ModalResult`` of a modal analysis. Other Python threads go on while it solves.
+        Raises ``ModelError``; ``NotConverged`` or ``Mechanism``, with the finished increments in ``result``;
+        ``WriteError``; ``MemoryError``. Warnings are issued as ``ModelWarning``.
+        """
+        if progress is not None and not callable(progress):
+            raise TypeError(f"progress must be a function, not {type(progress).__name__}")
+        checked = self._checked()
+        target = None if output is None else os.fsdecode(output)
+        if target == "":
+            raise ValueError("output: the name of the directory is empty: name one, or leave it out")
+        count = threads_of(threads)
+        if checked.is_modal:
+            modes = _core.solve_modal(checked, target, count, progress)
+            if modes.record.error is not None:
+                raise modes.record.error
+            _warn(modes.record.warnings)
+            return ModalResult(modes)
+        solved = _core.solve_static(checked, target, count, keep_fields, ignore_memory, progress)
+        result = Result(solved)
+        _warn(solved.record.warnings)
+        if solved.record.error is not None:
+            solved.record.error.result = result  # type: ignore[attr-defined]
+            raise solved.record.error
+        if not solved.record.why_not_solved:
+            return result
+        kinds = {"interrupted": Interrupted, "mechanism": Mechanism}
+        raise kinds.get(solved.status, NotConverged)(solved.record.why_not_solved, result)
+
+
+def _remade(data: dict[str, Any], file: str) -> Model:
+    return Model(data, file=file)
+
+
+def _warn(texts: list[str]) -> None:
+    for text in texts:
+        warnings.warn(text, ModelWarning, stacklevel=3)
+
+
+def _setting(path: str, value: Any) -> str:
+    if isinstance(value, str):
+        return f"{path}={value}"
+
+    def plain(other: Any) -> Any:
+        if hasattr(other, "tolist"):
+            return other.tolist()
+        raise TypeError(f"set: {path}: must be a number, text, true or false, a list or a dictionary, "
+                        f"not {type(other).__name__}")
+    return f"{path}={json.dumps(value, default=plain)}"
+
+
+def read(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None) -> Model:
+    """Reads a model file (YAML or JSON) and checks it.
+
+    ``set`` replaces values, as ``--set`` of the program does: ``{"contacts.joint.friction": 0.5}``; text is read as YAML.
+    Raises ``ModelError`` with every mistake, its line, its column and its remedy.
+    """
+    settings = [_setting(path, value) for path, value in (set or {}).items()]
+    document = _core.read(os.fsdecode(file), settings)
+    model = Model(document.data(), file=document.file)
+    model._document = document
+    return model
+
+
+def schema() -> dict[str, Any]:
+    """JSON Schema of the model file, as ``scabo schema`` prints it."""
+    return json.loads(_core.schema())

@@ -1,0 +1,291 @@
+"""Results of a static analysis."""
+from __future__ import annotations
+
+import json
+import operator
+import os
+import pathlib
+import tempfile
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    import pandas
+    from numpy.typing import ArrayLike
+
+__all__ = ["Contact", "Increment", "Result"]
+
+_STATES = np.array(["open", "stick", "slip"])
+_PICTURES = ("stress", "contact", "mesh", "convergence", "history")
+_VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
+
+
+class Increment:
+    """Totals of an increment: the entry of ``increments`` in summary.json, with the same names (docs/results.md)."""
+
+    def __init__(self, content: dict[str, Any]) -> None:
+        self._content = content
+
+    step: int
+    """Number of the step, from 1."""
+    increment: int
+    """Number within the step, from 1."""
+    reached: float
+    """Part of the step at its end."""
+    factors: dict[str, float]
+    """Of loads and of supports with prescribed displacements."""
+    converged: bool
+    newton_iterations: int
+    residual: float
+    contacts: dict[str, dict[str, Any]]
+    """Totals of every contact."""
+    reactions: dict[str, list[float]]
+    """Force of every support on its body, [x, y]."""
+    cracks: dict[str, dict[str, Any]]
+    """Stress intensity factors."""
+    certificate: dict[str, float]
+    """What was checked after the solve, free of units (docs/methods/08_certificate.md)."""
+    energy: dict[str, float]
+    error: dict[str, Any] | None
+    """Estimated discretisation error, if the model asks for it."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self._content[name]
+        except KeyError:
+            raise AttributeError(f"an increment has no '{name}': there are {', '.join(self._content)}") from None
+
+    def __getitem__(self, name: str) -> Any:
+        return self._content[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._content]
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it."""
+        return dict(self._content)
+
+    def __repr__(self) -> str:
+        return f"<scabo.Increment: step {self.step}, increment {self.increment}>"
+
+
+class Contact:
+    """Results of one contact. Forces act on B; n is the normal out of A, t is n turned by -90 degrees."""
+
+    def __init__(self, result: Result, name: str, index: int) -> None:
+        self._result = result
+        self._index = index
+        self.name = name
+
+    def table(self, increment: int = -1) -> dict[str, np.ndarray]:
+        """The columns of contact.csv (docs/results.md) after an increment, arrays over the pairs: pair, x, y, normal_x,
+        normal_y, gap, slip, normal_force, tangential_force, pressure, shear, state ("open", "stick" or "slip"),
+        displacements of both sides along n and t.
+
+        All but ``state`` show the memory of the solver and cannot be written: use ``.copy()`` to change one.
+        """
+        columns = self._result._core.pairs(self._result._with_fields(increment), self._index)
+        columns["state"] = _STATES[columns["state"]]
+        return columns
+
+    def frame(self, increment: int = -1) -> pandas.DataFrame:
+        """The same as a DataFrame of pandas, which must be installed."""
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError("frame() needs pandas (python3-pandas): install it, or use table()") from None
+        return pandas.DataFrame(self.table(increment))
+
+    def history(self) -> dict[str, np.ndarray]:
+        """Totals over the increments: normal_force and tangential_force (sums over the pairs), numbers of open, stick
+        and slip pairs, max_gap and max_pressure."""
+        totals = [increment.contacts[self.name] for increment in self._result.increments]
+        return {name: np.array([total[name] for total in totals]) for name in _VALUES}
+
+    @property
+    def normal_force(self) -> float:
+        """Sum over the pairs after the last increment."""
+        return self._result._last().contacts[self.name]["normal_force"]
+
+    @property
+    def tangential_force(self) -> float:
+        """Sum over the pairs after the last increment."""
+        return self._result._last().contacts[self.name]["tangential_force"]
+
+    def __repr__(self) -> str:
+        return f"<scabo.Contact {self.name!r}>"
+
+
+class _Contacts(Mapping[str, Contact]):
+    """The contacts of a result by their names."""
+
+    def __init__(self, result: Result) -> None:
+        names = result._core.contacts
+        self._contacts = {name: Contact(result, name, index) for index, name in enumerate(names)}
+
+    def __getitem__(self, name: str) -> Contact:
+        if name not in self._contacts:
+            known = ", ".join(self._contacts) or "none"
+            raise KeyError(f"there is no contact named {name!r}; there are: {known}")
+        return self._contacts[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._contacts)
+
+    def __len__(self) -> int:
+        return len(self._contacts)
+
+    def __repr__(self) -> str:
+        return f"<contacts: {', '.join(self._contacts)}>"
+
+
+class Result:
+    """Results of a static analysis. Increments are numbered from 0, and from -1 backwards, as lists are; only converged
+    ones count. Positions, displacements, forces and stresses are in the units of the model; stress is positive in
+    tension."""
+
+    def __init__(self, core: _core.StaticResult) -> None:
+        self._core = core
+        self._directory = core.record.directory
+        self._summary: dict[str, Any] = json.loads(core.record.summary)
+        self._increments = [Increment(content) for content in self._summary["increments"] if content["converged"]]
+        self.contact: Mapping[str, Contact] = _Contacts(self)
+        """The contacts by their names."""
+
+    @property
+    def status(self) -> str:
+        """solved, not_converged, mechanism or interrupted."""
+        return self._core.status
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The content of summary.json (docs/results.md): totals, reactions, certificate, energies, timing."""
+        return self._summary
+
+    @property
+    def increments(self) -> list[Increment]:
+        """Totals of all converged increments."""
+        return list(self._increments)
+
+    @property
+    def warnings(self) -> list[str]:
+        """All warnings of the run."""
+        return list(self._core.record.warnings)
+
+    @property
+    def directory(self) -> str | None:
+        """Where the results are written; None if they are not."""
+        return self._directory
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies."""
+        return list(self._core.bodies)
+
+    def nodes(self, body: str) -> np.ndarray:
+        """Undeformed positions of the nodes of a body, (nodes, 2), without a copy; empty for a rigid body."""
+        return self._core.nodes(self._body(body))
+
+    def nodal_displacement(self, body: str, increment: int = -1) -> np.ndarray:
+        """Displacements of these nodes, (nodes, 2), without a copy; of a rigid body [u_x, u_y, rotation] about its
+        centroid. With a ``reference`` point that moves (unbounded bodies) they are relative to it, in new memory."""
+        return self._core.displacement(self._with_fields(increment), self._body(body))
+
+    def values(self, points: ArrayLike, *, body: str | None = None, increment: int = -1,
+               outside: Literal["error", "nan"] = "error") -> dict[str, np.ndarray]:
+        """Results at points of the undeformed shape, (n, 2), from the semi-analytical solution itself: arrays over the
+        points.
+
+        ``body`` (index into ``bodies``), ``displacement`` (n, 2), ``stress`` (n, 4): xx, yy, xy, zz, ``strain`` (n, 3):
+        xx, yy, gamma_xy, ``principal`` (n, 3), descending, ``principal_angle``, ``von_mises``, ``energy_density``.
+
+        A point on the edge where bodies touch needs ``body``. A point outside is an error, or with outside="nan" not a
+        number. Stress in a rigid body, and where it is infinite, is not a number.
+        """
+        if outside not in ("error", "nan"):
+            raise ValueError(f"outside must be 'error' or 'nan', not {outside!r}")
+        only = -1 if body is None else self._body(body)
+        at = np.asarray(points, dtype=float)
+        if at.ndim != 2 or at.shape[1] != 2:
+            raise ValueError(f"points must have the shape (n, 2), as in [[x, y], ...], not {at.shape}")
+        return self._core.values(self._with_fields(increment), at, only, outside == "nan")
+
+    def displacement(self, points: ArrayLike, *, body: str | None = None, increment: int = -1,
+                     outside: Literal["error", "nan"] = "error") -> np.ndarray:
+        """Displacement at points, (n, 2); see ``values``."""
+        return self.values(points, body=body, increment=increment, outside=outside)["displacement"]
+
+    def stress(self, points: ArrayLike, *, body: str | None = None, increment: int = -1,
+               outside: Literal["error", "nan"] = "error") -> np.ndarray:
+        """Stress at points, (n, 4): xx, yy, xy, zz; see ``values``."""
+        return self.values(points, body=body, increment=increment, outside=outside)["stress"]
+
+    def save(self, directory: str | os.PathLike[str]) -> None:
+        """Writes the files that ``scabo run`` writes. Needs the fields of all increments (``keep_fields``)."""
+        self._directory = self._write(os.fsdecode(directory))
+
+    def _write(self, directory: str) -> str:
+        if self._core.writes_problems:
+            raise ValueError("the model asks for the discrete problems (output.discrete_problems), which are written "
+                             "only during a run: use run(output=...)")
+        for increment in range(len(self._increments)):
+            self._with_fields(increment)
+        _core.write_results(self._core, directory)
+        return directory
+
+    def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
+        """A figure of Matplotlib by ``scabo.plot``, whose functions describe the options: what="stress" on the deformed
+        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence" or "history". Results that are not in a
+        directory are first written to a temporary one."""
+        if what not in _PICTURES:
+            raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")
+        try:
+            from . import plot
+        except ImportError as error:
+            raise ImportError(f"plot() needs scabo.plot and Matplotlib (python3-matplotlib): {error}") from None
+        number = self._number(increment)
+        if what in ("stress", "contact"):
+            options["increment"] = number + 1  # files and pictures count from 1
+
+        def draw(directory: str) -> Any:
+            return getattr(plot, what)(plot.Results(directory), **options)
+
+        if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
+            return draw(self.directory)
+        with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
+            return draw(self._write(os.path.join(folder, "results")))
+
+    def _body(self, name: str) -> int:
+        bodies = self._core.bodies
+        if name not in bodies:
+            raise KeyError(f"there is no body named {name!r}; there are: {', '.join(bodies)}")
+        return bodies.index(name)
+
+    def _number(self, increment: int) -> int:
+        """Its index from 0."""
+        count = len(self._increments)
+        try:
+            increment = operator.index(increment)
+        except TypeError:
+            raise TypeError(f"increment must be a whole number, not {increment!r}") from None
+        if not -count <= increment < count:
+            raise IndexError(f"there is no increment {increment}: "
+                             + (f"they are 0 to {count - 1}" if count else "none was finished"))
+        return increment % count
+
+    def _with_fields(self, increment: int) -> int:
+        number = self._number(increment)
+        if not self._core.keeps_fields(number):
+            raise LookupError(f"the fields of increment {number} were not kept: run with keep_fields=True, or read the "
+                              "files of a run with output=...")
+        return number
+
+    def _last(self) -> Increment:
+        return self._increments[self._number(-1)]
+
+    def __repr__(self) -> str:
+        return f"<scabo.Result: {self.status}, {len(self._increments)} increments>"
