@@ -1,0 +1,73 @@
+"""The mesh as it was divided."""
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.patches import Patch
+
+from . import fields, geometry, style, vtu
+from .results import ResultsError
+from .units import Units
+
+
+@style.styled
+def mesh(results, units=None, window=None):
+    """The cells of all bodies as they were divided, undeformed, with a tint for each material and a dot at each node where they are few."""
+    units = units or Units()
+    grid = results.cells()
+    if grid is None:
+        return mesh_of_fields(results, units, window)
+    place = units.scale("length", np.abs(grid.points).max())
+    points = place.factor * grid.points
+    materials = np.asarray(grid.cell_data["material"])
+    is_cell = grid.types == vtu.POLYGON
+    kinds = np.unique(materials[is_cell])
+    tints = {kind: str(0.97 - 0.32 * k / max(1, len(kinds) - 1) if len(kinds) > 1 else 0.94) for k, kind in enumerate(kinds)}
+    finite = grid.cell_data["finite_element"][is_cell]
+    counts = [text for number, text in ((int((finite == 0).sum()), "super-elements"), (int(finite.sum()), "finite elements")) if number
+              for text in [f"{number} {text}"]]
+    legend = [(Patch(facecolor=tints[kind], edgecolor="0.3", linewidth=0.6), f"material {kind}") for kind in kinds] if len(kinds) > 1 else []
+    low, high = (grid.points.min(axis=0), grid.points.max(axis=0)) if window is None else (window[::2], window[1::2])
+    width, height = style.map_size(low, high)
+    model = results.summary["model"]
+    subtitle = f"mesh: {', '.join(counts) or 'boundary elements'}; {model['nodes']} nodes, {model['dofs']} degrees of freedom"
+    figure = style.new_figure(width, height, results.title, subtitle, legend[:6])
+    axis = figure.add_subplot()
+    lines = 0.4 if len(materials) < 4000 else 0.15
+    for kind in kinds:
+        bodies = [points[cell] for cell, of in zip(grid.lists(vtu.POLYGON), materials[is_cell]) if of == kind]
+        axis.add_collection(PolyCollection(bodies, facecolors=tints[kind], edgecolors="0.25", linewidths=lines))
+    boundary = grid.cells(vtu.LINE)
+    if len(boundary):
+        style.draw_outline(axis, points, boundary, linewidths=1.6, colors=style.BLUE)
+    if len(points) <= 1500:
+        axis.plot(*points[np.unique(grid.connectivity)].T, ".", color="black", markersize=2.5, markeredgewidth=0)
+    finish_mesh(axis, results, place, window, height)
+    return figure
+
+
+def mesh_of_fields(results, units, window):
+    """Where no body has several cells: outlines, and the boundary nodes of every super-element."""
+    grid = results.last_fields()
+    if grid is None:
+        raise ResultsError(f"{results.directory}: has neither cells.vtu nor fields, so there is no mesh to draw")
+    place = units.scale("length", np.abs(grid.points).max())
+    points = place.factor * grid.points
+    sides = geometry.outline(geometry.triangles(grid))
+    low, high = (grid.points.min(axis=0), grid.points.max(axis=0)) if window is None else (window[::2], window[1::2])
+    width, height = style.map_size(low, high)
+    model = results.summary["model"]
+    figure = style.new_figure(width, height, results.title, f"mesh: {model['super_elements']} super-elements, divided on their boundary "
+                                                            f"only; {model['nodes']} nodes, {model['dofs']} degrees of freedom")
+    axis = figure.add_subplot()
+    style.draw_outline(axis, points, sides)
+    nodes = np.unique(sides)
+    if len(nodes) <= 1500:
+        axis.plot(*points[nodes].T, ".", color="black", markersize=3.5, markeredgewidth=0)
+    finish_mesh(axis, results, place, window, height)
+    return figure
+
+
+def finish_mesh(axis, results, place, window, height):
+    grid = results.last_fields()
+    if grid is not None:
+        fields.draw_rigid(axis, place.factor * grid.points, grid)
+    fields.finish_map(axis, place, window, height)
