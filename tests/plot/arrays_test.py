@@ -1,4 +1,5 @@
 """What the pictures show, as arrays: equal to the files, and right for shapes and sizes that are known."""
+import dataclasses
 import pathlib
 import tempfile
 import unittest
@@ -84,6 +85,22 @@ class Geometry(WithResults):
         grid.point_data["displacement"] = grid.point_data["displacement"] + [1e-3, 0, 0]
         self.assertAlmostEqual(geometry.magnification(grid) / small, 1.0)
 
+    def test_magnification_does_not_draw_bodies_through_each_other(self):
+        grid = self.results.fields(1)
+        grid.point_data["displacement"] = 1e-4 * grid.point_data["displacement"]
+        free = geometry.magnification(grid)
+        rows = {"gap": np.array([0.0, 0.0]), "normal_displacement_a": np.array([0.0, 0.0]), "normal_displacement_b": np.array([-1e-4, 0.0])}
+        factor = geometry.magnification(grid, [rows])  # a pair that was 1e-4 apart has closed
+        self.assertLess(factor, free)
+        self.assertLessEqual(factor * 1e-4 - 1e-4, 0.004 * geometry.extent(grid.points))
+        self.assertGreater(5 * factor * 1e-4, 0.004 * geometry.extent(grid.points))
+
+    def test_nodes_end_where_the_outline_leaves_them(self):
+        ring = np.array([[0, 1], [1, 2], [2, 3], [0, 3], [8, 9], [9, 10], [10, 11], [8, 11]])  # of unbounded ground around four nodes
+        np.testing.assert_array_equal(geometry.nodes_on(ring, 0), [0, 1, 2, 3])
+        cracked = np.array([[0, 1], [1, 2], [0, 3], [2, 5], [3, 6], [5, 8]])  # open: the faces go on to other rings
+        np.testing.assert_array_equal(geometry.nodes_on(cracked, 0), [0, 1, 2])
+
     def test_moved_points(self):
         grid = self.results.fields(1)
         x, y = grid.points.T
@@ -152,7 +169,7 @@ class Fields(WithResults):
         figure = plot.stress(self.results, component="xx")
         axis, bar = figure.axes
         self.assertIn("stress xx", bar.get_ylabel() + bar.get_xlabel())
-        self.assertIn("× ", figure.texts[-1].get_text())
+        self.assertIn("deformation × ", figure.texts[-1].get_text())
         self.assertEqual(figure.texts[0].get_text(), "A title with $ and _ in it")
         self.assertTrue([c for c in axis.collections if isinstance(c, PolyCollection)], "the rigid body")
 
@@ -205,13 +222,30 @@ class Contacts(WithResults):
         np.testing.assert_allclose(np.hypot(*np.diff(parts, axis=1).reshape(-1, 2).T).sum(), 6.0)
 
     def test_widths_are_in_proportion(self):
-        np.testing.assert_allclose(contacts.widths_of(np.array([0.0, -2.0, 1.0])), [0, 6, 3])
+        widths, widest = contacts.widths_of(np.array([0.0, -2.0, 1.0]))
+        np.testing.assert_allclose(widths, [0, 7, 3.5])
+        self.assertEqual(widest, 2.0)
+        widths, widest = contacts.widths_of(np.concatenate([np.ones(99), [1000.0]]))
+        self.assertEqual(widest, 1.0)
+        np.testing.assert_allclose(widths, 7.0)
 
+    def test_rounding_of_gaps_is_zero(self):
+        rows = {"gap": np.array([1e-19, -3e-17, 2e-9]), "x": np.array([0.0, 1.0, 2.0]), "y": np.zeros(3),
+                "normal_displacement_a": np.full(3, 1e-3), "normal_displacement_b": np.full(3, 1e-3)}
+        np.testing.assert_array_equal(contacts.gap_of(rows), [0, 0, 2e-9])
+
+    def test_a_small_part_in_contact_is_shown_alone(self):
+        distance = np.linspace(0, 1, 101)
+        states = np.where(np.abs(distance - 0.5) < 0.045, "slip", "open")
+        line = contacts.Line("touch", distance, distance, 0 * distance, {}, states)
+        np.testing.assert_allclose(contacts.part_in_contact(line), (0.46 - 0.048, 0.54 + 0.048))
+        self.assertIsNone(contacts.part_in_contact(dataclasses.replace(line, states=np.full(101, "slip"))))
+        self.assertIsNone(contacts.part_in_contact(dataclasses.replace(line, states=np.full(101, "open"))))
 
 class Curves(WithResults):
     def test_history_is_the_summary(self):
         panel = curves.forces(self.results)
-        self.assertEqual([curve.name for curve in panel.curves], ["bend, normal", "bend, tangential", "_seat, normal", "_seat, tangential"])
+        self.assertEqual([curve.name for curve in panel.curves], ["bend, n", "bend, t", "_seat, n", "_seat, t"])
         np.testing.assert_allclose([curve.y for curve in panel.curves], [[100, 200], [-30, -60], [40, 80], [-12, -24]])
         np.testing.assert_allclose(panel.curves[0].x, [1, 2])
         np.testing.assert_allclose([curve.y for curve in curves.reactions(self.results).curves], [[3, 6], [-8, -8]])

@@ -42,7 +42,7 @@ def vtu(path, arrays, encoding="raw", cut=None):
     text = ('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"'
             f'{compressor}>\n<!-- by a test -->\n<UnstructuredGrid><Piece NumberOfPoints="{len(arrays["Points"])}" '
             f'NumberOfCells="{len(arrays["types"])}"><PointData>\n')
-    text += "".join(element(name, values, "f8" if name == "displacement" else "f4") for name, values in arrays["point"].items())
+    text += "".join(element(name, values, {"displacement": "f8", "body": "i4"}.get(name, "f4")) for name, values in arrays["point"].items())
     text += "</PointData><CellData>\n" + "".join(element(name, values, "i4") for name, values in arrays["cell"].items())
     text += "</CellData><Points>\n" + element("Points", arrays["Points"], "f8") + "</Points><Cells>\n"
     text += element("connectivity", arrays["connectivity"], "i4") + element("offsets", arrays["offsets"], "i4") + element(
@@ -70,7 +70,7 @@ def grid():
     return {"Points": np.column_stack([points, zero]), "connectivity": np.arange(len(points)), "offsets": np.cumsum(sizes),
             "types": [kind for kind, _ in cells],
             "point": {"displacement": np.column_stack([0.01 * x, -0.02 * y, zero]), "stress_xx": stress(2 * x - 5),
-                      "von_mises": stress(3 + x)},
+                      "von_mises": stress(3 + x), "body": np.repeat(np.arange(1, 6), sizes)},
             "cell": {"body": [1, 2, 3, 4, 5]}}
 
 

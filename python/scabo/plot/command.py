@@ -108,7 +108,6 @@ def figures(options, results):
 
 def write(options):
     from .results import Results, ResultsError
-    from .style import plt
     if options.output is not None and options.output.suffix.lower() not in FORMATS:
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
     if options.what == "all" and options.component is not None:
@@ -129,8 +128,9 @@ def write(options):
             print(f"no picture of {kind}: {error}", file=sys.stderr)
     if not drawn:
         raise ResultsError(f"{options.directory}: has nothing to draw")
+    for figure in drawn.values():
+        figure.draw_without_rendering()  # the layout follows from the labels, and these from the layout
     save(drawn, options)
-    plt.close("all")
     return 0
 
 

@@ -35,7 +35,15 @@ def lines_of(results, number, names=()):
                                + ", ".join(have[:12]) + (f" and {len(have) - 12} more" if len(have) > 12 else ""))
     chosen = {name: contacts[name] for name in names} if names else contacts
     return [Line(name, geometry.arc_length(rows["x"], rows["y"]), rows["x"], rows["y"],
-                 {key: rows[key] for key, _, _ in CURVES}, rows["state"]) for name, rows in chosen.items()]
+                 {key: rows[key] for key, _, _ in CURVES} | {"gap": gap_of(rows)}, rows["state"]) for name, rows in chosen.items()]
+
+
+def gap_of(rows):
+    """Zero where it is nothing but rounding, as in the tables of log.txt: below 1e-12 of the largest displacement, or below that of the
+    coordinates."""
+    moved = max(np.abs(rows[f"normal_displacement_{side}"]).max() for side in "ab")
+    rounding = max(1e-12 * moved, 4e-16 * np.abs([rows["x"], rows["y"]]).max())
+    return np.where(np.abs(rows["gap"]) <= rounding, 0.0, rows["gap"])
 
 
 def counts_of(lines):
@@ -66,35 +74,59 @@ def contact_curves(results, number, lines, units, curves):
     width = style.WIDTH if columns < 3 else 9.2
     height = 2.3 * rows if single or len(curves) == 1 else 1.75 * rows + 0.3
     subtitle = f"{results.name_of(number)} · forces act on the second side of the contact; shear and slip are positive along t"
+    if any(part_in_contact(line) is not None for line in lines):
+        subtitle += " · only the part in contact and its surroundings"
     figure = style.new_figure(width, height, results.title, subtitle, style.state_marks(counts_of(lines)))
     axes = figure.subplots(rows, columns, sharex="col", squeeze=False)
     grid = axes.reshape(-1, 1) if single else axes  # curve x contact
     scales = {key: units.scale(dimension, max(np.abs(line.values[key]).max() for line in lines)) for key, _, dimension in curves}
     for column, line in enumerate(lines):
-        along = units.scale("length", line.distance[-1])
+        view = part_in_contact(line)
+        along = units.scale("length", line.distance[-1] if view is None else 10 * (view[1] - view[0]))
         for row, (key, name, _) in enumerate(curves):
             axis = grid[row, column]
             x, y = along.factor * line.distance, scales[key].factor * line.values[key]
             axis.axhline(0, color="0.6", linewidth=0.6, zorder=0.5)
             axis.plot(x, y, color="0.45", linewidth=0.9, zorder=2)
-            style.mark_states(axis, x, y, line.states)
+            shown = slice(None) if view is None else (line.distance >= view[0]) & (line.distance <= view[1])
+            style.mark_states(axis, x[shown], y[shown], line.states[shown])
             axis.grid(True)
             style.plain_frame(axis)
             axis.margins(0.04, 0.1)
+            if view is not None:
+                show_part(axis, x, y, along.factor * np.array(view))
             if not np.any(y):
                 axis.set_ylim(-1, 1)
             if single or column == 0:
                 axis.set_ylabel(scales[key].label(name, "\n"), fontsize=8.5 if single else 8)
             style.few_ticks(axis, 6 if columns < 3 else 4, 5)
         for axis in grid[-2:, column] if single else grid[-1:, column]:
-            start = ", ".join(f"{units.scale('length', np.abs([line.x, line.y]).max()).factor * value:.4g}" for value in (line.x[0], line.y[0]))
-            axis.set_xlabel(along.label(f"distance from ({start})" if columns > 1 else f"distance along the contact from ({start})"))
+            start = ", ".join(f"{along.factor * value:.4g}" for value in (line.x[0], line.y[0]))
+            axis.set_xlabel(along.label(f"distance from ({start})"))
         if len(lines) > 1:
             grid[0, column].set_title(line.name)
         elif len(curves) > 1:
             grid[0, column].set_title(f"contact {line.name}")
     figure.align_ylabels()
     return figure
+
+
+def part_in_contact(line, least=0.2):
+    """Where the pairs that are not open lie within less than a fifth of the contact: that part and as much beside it; otherwise None."""
+    touching = line.distance[line.states != "open"]
+    if len(touching) < 2:
+        return None
+    first, last = touching[0], touching[-1]
+    beside = 0.6 * (last - first)
+    return (first - beside, last + beside) if last - first < least * line.distance[-1] else None
+
+
+def show_part(axis, x, y, view):
+    """Limits for the part of a curve within `view`."""
+    inside = y[(x >= view[0]) & (x <= view[1])]
+    low, high = min(inside.min(), 0.0), max(inside.max(), 0.0)
+    axis.set_xlim(view)
+    axis.set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low) or 1.0)
 
 
 def middles(x, y):
@@ -127,18 +159,22 @@ def contact_map(results, number, lines, units, component):
         if fields is not None:
             style.draw_outline(axis, place.factor * fields.points, sides, colors="0.75", linewidths=0.4, zorder=0.5)
         style.map_frame(axis, place.label("x"), place.label("y"))
-    size = float(np.clip(90 * np.sqrt(width * height / max(1, len(states)) ) / 25, 1.6, 5.0))
+    between = np.concatenate([np.diff(line.distance) for line in lines] or [[]])
+    spacing = np.median(between) if len(between) else high[0] - low[0]
+    size = float(np.clip(0.45 * spacing / max(high[0] - low[0], 1e-300) * 72 * (width - 0.7), 1.8, 5.0))
     points = place.factor * pieces[:, 1]
     for state, (colour, mark, filled) in style.STATES.items():
         chosen = states == state
         axes[0].plot(*points[chosen].T, linestyle="", marker=mark, markersize=size, color=colour, markerfacecolor=colour if filled else
                      "white", markeredgewidth=0.5)
     axes[0].set_title("state of the pairs")
-    widths = widths_of(values)
+    widths, widest = widths_of(values)
     for state, (colour, _, _) in style.STATES.items():
         chosen = (states == state) & (widths > 0)
         axes[1].add_collection(LineCollection(place.factor * pieces[chosen], colors=colour, linewidths=widths[chosen], capstyle="butt"))
-    axes[1].set_title(f"{component} as the width of the line, at most {scale.text(values[np.argmax(np.abs(values))])}")
+    largest = np.abs(values).max()
+    axes[1].set_title(f"{component} as the width of the line, at most {scale.text(largest)}"
+                      + (f"; widest from {scale.text(widest)} on" if widest < 0.999 * largest else ""))
     for axis in axes:
         axis.autoscale_view()
         style.few_ticks(axis, 7 if not upright else 4, max(3, min(6, int(2 * height))))
@@ -149,7 +185,12 @@ def contact_map(results, number, lines, units, component):
     return figure
 
 
-def widths_of(values, most=6.0):
-    """Widths of lines in points, in proportion to the size of the values."""
-    largest = np.abs(values).max()
-    return most * np.abs(values) / largest if largest > 0 else np.zeros(len(values))
+def widths_of(values, most=7.0, part=0.98):
+    """Widths of lines in points, in proportion to the size of the values, and the size from which on they are widest: single peaks
+    would leave nothing to see of the others."""
+    sizes = np.abs(values)
+    if not sizes.any():
+        return np.zeros(len(values)), 0.0
+    typical = np.quantile(sizes[sizes > 0], part)
+    widest = float(typical if typical < 0.5 * sizes.max() else sizes.max())
+    return most * np.minimum(sizes / widest, 1.0), widest

@@ -71,6 +71,9 @@ def draw_panel(axis, panel, units):
     axis.grid(True)
     style.plain_frame(axis)
     axis.margins(0.05, 0.08)
+    if max(len(curve.x) for curve in panel.curves) == 1:  # one increment: how far it is from nothing
+        axis.axhline(0, linewidth=0)
+        axis.axvline(0, linewidth=0)
     if not largest("y"):
         axis.set_ylim(-1, 1)
     elif panel.y == PAIRS:
@@ -116,7 +119,7 @@ def forces(results):
     names, count = contact_names(results, 3)
     title = "forces of contacts" if count <= 3 else f"forces of contacts (3 of {count}, the largest)"
     curves = [Curve(f"{short_name(name)}, {short}" if count > 1 else long, results.times(), of_contacts(results, name, key)) for name in names
-              for key, short, long in (("normal_force", "normal", "normal"), ("tangential_force", "tangential", "tangential"))]
+              for key, short, long in (("normal_force", "n", "normal"), ("tangential_force", "t", "tangential"))]
     return Panel(title if count else "", TIME, ("force", "force"), curves)
 
 
@@ -140,21 +143,27 @@ def mean_slip(results, name):
 
 def hysteresis(results):
     """Tangential force against mean slip of each contact: a loop where slip reverses."""
-    if results.table("contact.csv") is None:
-        return None
     names, count = contact_names(results, 3)
-    curves = [Curve(short_name(name) if count > 1 else "", mean_slip(results, name), of_contacts(results, name, "tangential_force")) for name in names]
+    if not names or results.table("contact.csv") is None:
+        return None
+    curves = [Curve(short_name(name) if count > 1 else "", mean_slip(results, name), of_contacts(results, name, "tangential_force"))
+              for name in names]
+    largest = max(np.nanmax(np.abs(of_contacts(results, name, "normal_force")), initial=0.0) for name in names)
+    if all(np.nanmax(np.abs(curve.y), initial=0.0) <= 1e-8 * largest for curve in curves):  # without friction, or a closed line
+        return None
     return Panel("tangential force against slip", ("mean slip", "length"), ("tangential force", "force"), curves)
 
 
 def largest_displacement(results):
-    """Of any point of the fields after every increment, and what it is called; None where increments have no fields."""
+    """After every increment, and what it is called: of the first point of `output.points` the component that changes most, otherwise
+    the largest one of any point of the fields; None where increments have no fields."""
     points = results.table("points.csv")
     if points is not None and len(points["name"]):
         name = points["name"][0]
         rows = (points["name"] == name) & (points["body"] == points["body"][0])
         if rows.sum() == results.count:
-            return f"displacement of {name}", np.hypot(points["ux"][rows], points["uy"][rows])
+            key = max(("ux", "uy"), key=lambda component: np.ptp(np.append(points[component][rows], 0.0)))
+            return f"{key} of {name}", points[key][rows]
     numbers = results.field_numbers()
     if len(numbers) != results.count or len(numbers) > MOST_FILES:
         return None
@@ -175,7 +184,11 @@ def load_displacement(results):
     factors = {name: np.array([entry["factors"][name] for entry in results.increments], dtype=float)
                for name in results.increments[0]["factors"]}
     changing = {name: values for name, values in factors.items() if np.ptp(values) > 0} or factors
-    curves = [Curve(short_name(name), displacement[1], values) for name, values in list(changing.items())[:MOST_CURVES]]
+    alike = {}  # loads with equal factors share a curve
+    for name, values in changing.items():
+        alike.setdefault(tuple(values), []).append(short_name(name))
+    curves = [Curve(names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more", displacement[1], np.array(values))
+              for values, names in list(alike.items())[:MOST_CURVES]]
     return Panel("load against displacement", (displacement[0], "length"), ("factor of the load", "number"), curves)
 
 

@@ -83,9 +83,12 @@ def field_of(results, increment=-1, component=None, magnification=None, window=N
     if component not in COMPONENTS:
         raise ResultsError(f"--component {component}: there are {', '.join(COMPONENTS)}")
     _, name, dimension = COMPONENTS[component]
+    if results.modal:  # its size means nothing
+        name, dimension = name + " of the mode" if dimension == "length" else name, "number"
     values = field_values(grid, component)
     if magnification is None:
-        magnification = geometry.magnification(grid)
+        magnification = geometry.magnification(grid, part=0.08, least=0.0) if results.modal else \
+            geometry.magnification(grid, results.contacts(number).values())
     points = geometry.moved(grid, magnification)
     corners = geometry.triangles(grid)
     if len(corners) == 0:
@@ -118,8 +121,8 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
     levels = style.levels_of(scale.factor * field.range[0], scale.factor * field.range[1])
 
     low, high = (field.points.min(axis=0), field.points.max(axis=0)) if window is None else (window[::2], window[1::2])
-    width, height = style.map_size(low, high)
-    wide = height < 3.2
+    wide = high[1] - low[1] < 0.45 * (high[0] - low[0])  # the colour bar is then below
+    width, height = style.map_size(low, high, beside=0.0 if wide else 0.95)
     figure = style.new_figure(width, height + (0.75 if wide else 0.0), results.title, described(field, scale, place))
     axis = figure.add_subplot()
     points = place.factor * field.points
@@ -138,7 +141,7 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
 
 def described(field, scale, place):
     """`step 1, increment 4 · von Mises stress (displacements × 50) · largest 6.1 MPa at (0, 1.5)`"""
-    shape = f"displacements × {field.magnification:g}" if field.magnification else "undeformed"
+    shape = f"deformation × {field.magnification:g}" if field.magnification else "undeformed"
     parts = [field.increment, f"{field.name} ({shape})"]
     if field.largest >= 0:
         signed = bool((field.values[field.seen] < 0).any())

@@ -26,6 +26,16 @@ def outline(corners):
     return sides[times == 1]
 
 
+def nodes_on(sides, first):
+    """Numbers of the nodes of a super-element whose outline is in `sides` and whose first point is `first`: its points begin with them,
+    in the order of its boundary. Other points of an outline are those at which a crack or unbounded ground was sampled."""
+    along = set(map(tuple, np.sort(sides, axis=1).tolist()))
+    last = first
+    while (last, last + 1) in along:
+        last += 1
+    return np.arange(first, last + 1)
+
+
 def rigid_outlines(grid):
     """Points of each rigid body, which a file of fields has as one polygon."""
     return grid.lists(vtu.POLYGON)
@@ -43,9 +53,10 @@ def extent(points):
     return float(np.hypot(*np.ptp(points, axis=0))) if len(points) else 0.0
 
 
-def magnification(grid, part=0.04):
-    """1, 2 or 5 times a power of ten, so that the largest displacement is drawn as `part` of the model's diagonal or less; 1 where
-    displacements are larger than that. A translation of all points is not counted: only what can be seen."""
+def magnification(grid, contacts=(), part=0.04, overlap=0.004, least=1.0):
+    """1, 2 or 5 times a power of ten, so that the largest displacement is drawn as `part` of the model's diagonal or less; `least`
+    where displacements are larger than that. A translation of all points is not counted: only what can be seen. `contacts`: tables of pairs
+    (results.py), whose sides are not drawn through each other by more than `overlap` of the diagonal."""
     displacement = grid.point_data.get("displacement")
     if displacement is None or len(displacement) == 0:
         return 0.0
@@ -56,8 +67,13 @@ def magnification(grid, part=0.04):
     if not np.isfinite(largest) or largest <= 1e-9 * whole or largest <= 1e-15 * size:
         return 1.0
     factor = part * size / largest
+    for rows in contacts:  # gap = initial gap + opening; drawn: initial gap + factor * opening
+        opening = rows["normal_displacement_b"] - rows["normal_displacement_a"]
+        closing = opening < 0
+        if closing.any():
+            factor = min(factor, np.min((overlap * size + np.maximum(rows["gap"] - opening, 0.0)[closing]) / -opening[closing]))
     power = 10.0 ** np.floor(np.log10(factor))
-    return max(1.0, max(step * power for step in (1, 2, 5) if step * power <= factor * (1 + 1e-9)))
+    return max(least, max(step * power for step in (1, 2, 5) if step * power <= factor * (1 + 1e-9)))
 
 
 def areas(points, corners):

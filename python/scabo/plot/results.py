@@ -69,7 +69,7 @@ class Results:
         """`step 2, increment 1` of a number from 1."""
         if self.modal:
             mode = self.summary["modes"][number - 1]
-            return f"mode {number} of {mode['body']}, frequency {mode['frequency']:.4g} / time"
+            return f"mode {number} of {mode['body']}, frequency {mode['frequency']:.5g} (1 / time)"
         entry = self.increments[number - 1]
         return f"step {entry['step']}, increment {entry['increment']}"
 

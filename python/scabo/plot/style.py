@@ -41,7 +41,7 @@ def styled(function):
 def new_figure(width, height, title, subtitle, legend=()):
     """A figure with `height` inches for axes below its header: the title of the model, what is shown, and a legend of (artist, text)."""
     lines = textwrap.wrap(" ".join(title.split()), int(width * 14.5), max_lines=3, placeholder=" ...") if title else []
-    below = textwrap.wrap(subtitle, int(width * 16.5))
+    below = textwrap.wrap(subtitle, int(width * 15.5))
     head = 0.08 + 0.18 * len(lines) + 0.16 * len(below) + (0.22 if legend else 0.0) + 0.06
     figure = plt.figure(figsize=(width, height + head))
     figure.set_layout_engine("constrained", rect=(0, 0, 1, height / (height + head)))
@@ -80,7 +80,7 @@ def mark_states(axis, x, y, states, size=4.0, most=60):
         if not chosen.any():
             continue
         axis.plot(np.asarray(x)[chosen], np.asarray(y)[chosen], linestyle="", marker=mark, markersize=size, color=colour,
-                  markerfacecolor=colour if filled else "white", markeredgewidth=0.8, zorder=3, clip_on=False)
+                  markerfacecolor=colour if filled else "white", markeredgewidth=0.8, zorder=3)
 
 
 def marked(states, most):
@@ -160,8 +160,10 @@ def map_frame(axis, label_x, label_y):
     plain_frame(axis)
 
 
-def map_size(low, high, width=WIDTH, least=1.3, most=7.0):
-    """Width and height in inches of a map of the box from `low` to `high`, its tick labels included."""
+def map_size(low, high, width=WIDTH, beside=0.0, least=1.2, most=6.8):
+    """Width and height in inches of a map of the box from `low` to `high`, with its labels, and `beside` inches to its right."""
     across, up = np.maximum(np.asarray(high) - np.asarray(low), 1e-300)
-    height = float(np.clip((width - 1.0) * up / across, least, most))
-    return (width if height < most else float(np.clip(most * across / up + 1.2, 3.4, width))), height + 0.5
+    labels = 0.7 + beside
+    height = float(np.clip((width - labels) * up / across, least, most))
+    narrow = float(np.clip(most * across / up + labels, 3.6, width)) if height == most else width
+    return narrow, height + 0.55
