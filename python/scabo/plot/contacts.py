@@ -161,8 +161,8 @@ def contact_map(results, number, lines, units, component):
         style.map_frame(axis, place.label("x"), place.label("y"))
     between = np.concatenate([np.diff(line.distance) for line in lines] or [[]])
     spacing = np.median(between) if len(between) else high[0] - low[0]
-    size = float(np.clip(0.45 * spacing / max(high[0] - low[0], 1e-300) * 72 * (width - 0.7), 1.8, 5.0))
-    points = place.factor * pieces[:, 1]
+    size = float(np.clip(0.25 * spacing / max(high[0] - low[0], 1e-300) * 72 * (width - 0.7), 1.8, 5.0))
+    points = place.factor * pieces[:, [0, 2]].mean(axis=1)  # where blocks meet in a corner, each of their pairs has a place of its own
     for state, (colour, mark, filled) in style.STATES.items():
         chosen = states == state
         axes[0].plot(*points[chosen].T, linestyle="", marker=mark, markersize=size, color=colour, markerfacecolor=colour if filled else
