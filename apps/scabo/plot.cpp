@@ -87,8 +87,9 @@ std::string find_interpreter() {
 fs::path find_pictures() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw std::runtime_error(fmt::format("cannot find the place of this program in /proc: {}", error.message()));
   const fs::path folder = (program.parent_path() / SCABO_BIN_TO_DATA / "scabo" / "scabo_plot").lexically_normal();
-  if (error || !fs::exists(folder / "__main__.py", error))
+  if (!fs::exists(folder / "__main__.py", error))
     throw std::runtime_error(fmt::format(
         "the program for pictures is not at {}: install Scabo completely (make install)", folder.string()));
   return folder;
