@@ -7,7 +7,6 @@ import pathlib
 import sys
 
 import matplotlib.ticker
-import meshio
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import pictures
@@ -60,8 +59,7 @@ def run(scabo, directory, *settings):
 
 def boundary_nodes(run):
     """Nodes of the super-element: the first points, up to the second ring of the output."""
-    mesh = meshio.read(sorted(run.directory.glob("fields_*.vtu"))[-1])
-    return mesh.points[: run.summary["model"]["nodes"], :2]
+    return pictures.scabo_plot.Results(run.directory).last_fields().points[: run.summary["model"]["nodes"]]
 
 
 def stress(run):

@@ -46,14 +46,14 @@ def picture(options):
     left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1.75, 1.05, 1]})
     mesh = pictures.fields(options.results, 2)
     drawn = pictures.draw(left, mesh, -1e3 * mesh.point_data["displacement"][:, 1], np.linspace(0, 45, 10))
-    pictures.draw_cells(left, mesh)
+    pictures.draw_cells(left, options.results)
     left.add_patch(plt.Polygon([(-15, -3.5), (-8, -5), (-1, -4), (-6, -2.2)], fill=False, linewidth=1.6, edgecolor=pictures.BLUE))
     left.annotate("soft clay", (-13, -3.9), (-18, -6.4), color=pictures.BLUE, arrowprops={"arrowstyle": "-", "lw": 0.8, "color": pictures.BLUE})
     pictures.colour_bar(figure, drawn, left, "settlement (mm)", count=4, location="bottom", shrink=0.7)
     left.set(title="weight and traffic: settlement, and the super-elements")
 
     drawn = pictures.draw(middle, mesh, 1e-6 * hoop_stress(mesh), pictures.signed_levels(3, bands=6), magnification=10)
-    pictures.draw_cells(middle, mesh, 10)
+    pictures.draw_cells(middle, options.results, 10)
     pictures.colour_bar(figure, drawn, middle, "hoop stress (MPa)", location="bottom", shrink=0.9)
     middle.set(xlim=(-1.45, 1.35), ylim=(-0.45, 2.25), title="the pipe: bending, and the soil around it")
 

@@ -58,9 +58,10 @@ def picture(options):
     figure = plt.figure(figsize=(13.2, 4.0), layout="constrained")
     left, right = figure.subplots(1, 2)
     mesh = pictures.fields(options.results, LAST)
+    sides = pictures.outline(pictures.triangles_of(mesh))
     for axis, magnification in ((left, MAGNIFICATION), (right, 0)):
         moved = pictures.moved_points(mesh, magnification)
-        blocks = [polygon_of(triangles, moved) for triangles in pictures.cells_of(mesh)]
+        blocks = [moved[pictures.geometry.nodes_on(sides, first)] for first in np.flatnonzero(np.diff(mesh.point_data["body"], prepend=0))]
         axis.add_collection(PolyCollection(blocks, facecolors=STONE, edgecolors="black" if magnification else "0.75", linewidths=0.5))
         pictures.label_map(axis, magnification)
         axis.set(xlim=(-0.7, 11.2), ylim=(-0.6, 5.5))
@@ -78,13 +79,6 @@ def picture(options):
     for line in legend.get_lines():
         line.set_linewidth(3)
     return figure
-
-
-def polygon_of(triangles, points):
-    """The boundary of a convex block."""
-    corners = np.unique(pictures.outline(triangles))
-    offset = points[corners] - points[corners].mean(axis=0)
-    return points[corners[np.argsort(np.arctan2(offset[:, 1], offset[:, 0]))]]
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ def picture(options, summary):
             (middle, (-2.2, 2.2, -2.2, 1.0), "under the footing, with the cells", {})):
         drawn = pictures.draw(axes, last, pictures.values_of(last, "stress_yy", 1e-3), levels, **moved)
         axes.set(xlim=limits[:2], ylim=limits[2:], title=title)
-    pictures.draw_cells(middle, last)
+    pictures.draw_cells(middle, options.results / "model")
     pictures.colour_bar(figure, drawn, middle, "vertical stress (kPa)", location="bottom", shrink=0.9)
     x = np.linspace(-0.985, 0.985, 400)
     right.plot(x, punch(x) * 1e-3, color=pictures.GREY, label="rigid punch, closed form")

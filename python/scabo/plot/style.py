@@ -5,10 +5,12 @@ import textwrap
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
+
+from . import geometry, vtu
 
 SETTINGS = {"font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.labelsize": 9, "legend.fontsize": 8.5,
             "legend.frameon": False, "axes.linewidth": 0.7, "axes.grid": False, "axes.axisbelow": True, "grid.color": "0.88",
@@ -132,8 +134,8 @@ def signed_levels(largest, bands=10):
     return np.linspace(-largest, largest, 2 * bands + 2)
 
 
-def contours(axis, points, corners, values, levels, extend=None):
-    """Filled contours; levels on both sides of zero mean a signed quantity. Triangles with a value that is not a number are left out."""
+def contours(axis, points, corners, values, levels, extend=None, lines=True):
+    """Filled contours, with lines at every second level; levels on both sides of zero mean a signed quantity. Triangles with a value that is not a number are left out."""
     values = np.asarray(values, dtype=float).reshape(-1)
     shown = Triangulation(*points.T, corners[np.isfinite(values[corners]).all(axis=1)])
     values = np.where(np.isfinite(values), values, 0.0)
@@ -143,7 +145,7 @@ def contours(axis, points, corners, values, levels, extend=None):
     for part in drawn.collections:  # no thin gaps between the bands in PDF and SVG
         part.set_edgecolor("face")
         part.set_linewidth(0.1)
-    if len(levels) > 3:  # which side of zero a dark colour is on, told without colour too
+    if lines and len(levels) > 3:  # which side of zero a dark colour is on, told without colour too
         axis.tricontour(shown, values, levels=levels[1:-1:2], colors="black", linewidths=0.3, alpha=0.7)
     return drawn
 
@@ -151,6 +153,13 @@ def contours(axis, points, corners, values, levels, extend=None):
 def draw_outline(axis, points, sides, **options):
     """Sides S x 2 of numbers of points."""
     axis.add_collection(LineCollection(points[sides], **{"colors": "black", "linewidths": 0.6, "capstyle": "projecting", **options}))
+
+
+def draw_cells(axis, cells, magnification=0.0, factor=1.0, **options):
+    """The sides of the cells of a cells.vtu, coordinates times `factor`."""
+    points = factor * geometry.moved(cells, magnification)
+    axis.add_collection(PolyCollection([points[cell] for cell in cells.lists(vtu.POLYGON)],
+                                       **{"facecolors": "none", "edgecolors": "black", "linewidths": 0.35, "alpha": 0.6, **options}))
 
 
 def map_frame(axis, label_x, label_y):
