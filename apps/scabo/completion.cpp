@@ -117,7 +117,9 @@ std::string zsh_action(const OptionDescription& value) {
 }
 
 std::string zsh_option(const OptionDescription& option) {
-  std::string spec = option.repeats ? "'*'" : option.flags.size() > 1 ? fmt::format("'({})'", joined(option.flags, " ")) : "";
+  std::string spec = option.repeats            ? "'*'"
+                     : option.flags.size() > 1 ? fmt::format("'({})'", joined(option.flags, " "))
+                                               : "";
   spec += option.flags.size() > 1 ? fmt::format("{{{}}}", joined(option.flags, ",")) : option.flags.front();
   spec += fmt::format("'[{}]", zsh_quoted(option.text));
   if (option.takes_value()) spec += fmt::format(":{}:{}", zsh_quoted(option.value), zsh_action(option));
@@ -136,8 +138,9 @@ _scabo() {
     text += fmt::format("    '{}:{}'\n", commands[i].name, zsh_quoted(commands[i].text));
   text += "  )\n  _arguments -C";
   for (const OptionDescription& option : commands.front().options) text += " \\\n    " + zsh_option(option);
-  text += " \\\n    '1:command:->command' '*::argument:->arguments'\n  case $state in\n"
-          "    command) _describe command commands ;;\n    arguments)\n      case $line[1] in\n";
+  text +=
+      " \\\n    '1:command:->command' '*::argument:->arguments'\n  case $state in\n"
+      "    command) _describe command commands ;;\n    arguments)\n      case $line[1] in\n";
   for (std::size_t i = 1; i < commands.size(); ++i) {
     text += fmt::format("        {}) _arguments", commands[i].name);
     for (const OptionDescription& option : commands[i].options) text += " \\\n          " + zsh_option(option);
@@ -145,7 +148,9 @@ _scabo() {
       text += fmt::format(" \\\n          '1:{}:{}'", zsh_quoted(argument.value), zsh_action(argument));
     text += " ;;\n";
   }
-  return text + "      esac ;;\n  esac\n}\nif [ \"$funcstack[1]\" = _scabo ]; then _scabo \"$@\"; else compdef _scabo scabo; fi\n";
+  return text +
+         "      esac ;;\n  esac\n}\nif [ \"$funcstack[1]\" = _scabo ]; then _scabo \"$@\"; else compdef _scabo scabo; "
+         "fi\n";
 }
 
 // fish
@@ -184,7 +189,8 @@ std::string fish_script(const std::vector<CommandDescription>& commands) {
     text += "complete -c scabo -n __fish_use_subcommand" + fish_option(option) + "\n";
   for (std::size_t i = 1; i < commands.size(); ++i) {
     const CommandDescription& command = commands[i];
-    text += fmt::format("complete -c scabo -n __fish_use_subcommand -a {} -d {}\n", command.name, fish_quoted(command.text));
+    text += fmt::format("complete -c scabo -n __fish_use_subcommand -a {} -d {}\n", command.name,
+                        fish_quoted(command.text));
     const std::string here = fmt::format("complete -c scabo -n '__fish_seen_subcommand_from {}'", command.name);
     for (const OptionDescription& option : command.options) text += here + fish_option(option) + "\n";
     for (const OptionDescription& argument : command.arguments)

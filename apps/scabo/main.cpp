@@ -65,9 +65,9 @@ is, the natural-map residual or the certificate is below the tolerance; 2: not c
 constexpr const char* plot_example = R"(Example:
   scabo plot model.results --what contact --units m,N -o contact.pdf
 
-Draws what --what names: `stress`, any component of stress or displacement on the deformed bodies; `contact`, pressure,
-shear, gap and slip along the contacts with the state of every pair; `history`, curves over the increments; `convergence`
-of the contact solver; `mesh`. It needs Python with NumPy and Matplotlib.)";
+`stress`: any component of stress or displacement on the deformed bodies; `contact`: pressure, shear, gap and slip along
+the contacts with the state of every pair; `history`: curves over the increments; `convergence` of the contact solver;
+`mesh`. It needs Python with NumPy and Matplotlib (apt install python3-matplotlib).)";
 
 constexpr const char* new_example = R"(Example:
   scabo new beam && scabo run beam.yaml && scabo plot beam.results)";
@@ -188,7 +188,10 @@ class CommandLine {
     new_->add_option("-o,--output", new_options_.output, "Name of the file; default: KIND.yaml")->option_text("FILE");
     new_->footer(new_example);
 
-    completion_->add_option("SHELL", shell_, "Shell")->required()->option_text(" ")->check(one_of({"bash", "zsh", "fish"}));
+    completion_->add_option("SHELL", shell_, "Shell")
+        ->required()
+        ->option_text(" ")
+        ->check(one_of({"bash", "zsh", "fish"}));
     completion_->footer(completion_example);
     manual_->footer("Example:\n  scabo manual | man -l -");
   }
@@ -282,7 +285,8 @@ class CommandLine {
         ->option_text("S");
     plot_->add_option("--window", plot_options_.text, "Only this part of the plane, in stress and mesh")
         ->option_text("X0,X1,Y0,Y1");
-    plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")->option_text("LENGTH,FORCE");
+    plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
+        ->option_text("LENGTH,FORCE");
     plot_->add_option("-o,--output", plot_options_.text,
                       "A .png, .svg or .pdf; default: .png files beside DIR, one for each picture")
         ->option_text("FILE");
@@ -305,7 +309,7 @@ class CommandLine {
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   CLI::App* plot_ = app_.add_subcommand("plot", "Draws pictures of results");
   CLI::App* new_ = app_.add_subcommand("new", "Writes a commented model to begin with");
-  CLI::App* completion_ = app_.add_subcommand("completion", "Prints the completion of commands and options for a shell");
+  CLI::App* completion_ = app_.add_subcommand("completion", "Prints completion of commands and options for a shell");
   CLI::App* manual_ = app_.add_subcommand("manual", "Prints the manual page");
   /// Values of the options of `plot` that are only checked.
   struct {

@@ -8,7 +8,8 @@ namespace scabo::app {
 
 namespace {
 
-/// Text as it stands: a backslash and a hyphen mean something to roff, and so does a dot or a quotation mark that begins a line.
+/// Text as it stands: a backslash and a hyphen mean something to roff, and so does a dot or a quotation mark that
+/// begins a line.
 std::string roff(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -63,16 +64,18 @@ std::string manual_page(const std::vector<CommandDescription>& commands) {
                                  result::version());
   text += ".SH NAME\nscabo \\- frictional contact by the scaled boundary finite element method\n.SH SYNOPSIS\n";
   for (std::size_t i = 1; i < commands.size(); ++i) text += synopsis(commands[i]);
-  text += ".SH DESCRIPTION\nScabo solves plane problems of elastic bodies in frictional contact, described by a model "
-          "file in YAML.\nEvery result is certified: equilibrium, penetration and Coulomb's law are checked after the "
-          "solve.\n.SH OPTIONS\n";
+  text +=
+      ".SH DESCRIPTION\nScabo solves plane problems of elastic bodies in frictional contact, described by a model "
+      "file in YAML.\nEvery result is certified: equilibrium, penetration and Coulomb's law are checked after the "
+      "solve.\n.SH OPTIONS\n";
   text += entries(program) + ".SH COMMANDS\n";
   for (std::size_t i = 1; i < commands.size(); ++i)
     text += fmt::format(".SS scabo {}\n{}.\n{}{}", commands[i].name, roff(commands[i].text), entries(commands[i]),
                         as_printed(commands[i].footer));
   text += ".SH EXIT STATUS\n" + as_printed(program.footer.substr(program.footer.find('\n') + 1));
-  text += ".SH ENVIRONMENT\n.TP\n.B SCABO_PYTHON\nPython interpreter for \\fBscabo plot\\fR; default: the first of "
-          "/usr/bin/python3 and python3 that has Matplotlib\n.TP\n.B NO_COLOR\nIf set, messages have no colour\n";
+  text +=
+      ".SH ENVIRONMENT\n.TP\n.B SCABO_PYTHON\nPython interpreter for \\fBscabo plot\\fR; default: the first of "
+      "/usr/bin/python3 and python3 that has Matplotlib\n.TP\n.B NO_COLOR\nIf set, messages have no colour\n";
   return text;
 }
 

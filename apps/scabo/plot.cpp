@@ -77,21 +77,22 @@ std::string find_interpreter() {
     if (missing.empty()) return candidate;
     report += fmt::format("{}{} {}", report.empty() ? "" : "; ", candidate, missing);
   }
-  throw std::runtime_error(
-      fmt::format("no Python with NumPy and Matplotlib for pictures: {}. Install them (apt install python3-matplotlib), "
-                  "or name another interpreter with SCABO_PYTHON",
-                  report));
+  throw std::runtime_error(fmt::format(
+      "no Python with NumPy and Matplotlib for pictures: {}. Install them (apt install python3-matplotlib), "
+      "or name another interpreter with SCABO_PYTHON",
+      report));
 }
 
 /// Beside the program, in the build directory as where it is installed.
 fs::path find_pictures() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw std::runtime_error(fmt::format("cannot find the place of this program in /proc: {}", error.message()));
+  if (error)
+    throw std::runtime_error(fmt::format("cannot find the place of this program in /proc: {}", error.message()));
   const fs::path folder = (program.parent_path() / SCABO_BIN_TO_DATA / "scabo" / "scabo_plot").lexically_normal();
   if (!fs::exists(folder / "__main__.py", error))
-    throw std::runtime_error(fmt::format(
-        "the program for pictures is not at {}: install Scabo completely (make install)", folder.string()));
+    throw std::runtime_error(
+        fmt::format("the program for pictures is not at {}: install Scabo completely (make install)", folder.string()));
   return folder;
 }
 

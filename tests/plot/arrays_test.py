@@ -169,8 +169,10 @@ class Fields(WithResults):
         figure = plot.stress(self.results, component="xx")
         axis, bar = figure.axes
         self.assertIn("stress xx", bar.get_ylabel() + bar.get_xlabel())
-        self.assertIn("deformation × ", figure.texts[-1].get_text())
+        self.assertIn("deformation × ", " ".join(text.get_text() for text in figure.texts))
         self.assertEqual(figure.texts[0].get_text(), "A title with $ and _ in it")
+        self.assertIn("the run ended as not converged", " ".join(text.get_text() for text in figure.texts))
+        self.assertNotIn("the run ended", " ".join(text.get_text() for text in plot.stress(self.results, 1).texts))
         self.assertTrue([c for c in axis.collections if isinstance(c, PolyCollection)], "the rigid body")
 
 

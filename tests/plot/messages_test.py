@@ -106,6 +106,9 @@ class Messages(unittest.TestCase):
         self.refused("no part of a body lies in it", self.directory, "--what", "stress", "--window", "-9,-8,0,1")
         self.refused("--units m: give the unit of length and that of force", self.directory, "--units", "m")
         self.refused("--scale nan: give a number", self.directory, "--scale", "nan")
+        for what, option, value in (("contact", "--scale", "2"), ("history", "--window", "0,1,0,1"), ("mesh", "--component", "xx"),
+                                    ("convergence", "--units", "m,N"), ("history", "--increment", "1"), ("stress", "--contact", "bend")):
+            self.refused(f"{option}: has no meaning for --what {what}", self.directory, "--what", what, option, value)
 
     def test_a_place_that_cannot_be_written(self):
         self.refused("cannot write .*: No such file or directory", self.directory, "--what", "mesh", "-o", self.folder / "nowhere" / "a.png",
@@ -119,6 +122,10 @@ class Messages(unittest.TestCase):
         names = [pathlib.Path(line).name for line in run.stdout.splitlines()]
         self.assertEqual(names, ["made_up.stress.png", "made_up.mesh.png", "made_up.history.png"])
         self.assertRegex(run.stderr, "no picture of contact: ")
+
+    def test_what_is_broken_is_not_left_out(self):
+        self.change("contact.csv", lambda text: text[:-20])
+        self.refused("contact.csv:25: has 1. fields instead of 17", self.directory)
 
 
 if __name__ == "__main__":

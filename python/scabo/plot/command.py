@@ -9,6 +9,8 @@ import warnings
 
 KINDS = ("stress", "contact", "convergence", "mesh", "history")
 FORMATS = (".png", ".svg", ".pdf")
+APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress",),
+           "window": ("stress", "mesh"), "units": ("stress", "contact", "mesh", "history")}  # options that mean something for few kinds
 
 
 class Parser(argparse.ArgumentParser):
@@ -20,7 +22,7 @@ def parser():
     options = Parser(prog="scabo plot", description="Draws pictures of a results directory")
     options.add_argument("directory", type=pathlib.Path, metavar="DIR", help="results of `scabo run`")
     options.add_argument("--what", choices=(*KINDS, "all"), default="all", help="what is drawn; default: all that the results have")
-    options.add_argument("--increment", type=int, default=-1, metavar="N",
+    options.add_argument("--increment", type=int, metavar="N",
                          help="number from 1 over all steps, or of the mode; default -1, the last one")
     options.add_argument("--component", metavar="NAME", help="of stress, contact or history; a wrong name lists those there are")
     options.add_argument("--contact", action="append", default=[], metavar="NAME", help="only this contact; may be repeated")
@@ -89,7 +91,7 @@ def window_of(text):
     return x0, x1, y0, y1
 
 
-def figures(options, results):
+def figures(options, results, increment):
     """Names and functions of the wanted figures."""
     from . import contacts, curves, fields, meshes
     from .units import Units
@@ -98,8 +100,8 @@ def figures(options, results):
     one = options.what != "all"
     component = options.component if one else None
     return {
-        "stress": lambda: fields.stress(results, options.increment, component, options.scale, units, window),
-        "contact": lambda: contacts.contact(results, options.increment, options.contact, component, units),
+        "stress": lambda: fields.stress(results, increment, component, options.scale, units, window),
+        "contact": lambda: contacts.contact(results, increment, options.contact, component, units),
         "convergence": lambda: curves.convergence(results),
         "mesh": lambda: meshes.mesh(results, units, window),
         "history": lambda: curves.history(results, component, units),
@@ -107,27 +109,31 @@ def figures(options, results):
 
 
 def write(options):
-    from .results import Results, ResultsError
+    from .results import NothingToDraw, Results, ResultsError
     if options.output is not None and options.output.suffix.lower() not in FORMATS:
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
     if options.what == "all" and options.component is not None:
         raise ResultsError(f"--component {options.component}: say of what, as in --what stress")
     if options.scale is not None and not math.isfinite(options.scale):
         raise ResultsError(f"--scale {options.scale}: give a number, 0 for the undeformed shape")
+    for option, kinds in APPLIES.items():
+        if getattr(options, option) not in (None, []) and options.what not in (*kinds, "all"):
+            raise ResultsError(f"--{option}: has no meaning for --what {options.what}")
     results = Results(options.directory)
-    results.number(options.increment)
+    increment = -1 if options.increment is None else options.increment
+    results.number(increment)
     drawn = {}
-    for kind, draw in figures(options, results).items():
+    for kind, draw in figures(options, results, increment).items():
         if options.what not in ("all", kind):
             continue
         try:
             drawn[kind] = draw()
-        except ResultsError as error:
+        except NothingToDraw as error:
             if options.what == kind or options.contact and kind == "contact":
                 raise
             print(f"no picture of {kind}: {error}", file=sys.stderr)
     if not drawn:
-        raise ResultsError(f"{options.directory}: has nothing to draw")
+        raise NothingToDraw(f"{options.directory}: has nothing to draw")
     for figure in drawn.values():
         figure.draw_without_rendering()  # the layout follows from the labels, and these from the layout
     save(drawn, options)

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from . import geometry, style
-from .results import ResultsError
+from .results import NothingToDraw, ResultsError
 from .units import Units
 
 CURVES = (("pressure", "pressure", "stress"), ("shear", "shear", "stress"), ("gap", "gap", "length"), ("slip", "slip", "length"))
@@ -27,7 +27,7 @@ def lines_of(results, number, names=()):
     """The contacts of one increment, all or those named."""
     contacts = results.contacts(number)
     if not contacts:
-        raise ResultsError(f"{results.directory}: has no contact.csv with pairs of {results.name_of(number)}; the model has no contact")
+        raise NothingToDraw(f"{results.directory}: has no contact.csv with pairs of {results.name_of(number)}; the model has no contact")
     for name in names:
         if name not in contacts:
             have = list(contacts)
@@ -56,7 +56,7 @@ def contact(results, increment=-1, contacts=(), component=None, units=None):
     """Curves over the distance along each contact for up to three contacts, or for those named in `contacts`; a map for more.
     `component`: only one of pressure, shear, gap and slip."""
     if results.modal:
-        raise ResultsError(f"{results.directory}: is a modal analysis, which has no contact")
+        raise NothingToDraw(f"{results.directory}: is a modal analysis, which has no contact")
     units = units or Units()
     number = results.number(increment)
     names = [name for name, _, _ in CURVES]

@@ -5,13 +5,14 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from . import style
-from .results import ResultsError
+from .results import NothingToDraw, ResultsError
 from .units import Units
 
 LEAST = 1e-17      # drawn for a residual of zero
 MOST_CURVES = 6    # in one panel
 MOST_NAMED = 4     # increments with a mark and a name
 TIME, PAIRS = ("time, in steps", "number"), ("pairs", "number")
+MOST_ATTEMPTS = 150  # whose residuals are drawn
 MOST_FILES = 400   # files of fields that are read for a displacement
 
 
@@ -35,14 +36,14 @@ class Panel:
 def history(results, component=None, units=None):
     """Panels over the increments; `component` chooses one of PANELS."""
     if results.modal:
-        raise ResultsError(f"{results.directory}: is a modal analysis, which has no increments")
+        raise NothingToDraw(f"{results.directory}: is a modal analysis, which has no increments")
     results.number(-1)
     units = units or Units()
     if component is not None and component not in PANELS:
         raise ResultsError(f"--component {component}: over increments there are {', '.join(PANELS)}")
     panels = [panel for panel in (PANELS[name](results) for name in ([component] if component else PANELS)) if panel and panel.curves]
     if not panels:
-        raise ResultsError(f"{results.directory}: has nothing to draw over increments" + (f" as {component}" if component else ""))
+        raise NothingToDraw(f"{results.directory}: has nothing to draw over increments" + (f" as {component}" if component else ""))
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)
     increments = results.count
@@ -138,7 +139,10 @@ def mean_slip(results, name):
     table = results.table("contact.csv")
     rows = table["contact"] == name
     step, increment, slip = (table[key][rows] for key in ("step", "increment", "slip"))
-    return np.array([slip[(step == entry["step"]) & (increment == entry["increment"])].mean() for entry in results.increments])
+    starts = np.flatnonzero((np.diff(step, prepend=-1) != 0) | (np.diff(increment, prepend=-1) != 0))  # rows of an increment stand together
+    means = np.add.reduceat(slip, starts) / np.diff(np.append(starts, len(slip)))
+    of = dict(zip(zip(step[starts], increment[starts]), means))
+    return np.array([of.get((entry["step"], entry["increment"]), np.nan) for entry in results.increments])
 
 
 def hysteresis(results):
@@ -233,7 +237,7 @@ def attempts_of(results):
     """All attempts in convergence.csv, in its order. An attempt is accepted if it is the last one of an increment that converged."""
     table = results.table("convergence.csv")
     if table is None or not table["residual"].any():
-        raise ResultsError(f"{results.directory}: has no convergence.csv with iterations; the model has no contact")
+        raise NothingToDraw(f"{results.directory}: has no convergence.csv with iterations; the model has no contact")
     keys = np.column_stack([table[key] for key in ("step", "increment", "attempt")]).astype(int)
     borders = np.flatnonzero((keys[1:] != keys[:-1]).any(axis=1)) + 1
     converged = {(entry["step"], entry["increment"]) for entry in results.increments}
@@ -253,7 +257,7 @@ def attempts_of(results):
 def convergence(results):
     """Residual over the iterations of every attempt at an increment, and the number of iterations of every increment."""
     if results.modal:
-        raise ResultsError(f"{results.directory}: is a modal analysis, which has no iterations of contact")
+        raise NothingToDraw(f"{results.directory}: is a modal analysis, which has no iterations of contact")
     attempts = attempts_of(results)
     count = attempts[-1].number
     several = count > 1
@@ -268,9 +272,12 @@ def convergence(results):
         legend.append((Line2D([], [], color=style.RED, linestyle="--", marker="x", markersize=4, linewidth=0.9), "not accepted"))
     subtitle = f"convergence of the contact solver: {sum(len(attempt.iterations) for attempt in attempts)} iterations, " \
                f"{count} increment{'s' * several}"
+    if len(attempts) > MOST_ATTEMPTS:
+        subtitle += f"; residuals of some {MOST_ATTEMPTS} attempts"
     figure = style.new_figure(style.WIDTH, 3.1, results.title, subtitle, legend)
     axes = figure.subplots(1, 2 if several else 1, squeeze=False, width_ratios=[1.6, 1] if several else [1])[0]
-    for attempt in attempts:
+    every = -(-len(attempts) // MOST_ATTEMPTS)
+    for attempt in attempts[::-every][::-1]:
         draw_attempt(axes[0], attempt, count)
     axes[0].set(yscale="log", xlabel="iteration", ylabel="residual / largest force")
     axes[0].grid(True, which="major")

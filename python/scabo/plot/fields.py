@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 from . import geometry, style, vtu
-from .results import ResultsError
+from .results import NothingToDraw, ResultsError
 from .units import Units
 
 # name on the command line: array in the file, or component of the displacement; what it is called; dimension
@@ -30,11 +30,11 @@ def field_values(grid, component):
     array, name, dimension = COMPONENTS[component]
     if dimension == "length":
         if "displacement" not in grid.point_data:
-            raise ResultsError("the fields have no displacement: `output: {fields: [...]}` in the model file leaves it out")
+            raise NothingToDraw("the fields have no displacement: `output: {fields: [...]}` in the model file leaves it out")
         displacement = grid.point_data["displacement"][:, :2].astype(float)
         return np.hypot(*displacement.T) if array is None else displacement[:, array]
     if array not in grid.point_data:
-        raise ResultsError(f"the fields have no {name}: `output: {{fields: [...]}}` in the model file leaves it out")
+        raise NothingToDraw(f"the fields have no {name}: `output: {{fields: [...]}}` in the model file leaves it out")
     values = grid.point_data[array].astype(float)
     for points in geometry.rigid_outlines(grid):
         values[points] = np.nan
@@ -92,7 +92,7 @@ def field_of(results, increment=-1, component=None, magnification=None, window=N
     points = geometry.moved(grid, magnification)
     corners = geometry.triangles(grid)
     if len(corners) == 0:
-        raise ResultsError(f"{results.directory}: has no elastic body in its fields")
+        raise NothingToDraw(f"{results.directory}: has no elastic body in its fields")
     inside = corners
     if window is not None:
         x, y = points.T

@@ -4,7 +4,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Patch
 
 from . import fields, geometry, style, vtu
-from .results import ResultsError
+from .results import NothingToDraw
 from .units import Units
 
 MOST_DOTS = 700  # nodes that are marked
@@ -50,7 +50,7 @@ def mesh_of_fields(results, units, window):
     the end of what is drawn of unbounded ground."""
     grid = results.last_fields()
     if grid is None:
-        raise ResultsError(f"{results.directory}: has neither cells.vtu nor fields, so there is no mesh to draw")
+        raise NothingToDraw(f"{results.directory}: has neither cells.vtu nor fields, so there is no mesh to draw")
     place = units.scale("length", np.abs(grid.points).max())
     points = place.factor * grid.points
     sides = geometry.outline(geometry.triangles(grid))

@@ -16,6 +16,10 @@ class ResultsError(Exception):
     """The directory has not what a picture needs: one sentence for the user, with a remedy."""
 
 
+class NothingToDraw(ResultsError):
+    """The results are sound, but have nothing of this kind."""
+
+
 class Results:
     """The results in `directory`; files are read when they are needed."""
 
@@ -71,7 +75,10 @@ class Results:
             mode = self.summary["modes"][number - 1]
             return f"mode {number} of {mode['body']}, frequency {mode['frequency']:.5g} (1 / time)"
         entry = self.increments[number - 1]
-        return f"step {entry['step']}, increment {entry['increment']}"
+        name = f"step {entry['step']}, increment {entry['increment']}"
+        if number == self.count and self.summary["status"] not in ("solved", "running"):
+            name += f" (the last one; the run ended as {self.summary['status'].replace('_', ' ')})"
+        return name
 
     def times(self):
         """Time of every increment: 0 to 1 in the first step, 1 to 2 in the second."""
@@ -133,7 +140,7 @@ class Results:
         numbers = self.field_numbers()
         if number not in numbers:
             have = f"there are those of {_listed(numbers)}" if numbers else "`output` in the model file asks for none"
-            raise ResultsError(f"{self.directory}: has no fields of increment {number}; {have}")
+            raise NothingToDraw(f"{self.directory}: has no fields of increment {number}; {have}")
         return self._grid(f"fields_{number:04d}.vtu")
 
     def last_fields(self):

@@ -15,7 +15,7 @@ from . import geometry, vtu
 SETTINGS = {"font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.labelsize": 9, "legend.fontsize": 8.5,
             "legend.frameon": False, "axes.linewidth": 0.7, "axes.grid": False, "axes.axisbelow": True, "grid.color": "0.88",
             "grid.linewidth": 0.6, "lines.linewidth": 1.3, "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 5),
-            "axes.formatter.use_mathtext": True, "figure.dpi": 130, "savefig.dpi": 200, "svg.fonttype": "none", "pdf.fonttype": 42,
+            "axes.formatter.use_mathtext": True, "figure.dpi": 130, "savefig.dpi": 200, "pdf.fonttype": 42,
             "figure.constrained_layout.wspace": 0.05}
 BLUE, RED, GREEN, ORANGE, GREY = "#2b5c8a", "#c1442e", "#3f9c6b", "#d58a1c", "0.55"
 SIGNED, MAGNITUDE = "RdBu_r", "YlOrRd"
