@@ -142,7 +142,11 @@ def write(options):
 
 def save(drawn, options):
     """Prints the name of each file. Several pictures go into one .pdf, or into files whose names end in what they show."""
+    from . import style
     output = options.output
+    if output is not None and output.suffix.lower() != ".png":
+        for figure in drawn.values():
+            style.close_gaps(figure)
     if output is not None and output.suffix.lower() == ".pdf" and len(drawn) > 1:
         from matplotlib.backends.backend_pdf import PdfPages
         with PdfPages(output) as pages:

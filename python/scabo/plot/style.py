@@ -5,7 +5,7 @@ import textwrap
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
@@ -142,12 +142,18 @@ def contours(axis, points, corners, values, levels, extend=None, lines=True):
     signed = levels[0] < 0 < levels[-1]
     colours = SIGNED if signed else MAGNITUDE if levels[-1] > 0 else MAGNITUDE + "_r"
     drawn = axis.tricontourf(shown, values, levels=levels, cmap=colours, extend=extend or ("both" if signed else "max"))
-    for part in drawn.collections:  # no thin gaps between the bands in PDF and SVG
-        part.set_edgecolor("face")
-        part.set_linewidth(0.1)
     if lines and len(levels) > 3:  # which side of zero a dark colour is on, told without colour too
         axis.tricontour(shown, values, levels=levels[1:-1:2], colors="black", linewidths=0.3, alpha=0.7)
     return drawn
+
+
+def close_gaps(figure):
+    """Before a figure is saved as PDF or SVG, in which viewers show the paper between the bands of contours."""
+    for axis in figure.axes:
+        for part in axis.collections:
+            if isinstance(part, PathCollection):
+                part.set_edgecolor("face")
+                part.set_linewidth(0.1)
 
 
 def draw_outline(axis, points, sides, **options):
