@@ -8,7 +8,7 @@ import warnings
 import made_up
 import numpy as np
 import plot
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import PathCollection, PolyCollection
 from plot import contacts, curves, fields, geometry, style, vtu
 
 
@@ -165,6 +165,18 @@ class Fields(WithResults):
         self.assertEqual(field.range[1], 6.0)  # 3 + x of the square between 2 and 3
         self.assertEqual(fields.field_of(self.results, 1, "von_mises", 0).range[1], 10.0)
 
+    def test_gaps_are_closed_and_lines_stay(self):
+        figure = plot.stress(self.results, component="xx")
+        collections = [part for part in figure.axes[0].collections if isinstance(part, PathCollection)]
+        bands = [part for part in collections if len(part.get_facecolor())]
+        lines = [part for part in collections if not len(part.get_facecolor())]
+        before = [part.get_edgecolor().tolist() for part in lines]
+        style.close_gaps(figure)
+        self.assertEqual([part.get_edgecolor().tolist() for part in lines], before)
+        self.assertTrue(lines and bands and all(len(edges) for edges in before))
+        for part in bands:
+            np.testing.assert_array_equal(part.get_edgecolor(), part.get_facecolor())
+
     def test_picture(self):
         figure = plot.stress(self.results, component="xx")
         axis, bar = figure.axes
@@ -290,6 +302,7 @@ class Curves(WithResults):
 
 class NoOverlap(WithResults):
     def test_texts_of_a_picture_do_not_overlap(self):
+        self.results.title = "A WIDE Title OF MANY Words, " * 12
         for figure in (plot.stress(self.results), plot.contact(self.results), plot.history(self.results), plot.convergence(self.results)):
             with warnings.catch_warnings():
                 warnings.simplefilter("error")  # a layout that does not fit

@@ -145,7 +145,7 @@ def described(field, scale, place):
     parts = [field.increment, f"{field.name} ({shape})"]
     if field.largest >= 0:
         signed = bool((field.values[field.seen] < 0).any())
-        at = ", ".join(f"{place.factor * value:.4g}" for value in field.grid.points[field.largest])
+        at = ",\u00a0".join(f"{place.factor * value:.4g}" for value in field.grid.points[field.largest])
         parts.append(f"largest{' in size' * signed} {scale.text(field.values[field.largest])} at ({at})")
     return " · ".join(parts)
 

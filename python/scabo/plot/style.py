@@ -42,7 +42,7 @@ def styled(function):
 
 def new_figure(width, height, title, subtitle, legend=()):
     """A figure with `height` inches for axes below its header: the title of the model, what is shown, and a legend of (artist, text)."""
-    lines = textwrap.wrap(" ".join(title.split()), int(width * 14.5), max_lines=3, placeholder=" ...") if title else []
+    lines = textwrap.wrap(" ".join(title.split()), int(width * 11), max_lines=3, placeholder=" ...") if title else []
     below = textwrap.wrap(subtitle, int(width * 15.5))
     head = 0.08 + 0.18 * len(lines) + 0.16 * len(below) + (0.22 if legend else 0.0) + 0.06
     figure = plt.figure(figsize=(width, height + head))
@@ -143,7 +143,9 @@ def contours(axis, points, corners, values, levels, extend=None, lines=True):
     colours = SIGNED if signed else MAGNITUDE if levels[-1] > 0 else MAGNITUDE + "_r"
     drawn = axis.tricontourf(shown, values, levels=levels, cmap=colours, extend=extend or ("both" if signed else "max"))
     if lines and len(levels) > 3:  # which side of zero a dark colour is on, told without colour too
-        axis.tricontour(shown, values, levels=levels[1:-1:2], colors="black", linewidths=0.3, alpha=0.7)
+        chosen = levels[1:-1:2]
+        dashes = ["solid" if level >= 0 else (0, (14, 8)) for level in chosen]  # in widths of the line
+        axis.tricontour(shown, values, levels=chosen, colors="black", linewidths=0.35, linestyles=dashes, alpha=0.7)
     return drawn
 
 
@@ -151,7 +153,7 @@ def close_gaps(figure):
     """Before a figure is saved as PDF or SVG, in which viewers show the paper between the bands of contours."""
     for axis in figure.axes:
         for part in axis.collections:
-            if isinstance(part, PathCollection):
+            if isinstance(part, PathCollection) and len(part.get_facecolor()):  # not the lines
                 part.set_edgecolor("face")
                 part.set_linewidth(0.1)
 
