@@ -45,6 +45,13 @@ class Vtu(WithResults):
                 with self.assertRaises(vtu.FormatError, msg=f"{encoding}, {length} of {len(whole)} bytes"):
                     vtu.read_grid(path)
 
+    def test_an_array_that_is_cut_is_named_as_such(self):
+        path = self.directory / "cut.vtu"
+        made_up.vtu(path, made_up.grid())
+        path.write_bytes(path.read_bytes()[:-len(b"\n</AppendedData>\n</VTKFile>\n") - 1])
+        with self.assertRaisesRegex(vtu.FormatError, "ends in the middle of an array"):
+            vtu.read_grid(path)
+
     def test_other_encodings_are_refused(self):
         path = self.directory / "base64.vtu"
         made_up.vtu(path, made_up.grid())

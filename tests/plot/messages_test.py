@@ -125,7 +125,7 @@ class Messages(unittest.TestCase):
 
     def test_what_is_broken_is_not_left_out(self):
         self.change("contact.csv", lambda text: text[:-20])
-        self.refused("contact.csv:25: has 1. fields instead of 17", self.directory)
+        self.refused("contact.csv:37: has 1. fields instead of 17", self.directory)
 
 
 if __name__ == "__main__":
