@@ -13,5 +13,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview")
-set(CPACK_PACKAGE_DESCRIPTION "Scabo computes where joints between elastic bodies in the plane open, stick and slip, and which\nforces they transmit. Every increment is certified. With headers and a static library for C++ programs.")
+string(JOIN "\n" CPACK_PACKAGE_DESCRIPTION
+       "Scabo computes where joints between elastic bodies in the plane open,"
+       "stick and slip, and which forces they transmit. Every increment is"
+       "certified. With headers and a static library for C++ programs.")
 include(CPack)

@@ -52,9 +52,8 @@ std::string entries(const CommandDescription& command) {
   return text;
 }
 
-std::string as_printed(const std::string& text) {
-  return text.empty() ? "" : fmt::format(".PP\n.nf\n{}\n.fi\n", roff(text));
-}
+/// With its line breaks.
+std::string as_printed(const std::string& text) { return fmt::format(".nf\n{}\n.fi\n", roff(text)); }
 
 }  // namespace
 
@@ -71,7 +70,7 @@ std::string manual_page(const std::vector<CommandDescription>& commands) {
   text += entries(program) + ".SH COMMANDS\n";
   for (std::size_t i = 1; i < commands.size(); ++i)
     text += fmt::format(".SS scabo {}\n{}.\n{}{}", commands[i].name, roff(commands[i].text), entries(commands[i]),
-                        as_printed(commands[i].footer));
+                        commands[i].footer.empty() ? "" : ".PP\n" + as_printed(commands[i].footer));
   text += ".SH EXIT STATUS\n" + as_printed(program.footer.substr(program.footer.find('\n') + 1));
   text +=
       ".SH ENVIRONMENT\n.TP\n.B SCABO_PYTHON\nPython interpreter for \\fBscabo plot\\fR; default: the first of "
