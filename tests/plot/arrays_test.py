@@ -287,6 +287,14 @@ class Curves(WithResults):
         largest = np.hypot(points[:, 0], points[:, 1]).max()
         np.testing.assert_allclose(panel.curves[0].x, [largest, 2 * largest])
 
+    def test_reaction_of_a_moved_support_against_its_factor(self):
+        for step, entry in enumerate(self.results.summary["increments"][:2], start=1):
+            entry["factors"] = {"ground": 0.25 * step, "weight": 1.0}
+        panel = curves.load_displacement(self.results)
+        self.assertEqual([curve.name for curve in panel.curves], ["ground, y"], "-8 is more than 6, from nothing")
+        np.testing.assert_allclose(panel.curves[0].x, [0.25, 0.5])
+        np.testing.assert_allclose(panel.curves[0].y, [-8, -8])
+
     def test_convergence_is_its_table(self):
         attempts = curves.attempts_of(self.results)
         self.assertEqual([(a.number, a.attempt, a.accepted) for a in attempts], [(1, 1, True), (2, 1, False), (2, 2, True), (3, 1, False)])

@@ -52,6 +52,17 @@ class Program(support.InTemporaryDirectory):
         np.testing.assert_array_equal(line.values["pressure"], [float(row["pressure"]) for row in rows])
         np.testing.assert_allclose(line.distance, [float(row["x"]) - float(rows[0]["x"]) for row in rows], atol=1e-12)
 
+    def test_the_snippet_of_the_manual_runs(self):
+        self.run_model("beam")
+        text = (made_up.ROOT / "docs" / "pictures.md").read_text(encoding="utf-8")
+        code, = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        installed = str(pathlib.Path(support.SCABO).resolve().parents[1] / "share" / "scabo")
+        self.assertIn('"/usr/local/share/scabo"', code)
+        code = "import matplotlib; matplotlib.use('Agg')\n" + code.replace("/usr/local/share/scabo", installed)
+        run = subprocess.run([sys.executable, "-B", "-c", code], cwd=self.directory, text=True, capture_output=True, timeout=support.PATIENCE)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertTrue((self.directory / "joint.pdf").read_bytes().startswith(b"%PDF"))
+
     def test_formats(self):
         results = self.run_model("crack")
         for kind, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):

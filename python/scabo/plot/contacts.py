@@ -73,7 +73,7 @@ def contact_curves(results, number, lines, units, curves):
     rows, columns = (len(curves) // 2, 2) if single else (len(curves), len(lines))
     width = style.WIDTH if columns < 3 else 9.2
     height = 2.3 * rows if single or len(curves) == 1 else 1.75 * rows + 0.3
-    subtitle = f"{results.name_of(number)} · forces act on the second side of the contact; shear and slip are positive along t"
+    subtitle = f"{results.name_of(number)} · forces on the second side of the contact; shear and slip positive along t"
     if any(part_in_contact(line) is not None for line in lines):
         subtitle += " · only the part in contact and its surroundings"
     figure = style.new_figure(width, height, results.title, subtitle, style.state_marks(counts_of(lines)))

@@ -181,19 +181,31 @@ def largest_displacement(results):
 
 
 def load_displacement(results):
-    """Factors that change during the analysis against a displacement."""
-    displacement = largest_displacement(results)
-    if displacement is None:
-        return None
+    """Factors that change during the analysis against a displacement; or, where supports are moved, their reactions against the factors
+    of their displacements."""
     factors = {name: np.array([entry["factors"][name] for entry in results.increments], dtype=float)
                for name in results.increments[0]["factors"]}
     changing = {name: values for name, values in factors.items() if np.ptp(values) > 0} or factors
+    moved = [name for name in changing if name in results.increments[0]["reactions"]]
+    if moved:
+        return Panel("reaction against displacement", ("factor of the displacement", "number"), ("force", "force"),
+                     [reaction_of(results, name, changing[name]) for name in moved[:MOST_CURVES]])
+    displacement = largest_displacement(results)
+    if displacement is None:
+        return None
     alike = {}  # loads with equal factors share a curve
     for name, values in changing.items():
         alike.setdefault(tuple(values), []).append(short_name(name))
     curves = [Curve(names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more", displacement[1], np.array(values))
               for values, names in list(alike.items())[:MOST_CURVES]]
     return Panel("load against displacement", (displacement[0], "length"), ("factor of the load", "number"), curves)
+
+
+def reaction_of(results, name, factor):
+    """The component of a reaction that changes most."""
+    force = np.array([entry["reactions"][name] for entry in results.increments], dtype=float)
+    k = int(np.argmax(np.ptp(np.vstack([force, [0.0, 0.0]]), axis=0)))
+    return Curve(f"{short_name(name)}, {'xy'[k]}", factor, force[:, k])
 
 
 def reactions(results):
