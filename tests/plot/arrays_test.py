@@ -257,9 +257,11 @@ class Contacts(WithResults):
 
     def test_a_small_part_in_contact_is_shown_alone(self):
         distance = np.linspace(0, 1, 101)
-        states = np.where(np.abs(distance - 0.5) < 0.045, "slip", "open")
+        states = np.where(np.abs(distance - 0.5) < 0.025, "slip", "open")
         line = contacts.Line("touch", distance, distance, 0 * distance, {}, states)
-        np.testing.assert_allclose(contacts.part_in_contact(line), (0.46 - 0.048, 0.54 + 0.048))
+        np.testing.assert_allclose(contacts.part_in_contact(line), (0.48 - 0.024, 0.52 + 0.024))
+        at_the_end = dataclasses.replace(line, states=np.where(distance > 0.965, "stick", "open"))
+        np.testing.assert_allclose(contacts.part_in_contact(at_the_end), (0.97 - 0.018, 1.0))
         self.assertIsNone(contacts.part_in_contact(dataclasses.replace(line, states=np.full(101, "slip"))))
         self.assertIsNone(contacts.part_in_contact(dataclasses.replace(line, states=np.full(101, "open"))))
 

@@ -111,14 +111,16 @@ def contact_curves(results, number, lines, units, curves):
     return figure
 
 
-def part_in_contact(line, least=0.2):
-    """Where the pairs that are not open lie within less than a fifth of the contact: that part and as much beside it; otherwise None."""
+def part_in_contact(line, least=0.05):
+    """Where the pairs that are not open lie within less than a twentieth of the contact: that part and as much beside it; otherwise None."""
     touching = line.distance[line.states != "open"]
     if len(touching) < 2:
         return None
     first, last = touching[0], touching[-1]
     beside = 0.6 * (last - first)
-    return (first - beside, last + beside) if last - first < least * line.distance[-1] else None
+    if last - first >= least * line.distance[-1]:
+        return None
+    return max(first - beside, 0.0), min(last + beside, line.distance[-1])
 
 
 def show_part(axis, x, y, view):
