@@ -55,6 +55,17 @@ def fields(directory, number=1):
     return scabo_plot.Results(directory).fields(number)
 
 
+def pairs_of(directory, number=-1):
+    """Columns of contact.csv after one increment as arrays, for each contact."""
+    results = scabo_plot.Results(directory)
+    return results.contacts(results.number(number))
+
+
+def table_of(directory, name):
+    """Columns of a .csv as arrays."""
+    return scabo_plot.Results(directory).table(name)
+
+
 def values_of(mesh, name, factor=1.0):
     """A scalar at the points."""
     return factor * mesh.point_data[name].astype(float)

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """A roller on a block whose quadtrees refine themselves: the meshes, the stress under the contact, the pressure against Hertz's, and
 its error against the degrees of freedom, with equal cells too."""
-import csv
 import pathlib
 import sys
 
@@ -44,9 +43,9 @@ def solve(options, name, block, roller):
 
 
 def pressure_of(directory):
-    with open(directory / "contact.csv", newline="", encoding="utf-8") as file:
-        rows = [(float(row["x"]), float(row["pressure"])) for row in csv.DictReader(file)]
-    return np.array(sorted(rows)).T
+    touch = pictures.pairs_of(directory)["touch"]
+    order = np.argsort(touch["x"])
+    return touch["x"][order], touch["pressure"][order]
 
 
 def hertz(x):

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """A wall of 400 blocks under its weight and a push: displaced blocks, and the forces between them."""
-import csv
 import json
 import pathlib
 import sys
@@ -36,21 +35,13 @@ def main():
 def forces_of(directory):
     """Middle, force and whether it slips, of every contact that carries one after the last increment. The sign of a force means
     nothing: its line of action is drawn."""
-    with open(directory / "contact.csv", newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file)]
-    last = rows[-1]["step"], rows[-1]["increment"]
-    contacts = {}
-    for row in rows:
-        if (row["step"], row["increment"]) == last:
-            contacts.setdefault(row["contact"], []).append(row)
     forces = []
-    for pairs in contacts.values():
-        x, y, normal, tangential = (np.array([float(row[key]) for row in pairs])
-                                    for key in ("x", "y", "normal_force", "tangential_force"))
+    for pairs in pictures.pairs_of(directory).values():
+        x, y, normal, tangential = (pairs[key] for key in ("x", "y", "normal_force", "tangential_force"))
         if normal.sum() > 0:
             force = (tangential.sum(), normal.sum()) if np.ptp(y) < np.ptp(x) else (normal.sum(), -tangential.sum())
             middle = (normal @ x / normal.sum(), normal @ y / normal.sum())
-            forces.append((middle, force, all(row["state"] != "stick" for row in pairs)))
+            forces.append((middle, force, (pairs["state"] != "stick").all()))
     return forces
 
 
