@@ -102,6 +102,16 @@ class Geometry(WithResults):
         self.assertLessEqual(factor * 1e-4 - 1e-4, 0.004 * geometry.extent(grid.points))
         self.assertGreater(5 * factor * 1e-4, 0.004 * geometry.extent(grid.points))
 
+    def test_magnification_in_a_window_is_that_of_its_points(self):
+        grid = self.results.fields(1)
+        x = grid.points[:, 0]
+        grid.point_data["displacement"] = np.where(x < 1.5, 1e-6, 1e-3)[:, None] * np.column_stack([x, 0 * x, 0 * x])
+        whole, part = geometry.magnification(grid), geometry.magnification(grid, window=(0.0, 1.0, 0.0, 1.0))
+        self.assertGreater(part, 100 * whole)
+        seen = 0.04 * np.sqrt(2) / (1e-6 * (1 - 1 / 3))  # of (0, 0), (1, 0), (0, 1) the mean is at 1/3
+        self.assertLessEqual(part, seen)
+        self.assertGreater(2.51 * part, seen)
+
     def test_nodes_end_where_the_outline_leaves_them(self):
         ring = np.array([[0, 1], [1, 2], [2, 3], [0, 3], [8, 9], [9, 10], [10, 11], [8, 11]])  # of unbounded ground around four nodes
         np.testing.assert_array_equal(geometry.nodes_on(ring, 0), [0, 1, 2, 3])
@@ -252,8 +262,10 @@ class Contacts(WithResults):
 
     def test_rounding_of_gaps_is_zero(self):
         rows = {"gap": np.array([1e-19, -3e-17, 2e-9]), "x": np.array([0.0, 1.0, 2.0]), "y": np.zeros(3),
-                "normal_displacement_a": np.full(3, 1e-3), "normal_displacement_b": np.full(3, 1e-3)}
-        np.testing.assert_array_equal(contacts.gap_of(rows), [0, 0, 2e-9])
+                "normal_displacement_a": np.full(3, 1e-3), "normal_displacement_b": np.full(3, 1e-3), "slip": np.array([1e-9, 0, 1e-20]),
+                "tangential_displacement_a": np.zeros(3), "tangential_displacement_b": np.zeros(3)}
+        np.testing.assert_array_equal(contacts.without_rounding(rows, "slip", "tangential"), [1e-9, 0, 0])
+        np.testing.assert_array_equal(contacts.without_rounding(rows, "gap", "normal"), [0, 0, 2e-9])
 
     def test_a_small_part_in_contact_is_shown_alone(self):
         distance = np.linspace(0, 1, 101)

@@ -35,15 +35,16 @@ def lines_of(results, number, names=()):
                                + ", ".join(have[:12]) + (f" and {len(have) - 12} more" if len(have) > 12 else ""))
     chosen = {name: contacts[name] for name in names} if names else contacts
     return [Line(name, geometry.arc_length(rows["x"], rows["y"]), rows["x"], rows["y"],
-                 {key: rows[key] for key, _, _ in CURVES} | {"gap": gap_of(rows)}, rows["state"]) for name, rows in chosen.items()]
+                 {"pressure": rows["pressure"], "shear": rows["shear"], "gap": without_rounding(rows, "gap", "normal"),
+                  "slip": without_rounding(rows, "slip", "tangential")}, rows["state"]) for name, rows in chosen.items()]
 
 
-def gap_of(rows):
-    """Zero where it is nothing but rounding, as in the tables of log.txt: below 1e-12 of the largest displacement, or below that of the
-    coordinates."""
-    moved = max(np.abs(rows[f"normal_displacement_{side}"]).max() for side in "ab")
+def without_rounding(rows, key, direction):
+    """Gap or slip, zero where it is nothing but rounding, as in the tables of log.txt: below 1e-12 of the largest displacement in its
+    direction, or below the rounding of coordinates."""
+    moved = max(np.abs(rows[f"{direction}_displacement_{side}"]).max() for side in "ab")
     rounding = max(1e-12 * moved, 4e-16 * np.abs([rows["x"], rows["y"]]).max())
-    return np.where(np.abs(rows["gap"]) <= rounding, 0.0, rows["gap"])
+    return np.where(np.abs(rows[key]) <= rounding, 0.0, rows[key])
 
 
 def counts_of(lines):
@@ -77,7 +78,8 @@ def contact_curves(results, number, lines, units, curves):
     if any(part_in_contact(line) is not None for line in lines):
         subtitle += " · only the part in contact and its surroundings"
     figure = style.new_figure(width, height, results.title, subtitle, style.state_marks(counts_of(lines)))
-    axes = figure.subplots(rows, columns, sharex="col", squeeze=False)
+    together = not single and all(part_in_contact(line) is None for line in lines)
+    axes = figure.subplots(rows, columns, sharex="col", sharey="row" if together else "none", squeeze=False)
     grid = axes.reshape(-1, 1) if single else axes  # curve x contact
     scales = {key: units.scale(dimension, max(np.abs(line.values[key]).max() for line in lines)) for key, _, dimension in curves}
     for column, line in enumerate(lines):
@@ -95,7 +97,7 @@ def contact_curves(results, number, lines, units, curves):
             axis.margins(0.04, 0.1)
             if view is not None:
                 show_part(axis, x, y, along.factor * np.array(view))
-            if not np.any(y):
+            if not (np.any(y) or together and any(other.values[key].any() for other in lines)):
                 axis.set_ylim(-1, 1)
             if single or column == 0:
                 axis.set_ylabel(scales[key].label(name, "\n"), fontsize=8.5 if single else 8)

@@ -87,8 +87,8 @@ def field_of(results, increment=-1, component=None, magnification=None, window=N
         name, dimension = name + " of the mode" if dimension == "length" else name, "number"
     values = field_values(grid, component)
     if magnification is None:
-        magnification = geometry.magnification(grid, part=0.08, least=0.0) if results.modal else \
-            geometry.magnification(grid, results.contacts(number).values())
+        magnification = geometry.magnification(grid, part=0.08, least=0.0, window=window) if results.modal else \
+            geometry.magnification(grid, results.contacts(number).values(), window=window)
     points = geometry.moved(grid, magnification)
     corners = geometry.triangles(grid)
     if len(corners) == 0:
@@ -117,7 +117,7 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
     units = units or Units()
     field = field_of(results, increment, component, magnification, window)
     scale = units.scale(field.dimension, max(map(abs, field.range)))
-    place = units.scale("length", np.abs(field.points).max())
+    place = units.scale("length", np.abs(field.points if window is None else window).max())
     levels = style.levels_of(scale.factor * field.range[0], scale.factor * field.range[1])
 
     low, high = (field.points.min(axis=0), field.points.max(axis=0)) if window is None else (window[::2], window[1::2])

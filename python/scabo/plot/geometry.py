@@ -53,17 +53,23 @@ def extent(points):
     return float(np.hypot(*np.ptp(points, axis=0))) if len(points) else 0.0
 
 
-def magnification(grid, contacts=(), part=0.04, overlap=0.004, least=1.0):
+def magnification(grid, contacts=(), part=0.04, overlap=0.004, least=1.0, window=None):
     """1, 2 or 5 times a power of ten, so that the largest displacement is drawn as `part` of the model's diagonal or less; `least`
     where displacements are larger than that. A translation of all points is not counted: only what can be seen. `contacts`: tables of pairs
-    (results.py), whose sides are not drawn through each other by more than `overlap` of the diagonal."""
+    (results.py), whose sides are not drawn through each other by more than `overlap` of the diagonal. `window`: x0, x1, y0, y1, with the points
+    and the diagonal of which it is done."""
     displacement = grid.point_data.get("displacement")
     if displacement is None or len(displacement) == 0:
         return 0.0
+    size = extent(grid.points)
+    if window is not None:
+        x, y = grid.points.T
+        inside = (x >= window[0]) & (x <= window[1]) & (y >= window[2]) & (y <= window[3])
+        displacement = displacement[inside] if inside.any() else displacement
+        size = min(size, float(np.hypot(window[1] - window[0], window[3] - window[2])))
     seen = displacement[:, :2] - displacement[:, :2].mean(axis=0)
     largest = np.hypot(*seen.T).max()
     whole = np.hypot(*displacement[:, :2].T).max()
-    size = extent(grid.points)
     if not np.isfinite(largest) or largest <= 1e-9 * whole or largest <= 1e-15 * size:
         return 1.0
     factor = part * size / largest

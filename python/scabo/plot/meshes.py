@@ -16,7 +16,7 @@ def mesh(results, units=None, window=None):
     grid = results.cells()
     if grid is None:
         return mesh_of_fields(results, units, window)
-    place = units.scale("length", np.abs(grid.points).max())
+    place = units.scale("length", np.abs(grid.points if window is None else window).max())
     points = place.factor * grid.points
     materials = np.asarray(grid.cell_data["material"])
     is_cell = grid.types == vtu.POLYGON
@@ -51,7 +51,7 @@ def mesh_of_fields(results, units, window):
     grid = results.last_fields()
     if grid is None:
         raise NothingToDraw(f"{results.directory}: has neither cells.vtu nor fields, so there is no mesh to draw")
-    place = units.scale("length", np.abs(grid.points).max())
+    place = units.scale("length", np.abs(grid.points if window is None else window).max())
     points = place.factor * grid.points
     sides = geometry.outline(geometry.triangles(grid))
     low, high = (grid.points.min(axis=0), grid.points.max(axis=0)) if window is None else (window[::2], window[1::2])
