@@ -105,7 +105,8 @@ class Messages(unittest.TestCase):
         self.refused("x0 below x1", self.directory, "--window", "-1,-2,0,1")
         self.refused("no part of a body lies in it", self.directory, "--what", "stress", "--window", "-9,-8,0,1")
         self.refused("--units m: give the unit of length and that of force", self.directory, "--units", "m")
-        self.refused("--scale nan: give a number", self.directory, "--scale", "nan")
+        for scale in ("nan", "inf", "-3"):
+            self.refused(f"--scale {scale}: give a number that is not negative", self.directory, "--scale", scale)
         for what, option, value in (("contact", "--scale", "2"), ("history", "--window", "0,1,0,1"), ("mesh", "--component", "xx"),
                                     ("convergence", "--units", "m,N"), ("history", "--increment", "1"), ("stress", "--contact", "bend")):
             self.refused(f"{option}: has no meaning for --what {what}", self.directory, "--what", what, option, value)

@@ -114,8 +114,8 @@ def write(options):
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
     if options.what == "all" and options.component is not None:
         raise ResultsError(f"--component {options.component}: say of what, as in --what stress")
-    if options.scale is not None and not math.isfinite(options.scale):
-        raise ResultsError(f"--scale {options.scale}: give a number, 0 for the undeformed shape")
+    if options.scale is not None and not 0 <= options.scale < math.inf:
+        raise ResultsError(f"--scale {options.scale:g}: give a number that is not negative, 0 for the undeformed shape")
     for option, kinds in APPLIES.items():
         if getattr(options, option) not in (None, []) and options.what not in (*kinds, "all"):
             raise ResultsError(f"--{option}: has no meaning for --what {options.what}")
