@@ -177,6 +177,14 @@ class Fields(WithResults):
         np.testing.assert_allclose(field.values, -0.04 * field.grid.points[:, 1])
         np.testing.assert_array_equal(field.points, field.grid.points)
 
+    def test_without_stress_the_displacement_is_shown(self):
+        grid = self.results.fields(1)
+        self.assertEqual(fields.default_component(grid), "von_mises")
+        del grid.point_data["von_mises"]
+        self.assertEqual(fields.default_component(grid), "xx")
+        del grid.point_data["stress_xx"]
+        self.assertEqual(fields.default_component(grid), "displacement")
+
     def test_a_window_limits_what_is_seen(self):
         field = fields.field_of(self.results, 1, "von_mises", 0, (2.0, 3.0, 0.0, 1.0))
         self.assertEqual(field.range[1], 6.0)  # 3 + x of the square between 2 and 3

@@ -37,6 +37,14 @@ class NewModels(support.InTemporaryDirectory):
         self.assertAlmostEqual(y / weight, 1.0, delta=1e-9)
         self.assertAlmostEqual(x / (-0.3 * weight), 1.0, delta=1e-9)
 
+    def test_wall_falls_as_its_comment_says(self):
+        self.assertEqual(support.scabo("new", "wall", cwd=self.directory).returncode, 0)
+        line = next(line for line in (self.directory / "wall.yaml").read_text().splitlines() if "--set" in line)
+        setting = line.split("--set ")[1].split()[0]
+        run = support.scabo("run", "wall.yaml", "--quiet", "--set", setting, cwd=self.directory)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertEqual(support.summary_of(self.directory / "wall.results")["status"], "mechanism")
+
     def test_hertz_has_his_pressure(self):
         modulus = 1 / ((1 - 0.3**2) / 210e9 + (1 - 0.3**2) / 70e9)
         half_width = math.sqrt(4 * 1e6 * 0.05 / (math.pi * modulus))

@@ -74,9 +74,9 @@ def contact_curves(results, number, lines, units, curves):
     rows, columns = (len(curves) // 2, 2) if single else (len(curves), len(lines))
     width = style.WIDTH if columns < 3 else 9.2
     height = 2.3 * rows if single or len(curves) == 1 else 1.75 * rows + 0.3
-    subtitle = f"{results.name_of(number)} · forces on the second side of the contact; shear and slip positive along t"
+    subtitle = f"{results.name_of(number)}\u00a0· forces on the second side of the contact; shear and slip positive along\u00a0t"
     if any(part_in_contact(line) is not None for line in lines):
-        subtitle += " · only the part in contact and its surroundings"
+        subtitle += "\u00a0· only the part in contact and its surroundings"
     figure = style.new_figure(width, height, results.title, subtitle, style.state_marks(counts_of(lines)))
     together = not single and all(part_in_contact(line) is None for line in lines)
     axes = figure.subplots(rows, columns, sharex="col", sharey="row" if together else "none", squeeze=False)
@@ -155,7 +155,7 @@ def contact_map(results, number, lines, units, component):
         low, high = np.minimum(low, fields.points.min(axis=0)), np.maximum(high, fields.points.max(axis=0))
     upright = high[1] - low[1] > high[0] - low[0]
     width, height = style.map_size(low, high, style.WIDTH / 2 if upright else style.WIDTH)
-    subtitle = f"{results.name_of(number)} · {len(lines)} contacts; `--contact NAME` draws the curves of one"
+    subtitle = f"{results.name_of(number)}\u00a0· {len(lines)} contacts; `--contact NAME` draws the curves of one"
     figure = style.new_figure(2 * width if upright else width, height if upright else 2 * height, results.title, subtitle,
                               style.state_marks(counts_of(lines)))
     axes = figure.subplots(1 if upright else 2, 2 if upright else 1, sharex=True, sharey=True)

@@ -42,9 +42,9 @@ def field_values(grid, component):
 
 
 def default_component(grid):
-    """The first one that the file has."""
-    return next((name for name, (array, _, dimension) in COMPONENTS.items()
-                 if (array if dimension == "stress" else "displacement") in grid.point_data), "displacement")
+    """The first stress that the file has."""
+    return next((name for name, (array, _, dimension) in COMPONENTS.items() if dimension == "stress" and array in grid.point_data),
+                "displacement")
 
 
 def field_range(grid, corners, values, dimension):
@@ -147,7 +147,7 @@ def described(field, scale, place):
         signed = bool((field.values[field.seen] < 0).any())
         at = ",\u00a0".join(f"{place.factor * value:.4g}" for value in field.grid.points[field.largest])
         parts.append(f"largest{' in size' * signed} {scale.text(field.values[field.largest])} at ({at})")
-    return " · ".join(parts)
+    return "\u00a0· ".join(parts)
 
 
 def ends_of(values, levels):
