@@ -285,7 +285,7 @@ def convergence(results):
     subtitle = f"convergence of the contact solver: {sum(len(attempt.iterations) for attempt in attempts)} iterations, " \
                f"{count} increment{'s' * several}"
     if len(attempts) > MOST_ATTEMPTS:
-        subtitle += f"; residuals of some {MOST_ATTEMPTS} attempts"
+        subtitle += f"; residuals of about {MOST_ATTEMPTS} attempts"
     figure = style.new_figure(style.WIDTH, 3.1, results.title, subtitle, legend)
     axes = figure.subplots(1, 2 if several else 1, squeeze=False, width_ratios=[1.6, 1] if several else [1])[0]
     every = -(-len(attempts) // MOST_ATTEMPTS)
