@@ -13,6 +13,7 @@
 #   make format      lay the sources out by .clang-format
 #   make packages    everything that apt can bring
 #   make install     to PREFIX (/usr/local)
+#   make package     a .deb in build/package
 #   make clean       removes build/ and build-*/
 # PYTHON=... names the interpreter (or SCABO_PYTHON in the environment), JOBS=... the number of parallel jobs.
 # SCABO_PACKAGES=no installs no packages.
@@ -24,7 +25,7 @@ FUZZ_SECONDS ?= 45
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build python wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python format packages install clean
+.PHONY: help demo build python wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python format packages install package clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -100,6 +101,11 @@ packages:
 
 install: build
 	@cmake --install build --prefix "$(PREFIX)"
+
+package:
+	@cmake/install_packages.sh build package
+	@$(MAKE) --no-print-directory build
+	@cpack --config build/CPackConfig.cmake
 
 clean:
 	rm -rf build build-*

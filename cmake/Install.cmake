@@ -1,6 +1,7 @@
 # What `make build` builds and `cmake --install` installs:
 #   bin/scabo, lib/libscabo, include/scabo/<part>/*.hpp, lib/cmake/scabo (find_package(scabo)),
-#   share/scabo/model.schema.json, share/scabo/examples, share/doc/scabo;
+#   share/scabo/model.schema.json, share/scabo/examples, share/scabo/scabo_plot (pictures), share/doc/scabo,
+#   share/man/man1/scabo.1, completion for bash, zsh and fish.
 #   the Python package (python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/scabo)
@@ -31,10 +32,28 @@ install(TARGETS scabo_program)
 
 set(schema ${PROJECT_BINARY_DIR}/model.schema.json)
 add_custom_command(OUTPUT ${schema} COMMAND scabo_program schema > ${schema} DEPENDS scabo_program VERBATIM)
-add_custom_target(product ALL DEPENDS scabo scabo_program ${schema})
 install(FILES ${schema} DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo)
+
+# Texts that the program writes about itself: `scabo ARGUMENTS... > FILE`, installed in FOLDER under NAME.
+set(own_texts "")
+function(scabo_own_text folder name)
+  set(file ${PROJECT_BINARY_DIR}/own_texts/${folder}/${name})
+  get_filename_component(place ${file} DIRECTORY)
+  file(MAKE_DIRECTORY ${place})
+  add_custom_command(OUTPUT ${file} COMMAND scabo_program ${ARGN} > ${file} DEPENDS scabo_program VERBATIM)
+  install(FILES ${file} DESTINATION ${folder})
+  set(own_texts ${own_texts} ${file} PARENT_SCOPE)
+endfunction()
+scabo_own_text(${CMAKE_INSTALL_MANDIR}/man1 scabo.1 manual)
+scabo_own_text(${CMAKE_INSTALL_DATADIR}/bash-completion/completions scabo completion bash)
+scabo_own_text(${CMAKE_INSTALL_DATADIR}/zsh/site-functions _scabo completion zsh)
+scabo_own_text(${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d scabo.fish completion fish)
+add_custom_target(product ALL DEPENDS scabo scabo_program ${schema} ${own_texts})
+
+install(DIRECTORY python/scabo/plot/ DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo/scabo_plot FILES_MATCHING PATTERN "*.py")
 
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo
         PATTERN "*.results" EXCLUDE PATTERN "__pycache__" EXCLUDE)
-install(DIRECTORY docs/ TYPE DOC)
+install(DIRECTORY docs TYPE DOC)  # as beside README.md, whose links then lead there
+install(FILES cmake/copyright TYPE DOC)  # where Debian looks for it
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)

@@ -1,28 +1,34 @@
-"""What the examples' pictures have in common: running scabo, reading its fields, and one style.
+"""What the examples' pictures have in common: running scabo, and maps in the style of `scabo plot`, whose package reads the results and
+draws.
 
 Signed quantities have colours that diverge from white at zero (red: tension, blue: compression), and lines that are dashed below
 zero; others go from light to dark. Axes name their quantity and unit; a map of a deformed body says how much it is magnified."""
 import argparse
+import importlib
 import json
 import pathlib
+import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-import meshio
 import numpy as np
 import running
-from matplotlib.collections import LineCollection
-from matplotlib.tri import Triangulation
 
-plt.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.labelsize": 9,
-                     "legend.fontsize": 8.5, "legend.frameon": False, "axes.linewidth": 0.7, "axes.grid": False,
-                     "axes.axisbelow": True, "figure.constrained_layout.wspace": 0.05, "grid.color": "0.88", "grid.linewidth": 0.6, "lines.linewidth": 1.3,
-                     "figure.dpi": 130, "savefig.dpi": 130})
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+# The package for pictures: in the sources, or beside the examples where Scabo is installed.
+FOLDER, NAME = (ROOT / "python" / "scabo", "plot") if (ROOT / "python").exists() else (ROOT, "scabo_plot")
+sys.path.append(str(FOLDER))
+scabo_plot = importlib.import_module(NAME)
+geometry, style = (importlib.import_module(f"{NAME}.{part}") for part in ("geometry", "style"))
 
-BLUE, RED, GREEN, GREY = "#2b5c8a", "#c1442e", "#3f9c6b", "0.55"
-SIGNED, MAGNITUDE = "RdBu_r", "YlOrRd"
+style.apply()
+plt.rcParams["savefig.dpi"] = 130
+
+BLUE, RED, GREEN, GREY = style.BLUE, style.RED, style.GREEN, style.GREY
+SIGNED, MAGNITUDE = style.SIGNED, style.MAGNITUDE
+triangles_of, outline, moved_points, signed_levels = geometry.triangles, geometry.outline, geometry.moved, style.signed_levels
 
 
 def options_of(description, example, results):
@@ -45,85 +51,44 @@ def run(scabo, model, directory, *settings):
 
 
 def fields(directory, number=1):
-    return meshio.read(directory / f"fields_{number:04d}.vtu")
+    """The grid of one increment: `points` n x 2, `point_data` by name."""
+    return scabo_plot.Results(directory).fields(number)
+
+
+def pairs_of(directory, number=-1):
+    """Columns of contact.csv after one increment as arrays, for each contact."""
+    results = scabo_plot.Results(directory)
+    return results.contacts(results.number(number))
+
+
+def table_of(directory, name):
+    """Columns of a .csv as arrays."""
+    return scabo_plot.Results(directory).table(name)
 
 
 def values_of(mesh, name, factor=1.0):
     """A scalar at the points."""
-    return factor * np.asarray(mesh.point_data[name], dtype=float).reshape(-1)
+    return factor * mesh.point_data[name].astype(float)
 
 
-def triangles_of(mesh):
-    """Quadrilaterals are halved."""
-    triangles = []
-    for cells in mesh.cells:
-        triangles.append(cells.data[:, :3])
-        if cells.data.shape[1] == 4:
-            triangles.append(cells.data[:, [0, 2, 3]])
-    return np.concatenate(triangles)
-
-
-def outline(triangles):
-    """Sides that belong to one triangle only."""
-    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    sides, times = np.unique(sides, axis=0, return_counts=True)
-    return sides[times == 1]
-
-
-def cells_of(mesh):
-    """The triangles of every super-element. A file has one block of quadrilaterals and one of triangles for each."""
-    cells, before = [], "triangle"
-    for block in mesh.cells:
-        triangles = [block.data[:, :3]] + ([block.data[:, [0, 2, 3]]] if block.data.shape[1] == 4 else [])
-        if block.type == "triangle" and before == "quad":
-            cells[-1] += triangles
-        else:
-            cells.append(triangles)
-        before = block.type
-    return [np.concatenate(triangles) for triangles in cells]
-
-
-def draw_cells(axis, mesh, magnification=0.0, **style):
-    """The sides of all super-elements."""
-    moved = moved_points(mesh, magnification)
-    sides = [moved[outline(triangles)] for triangles in cells_of(mesh)]
-    axis.add_collection(LineCollection(np.concatenate(sides), **{"colors": "black", "linewidths": 0.35, "alpha": 0.6, **style}))
-
-
-def moved_points(mesh, magnification):
-    return mesh.points[:, :2] + magnification * mesh.point_data["displacement"][:, :2]
-
-
-def signed_levels(largest, bands=10):
-    """From -largest to largest; the band in the middle, around zero, is white."""
-    return np.linspace(-largest, largest, 2 * bands + 2)
+def draw_cells(axis, directory, magnification=0.0, factor=1.0, **options):
+    """The sides of all super-elements after the last increment, coordinates times `factor`."""
+    style.draw_cells(axis, scabo_plot.Results(directory).cells(), magnification, factor, **options)
 
 
 def draw(axis, mesh, values, levels, magnification=0.0):
     """Filled contours of `values` at the points on the deformed body; where they are not a number, nothing. Levels on both sides of
     zero: a signed quantity."""
-    signed = levels[0] < 0 < levels[-1]
-    triangles = triangles_of(mesh)
-    moved = moved_points(mesh, magnification)
-    values = np.asarray(values, dtype=float).reshape(-1)
-    shown = Triangulation(*moved.T, triangles[np.isfinite(values[triangles]).all(axis=1)])
-    drawn = axis.tricontourf(shown, np.nan_to_num(values), levels=levels, cmap=SIGNED if signed else MAGNITUDE,
-                             extend="both" if signed else "max")
-    if signed:  # which side of zero a dark colour is on, told without colour too
-        axis.tricontour(shown, np.nan_to_num(values), levels=levels[1:-1:2], colors="black", linewidths=0.3, alpha=0.7)
-    axis.add_collection(LineCollection(moved[outline(triangles)], colors="black", linewidths=0.6, capstyle="projecting"))
+    triangles, moved = geometry.triangles(mesh), geometry.moved(mesh, magnification)
+    drawn = style.contours(axis, moved, triangles, values, levels, lines=levels[0] < 0 < levels[-1])
+    style.draw_outline(axis, moved, geometry.outline(triangles))
     label_map(axis, magnification)
     return drawn
 
 
 def label_map(axis, magnification=0.0, unit="m"):
     """Axes of a map: coordinates with their unit, and by how much displacements are magnified."""
-    moved = f"; displacements × {magnification:g}" if magnification else ""
-    axis.set(xlabel=f"x ({unit}){moved}", ylabel=f"y ({unit})", aspect="equal")
-    axis.use_sticky_edges = False
-    axis.margins(0.03)
-    for side in ("top", "right"):
-        axis.spines[side].set_visible(False)
+    style.map_frame(axis, f"x ({unit})" + (f"; displacements × {magnification:g}" if magnification else ""), f"y ({unit})")
 
 
 def colour_bar(figure, drawn, axis, label, count=5, **options):

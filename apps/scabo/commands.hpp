@@ -53,6 +53,11 @@ struct ContactOptions {
   std::string save;   ///< file for problem and solution; empty: none
 };
 
+struct NewOptions {
+  std::string kind;              ///< name of a StarterModel
+  std::filesystem::path output;  ///< empty: `kind.yaml`
+};
+
 ExitStatus run(const RunOptions& options);
 /// Continues a run from its checkpoint (analysis/checkpoint.hpp).
 ExitStatus resume(const ResumeOptions& options);
@@ -63,5 +68,9 @@ ExitStatus check(const CheckOptions& options);
 ExitStatus print_exponents(const ExponentsOptions& options);
 ExitStatus solve_contact(const ContactOptions& options);
 ExitStatus print_schema();
+/// Pictures by the program for them, with the words after `scabo plot`; returns only by an exception.
+ExitStatus plot(const std::vector<std::string>& arguments);
+/// `scabo new`. Throws InputError if the file exists.
+ExitStatus write_new_model(const NewOptions& options);
 
 }  // namespace scabo::app

@@ -1,4 +1,4 @@
-// The command line of Scabo: scabo run | resume | check | exponents | contact | schema.
+// The command line of Scabo: the options of every command, and what is said about mistakes in them.
 #include <fmt/format.h>
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -12,8 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "command_description.hpp"
 #include "commands.hpp"
 #include "compare/solvers.hpp"
+#include "new_model.hpp"
 #include "scabo/result/version.hpp"
 #include "scabo/run/failures.hpp"
 #include "startup.hpp"
@@ -60,6 +62,21 @@ constexpr const char* contact_example = R"(Example:
 
 FILE is HDF5 in FCLIB's layout, in local or global form, or text in the layout of Siconos. Exit status 0: solved, that
 is, the natural-map residual or the certificate is below the tolerance; 2: not converged, a mechanism, or infeasible.)";
+
+constexpr const char* plot_example = R"(Example:
+  scabo plot model.results --what contact --units m,N -o contact.pdf
+
+`stress`: any component of stress or displacement on the deformed bodies; `contact`: pressure, shear, gap and slip along
+the contacts with the state of every pair; `history`: curves over the increments; `convergence` of the contact solver;
+`mesh`. It needs Python with NumPy and Matplotlib (apt install python3-matplotlib).)";
+
+constexpr const char* new_example = R"(Example:
+  scabo new beam && scabo run beam.yaml && scabo plot beam.results)";
+
+constexpr const char* completion_example = R"(Example:
+  source <(scabo completion bash)
+
+`make install` and the package install the scripts of all shells.)";
 
 constexpr const char* schema_example = R"(Example:
   scabo schema > model.schema.json
@@ -161,9 +178,27 @@ class CommandLine {
     contact_->footer(contact_example);
 
     schema_->footer(schema_example);
+    add_plot();
+
+    std::vector<std::string> kinds;
+    for (const StarterModel& model : starter_models()) kinds.emplace_back(model.name);
+    new_->add_option("KIND", new_options_.kind, "Subject of the model")
+        ->required()
+        ->option_text(" ")
+        ->check(one_of(kinds));
+    new_->add_option("-o,--output", new_options_.output, "Name of the file; default: KIND.yaml")->option_text("FILE");
+    new_->footer(new_example);
+
+    completion_->add_option("SHELL", shell_, "Shell")
+        ->required()
+        ->option_text(" ")
+        ->check(one_of({"bash", "zsh", "fish"}));
+    completion_->footer(completion_example);
+    manual_->footer("Example:\n  scabo manual | man -l -");
   }
 
   void parse(std::vector<std::string> words) {
+    words_ = words;
     std::reverse(words.begin(), words.end());  // the order that CLI11 expects
     app_.parse(std::move(words));
     if (*run_ && output_->count() > 0 && run_options_.output.empty())
@@ -181,6 +216,10 @@ class CommandLine {
     if (*check_) return check(check_options_);
     if (*exponents_) return print_exponents(exponents_options_);
     if (*contact_) return solve_contact(contact_options_);
+    if (*plot_) return plot({words_.begin() + 1, words_.end()});
+    if (*new_) return write_new_model(new_options_);
+    if (*completion_) return print(completion_script(describe_commands(app_), shell_));
+    if (*manual_) return print(manual_page(describe_commands(app_)));
     return print_schema();
   }
 
@@ -195,8 +234,11 @@ class CommandLine {
     std::string message = error.what();
     if (chosen.empty() && error.get_name() == "RequiredError") {
       const bool named = !words.empty() && !words.front().starts_with("-");
+      std::string available;
+      for (const CLI::App* known : app_.get_subcommands([](const CLI::App*) { return true; }))
+        available += (available.empty() ? "" : ", ") + known->get_name();
       message = (named ? fmt::format("there is no command '{}'", words.front()) : "no command given") +
-                ": available are run, resume, check, exponents, contact, schema";
+                ": available are " + available;
     }
     print_error(fmt::format("{} (see `{} --help`)", message, command));
     return ExitStatus::wrong_input;
@@ -216,6 +258,47 @@ class CommandLine {
         ->allow_extra_args(false);
   }
 
+  /// Accepts only these words.
+  static CLI::Validator one_of(const std::vector<std::string>& words) {
+    const std::string all = fmt::format("{}", fmt::join(words, ","));
+    return {[words](const std::string& word) {
+              const bool known = std::find(words.begin(), words.end(), word) != words.end();
+              return known ? std::string() : fmt::format("'{}' is none of {}", word, fmt::join(words, ", "));
+            },
+            "{" + all + "}"};
+  }
+
+  /// The options themselves are passed on to the program for pictures; here they are only checked.
+  void add_plot() {
+    plot_->add_option("DIR", plot_options_.directory, "Results directory of a run")->required()->option_text(" ");
+    plot_->add_option("--what", plot_options_.what, "What is drawn; default: all that the results have")
+        ->option_text("KIND")
+        ->check(one_of({"stress", "contact", "convergence", "mesh", "history", "all"}));
+    plot_->add_option("--increment", plot_options_.increment,
+                      "Number from 1 over all steps, or of the mode; default: -1, the last one")
+        ->option_text("N");
+    plot_->add_option("--component", plot_options_.text, "Part of stress, contact or history; a wrong name lists them")
+        ->option_text("NAME");
+    plot_->add_option("--contact", plot_options_.contacts, "Only this contact; may be repeated")
+        ->option_text("NAME")
+        ->allow_extra_args(false);
+    plot_->add_option("--scale", plot_options_.scale, "Magnification of displacements; default: one that shows them")
+        ->option_text("S");
+    plot_->add_option("--window", plot_options_.text, "Only this part of the plane, in stress and mesh")
+        ->option_text("X0,X1,Y0,Y1");
+    plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
+        ->option_text("LENGTH,FORCE");
+    plot_->add_option("-o,--output", plot_options_.text,
+                      "A .png, .svg or .pdf; default: .png files beside DIR, one for each picture")
+        ->option_text("FILE");
+    plot_->footer(plot_example);
+  }
+
+  static ExitStatus print(const std::string& text) {
+    print_output(text);
+    return ExitStatus::solved;
+  }
+
   CLI::App app_{"Scabo: frictional contact by the scaled boundary finite element method", "scabo"};
   CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
   CLI::App* resume_ = app_.add_subcommand("resume", "Continues a run that was interrupted or killed");
@@ -225,6 +308,20 @@ class CommandLine {
   CLI::Option* trace_ = nullptr;
   CLI::Option* output_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
+  CLI::App* plot_ = app_.add_subcommand("plot", "Draws pictures of results");
+  CLI::App* new_ = app_.add_subcommand("new", "Writes a commented model to begin with");
+  CLI::App* completion_ = app_.add_subcommand("completion", "Prints completion of commands and options for a shell");
+  CLI::App* manual_ = app_.add_subcommand("manual", "Prints the manual page");
+  /// Values of the options of `plot` that are only checked.
+  struct {
+    std::string directory, what, text;
+    std::vector<std::string> contacts;
+    int increment = 0;
+    double scale = 0.0;
+  } plot_options_;
+  NewOptions new_options_;
+  std::string shell_;
+  std::vector<std::string> words_;  ///< the command line as given
   RunOptions run_options_;
   ResumeOptions resume_options_;
   CheckOptions check_options_;

@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 """Draws the pictures of this page from runs of Cook's membrane: the mesh and the stress that a tolerance leads to, stress along
 a section, and error against degrees of freedom beside equal elements."""
-import csv
 import json
 import pathlib
 import sys
 
 import matplotlib.ticker
-import meshio
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import pictures
@@ -47,11 +45,6 @@ class Run:
         self.dofs = self.summary["model"]["dofs"]
         self.energy = self.increment["energy"]["elastic"]
 
-    def table(self, name):
-        with open(self.directory / f"{name}.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        return {key: np.array([float(row[key]) for row in rows]) for key in rows[0] if key not in ("name", "body")}
-
 
 def run(scabo, directory, *settings):
     running.run(scabo, MODEL, directory, settings)
@@ -60,13 +53,12 @@ def run(scabo, directory, *settings):
 
 def boundary_nodes(run):
     """Nodes of the super-element: the first points, up to the second ring of the output."""
-    mesh = meshio.read(sorted(run.directory.glob("fields_*.vtu"))[-1])
-    return mesh.points[: run.summary["model"]["nodes"], :2]
+    return pictures.scabo_plot.Results(run.directory).last_fields().points[: run.summary["model"]["nodes"]]
 
 
 def stress(run):
     """Von Mises stress from grid.csv and, along the edges, lines.csv; and the boundary nodes that refinement left."""
-    tables = [run.table("grid"), run.table("lines")]
+    tables = [pictures.table_of(run.directory, "grid.csv"), pictures.table_of(run.directory, "lines.csv")]
     x, y, values = (np.concatenate([table[key] for table in tables]) for key in ("x", "y", "von_mises"))
     figure, axis = plt.subplots(figsize=(6.2, 5.8), layout="constrained")
     levels = np.linspace(0, 0.3, 16)
@@ -84,7 +76,7 @@ def stress(run):
 
 def section(run):
     """Stress along the line from the bottom to the top at x = 24."""
-    line = run.table("lines")
+    line = pictures.table_of(run.directory, "lines.csv")
     figure, axis = plt.subplots(figsize=(6.2, 3.2))
     figure.subplots_adjust(left=0.12, right=0.98, top=0.97, bottom=0.15)
     for key, colour, style in (("xx", RED, "-"), ("yy", GREY, "--"), ("xy", BLUE, ":")):

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """A pressure tunnel beside its closed form, and a footing in a trench of a half-plane: stress in the ground, pressure in the joint."""
-import csv
 import pathlib
 import sys
 
@@ -48,16 +47,11 @@ def picture(options, tunnel):
     pictures.colour_bar(figure, drawn, middle, "vertical stress (MPa)", shrink=0.85)
     middle.set(xlim=(-9, 9), ylim=(-11, 1), title="trench, under column and wind")
 
-    with open(options.results / "trench" / "contact.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    column = lambda rows, name, factor: [factor * float(row[name]) for row in rows]
-    for step, increment, style, colour, name in (("1", "1", "o-", pictures.GREY, "column"),
-                                                 ("2", "4", "s-", pictures.RED, "column and wind")):
-        chosen = [row for row in rows if row["step"] == step and row["increment"] == increment]
-        right.plot(column(chosen, "x", 1), column(chosen, "pressure", 1e-6), style, color=colour, markersize=3, linewidth=1,
-                   label=f"pressure, {name}")
-    shear = [abs(value) for value in column(chosen, "shear", 1e-6)]
-    right.plot(column(chosen, "x", 1), shear, "^--", markersize=3, linewidth=0.8, color=pictures.BLUE, label="shear, column and wind")
+    for number, style, colour, name in ((1, "o-", pictures.GREY, "column"), (5, "s-", pictures.RED, "column and wind")):
+        seat = pictures.pairs_of(options.results / "trench", number)["seat"]
+        right.plot(seat["x"], 1e-6 * seat["pressure"], style, color=colour, markersize=3, linewidth=1, label=f"pressure, {name}")
+    right.plot(seat["x"], 1e-6 * np.abs(seat["shear"]), "^--", markersize=3, linewidth=0.8, color=pictures.BLUE,
+               label="shear, column and wind")
     right.set(xlabel="x (m)", ylabel="traction in the joint (MPa)", title="joint under the footing")
     right.set_ylim(bottom=0)
     right.legend()

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """A dam whose joint breaks from the heel: stress in dam and rock, pressure in the joint, share of the pairs that fail."""
-import csv
 import pathlib
 import sys
 
@@ -31,11 +30,6 @@ def main():
     print(path)
 
 
-def rows_of(directory):
-    with open(directory / "contact.csv", newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def flood(summary):
     """Factor of the thrust at each increment."""
     return np.array([increment["factors"].get("water_1", 0.0) for increment in summary["increments"]])
@@ -51,12 +45,10 @@ def picture(options, glued, plain):
     pictures.colour_bar(figure, drawn, left, "vertical stress (MPa)", shrink=0.85)
     left.set(xlim=(-9, 24), ylim=(-9, 22), title=f"thrust {flood(glued)[-1]:.1f}")
 
-    rows = rows_of(options.results / "cohesion")
-    factor = dict(zip([(str(i["step"]), str(i["increment"])) for i in glued["increments"]], flood(glued)))
     for thrust, colour in ((0.0, pictures.GREY), (0.9, pictures.BLUE), (1.4, pictures.GREEN), (2.0, pictures.RED)):
-        chosen = [row for row in rows if abs(factor[row["step"], row["increment"]] - thrust) < 1e-9]
-        middle.plot([float(row["x"]) for row in chosen], [float(row["pressure"]) / 1e6 for row in chosen], "o-", color=colour,
-                    markersize=2.5, linewidth=1, label=f"thrust {thrust:.1f}")
+        number = 1 + int(np.argmin(np.abs(flood(glued) - thrust)))
+        joint = pictures.pairs_of(options.results / "cohesion", number)["joint"]
+        middle.plot(joint["x"], joint["pressure"] / 1e6, "o-", color=colour, markersize=2.5, linewidth=1, label=f"thrust {thrust:.1f}")
     middle.axhline(-TENSION / 1e6, color="black", linewidth=0.7, linestyle=":")
     middle.text(15, -TENSION / 1e6 - 0.02, "tensile strength", ha="right", va="top", fontsize=8)
     middle.set(xlabel="along the joint from heel to toe (m)", ylabel="pressure in the joint (MPa)", title="what the joint carries")

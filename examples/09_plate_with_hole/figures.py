@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """The plate with a hole as polygons and as a quadtree: stress around the hole with the cells, stress from the hole to the edge, and
 a table of finer and finer meshes."""
-import csv
 import json
 import pathlib
 import sys
@@ -34,12 +33,7 @@ def solve(options, name, kind, at_hole):
     """The summary, and the stress at the hole over that at the ends."""
     summary = pictures.run(options.scabo, MODEL, options.results / name,
                            f"bodies.plate.mesh={{kind: {kind}, size: {5 * at_hole}, order: 3, refine: [{{on: bore, size: {at_hole}}}]}}")
-    return summary, float(rows_of(options.results / name / "points.csv")[0]["stress_xx"]) / STRESS
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+    return summary, pictures.table_of(options.results / name, "points.csv")["stress_xx"][0] / STRESS
 
 
 def picture(options):
@@ -48,14 +42,13 @@ def picture(options):
     for axis, kind in ((left, "polygons"), (middle, "quadtree")):
         mesh = pictures.fields(options.results / f"{kind}_0.006")
         drawn = pictures.draw(axis, mesh, pictures.values_of(mesh, "von_mises", 1e-6), np.linspace(0, 340, 18))
-        pictures.draw_cells(axis, mesh)
+        pictures.draw_cells(axis, options.results / f"{kind}_0.006")
         axis.set(xlim=(0.197, 0.403), ylim=(-0.003, 0.203), title=f"kind: {kind}")
     pictures.colour_bar(figure, drawn, [left, middle], "von Mises stress (MPa)", shrink=0.85)
 
     for kind, style in (("polygons", "-"), ("quadtree", "--")):
-        rows = rows_of(options.results / f"{kind}_0.006" / "lines.csv")
-        right.plot([(float(row["y"]) - HALF_WIDTH) / RADIUS for row in rows], [float(row["stress_xx"]) / STRESS for row in rows],
-                   style, color=KINDS[kind], label=f"kind: {kind}")
+        line = pictures.table_of(options.results / f"{kind}_0.006", "lines.csv")
+        right.plot((line["y"] - HALF_WIDTH) / RADIUS, line["stress_xx"] / STRESS, style, color=KINDS[kind], label=f"kind: {kind}")
     r = np.linspace(1, HALF_WIDTH / RADIUS, 121)
     right.plot(r, 1 + 0.5 / r**2 + 1.5 / r**4, ":", color=pictures.GREY, label="infinite plate (Kirsch)")
     right.plot(1, CHECK["howland"], "o", color="black", markersize=7, markerfacecolor="none", label="Howland, d/W = 0.3: 3.36")

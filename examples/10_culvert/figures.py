@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """A pipe in an embankment: settlement with the super-elements, stress in the pipe, and the pressure of the soil on it."""
-import csv
 import pathlib
 import sys
 
@@ -29,11 +28,6 @@ def main():
     print(path)
 
 
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def hoop_stress(mesh):
     """Around the centre of the pipe, Pa."""
     x, y = (mesh.points[:, :2] - CENTRE).T
@@ -46,23 +40,22 @@ def picture(options):
     left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1.75, 1.05, 1]})
     mesh = pictures.fields(options.results, 2)
     drawn = pictures.draw(left, mesh, -1e3 * mesh.point_data["displacement"][:, 1], np.linspace(0, 45, 10))
-    pictures.draw_cells(left, mesh)
+    pictures.draw_cells(left, options.results)
     left.add_patch(plt.Polygon([(-15, -3.5), (-8, -5), (-1, -4), (-6, -2.2)], fill=False, linewidth=1.6, edgecolor=pictures.BLUE))
     left.annotate("soft clay", (-13, -3.9), (-18, -6.4), color=pictures.BLUE, arrowprops={"arrowstyle": "-", "lw": 0.8, "color": pictures.BLUE})
     pictures.colour_bar(figure, drawn, left, "settlement (mm)", count=4, location="bottom", shrink=0.7)
     left.set(title="weight and traffic: settlement, and the super-elements")
 
     drawn = pictures.draw(middle, mesh, 1e-6 * hoop_stress(mesh), pictures.signed_levels(3, bands=6), magnification=10)
-    pictures.draw_cells(middle, mesh, 10)
+    pictures.draw_cells(middle, options.results, 10)
     pictures.colour_bar(figure, drawn, middle, "hoop stress (MPa)", location="bottom", shrink=0.9)
     middle.set(xlim=(-1.45, 1.35), ylim=(-0.45, 2.25), title="the pipe: bending, and the soil around it")
 
-    rows = rows_of(options.results / "contact.csv")
     for number, (step, colour) in enumerate(STEPS.items(), 1):
-        chosen = [row for row in rows if row["step"] in (str(number), step)]
-        angle = np.degrees([np.arctan2(float(row["x"]) - CENTRE[0], float(row["y"]) - CENTRE[1]) for row in chosen])
+        wall = pictures.pairs_of(options.results, number)["wall"]
+        angle = np.degrees(np.arctan2(wall["x"] - CENTRE[0], wall["y"] - CENTRE[1]))
         order = np.argsort(angle)
-        right.plot(angle[order], np.array([float(row["pressure"]) for row in chosen])[order] / 1e3, color=colour,
+        right.plot(angle[order], wall["pressure"][order] / 1e3, color=colour,
                    linestyle="--" if number == 1 else "-", label=f"after step {step}")
     right.set(xlabel="angle from the crown, clockwise (degrees)", ylabel="pressure of the soil on the pipe (kPa)", xlim=(-180, 180),
               xticks=range(-180, 181, 90), title="what the pipe carries")

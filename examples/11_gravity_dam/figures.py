@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """A dam and its foundation from one Gmsh mesh: the mesh, the stress under a flood, and the pressure along the joint."""
-import csv
 import pathlib
 import sys
 
@@ -26,17 +25,12 @@ def main():
     print(path)
 
 
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def picture(options, summary):
     figure = plt.figure(figsize=(13.2, 4.6), layout="constrained")
     left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1.35, 1.15, 1]})
     mesh = pictures.fields(options.results, len(summary["increments"]))
     drawn = pictures.draw(left, mesh, 1e3 * mesh.point_data["displacement"][:, 0], np.linspace(0, 1.6, 9))
-    pictures.draw_cells(left, mesh)
+    pictures.draw_cells(left, options.results)
     left.annotate("weak layer", (20, -6), (9, -16.5), color="black", arrowprops={"arrowstyle": "-", "lw": 0.8})
     pictures.colour_bar(figure, drawn, left, "horizontal displacement (mm)", location="bottom", shrink=0.8)
     left.set(title="flood: displacement, and the cells of dam.msh")
@@ -46,11 +40,9 @@ def picture(options, summary):
     pictures.colour_bar(figure, drawn, middle, "vertical stress (MPa)", location="bottom", shrink=0.9)
     middle.set(xlim=(-5, 21), ylim=(-5, 22), title="flood: stress")
 
-    rows = rows_of(options.results / "contact.csv")
-    steps = [(str(i["step"]), str(i["increment"])) for i in summary["increments"]]
     for number, (name, colour, style) in list(STATES.items())[1:]:
-        chosen = [row for row in rows if (row["step"], row["increment"]) == steps[number - 1]]
-        right.plot([float(row["x"]) for row in chosen], [float(row["pressure"]) / 1e6 for row in chosen], style, color=colour, label=name)
+        joint = pictures.pairs_of(options.results, number)["joint"]
+        right.plot(joint["x"], joint["pressure"] / 1e6, style, color=colour, label=name)
     right.set(xlabel="distance from the heel (m)", ylabel="pressure (MPa)", xlim=(0, 15), ylim=(0, 0.8), title="pressure along the joint")
     right.legend()
     right.grid(True)

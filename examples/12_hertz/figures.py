@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """A roller on a block whose quadtrees refine themselves: the meshes, the stress under the contact, the pressure against Hertz's, and
 its error against the degrees of freedom, with equal cells too."""
-import csv
 import pathlib
 import sys
 
@@ -44,9 +43,9 @@ def solve(options, name, block, roller):
 
 
 def pressure_of(directory):
-    with open(directory / "contact.csv", newline="", encoding="utf-8") as file:
-        rows = [(float(row["x"]), float(row["pressure"])) for row in csv.DictReader(file)]
-    return np.array(sorted(rows)).T
+    touch = pictures.pairs_of(directory)["touch"]
+    order = np.argsort(touch["x"])
+    return touch["x"][order], touch["pressure"][order]
 
 
 def hertz(x):
@@ -75,14 +74,14 @@ def picture(options):
     left.fill([-0.2, 0.2, 0.2, -0.2], [0, 0, -0.2, -0.2], color=BODY)
     angle = np.linspace(np.pi, 2 * np.pi, 181)
     left.fill(RADIUS * np.cos(angle), RADIUS + RADIUS * np.sin(angle), color=BODY)
-    pictures.draw_cells(left, mesh)
+    pictures.draw_cells(left, results)
     pictures.label_map(left)
     left.annotate("the next picture", (0, 0), (0.058, 0.022), color=pictures.RED, arrowprops={"arrowstyle": "->", "color": pictures.RED})
     left.set(xlim=(-0.125, 0.125), ylim=(-0.165, 0.06), title="cells of the roller and of the middle of the block")
 
     mesh.points = mesh.points * 1e3
     drawn = pictures.draw(middle, mesh, stress, np.linspace(0, 350, 15))
-    pictures.draw_cells(middle, mesh)
+    pictures.draw_cells(middle, results, factor=1e3)
     pictures.label_map(middle, unit="mm")
     pictures.colour_bar(figure, drawn, middle, "von Mises stress (MPa)", count=8, location="bottom", shrink=0.9)
     middle.set(xlim=(-2.2, 2.2), ylim=(-2.4, 1.6), title="the contact: cells and stress")

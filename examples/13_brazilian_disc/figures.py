@@ -55,7 +55,7 @@ def picture(options, curves):
     for axis, magnification in ((left, 0), (middle, MAGNIFICATION)):
         drawn = pictures.draw(axis, mesh, stress, pictures.signed_levels(20, bands=10), magnification)
         pictures.label_map(axis, magnification, unit="mm")
-    pictures.draw_cells(left, mesh)
+    pictures.draw_cells(left, options.results / "0.3_15.000", factor=1e3)
     for sign in (1, -1):
         left.annotate("", (0, 50 * sign), (0, 62 * sign), arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.4})
     left.text(3, 55, "20 kN")

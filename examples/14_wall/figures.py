@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """A wall of 400 blocks under its weight and a push: displaced blocks, and the forces between them."""
-import csv
 import json
 import pathlib
 import sys
@@ -36,21 +35,13 @@ def main():
 def forces_of(directory):
     """Middle, force and whether it slips, of every contact that carries one after the last increment. The sign of a force means
     nothing: its line of action is drawn."""
-    with open(directory / "contact.csv", newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file)]
-    last = rows[-1]["step"], rows[-1]["increment"]
-    contacts = {}
-    for row in rows:
-        if (row["step"], row["increment"]) == last:
-            contacts.setdefault(row["contact"], []).append(row)
     forces = []
-    for pairs in contacts.values():
-        x, y, normal, tangential = (np.array([float(row[key]) for row in pairs])
-                                    for key in ("x", "y", "normal_force", "tangential_force"))
+    for pairs in pictures.pairs_of(directory).values():
+        x, y, normal, tangential = (pairs[key] for key in ("x", "y", "normal_force", "tangential_force"))
         if normal.sum() > 0:
             force = (tangential.sum(), normal.sum()) if np.ptp(y) < np.ptp(x) else (normal.sum(), -tangential.sum())
             middle = (normal @ x / normal.sum(), normal @ y / normal.sum())
-            forces.append((middle, force, all(row["state"] != "stick" for row in pairs)))
+            forces.append((middle, force, (pairs["state"] != "stick").all()))
     return forces
 
 
@@ -58,9 +49,10 @@ def picture(options):
     figure = plt.figure(figsize=(13.2, 4.0), layout="constrained")
     left, right = figure.subplots(1, 2)
     mesh = pictures.fields(options.results, LAST)
+    sides = pictures.outline(pictures.triangles_of(mesh))
     for axis, magnification in ((left, MAGNIFICATION), (right, 0)):
         moved = pictures.moved_points(mesh, magnification)
-        blocks = [polygon_of(triangles, moved) for triangles in pictures.cells_of(mesh)]
+        blocks = [moved[pictures.geometry.nodes_on(sides, first)] for first in np.flatnonzero(np.diff(mesh.point_data["body"], prepend=0))]
         axis.add_collection(PolyCollection(blocks, facecolors=STONE, edgecolors="black" if magnification else "0.75", linewidths=0.5))
         pictures.label_map(axis, magnification)
         axis.set(xlim=(-0.7, 11.2), ylim=(-0.6, 5.5))
@@ -78,13 +70,6 @@ def picture(options):
     for line in legend.get_lines():
         line.set_linewidth(3)
     return figure
-
-
-def polygon_of(triangles, points):
-    """The boundary of a convex block."""
-    corners = np.unique(pictures.outline(triangles))
-    offset = points[corners] - points[corners].mean(axis=0)
-    return points[corners[np.argsort(np.arctan2(offset[:, 1], offset[:, 0]))]]
 
 
 if __name__ == "__main__":

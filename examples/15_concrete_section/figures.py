@@ -40,7 +40,7 @@ def picture(options, image):
     x, y, side = ZOOM
     for axis in (left, zoom):
         axis.imshow(1 - 0.45 * image, extent=extent, origin="lower", cmap="gray", vmin=0, vmax=1, interpolation="nearest")
-    pictures.draw_cells(zoom, mesh)
+    pictures.draw_cells(zoom, options.results, factor=1e3)
     left.add_patch(Rectangle((x, y), side, side, fill=False, edgecolor=pictures.RED, linewidth=1.5))
     zoom.set(xlim=(x, x + side), ylim=(y, y + side), title="cells in the red square")
     left.set(title="section.png: gravel (dark), mortar")

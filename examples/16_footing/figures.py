@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """A footing on half-plane ground: the meshed near field, stress across the tie, and the pressure beside that of a rigid punch."""
-import csv
 import pathlib
 import sys
 
@@ -26,19 +25,14 @@ def main():
     print(path)
 
 
-def rows_of(directory, step, increment):
-    with open(directory / "contact.csv", newline="", encoding="utf-8") as file:
-        return [row for row in csv.DictReader(file) if (row["step"], row["increment"]) == (str(step), str(increment))]
-
-
 def punch(x):
     """Pressure under a rigid frictionless punch, Sadowsky (1928)."""
     return FORCE / (np.pi * np.sqrt(HALF_WIDTH**2 - x**2))
 
 
 def deviations(directory):
-    rows = rows_of(directory, 1, 1)
-    return [(x, p / punch(x)) for x, p in ((float(row["x"]), float(row["pressure"])) for row in rows) if -1e-9 <= x <= 0.81][::3]
+    seat = pictures.pairs_of(directory, 1)["seat"]
+    return [(x, p / punch(x)) for x, p in zip(seat["x"], seat["pressure"]) if -1e-9 <= x <= 0.81][::3]
 
 
 def picture(options, summary):
@@ -51,15 +45,15 @@ def picture(options, summary):
             (middle, (-2.2, 2.2, -2.2, 1.0), "under the footing, with the cells", {})):
         drawn = pictures.draw(axes, last, pictures.values_of(last, "stress_yy", 1e-3), levels, **moved)
         axes.set(xlim=limits[:2], ylim=limits[2:], title=title)
-    pictures.draw_cells(middle, last)
+    pictures.draw_cells(middle, options.results / "model")
     pictures.colour_bar(figure, drawn, middle, "vertical stress (kPa)", location="bottom", shrink=0.9)
     x = np.linspace(-0.985, 0.985, 400)
     right.plot(x, punch(x) * 1e-3, color=pictures.GREY, label="rigid punch, closed form")
-    for directory, when, style, colour, name in (("smooth", (1, 1), ".", "black", "wall, no friction"),
-                                                 ("model", (1, 1), "-", pictures.BLUE, "wall"),
-                                                 ("model", (2, 4), "-", pictures.RED, "wall and wind")):
-        rows = rows_of(options.results / directory, *when)
-        right.plot([float(row["x"]) for row in rows], [float(row["pressure"]) * 1e-3 for row in rows], style, color=colour, label=name)
+    for directory, when, style, colour, name in (("smooth", 1, ".", "black", "wall, no friction"),
+                                                 ("model", 1, "-", pictures.BLUE, "wall"),
+                                                 ("model", 5, "-", pictures.RED, "wall and wind")):
+        seat = pictures.pairs_of(options.results / directory, when)["seat"]
+        right.plot(seat["x"], seat["pressure"] * 1e-3, style, color=colour, label=name)
     right.set(xlabel="x (m)", ylabel="pressure under the footing (kPa)", xlim=(-1, 1), ylim=(0, 600), xticks=[-1, -0.5, 0, 0.5, 1], title="pressure in the joint")
     right.legend(loc="upper center")
     right.grid(True)

@@ -1,0 +1,166 @@
+"""The command line of the pictures, `scabo plot`. Exit status 0: pictures were written; 1: the command line or the directory is
+wrong; 3: a picture cannot be written."""
+import argparse
+import logging
+import math
+import pathlib
+import sys
+import warnings
+
+KINDS = ("stress", "contact", "convergence", "mesh", "history")
+FORMATS = (".png", ".svg", ".pdf")
+APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress",),
+           "window": ("stress", "mesh"), "units": ("stress", "contact", "mesh", "history")}  # options that mean something for few kinds
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise SystemExit(complain(f"{message} (see `scabo plot --help`)", 1))
+
+
+def parser():
+    options = Parser(prog="scabo plot", description="Draws pictures of a results directory")
+    options.add_argument("directory", type=pathlib.Path, metavar="DIR", help="results of `scabo run`")
+    options.add_argument("--what", choices=(*KINDS, "all"), default="all", help="what is drawn; default: all that the results have")
+    options.add_argument("--increment", type=int, metavar="N",
+                         help="number from 1 over all steps, or of the mode; default -1, the last one")
+    options.add_argument("--component", metavar="NAME", help="of stress, contact or history; a wrong name lists those there are")
+    options.add_argument("--contact", action="append", default=[], metavar="NAME", help="only this contact; may be repeated")
+    options.add_argument("--scale", type=float, metavar="S", help="magnification of displacements; default: one that shows them")
+    options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress and mesh")
+    options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N")
+    options.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
+                         help=".png, .svg or .pdf; default: .png files beside DIR, one for each picture")
+    return options
+
+
+def complain(message, status):
+    print(f"scabo plot: {message}", file=sys.stderr)
+    return status
+
+
+def main(words=None):
+    words = join_negative(sys.argv[1:] if words is None else words)
+    try:
+        options = parser().parse_args(words)
+    except SystemExit as end:
+        return end.code
+    try:
+        import matplotlib  # takes half a second: a wrong option is answered before
+        matplotlib.use("Agg")
+        from . import style
+        from .results import ResultsError
+        from .units import UnitsError
+    except ImportError as error:
+        return complain(f"{error}: install NumPy and Matplotlib (apt install python3-matplotlib), or name another interpreter with "
+                        "SCABO_PYTHON", 3)
+    warnings.filterwarnings("ignore", message="Glyph .* missing")
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    style.apply()
+    try:
+        return write(options)
+    except (ResultsError, UnitsError) as error:
+        return complain(error, 1)
+    except OSError as error:
+        return complain(f"cannot write {error.filename or 'the picture'}: {error.strerror}", 3)
+    except KeyboardInterrupt:
+        return 130
+
+
+def join_negative(words):
+    """`--window -1,2,0,1` is an option and its value, which argparse takes for an option of its own."""
+    joined = []
+    for word in words:
+        if joined and joined[-1] in ("--window", "--scale", "--increment") and word[:1] == "-" and word[1:2].isdigit():
+            joined[-1] += "=" + word
+        else:
+            joined.append(word)
+    return joined
+
+
+def window_of(text):
+    from .results import ResultsError
+    if text is None:
+        return None
+    try:
+        x0, x1, y0, y1 = map(float, text.split(","))
+    except ValueError:
+        raise ResultsError(f"--window {text}: give four numbers, as in --window 0,2,0,1") from None
+    if not (x0 < x1 and y0 < y1):
+        raise ResultsError(f"--window {text}: the numbers are x0,x1,y0,y1, with x0 below x1 and y0 below y1")
+    return x0, x1, y0, y1
+
+
+def figures(options, results, increment):
+    """Names and functions of the wanted figures."""
+    from . import contacts, curves, fields, meshes
+    from .units import Units
+    units = Units.parse(options.units) if options.units else Units()
+    window = window_of(options.window)
+    one = options.what != "all"
+    component = options.component if one else None
+    return {
+        "stress": lambda: fields.stress(results, increment, component, options.scale, units, window),
+        "contact": lambda: contacts.contact(results, increment, options.contact, component, units),
+        "convergence": lambda: curves.convergence(results),
+        "mesh": lambda: meshes.mesh(results, units, window),
+        "history": lambda: curves.history(results, component, units),
+    }
+
+
+def write(options):
+    from .results import NothingToDraw, Results, ResultsError
+    if options.output is not None and options.output.suffix.lower() not in FORMATS:
+        raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
+    if options.what == "all" and options.component is not None:
+        raise ResultsError(f"--component {options.component}: say of what, as in --what stress")
+    if options.scale is not None and not 0 <= options.scale < math.inf:
+        raise ResultsError(f"--scale {options.scale:g}: give a number that is not negative, 0 for the undeformed shape")
+    for option, kinds in APPLIES.items():
+        if getattr(options, option) not in (None, []) and options.what not in (*kinds, "all"):
+            raise ResultsError(f"--{option}: has no meaning for --what {options.what}")
+    results = Results(options.directory)
+    increment = -1 if options.increment is None else options.increment
+    results.number(increment)
+    drawn = {}
+    for kind, draw in figures(options, results, increment).items():
+        if options.what not in ("all", kind):
+            continue
+        try:
+            drawn[kind] = draw()
+        except NothingToDraw as error:
+            if options.what == kind or options.contact and kind == "contact":
+                raise
+            print(f"no picture of {kind}: {error}", file=sys.stderr)
+    if not drawn:
+        raise NothingToDraw(f"{options.directory}: has nothing to draw")
+    for figure in drawn.values():
+        figure.draw_without_rendering()  # the layout follows from the labels, and these from the layout
+    save(drawn, options)
+    return 0
+
+
+def save(drawn, options):
+    """Prints the name of each file. Several pictures go into one .pdf, or into files whose names end in what they show."""
+    from . import style
+    output = options.output
+    if output is not None and output.suffix.lower() != ".png":
+        for figure in drawn.values():
+            style.close_gaps(figure)
+    if output is not None and output.suffix.lower() == ".pdf" and len(drawn) > 1:
+        from matplotlib.backends.backend_pdf import PdfPages
+        with PdfPages(output) as pages:
+            for figure in drawn.values():
+                pages.savefig(figure)
+        print(output)
+        return
+    for kind, figure in drawn.items():
+        if output is None:
+            directory = options.directory.resolve()
+            stem = directory.name.removesuffix(".results")
+            path = options.directory.parent / f"{stem}.{kind}.png" if directory.name == options.directory.name else \
+                directory.parent / f"{stem}.{kind}.png"
+        else:
+            path = output if options.what != "all" else output.with_name(f"{output.stem}.{kind}{output.suffix}")
+        figure.savefig(path)
+        print(path)

@@ -1,0 +1,31 @@
+# cmake -D build=... -D scratch=... -D python=... -D cpack=... -D dpkg_deb=... -P package.cmake: the Debian package holds
+# what is needed, names the libraries it is linked with, and runs where it is unpacked.
+file(REMOVE_RECURSE ${scratch})
+file(MAKE_DIRECTORY ${scratch})
+
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "failed: ${ARGV}")
+  endif()
+endfunction()
+
+run(${cpack} --config ${build}/CPackConfig.cmake -B ${scratch})
+file(GLOB package ${scratch}/scabo_*.deb)
+execute_process(COMMAND ${dpkg_deb} -f ${package} Depends Recommends OUTPUT_VARIABLE fields COMMAND_ERROR_IS_FATAL ANY)
+foreach(library libc6 libcholmod libumfpack libhdf5 libyaml-cpp python3-matplotlib)
+  if(NOT fields MATCHES ${library})
+    message(FATAL_ERROR "the package does not name ${library}: ${fields}")
+  endif()
+endforeach()
+
+run(${dpkg_deb} -x ${package} ${scratch}/root)
+set(scabo ${scratch}/root/usr/bin/scabo)
+run(${scabo} new crack -o ${scratch}/crack.yaml)
+run(${scabo} run --quiet ${scratch}/crack.yaml)
+run(${CMAKE_COMMAND} -E env SCABO_PYTHON=${python} ${scabo} plot ${scratch}/crack.results --what stress -o ${scratch}/crack.pdf)
+foreach(file crack.pdf root/usr/share/man/man1/scabo.1 root/usr/share/doc/scabo/copyright)
+  if(NOT EXISTS ${scratch}/${file})
+    message(FATAL_ERROR "missing: ${file}")
+  endif()
+endforeach()

@@ -1,0 +1,83 @@
+"""The models of `scabo new`: each runs as it is written, and has a number that is known."""
+import math
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
+import support
+
+KINDS = ["beam", "dam", "wall", "hertz", "crack"]
+
+
+class NewModels(support.InTemporaryDirectory):
+    def solve(self, kind):
+        run = support.scabo("new", kind, cwd=self.directory)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn(f"`scabo run {kind}.yaml`", run.stdout)
+        run = support.scabo("run", f"{kind}.yaml", "--quiet", cwd=self.directory)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        summary = support.summary_of(self.directory / f"{kind}.results")
+        self.assertTrue(all(support.certificate_of(entry) < 1e-10 for entry in summary["increments"]))
+        return summary["increments"]
+
+    def test_beam_has_the_published_forces(self):
+        joint = self.solve("beam")[-1]["contacts"]["joint"]
+        self.assertAlmostEqual(joint["normal_force"], 53640, delta=10)  # Zhu et al. 2017, SBFEM
+        self.assertAlmostEqual(abs(joint["tangential_force"]), 10730, delta=10)
+
+    def test_dam_stands_on_its_weight_against_the_water(self):
+        joint = self.solve("dam")[-1]["contacts"]["joint"]
+        weight = (4 * 20 + 0.5 * 11 * 16) * 2400 * 9.81
+        self.assertAlmostEqual(joint["normal_force"] / weight, 1.0, delta=1e-8)
+        self.assertAlmostEqual(abs(joint["tangential_force"]) / (0.5 * 9.81e3 * 18**2), 1.0, delta=1e-8)
+
+    def test_wall_weighs_what_its_stones_do(self):
+        x, y = self.solve("wall")[-1]["reactions"]["ground"]
+        weight = 3 * 2 * 0.25 * 2300 * 9.81
+        self.assertAlmostEqual(y / weight, 1.0, delta=1e-9)
+        self.assertAlmostEqual(x / (-0.3 * weight), 1.0, delta=1e-9)
+
+    def test_wall_falls_as_its_comment_says(self):
+        self.assertEqual(support.scabo("new", "wall", cwd=self.directory).returncode, 0)
+        line = next(line for line in (self.directory / "wall.yaml").read_text().splitlines() if "--set" in line)
+        setting = line.split("--set ")[1].split()[0]
+        run = support.scabo("run", "wall.yaml", "--quiet", "--set", setting, cwd=self.directory)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertEqual(support.summary_of(self.directory / "wall.results")["status"], "mechanism")
+
+    def test_hertz_has_his_pressure(self):
+        modulus = 1 / ((1 - 0.3**2) / 210e9 + (1 - 0.3**2) / 70e9)
+        half_width = math.sqrt(4 * 1e6 * 0.05 / (math.pi * modulus))
+        pressure = 2 * 1e6 / (math.pi * half_width)
+        touch = self.solve("hertz")[-1]["contacts"]["touch"]
+        self.assertAlmostEqual(touch["max_pressure"] / pressure, 1.0, delta=5e-3)
+        self.assertGreaterEqual(touch["normal_force"], 1e6 * (1 - 1e-9))  # along normals that lean by up to a / R
+        self.assertLessEqual(touch["normal_force"], 1e6 / math.cos(1.05 * half_width / 0.05))
+
+    def test_crack_has_the_factor_of_the_handbook(self):
+        factors = self.solve("crack")[-1]["cracks"]["plate.flaw"]
+        self.assertAlmostEqual(factors["K_I"] / (2.8255 * 1e6 * math.sqrt(math.pi * 0.5)), 1.0, delta=1e-4)
+        self.assertLess(abs(factors["K_II"]), 1e-6 * factors["K_I"])
+
+    def test_a_file_that_exists_is_kept(self):
+        file = self.directory / "beam.yaml"
+        file.write_text("mine")
+        run = support.scabo("new", "beam", cwd=self.directory)
+        self.assertEqual((run.returncode, run.stdout), (1, ""))
+        self.assertIn("beam.yaml: exists: remove it, or name another file with -o", run.stderr)
+        self.assertEqual(file.read_text(), "mine")
+        run = support.scabo("new", "beam", "-o", "other.yaml", cwd=self.directory)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("other.yaml", run.stdout)
+
+    def test_mistakes(self):
+        run = support.scabo("new", "bridge", cwd=self.directory)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("'bridge' is none of " + ", ".join(KINDS), run.stderr)
+        run = support.scabo("new", "beam", "-o", "nowhere/beam.yaml", cwd=self.directory)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("No such file or directory", run.stderr)
+
+
+if __name__ == "__main__":
+    support.main()
