@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scabo/input/overrides.hpp"
+#include "scabo/input/parameters.hpp"
 #include "scabo/input/reading.hpp"
 
 namespace scabo::input {
@@ -80,8 +81,8 @@ void check_version(Reading& reading, const MapReader& map) {
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
-                       "steps", "solver", "output", "tolerance"},
+                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads",
+                       "contacts", "ties", "steps", "solver", "output", "tolerance"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
@@ -175,6 +176,7 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
   if (!root) reading.report.throw_if_any(file);
   if (root->kind == Node::Kind::null) refuse_file(file, "is empty: a model file starts with 'scabo: 1'");
   root = apply_overrides(root, overrides, reading.report);
+  root = apply_parameters(root, reading.report, reading.model.warnings);
 
   const Value whole{root, ""};
   read_sections(reading, whole);

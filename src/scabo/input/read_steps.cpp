@@ -82,6 +82,7 @@ void read_factors(Reading& reading, const Index& supports, Step& step, const Val
 
 /// `increments: 10`, `increments: auto`, or `increments: {largest: 0.1}`.
 void read_increments(Reading& reading, const Value& value, Step& step) {
+  if (value.node->unreadable) return;
   const bool is_map = value.node->kind == Node::Kind::map;
   if (!is_map && value.node->kind == Node::Kind::scalar && value.node->text == "auto") {
     step.automatic.emplace();

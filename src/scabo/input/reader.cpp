@@ -48,6 +48,12 @@ void Report::error(const Source& at, std::string message) {
   diagnostics_.push_back({place, std::move(message)});
 }
 
+void Report::error(const Value& at, std::string message) {
+  if (!at.node->formula.empty() && !at.node->unreadable)
+    message += fmt::format(" (from {})", quoted_name(at.node->formula));
+  error(at.source(), std::move(message));
+}
+
 void Report::throw_if_any(const std::string& file) {
   if (count_ == 0) return;
   std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) {
@@ -76,6 +82,7 @@ std::string describe(const Node& node) {
 
 std::optional<double> read_number(Report& report, const Value& value) {
   const Node& node = *value.node;
+  if (node.unreadable) return {};
   if (node.kind != Node::Kind::scalar) {
     report.error(value, fmt::format("must be a number, not {}", describe(node)));
     return {};
@@ -105,6 +112,7 @@ std::optional<long> read_integer(Report& report, const Value& value, const model
 
 std::optional<bool> read_flag(Report& report, const Value& value) {
   const Node& node = *value.node;
+  if (node.unreadable) return {};
   if (node.kind == Node::Kind::scalar && !node.quoted) {
     if (node.text == "true") return true;
     if (node.text == "false") return false;
@@ -114,6 +122,7 @@ std::optional<bool> read_flag(Report& report, const Value& value) {
 }
 
 std::optional<std::string> read_text(Report& report, const Value& value) {
+  if (value.node->unreadable) return {};
   if (value.node->kind == Node::Kind::scalar) return value.node->text;
   report.error(value, fmt::format("must be text, not {}", describe(*value.node)));
   return {};
@@ -251,6 +260,8 @@ std::string as_written(const model::Mistake& mistake, const Located& at) {
   const std::string shown = ", not " + mistake.given;
   if (const auto found = message.find(shown); found != std::string::npos)
     message.replace(found, shown.size(), ", not " + (mistake.of_key ? at.key_text : at.value.node->text));
+  const std::string& formula = at.value.node->formula;
+  if (scalar && !mistake.of_key && !formula.empty()) message += fmt::format(" (from {})", quoted_name(formula));
   return message;
 }
 
