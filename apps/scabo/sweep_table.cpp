@@ -38,17 +38,28 @@ class RowReader {
       if ((value.is_number() || value.is_null()) && !without.contains(key)) add(prefix + "." + key, value);
   }
 
+  /// `prefix_x` and `prefix_y`; empty if there is none.
+  void add_vector(const std::string& prefix, const Json& vector) {
+    const bool there = vector.is_array() && vector.size() == 2;
+    add(prefix + "_x", there ? vector[0] : Json());
+    add(prefix + "_y", there ? vector[1] : Json());
+  }
+
   void add_increment(const Json& increment) {
-    for (const auto& [name, contact] : increment.value("contacts", Json::object()).items()) {
-      add_numbers(name, contact, {"first_pair_in_contact", "last_pair_in_contact"});
+    // Named, because a loop does not keep temporaries alive.
+    const Json contacts = increment.value("contacts", Json::object()),
+               reactions = increment.value("reactions", Json::object()),
+               cracks = increment.value("cracks", Json::object());
+    for (const auto& [name, contact] : contacts.items()) {
+      add_numbers(name, contact, {"first_pair_in_contact", "last_pair_in_contact", "centre_of_pressure"});
+      add_vector(name + ".force", contact.value("force", Json()));
+      add_vector(name + ".centre", contact.value("centre_of_pressure", Json()));
     }
-    for (const auto& [name, reaction] : increment.value("reactions", Json::object()).items()) {
-      if (!reaction.is_array() || reaction.size() != 2) continue;
-      add(name + ".reaction_x", reaction[0]);
-      add(name + ".reaction_y", reaction[1]);
+    for (const auto& [name, reaction] : reactions.items()) {
+      add_vector(name + ".reaction", reaction);
     }
     add_numbers("energy", increment.value("energy", Json()));
-    for (const auto& [name, crack] : increment.value("cracks", Json::object()).items())
+    for (const auto& [name, crack] : cracks.items())
       for (const char* key : {"K_I", "K_II", "K_tt", "K_rt"})
         if (crack.contains(key)) add(name + "." + key, crack[key]);
   }
@@ -81,8 +92,8 @@ SweepRow row_of(const std::filesystem::path& results) {
   if (row.status != "solved") return row;
   RowReader reader(row);
   reader.add_increment(*last);
-  for (const auto& [name, history] : summary.value("history", Json::object()).items())
-    reader.add_numbers(name, history);
+  const Json histories = summary.value("history", Json::object());
+  for (const auto& [name, history] : histories.items()) reader.add_numbers(name, history);
   return row;
 }
 

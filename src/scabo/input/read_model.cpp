@@ -82,7 +82,7 @@ void check_version(Reading& reading, const MapReader& map) {
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads",
-                       "contacts", "ties", "steps", "solver", "output", "tolerance"},
+                       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
@@ -105,9 +105,10 @@ void read_sections(Reading& reading, const Value& root) {
 
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
-  read_contacts_and_ties(reading, map.get("contacts"), map.get("ties"));
+  read_contacts_and_ties(reading, map.get("contact_properties"), map.get("contacts"), map.get("ties"));
   tell_of_pieces(reading);
   const std::size_t before_steps = reading.report.count();
+  if (const auto curves = map.get("curves")) read_curves(reading, *curves);
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
   if (const auto output = map.get("output")) read_output(reading, *output);
@@ -122,7 +123,7 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
   std::vector<std::string> parts;
-  for (const char* section : {"loads", "contacts", "steps", "solver", "output", "tolerance"}) {
+  for (const char* section : {"loads", "contact_properties", "contacts", "curves", "steps", "solver", "output", "tolerance"}) {
     const MapEntry* entry = root.node->find(section);
     if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
   }

@@ -210,6 +210,18 @@ const MapEntry* entry_called(const Node& map, std::string_view key) {
   return nullptr;
 }
 
+/// The entry of `contact_properties` that a contact names.
+std::optional<Value> property_of(const Value& root, const Value& contact) {
+  constexpr const char* section = "contact_properties";
+  if (!contact.path.starts_with("contacts.") || contact.node->kind != Node::Kind::map) return {};
+  const MapEntry* name = contact.node->find("property");
+  const MapEntry* properties = root.node->find(section);
+  if (name == nullptr || properties == nullptr || properties->value->kind != Node::Kind::map) return {};
+  const MapEntry* property = properties->value->find(name->value->text);
+  if (property == nullptr) return {};
+  return Value{property->value, join_path(section, property->key)};
+}
+
 Located locate(const Value& root, std::string_view path) {
   Located at{root, root.source(), "", true};
   while (!path.empty()) {
@@ -224,6 +236,9 @@ Located locate(const Value& root, std::string_view path) {
       at.key = source_of_key(at.value, *entry);
       at.key_text = entry->key;
       at.value = {entry->value, join_path(at.value.path, key)};
+    } else if (const auto property = property_of(root, at.value)) {
+      at.value = *property;  // the law of a contact
+      continue;
     } else {
       std::size_t index = 0;
       const auto [end, code] = std::from_chars(key.data(), key.data() + key.size(), index);
@@ -282,6 +297,7 @@ void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes)
     }
     return false;
   };
+  std::set<std::string> told_here;
   for (const model::Mistake& mistake : mistakes) {
     if (mistake.given == "nan") continue;  // stands for a number that could not be read
     if (full()) {  // without looking them up
@@ -297,6 +313,8 @@ void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes)
       continue;
     }
     if (is_told(at.value.path, !mistake.of_whole)) continue;
+    // Several contacts may share the property that is wrong, and several steps be cycles of one.
+    if (!told_here.insert(at.value.path + '\n' + mistake.message).second) continue;
     const bool whole_shape = at.complete && !mistake.of_key && at.value.path.ends_with(".shape");
     error(mistake.of_key && at.complete ? at.key : (whole_shape ? part_of_shape(at.value) : at.value).source(),
           as_written(mistake, at));
