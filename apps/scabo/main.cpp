@@ -47,9 +47,9 @@ processor, the results are those of a run without interruption, bit by bit. The 
 changed.)";
 
 constexpr const char* sweep_example = R"(Example:
-  scabo sweep model.yaml --vary contacts.joint.friction=0.1:0.9:9 --vary parameters.b=1,2,4 -j 4
+  scabo sweep model.yaml --vary contacts.joint.friction=0.1:0.9:9 --vary width=1,2,4 -j 4
 
-Values are a list (0.1,0.2,0.5), equally spaced (0.1:0.9:9) or of equal ratio (log:1e-3:1:4). All combinations are run,
+A path is one of the model file, as for --set, or the name of one of its parameters. Values are a list (0.1,0.2,0.5), equally spaced (0.1:0.9:9) or of equal ratio (log:1e-3:1:4). All combinations are run,
 each in a directory point_001, ... of DIR; DIR/sweep.csv is the table of all points. Ctrl-C ends the runs after their
 current increments, and the same command goes on with what is missing. Exit status: 0 if every point is solved; 2 if
 some did not converge or are mechanisms, 1 if a value is wrong for the model, 3 if some failed.)";

@@ -88,6 +88,7 @@ SweepAxis parse_axis(std::string_view text) {
   } catch (const InputError&) {
     refuse_axis(text, fmt::format("has no path before '=', or an empty key in it: {}", examples));
   }
+  if (axis.path.find('.') == std::string::npos) axis.path.insert(0, "parameters.");
   const std::string_view values = text.substr(equals + 1);
   std::vector<std::string> parts = split_outside_brackets(values, ':');
   if (parts.size() > 1 && values.find_first_of("{\"'") == std::string_view::npos) {

@@ -38,7 +38,7 @@ class Sweep(InTemporaryDirectory):
             return list(csv.DictReader(file))
 
     def test_forces_of_every_point(self):
-        done = self.sweep("--vary", "contacts.base.friction=0.1:0.5:5", "--vary", "parameters.width=1,2", "-j", "2")
+        done = self.sweep("--vary", "contacts.base.friction=0.1:0.5:5", "--vary", "width=1,2", "-j", "2")
         self.assertEqual(done.returncode, 2, done.stderr)  # 0.1 and 0.2 do not hold it
         rows = self.table()
         self.assertEqual([row["contacts.base.friction"] for row in rows],
@@ -135,6 +135,22 @@ class Sweep(InTemporaryDirectory):
         self.assertEqual(rows[0]["status"], "interrupted")
         self.assertEqual(rows[2]["status"], "waiting")
         self.assertGreater(len(summary_of(self.results / "point_001")["increments"]), 0)
+
+    def test_an_interrupted_sweep_goes_on_to_the_same_table(self):
+        self.model.write_text(MODEL.replace("increments: 4", "increments: 200").replace("size: 0.5", "size: 0.05")
+                              + "output: {history: {force: base.tangential_force, heat: friction_energy}}\n", encoding="utf-8")
+        vary = ["--vary", "contacts.base.friction=0.3,0.4,0.5", "-j", "1"]
+        self.assertEqual(self.sweep(*vary, "-o", self.directory / "unbroken").returncode, 0)
+        words = [support.SCABO, "sweep", self.model, *vary]
+        for point in ("point_001", "point_002"):
+            running = subprocess.Popen(list(map(str, words)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            records = self.results / point / "checkpoint.increments"
+            while running.poll() is None and not (records.exists() and records.stat().st_size > 2000):
+                time.sleep(0.005)
+            running.send_signal(signal.SIGTERM)
+            self.assertIn(running.wait(timeout=support.PATIENCE), (0, 143))
+        self.assertEqual(self.sweep(*vary).returncode, 0)
+        self.assertEqual((self.results / "sweep.csv").read_bytes(), (self.directory / "unbroken" / "sweep.csv").read_bytes())
 
     def test_runs_end_with_the_sweep(self):
         self.model.write_text(MODEL.replace("increments: 4", "increments: 20000").replace("size: 0.5", "size: 0.02"),
