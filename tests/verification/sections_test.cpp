@@ -161,6 +161,33 @@ contacts: {{base: {{between: [floor.top, block.bottom], friction: 0.4, about: [{
   }
 }
 
+// A uniform pressure or traction on a rigid body once ended the run.
+TEST(ContactTotals, OfARigidPunchAreThoseOfItsLoads) {
+  const auto solution = run(R"(scabo: 1
+analysis: {thickness: 0.5}
+materials: {m: {young: 1e9, poisson: 0.2}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [8, 1]}}}
+  block: {material: m, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.25}}
+  punch: {rigid: true, shape: {rectangle: {corner: [0.5, 1], size: [1, 1]}}}
+supports: [{on: floor, fix: [x, y]}]
+loads: {press: {on: punch.top, pressure: 500}, push: {on: punch.left, traction: [50, -100]}}
+contacts:
+  base: {between: [floor.top, block.bottom], friction: 0.5}
+  top: {between: [block.top, punch.bottom], friction: 0.3}
+output:
+  history: {a: punch.top_left.uy, b: punch.top_right.uy, x: top.centre_x, base_x: base.centre_x, push: top.force_x, n: base.normal_force}
+)");
+  const auto values = history_of(solution);
+  EXPECT_NEAR(values.at("n"), 300.0, 1e-7);
+  EXPECT_NEAR(values.at("push"), -25.0, 1e-7);
+  // 250 in the middle, 50 at the left side, 25 to the right in the middle of its height.
+  EXPECT_NEAR(values.at("x"), (250.0 * 1.0 + 50.0 * 0.5 + 25.0 * 0.5) / 300.0, 1e-8);
+  EXPECT_NEAR(values.at("base_x"), (250.0 * 1.0 + 50.0 * 0.5 + 25.0 * 1.5) / 300.0, 1e-8);
+  EXPECT_LT(values.at("a"), 0.0);
+  EXPECT_LT(values.at("b"), 0.0);
+}
+
 TEST(ContactTotals, AreThoseOfTheSharedProperty) {
   const std::string text = R"(scabo: 1
 materials: {m: {young: 1e9, poisson: 0}}
