@@ -223,6 +223,19 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
   return step;
 }
 
+void tell_of_unused_curves(Reading& reading) {
+  std::vector<bool> used(reading.model.curves.size(), false);
+  for (const Step& step : reading.model.steps)
+    for (const std::vector<int>* of : {&step.load_curves, &step.support_curves})
+      for (const int curve : *of)
+        if (curve >= 0) used[static_cast<std::size_t>(curve)] = true;
+  for (std::size_t c = 0; c < used.size(); ++c)
+    if (!used[c])
+      reading.model.warnings.push_back(
+          {WarningKind::input, "curves." + reading.model.curves[c].name,
+           fmt::format("curve '{}' has no effect: no step uses it", reading.model.curves[c].name)});
+}
+
 /// How often a step is run.
 long read_cycles(Reading& reading, const Value& value, const Step& step) {
   if (value.node->kind != Node::Kind::map) return 1;
@@ -279,6 +292,7 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
       reading.model.steps.push_back(std::move(copy));
     }
   }
+  tell_of_unused_curves(reading);
   // A coefficient that a later step changes is, before it, that of the contact.
   const auto& steps = reading.model.steps;
   if (std::none_of(steps.begin(), steps.end(), [](const Step& of) { return !of.friction.empty(); })) return;
