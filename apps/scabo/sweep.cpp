@@ -178,9 +178,8 @@ class Sweep {
 
   void start(std::size_t point, bool may_resume) {
     const fs::path results = folder(point);
-    const bool resumes =
-        may_resume && (rows_[point].status == "interrupted" || rows_[point].status == "failed") &&
-        analysis::has_checkpoint(results);
+    const bool resumes = may_resume && (rows_[point].status == "interrupted" || rows_[point].status == "failed") &&
+                         analysis::has_checkpoint(results);
     std::vector<std::string> arguments;
     if (resumes) {
       arguments = {"resume", results.string(), "--model", options_.model, "--quiet"};
@@ -188,10 +187,11 @@ class Sweep {
       // A run that ends before it writes must not leave the summary of an earlier one.
       std::error_code error;
       if (result::status_in(results)) fs::remove(results / "summary.json", error);
-      arguments = {"run", options_.model, "--quiet", "-o", results.string(), "--threads",
-                   std::to_string(options_.threads)};
+      arguments = {
+          "run", options_.model, "--quiet", "-o", results.string(), "--threads", std::to_string(options_.threads)};
       for (const std::string& setting : options_.settings) arguments.insert(arguments.end(), {"--set", setting});
-      for (const std::string& setting : settings_at(axes_, point)) arguments.insert(arguments.end(), {"--set", setting});
+      for (const std::string& setting : settings_at(axes_, point))
+        arguments.insert(arguments.end(), {"--set", setting});
     }
     running_.push_back({point, ChildProcess(arguments, output(point)), Clock::now(), resumes});
   }

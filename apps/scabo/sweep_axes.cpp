@@ -64,7 +64,8 @@ std::vector<std::string> range(std::string_view axis, const std::vector<std::str
   const double first = number_of(axis, parts[0]), last = number_of(axis, parts[1]);
   const double wanted = number_of(axis, parts[2]);
   if (std::floor(wanted) != wanted || wanted < 2.0 || wanted > static_cast<double>(most_sweep_points))
-    refuse_axis(axis, fmt::format("must have a whole number of values from 2 to {}, not {}", most_sweep_points, parts[2]));
+    refuse_axis(axis,
+                fmt::format("must have a whole number of values from 2 to {}, not {}", most_sweep_points, parts[2]));
   if (first == last) refuse_axis(axis, "begins and ends with the same value: give that value alone");
   if (logarithmic && !(first * last > 0.0)) refuse_axis(axis, "must have two ends of one sign, other than 0");
   const auto count = static_cast<std::size_t>(wanted);
@@ -124,7 +125,8 @@ std::size_t count_points(const std::vector<SweepAxis>& axes) {
       if (axes[a].path == axes[b].path) refuse_axis(axes[a].path, "is varied twice: give all its values in one --vary");
     count *= axes[a].values.size();
     if (count > most_sweep_points)
-      refuse_axis(axes[a].path, fmt::format("makes more than {} runs of this sweep: use fewer values", most_sweep_points));
+      refuse_axis(axes[a].path,
+                  fmt::format("makes more than {} runs of this sweep: use fewer values", most_sweep_points));
   }
   return count;
 }

@@ -16,8 +16,9 @@ struct SweepAxis {
 /// Largest number of runs of one sweep.
 constexpr std::size_t most_sweep_points = 10'000;
 
-/// `path=0.1,0.2,0.5`; `path=0.1:0.9:9`, nine equally spaced numbers with both ends; `path=log:1e-3:1:4`, four numbers of
-/// equal ratio. Commas within brackets do not separate. A path without a dot is the name of a parameter. Throws InputError.
+/// `path=0.1,0.2,0.5`; `path=0.1:0.9:9`, nine equally spaced numbers with both ends; `path=log:1e-3:1:4`, four numbers
+/// of equal ratio. Commas within brackets do not separate. A path without a dot is the name of a parameter. Throws
+/// InputError.
 SweepAxis parse_axis(std::string_view text);
 
 /// The values of every axis at one point, the last axis varying fastest. `index` from 0.

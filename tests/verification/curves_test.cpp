@@ -43,7 +43,8 @@ steps:
     if (increment.step == 2) {
       EXPECT_NEAR(increment.factors.at("drive"), saw(s), 1e-12) << s;
       EXPECT_NEAR(increment.factors.at("press"), up(s), 1e-12) << s;
-      for (const double corner : {0.2, 0.25, 1.0 / 3.0, 2.0 / 3.0, 0.7, 0.75, 1.0}) corners += std::abs(s - corner) < 1e-12;
+      for (const double corner : {0.2, 0.25, 1.0 / 3.0, 2.0 / 3.0, 0.7, 0.75, 1.0})
+        corners += std::abs(s - corner) < 1e-12;
     } else if (increment.step == 3) {
       EXPECT_NEAR(increment.factors.at("drive"), 0.5 + 0.5 * std::sin(3.0 * std::numbers::pi * s), 1e-12) << s;
       EXPECT_EQ(increment.factors.at("press"), 3.0);
@@ -77,11 +78,10 @@ TEST(Cycles, OfAStiffBlockDissipateTheLoopOfForceAndMotion) {
   // Rigid: it slides by 4 amplitudes in a cycle under mu N. In the increment after a reversal the force is taken as the
   // mean of its two signs, which loses its slip of amplitude (1 - cos(2 pi / n)), twice in a cycle.
   for (const int n : {60, 240}) {
-    const auto solution = run(driven_block(
-        1e13, fmt::format(R"(curves: {{wave: {{sine: {{amplitude: 1, periods: 1}}}}}}
+    const auto solution = run(driven_block(1e13, fmt::format(R"(curves: {{wave: {{sine: {{amplitude: 1, periods: 1}}}}}}
 steps: [{{name: press, loads: {{press: 1}}}}, {{name: cycle, increments: {}, cycles: 3, loads: {{drive: wave}}}}]
 )",
-                          n)));
+                                                             n)));
     ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
     ASSERT_EQ(solution.model.steps.size(), 4u);
     EXPECT_EQ(solution.model.steps[3].name, "cycle_3");

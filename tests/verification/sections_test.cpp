@@ -83,7 +83,8 @@ TEST(Section, ErrorFallsWithTheMesh) {
 }
 
 TEST(Section, OfUniformStressIsExact) {
-  for (const char* mesh : {"size: 0.3", "kind: polygons, size: 0.3", "kind: quadtree, size: 0.25", "kind: fem, size: 0.3"}) {
+  for (const char* mesh :
+       {"size: 0.3", "kind: polygons, size: 0.3", "kind: quadtree, size: 0.25", "kind: fem, size: 0.3"}) {
     const auto values = history_of(run(fmt::format(R"(scabo: 1
 analysis: {{thickness: 2}}
 materials: {{m: {{young: 1e9, poisson: 0.25}}}}

@@ -73,21 +73,20 @@ double largest(double a, double b) { return std::max(a, b); }
 double minus(double x) { return -x; }
 double plus(double x) { return x; }
 
-constexpr std::array<std::pair<const char*, double (*)(double)>, 14> functions{
-    {{"sqrt", root},
-     {"abs", magnitude},
-     {"exp", checked<exponential>},
-     {"ln", logarithm},
-     {"log10", decimal_logarithm},
-     {"sin", sine},
-     {"cos", cosine},
-     {"tan", checked<tangent>},
-     {"asin", checked<arcsine>},
-     {"acos", checked<arccosine>},
-     {"atan", arctangent},
-     {"round", whole},
-     {"floor", below},
-     {"ceil", above}}};
+constexpr std::array<std::pair<const char*, double (*)(double)>, 14> functions{{{"sqrt", root},
+                                                                                {"abs", magnitude},
+                                                                                {"exp", checked<exponential>},
+                                                                                {"ln", logarithm},
+                                                                                {"log10", decimal_logarithm},
+                                                                                {"sin", sine},
+                                                                                {"cos", cosine},
+                                                                                {"tan", checked<tangent>},
+                                                                                {"asin", checked<arcsine>},
+                                                                                {"acos", checked<arccosine>},
+                                                                                {"atan", arctangent},
+                                                                                {"round", whole},
+                                                                                {"floor", below},
+                                                                                {"ceil", above}}};
 constexpr std::array<std::pair<const char*, double (*)(double, double)>, 3> functions_of_two{
     {{"min", smallest}, {"max", largest}, {"atan2", arctangent_of}}};
 constexpr const char* circle_constant = "pi";

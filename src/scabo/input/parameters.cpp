@@ -104,8 +104,9 @@ class Parameters {
     if (entry == nullptr || entry->value->kind == Node::Kind::null) return;
     const Value map{entry->value, std::string(parameters_section)};
     if (map.node->kind != Node::Kind::map) {
-      report.error(map, fmt::format("must be a map of numbers and formulas, as in {{b: 2.0, h: \"${{3 * b}}\"}}, not {}",
-                                    describe(*map.node)));
+      report.error(map,
+                   fmt::format("must be a map of numbers and formulas, as in {{b: 2.0, h: \"${{3 * b}}\"}}, not {}",
+                               describe(*map.node)));
       all_known_ = false;
       return;
     }
@@ -267,7 +268,8 @@ class Parameters {
   }
 
  public:
-  static constexpr const char* unclosed = "has a '${' without its '}': close it, and put the text in quotes within [ ] or { }";
+  static constexpr const char* unclosed =
+      "has a '${' without its '}': close it, and put the text in quotes within [ ] or { }";
 
  private:
   Report& report_;
@@ -344,8 +346,7 @@ class FormulaReplacement {
 
 NodePtr apply_parameters(const NodePtr& root, Report& report, std::vector<Warning>& warnings) {
   Parameters parameters(report, *root);
-  const NodePtr replaced =
-      contains_formula(*root) ? FormulaReplacement(report, parameters).in({root, ""}) : root;
+  const NodePtr replaced = contains_formula(*root) ? FormulaReplacement(report, parameters).in({root, ""}) : root;
   parameters.tell_unused(warnings);
   return replaced;
 }

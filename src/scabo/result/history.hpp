@@ -52,7 +52,7 @@ class History {
   std::vector<HistoryExtremes> columns_;
   std::optional<PointEvaluation> evaluation_;  // of all places and sections; empty before the first increment
   std::vector<std::size_t> place_;             // [item]: its point in the evaluation, of a displacement
-  std::vector<SectionPoints> sections_;          // [item]; empty for numbers
+  std::vector<SectionPoints> sections_;        // [item]; empty for numbers
 };
 
 /// Throws InputError for sections that cannot be evaluated, before the solve.

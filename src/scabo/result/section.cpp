@@ -78,7 +78,7 @@ std::vector<std::pair<double, double>> parts_in(const analysis::StaticSolution& 
 }  // namespace
 
 std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solution, const model::HistoryItem& item,
-                                              const model::Section& section) {
+                                            const model::Section& section) {
   static const geometry::GaussRule rule = geometry::gauss_rule(gauss_points);
   const model::Model& model = solution.model;
   const Vec2 along = section.to - section.from;
@@ -92,10 +92,10 @@ std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solu
       for (const auto& [other, other_body] : taken)
         if (std::min(part.second, other.second) - std::max(part.first, other.first) >
             most_overlap * std::min(part.second - part.first, other.second - other.first))
-          throw InputError(model.file,
-                           {{item.source, fmt::format("the line runs along the border of body '{}' and body '{}', which "
-                                                      "both have stress there: name one of them with 'body'",
-                                                      model.bodies[other_body].name, model.bodies[b].name)}});
+          throw InputError(
+              model.file, {{item.source, fmt::format("the line runs along the border of body '{}' and body '{}', which "
+                                                     "both have stress there: name one of them with 'body'",
+                                                     model.bodies[other_body].name, model.bodies[b].name)}});
       for (std::size_t g = 0; g < rule.points.size(); ++g) {
         const double t = part.first + 0.5 * (1.0 + rule.points[g]) * (part.second - part.first);
         SectionPoint point;
@@ -111,11 +111,11 @@ std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solu
     for (const auto& part : parts_in(solution, b, section)) taken.emplace_back(part, b);
   }
   if (points.empty())
-    throw InputError(model.file,
-                     {{item.source, section.body >= 0
-                                        ? fmt::format("the line does not cut body '{}': move it",
-                                                      model.bodies[static_cast<std::size_t>(section.body)].name)
-                                        : "the line cuts no elastic body: move it"}});
+    throw InputError(
+        model.file,
+        {{item.source, section.body >= 0 ? fmt::format("the line does not cut body '{}': move it",
+                                                       model.bodies[static_cast<std::size_t>(section.body)].name)
+                                         : "the line cuts no elastic body: move it"}});
   return points;
 }
 

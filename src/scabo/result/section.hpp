@@ -25,6 +25,6 @@ struct SectionPoint {
 /// Points on a line, in the elastic bodies that it cuts or in one of them. Throws InputError if it cuts none, or if it
 /// lies along the border of two bodies.
 std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solution, const model::HistoryItem& item,
-                                              const model::Section& section);
+                                            const model::Section& section);
 
 }  // namespace scabo::result

@@ -1,8 +1,7 @@
 // Formulas and parameters of a model file.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,9 +66,10 @@ TEST(Formula, EveryOperationMustBeFinite) {
 }
 
 TEST(Formula, IsNothingButAFormula) {
-  for (const char* text : {"", " ", "1 +", "* 2", "(1", "1)", "1 2", "1, 2", "min(1)", "sin()", "sin(1, 2)", "sqrt",
-                           "foo(1)", "a = 1", "1 < 2", "1 ? 2 : 3", "\"a\"", "1; 2", "2 ** 3", "1.2.3", "1 && 2",
-                           "#", "()", "1 2 +", "0x10", "1e", "\xc3\xa4"})
+  for (const char* text :
+       {"",       " ",         "1 +",    "* 2",    "(1",    "1)",    "1 2",       "1, 2",  "min(1)",
+        "sin()",  "sin(1, 2)", "sqrt",   "foo(1)", "a = 1", "1 < 2", "1 ? 2 : 3", "\"a\"", "1; 2",
+        "2 ** 3", "1.2.3",     "1 && 2", "#",      "()",    "1 2 +", "0x10",      "1e",    "\xc3\xa4"})
     EXPECT_NE(why_not(text, {{"a", 1.0}, {"x10", 1.0}, {"e", 1.0}}), "") << text;
 }
 
@@ -82,10 +82,11 @@ TEST(Formula, IsBoundedInLengthAndDepth) {
 }
 
 TEST(Parameters, StandWhereNumbersStand) {
-  const Model model = parse(block("parameters: {b: 2.0, h: \"${b} * 3\", k: \"${h + b}\"}\n"
-                                  "title: Block of ${b} m and ${h / 4}\n"
-                                  "steps: [{increments: \"${k}\"}]\n"),
-                            {{"loads.push.force", "[\"${b}\", \"-${h}^2 + 1\"]"}, {"materials.steel.young", "${b * 1e9}"}});
+  const Model model =
+      parse(block("parameters: {b: 2.0, h: \"${b} * 3\", k: \"${h + b}\"}\n"
+                  "title: Block of ${b} m and ${h / 4}\n"
+                  "steps: [{increments: \"${k}\"}]\n"),
+            {{"loads.push.force", "[\"${b}\", \"-${h}^2 + 1\"]"}, {"materials.steel.young", "${b * 1e9}"}});
   EXPECT_EQ(model.title, "Block of 2 m and 1.5");
   EXPECT_EQ(model.steps[0].increments, 8);
   EXPECT_EQ(model.materials[0].young, 2e9);
@@ -106,8 +107,8 @@ TEST(Parameters, OneMistakeLeadsToOneMessage) {
   const std::string of_broken =
       mistakes_in(block("parameters: {b: \"${1 / 0}\", h: \"${b * 3}\"}\nanalysis: {thickness: \"${h + b}\"}\n"));
   EXPECT_EQ(of_broken, "model.yaml:7:17: parameters.b: the formula '1 / 0' divides by zero");
-  const std::string unknown =
-      mistakes_in(block("parameters: {b: 1}\nanalysis: {thickness: \"${c + b}\"}\nsolver: {iterations: \"${b / 2}\"}\n"));
+  const std::string unknown = mistakes_in(
+      block("parameters: {b: 1}\nanalysis: {thickness: \"${c + b}\"}\nsolver: {iterations: \"${b / 2}\"}\n"));
   EXPECT_THAT(unknown, HasSubstr("model.yaml:8:23: analysis.thickness: the formula 'c + b' needs a parameter 'c'"));
   EXPECT_THAT(unknown, HasSubstr("must be a whole number from 1 to 10000, not 0.5 (from '${b / 2}')"));
 }
