@@ -60,9 +60,9 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
   return reason;
 }
 
-/// Proceeds from `from` along `factors_at` (0: its factors, 1: the end of the increment), halving the step if an attempt is not accepted; every part starts from the last
-/// accepted state. With `least`, that of an automatic increment, it ends with the first attempt that is accepted, and
-/// is halved as long as its part is not less than that.
+/// Proceeds from `from` along `factors_at` (0: its factors, 1: the end of the increment), halving the step if an
+/// attempt is not accepted; every part starts from the last accepted state. With `least`, that of an automatic
+/// increment, it ends with the first attempt that is accepted, and is halved as long as its part is not less than that.
 Reached reach(const Prepared& prepared, const State& from, const std::function<Factors(double)>& factors_at,
               std::optional<double> least, const Options& options) {
   const IncrementRule rule;
@@ -112,9 +112,10 @@ Reached reach(const Prepared& prepared, const State& from, const std::function<F
         reached.reason =
             fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
       if (tried.solution.status == contact::Status::not_converged) {
-        if (const auto motion = breaks(prepared) ? contact::mechanism_once_broken(
-                                                     tried.problem, laws_at(prepared, tried.state.factors), reached.state.history)
-                                                 : std::nullopt) {
+        if (const auto motion = breaks(prepared)
+                                    ? contact::mechanism_once_broken(
+                                          tried.problem, laws_at(prepared, tried.state.factors), reached.state.history)
+                                    : std::nullopt) {
           reached.mechanism = true;
           reached.reason = fmt::format(
               "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
@@ -253,7 +254,8 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
     if (options.on_stage)
       options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, k)
                                       : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
-    const double begin = progress.reached, end = next_end(step, progress, model::corners_of(step, solution.model.curves));
+    const double begin = progress.reached,
+                 end = next_end(step, progress, model::corners_of(step, solution.model.curves));
     const Factors target = factors_in(solution.model, run.step, end);
     const bool curved = !step.load_curves.empty() || !step.support_curves.empty();
     const auto factors_at = [&](double part) {
@@ -262,7 +264,8 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
     };
     const std::optional<double> least =
         step.automatic ? std::optional(step.automatic->smallest / (end - begin)) : std::nullopt;
-    Reached reached = timed(solution.timing.newton, [&] { return reach(prepared, run.state, factors_at, least, options); });
+    Reached reached =
+        timed(solution.timing.newton, [&] { return reach(prepared, run.state, factors_at, least, options); });
     if (reached.stopped) {
       interrupt(solution);
       return;

@@ -255,15 +255,16 @@ void tell_of_unused(Reading& reading, const ContactProperties& properties) {
                                         fmt::format("contact property '{}' has no effect: no contact uses it", name)});
 }
 
-std::optional<Contact> read_contact(Reading& reading, ContactProperties& properties, const Entry& entry, Between& between_of, double& reach) {
+std::optional<Contact> read_contact(Reading& reading, ContactProperties& properties, const Entry& entry,
+                                    Between& between_of, double& reach) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, entry.value,
-                      {"between", "reach", "property", "friction", "gap", "cohesion", "tension", "bond",
-                       "shear_strength", "about"},
-                      contact_example,
-                      {{"kind", "leave it out; every contact is node-to-node"},
-                       {"penalty", "leave it out; the contact conditions are met without a penalty"}});
+  const MapReader map(
+      report, entry.value,
+      {"between", "reach", "property", "friction", "gap", "cohesion", "tension", "bond", "shear_strength", "about"},
+      contact_example,
+      {{"kind", "leave it out; every contact is node-to-node"},
+       {"penalty", "leave it out; the contact conditions are met without a penalty"}});
   Contact contact;
   contact.name = entry.key;
   contact.source = entry.key_source;

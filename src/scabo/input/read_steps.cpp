@@ -56,8 +56,9 @@ std::optional<Factor> read_factor(Reading& reading, const Value& value) {
     if (!reading.curves_known) return {};
     std::vector<std::string> known;
     for (const Curve& curve : reading.model.curves) known.push_back(curve.name);
-    reading.report.error(value, fmt::format("must be a number or the name of a curve, not {}{}", quoted_name(node.text),
-                                            known.empty() ? "; the model has no curves" : suggestion(node.text, known)));
+    reading.report.error(value,
+                         fmt::format("must be a number or the name of a curve, not {}{}", quoted_name(node.text),
+                                     known.empty() ? "; the model has no curves" : suggestion(node.text, known)));
     return {};
   }
   return Factor{value_of(reading.model.curves[static_cast<std::size_t>(found->second)], 1.0), found->second};
@@ -244,8 +245,9 @@ long read_cycles(Reading& reading, const Value& value, const Step& step) {
   const Value cycles{entry->value, value.path + ".cycles"};
   const long count = read_integer(reading.report, cycles, limits::cycles).value_or(1);
   if (count > 1 && step.load_curves.empty() && step.support_curves.empty()) {
-    reading.report.error(cycles, "repeats a step in which no factor follows a curve, so that nothing would change: give "
-                                 "'loads' a curve that ends where it begins");
+    reading.report.error(cycles,
+                         "repeats a step in which no factor follows a curve, so that nothing would change: give "
+                         "'loads' a curve that ends where it begins");
     return 1;
   }
   return count;
@@ -283,7 +285,8 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
     step = read_step(reading, supports, (*items)[i], step, i + 1);
     const long cycles = read_cycles(reading, (*items)[i], step);
     if (factors * (reading.model.steps.size() + static_cast<std::size_t>(cycles)) > most_factors) {
-      reading.report.error((*items)[i], "needs more factors of loads and supports than can be stored: use fewer cycles");
+      reading.report.error((*items)[i],
+                           "needs more factors of loads and supports than can be stored: use fewer cycles");
       return;
     }
     for (long k = 1; k <= cycles; ++k) {
@@ -333,7 +336,8 @@ std::optional<CurveTable> read_ramp(Reading& reading, const Value& value) {
     return given ? read_number(reading.report, *given).value_or(otherwise) : otherwise;
   };
   map.need("to");
-  const double from = number("from", 0.0), to = number("to", 1.0), begin = number("begin", 0.0), end = number("end", 1.0);
+  const double from = number("from", 0.0), to = number("to", 1.0), begin = number("begin", 0.0),
+               end = number("end", 1.0);
   if (reading.report.count() > before) return {};
   if (!(begin >= 0.0 && begin < end && end <= 1.0)) {
     reading.report.error(value, "'begin' and 'end' must be parts of the step, from 0 to 1, and ascending");

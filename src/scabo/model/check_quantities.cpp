@@ -31,7 +31,8 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
     checking.error(path, "", fmt::format("body '{}' is rigid, and has no stress intensity factors", body.name));
     return;
   }
-  if (with_bar && body.mesh.kind == MeshKind::fem) {  // their order stays, and with it the error of the cell around the tip
+  if (with_bar &&
+      body.mesh.kind == MeshKind::fem) {  // their order stays, and with it the error of the cell around the tip
     checking.error(
         path, "",
         fmt::format("body '{}' is made of finite elements, whose stress intensity factors have no error bar: "

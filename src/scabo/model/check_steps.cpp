@@ -59,8 +59,9 @@ void check_curves(Checking& checking) {
       checking.number(path, "sine.amplitude", sine->amplitude);
       checking.number(path, "sine.mean", sine->mean);
       if (checking.positive(path, "sine.periods", sine->periods) && sine->periods > 10'000.0)
-        checking.error(path, "sine.periods",
-                       fmt::format("must be at most 10000, not {}: use a step with 'cycles'", number_text(sine->periods)));
+        checking.error(
+            path, "sine.periods",
+            fmt::format("must be at most 10000, not {}: use a step with 'cycles'", number_text(sine->periods)));
       continue;
     }
     const auto& points = std::get<CurveTable>(curve.kind).points;
@@ -88,7 +89,8 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
       }
       const Curve& curve = model.curves[static_cast<std::size_t>(curves[i])];
       if (const auto* table = std::get_if<CurveTable>(&curve.kind); table != nullptr && table->points.empty()) return;
-      const double here = before ? (before->*factors)[i] : 0.0, begin = value_of(curve, 0.0), end = value_of(curve, 1.0);
+      const double here = before ? (before->*factors)[i] : 0.0, begin = value_of(curve, 0.0),
+                   end = value_of(curve, 1.0);
       const std::string& name = support ? model.supports[i].name : model.loads[i].name;
       constexpr double rounding = 1e-9;
       if (std::abs(begin - here) > rounding * std::max(1.0, std::abs(begin)))
@@ -106,7 +108,8 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
 
 void check_friction_of_step(Checking& checking, const std::string& path, const Step& step) {
   const Model& model = checking.model;
-  const bool any = std::any_of(model.steps.begin(), model.steps.end(), [](const Step& of) { return !of.friction.empty(); });
+  const bool any =
+      std::any_of(model.steps.begin(), model.steps.end(), [](const Step& of) { return !of.friction.empty(); });
   if (!any) return;
   if (step.friction.size() != model.contacts.size()) {
     checking.error(path, "friction", "must give a coefficient for every contact");
@@ -117,8 +120,9 @@ void check_friction_of_step(Checking& checking, const std::string& path, const S
     if (!has_one_coefficient(model.contacts[c])) continue;
     const std::string key = "friction." + model.contacts[c].name;
     if (checking.not_negative(path, key, step.friction[c]) && step.friction[c] > largest)
-      checking.error(path, key, fmt::format("a coefficient of friction must be at most 1e6, not {}",
-                                            number_text(step.friction[c])));
+      checking.error(
+          path, key,
+          fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(step.friction[c])));
   }
 }
 
@@ -202,7 +206,8 @@ void check_never_applied(Checking& checking) {
   const Model& model = checking.model;
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
-    if (std::any_of(model.steps.begin(), model.steps.end(), [&](const Step& s) { return s.load_factors[i] != 0.0 || load_curve(s, i) >= 0; }))
+    if (std::any_of(model.steps.begin(), model.steps.end(),
+                    [&](const Step& s) { return s.load_factors[i] != 0.0 || load_curve(s, i) >= 0; }))
       continue;
     checking.enter(load.source);
     checking.error_of_key(path_of("loads", load.name, i), "",
@@ -211,7 +216,8 @@ void check_never_applied(Checking& checking) {
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];
     if (!checking.support[i]) continue;
-    if (std::any_of(model.steps.begin(), model.steps.end(), [&](const Step& s) { return s.support_factors[i] != 0.0 || support_curve(s, i) >= 0; }))
+    if (std::any_of(model.steps.begin(), model.steps.end(),
+                    [&](const Step& s) { return s.support_factors[i] != 0.0 || support_curve(s, i) >= 0; }))
       continue;
     checking.enter(support.source);
     checking.error(path_of("supports", support.source, i), "",

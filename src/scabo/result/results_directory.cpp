@@ -282,7 +282,8 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution, const analy
   if (Clock::now() >= next_summary_) write_running_summary(solution);
 } catch (const WriteError&) {
   try {  // the increment is solved, and there may be room for its totals
-    replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true, history_.extremes()));
+    replace_file(path_ / "summary.json",
+                 summary_content(solution, complete(solution.timing), true, history_.extremes()));
   } catch (const WriteError&) {
   }
   throw;
@@ -388,7 +389,8 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
     log_->append(report_end(solution, complete(solution.timing)));
   }
   // Not counted in `write`, because a file cannot contain the time of its own writing.
-  replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), false, history_.extremes()));
+  replace_file(path_ / "summary.json",
+               summary_content(solution, complete(solution.timing), false, history_.extremes()));
 }
 
 analysis::Timing ResultsDirectory::complete(analysis::Timing timing) const {
