@@ -1,6 +1,6 @@
 # Everything Scabo is built on, all from Debian packages (cmake/packages.txt). Reports all that is missing at once.
 set(missing "")
-foreach(package "Eigen3 3.4" fmt yaml-cpp nlohmann_json CLI11 pugixml)
+foreach(package "Eigen3 3.4" fmt yaml-cpp muparser nlohmann_json CLI11 pugixml)
   separate_arguments(package)
   list(GET package 0 name)
   find_package(${package} QUIET CONFIG)

@@ -5,6 +5,7 @@
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/settings.hpp"
 #include "scabo/model/wording.hpp"
+#include "scabo/result/history.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/run/plan.hpp"
 #include "terminal.hpp"
@@ -57,6 +58,7 @@ std::string steps_table(const model::Model& model) {
 ExitStatus check(const CheckOptions& options) {
   const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
   const mesh::Mesh mesh = analysis::check(model);
+  if (model.analysis.type == model::AnalysisType::static_) result::check_sections(model, mesh);
   for (const Warning& warning : model.warnings) print_warning(warning.text);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
   text += model.analysis.type == model::AnalysisType::modal

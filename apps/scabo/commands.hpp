@@ -27,6 +27,17 @@ struct RunOptions {
   bool ignore_memory = false;  ///< starts even if the estimated memory is not available
 };
 
+struct SweepOptions {
+  std::string model;
+  std::vector<std::string> vary;      ///< `path=values` (sweep_axes.hpp)
+  std::vector<std::string> settings;  ///< of all runs
+  std::filesystem::path output;       ///< empty: `model.sweep` beside `model.yaml`
+  int jobs = 0;                       ///< runs at a time; 0: one for each processor
+  int threads = 0;                    ///< of each run; 0: processors over jobs
+  bool quiet = false;
+  bool anew = false;  ///< replaces what the directory holds of another sweep
+};
+
 struct ResumeOptions {
   std::filesystem::path directory;  ///< results of a run that was interrupted
   std::string model;                ///< where the model file is now; empty: where it was
@@ -64,6 +75,8 @@ ExitStatus resume(const ResumeOptions& options);
 /// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
                      double reading);
+/// Runs a model with varied values, several at a time, and writes a table of the results.
+ExitStatus sweep(SweepOptions options);
 ExitStatus check(const CheckOptions& options);
 ExitStatus print_exponents(const ExponentsOptions& options);
 ExitStatus solve_contact(const ContactOptions& options);

@@ -49,6 +49,14 @@ Continues after the last increment in the checkpoint of DIR. With the same numbe
 processor, the results are those of a run without interruption, bit by bit. The model and its files must not have
 changed.)";
 
+constexpr const char* sweep_example = R"(Example:
+  scabo sweep model.yaml --vary contacts.joint.friction=0.1:0.9:9 --vary width=1,2,4 -j 4
+
+A path is one of the model file, as for --set, or the name of one of its parameters. Values are a list (0.1,0.2,0.5), equally spaced (0.1:0.9:9) or of equal ratio (log:1e-3:1:4). All combinations are run,
+each in a directory point_001, ... of DIR; DIR/sweep.csv is the table of all points. Ctrl-C ends the runs after their
+current increments, and the same command goes on with what is missing. Exit status: 0 if every point is solved; 2 if
+some did not converge or are mechanisms, 1 if a value is wrong for the model, 3 if some failed.)";
+
 constexpr const char* check_example = R"(Example:
   scabo check model.yaml --set bodies.upper.mesh.size=0.1)";
 
@@ -139,6 +147,25 @@ class CommandLine {
     resume_->add_flag("-q,--quiet", resume_options_.quiet, "Prints only errors and warnings");
     resume_->footer(resume_example);
 
+    sweep_->add_option("MODEL", sweep_options_.model, model_help)->required()->option_text(" ");
+    sweep_->add_option("--vary", sweep_options_.vary, "Values to run; may be repeated")
+        ->required()
+        ->type_name("PATH=VALUES")
+        ->option_text("PATH=VALUES ...")
+        ->allow_extra_args(false);
+    add_settings(*sweep_, sweep_options_.settings);
+    sweep_->add_option("-o,--output", sweep_options_.output, "Directory; default: model.sweep, beside model.yaml")
+        ->option_text("DIR");
+    sweep_->add_option("-j,--jobs", sweep_options_.jobs, "Runs at a time; default: one for each processor")
+        ->option_text("N")
+        ->check(CLI::Range(1, 1024));
+    sweep_->add_option("--threads", sweep_options_.threads, "Threads of each run; default: processors over runs at a time")
+        ->option_text("N")
+        ->check(CLI::Range(1, 1024));
+    sweep_->add_flag("--anew", sweep_options_.anew, "Replaces what DIR holds of another sweep, and runs all points");
+    sweep_->add_flag("-q,--quiet", sweep_options_.quiet, "Prints only errors");
+    sweep_->footer(sweep_example);
+
     check_->add_option("MODEL", check_options_.model, model_help)->required()->option_text(" ");
     add_settings(*check_, check_options_.settings);
     check_->footer(check_example);
@@ -213,6 +240,7 @@ class CommandLine {
   ExitStatus execute() const {
     if (*run_) return run(run_options_);
     if (*resume_) return resume(resume_options_);
+    if (*sweep_) return sweep(sweep_options_);
     if (*check_) return check(check_options_);
     if (*exponents_) return print_exponents(exponents_options_);
     if (*contact_) return solve_contact(contact_options_);
@@ -302,6 +330,7 @@ class CommandLine {
   CLI::App app_{"Scabo: frictional contact by the scaled boundary finite element method", "scabo"};
   CLI::App* run_ = app_.add_subcommand("run", "Solves a model and writes its results");
   CLI::App* resume_ = app_.add_subcommand("resume", "Continues a run that was interrupted or killed");
+  CLI::App* sweep_ = app_.add_subcommand("sweep", "Runs a model with varied values and makes a table of the results");
   CLI::App* check_ = app_.add_subcommand("check", "Reads and meshes a model and reports its size, without solving it");
   CLI::App* exponents_ = app_.add_subcommand("exponents", "Prints the exponents of every super-element");
   CLI::App* contact_ = app_.add_subcommand("contact", "Solves and certifies a discrete contact problem from a file");
@@ -324,6 +353,7 @@ class CommandLine {
   std::vector<std::string> words_;  ///< the command line as given
   RunOptions run_options_;
   ResumeOptions resume_options_;
+  SweepOptions sweep_options_;
   CheckOptions check_options_;
   ExponentsOptions exponents_options_;
   ContactOptions contact_options_;

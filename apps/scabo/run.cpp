@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/result/history.hpp"
 #include "startup.hpp"
 #include "static_run.hpp"
 
@@ -33,6 +34,7 @@ ExitStatus run(const RunOptions& options) {
   // The model is checked before the directory is created or cleared, and the directory is created before the solve: a
   // mistake in either then costs seconds and no results. Meshing twice takes a hundredth of the time of a solve.
   mesh::Mesh mesh = analysis::check(model);
+  result::check_sections(model, mesh);
   const run::Plan plan = run::plan_of(model, mesh);
   const Interrupt interrupt;
   result::ResultsDirectory directory(output, model, std::move(mesh));

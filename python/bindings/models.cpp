@@ -5,6 +5,7 @@
 
 #include "bindings.hpp"
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/result/history.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/input/document.hpp"
 #include "scabo/input/settings.hpp"
@@ -42,6 +43,7 @@ py::dict sizes(const CheckedModel& checked) {
   {
     const py::gil_scoped_release release;
     const mesh::Mesh mesh = analysis::check(checked.model);
+    if (checked.model.analysis.type == model::AnalysisType::static_) result::check_sections(checked.model, mesh);
     plan = run::plan_of(checked.model, mesh);
     pairs = run::moving_pairs(checked.model, mesh);
   }

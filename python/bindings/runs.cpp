@@ -10,6 +10,7 @@
 #include "bindings.hpp"
 #include "models.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "scabo/result/history.hpp"
 #include "scabo/result/modal_results.hpp"
 #include "scabo/result/results_directory.hpp"
 #include "scabo/result/summary.hpp"
@@ -123,6 +124,7 @@ std::shared_ptr<StaticResult> solve_static(const CheckedModel& checked, const st
     run.observer.on_stage = [&](const std::string& stage) { watch.stage(stage); };
     run.observer.on_increment = [&](const auto&, const auto& increment) { watch.increment(checked.model, increment); };
     mesh::Mesh mesh = analysis::check(checked.model);
+    if (checked.model.analysis.type == model::AnalysisType::static_) result::check_sections(checked.model, mesh);
     run.plan = run::plan_of(checked.model, mesh);
     if (output) {
       solved->solution = run_in_directory(run, checked, *output, std::move(mesh), solved->record);

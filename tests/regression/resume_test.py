@@ -41,7 +41,14 @@ steps:
   - {name: pull, increments: {largest: 0.02}, loads: {push: -1}}
   - {name: again, increments: 80, loads: {push: 1}}
   - {name: back, increments: 80, loads: {push: 0}}
-output: {points: [[1e-2, 1.5e-2]], every: 3, discrete_problems: true}
+  - {name: waves, increments: 20, cycles: 2, loads: {push: wave}}
+curves: {wave: {sine: {amplitude: 0.9, periods: 2}}}
+output:
+  points: [[1e-2, 1.5e-2]]
+  every: 3
+  discrete_problems: true
+  history: {tip: upper.top_left.ux, shear: joint.tangential_force, centre: joint.centre_x, work: friction_energy,
+            cut: {section: {from: [0, 1.4e-2], to: [4e-2, 1.4e-2]}}}
 """
 
 

@@ -171,6 +171,7 @@ void exchange_state(Io& io, RunState& run) {
   State& state = run.state;
   io.numbers("state/load_factors", state.factors.loads);
   io.numbers("state/support_factors", state.factors.supports);
+  io.numbers("state/coefficients_of_friction", state.factors.friction);
   exchange_vector(io, "state/p", state.p);
   exchange_vector(io, "state/a", state.a);
   exchange_vector(io, "state/gap", state.gap);

@@ -478,7 +478,7 @@ double QuantityResult::relative() const {
 bool wants_bars(const model::Model& model) { return model.tolerance || !model.output.error_of.empty(); }
 
 void check_bars(const model::Model& model, const mesh::Mesh& mesh) {
-  if (wants_bars(model)) check_quantities(model, mesh);
+  if (wants_bars(model) || !model.output.history.empty()) check_quantities(model, mesh);
 }
 
 StaticSolution solve_with_bars(model::Model model, mesh::Mesh mesh, const Options& options,

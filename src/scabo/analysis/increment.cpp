@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scabo/analysis/branch.hpp"
+#include "scabo/system/contact_laws.hpp"
 
 namespace scabo::analysis {
 
@@ -204,7 +205,17 @@ Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int
   return {u.dot(normal), u.dot(tangent_of(normal))};
 }
 
-void add_totals(ContactResult& result) {
+void add_totals(const Vec2& about, ContactResult& result) {
+  Vec2 weighted = Vec2::Zero();  // relative to `about`, so that distant coordinates keep their digits
+  double pressing = 0.0;
+  for (const PairResult& pair : result.pairs) {
+    const Vec2 force = pair.normal_force * pair.normal + pair.tangential_force * tangent_of(pair.normal);
+    const Vec2 arm = pair.position - about;
+    result.force += force;
+    result.moment += cross(arm, force);
+    weighted += pair.normal_force * arm;
+    pressing += std::abs(pair.normal_force);
+  }
   for (const PairResult& pair : result.pairs) {
     result.min_gap = std::min(result.min_gap, pair.gap);
     result.normal_force += pair.normal_force;
@@ -220,6 +231,9 @@ void add_totals(ContactResult& result) {
     if (!result.first_in_contact) result.first_in_contact = pair.pair;
     result.last_in_contact = pair.pair;
   }
+  constexpr double rounding_of_sum = 1e-9;  // of a contact that is pulled as much as it is pressed
+  if (result.normal_force > rounding_of_sum * pressing)
+    result.centre_of_pressure = about + Vec2(weighted / result.normal_force);
 }
 
 std::vector<ContactResult> contact_results(const Prepared& prepared, const State& state) {
@@ -249,7 +263,7 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     results[c].name = prepared.model.contacts[c].name;
-    add_totals(results[c]);
+    add_totals(prepared.model.contacts[c].about, results[c]);
   }
   return results;
 }
@@ -286,7 +300,13 @@ Factors between(const Factors& from, const Factors& to, double part) {
     factors.loads[i] = from.loads[i] + part * (to.loads[i] - from.loads[i]);
   for (std::size_t i = 0; i < to.supports.size(); ++i)
     factors.supports[i] = from.supports[i] + part * (to.supports[i] - from.supports[i]);
+  for (std::size_t i = 0; i < to.friction.size(); ++i)
+    factors.friction[i] = from.friction[i] + part * (to.friction[i] - from.friction[i]);
   return factors;
+}
+
+contact::JointLaws laws_at(const Prepared& prepared, const Factors& factors) {
+  return system::with_coefficients(prepared.contact.laws, prepared.contact.pairs, prepared.model, factors.friction);
 }
 
 std::vector<bool> touching_pairs(const Prepared& prepared) {
@@ -301,10 +321,18 @@ std::vector<bool> touching_pairs(const Prepared& prepared) {
   return touching;
 }
 
+std::vector<double> coefficients_at_start(const model::Model& model) {
+  std::vector<double> coefficients;
+  if (!model.steps.empty() && !model.steps.front().friction.empty())
+    for (const model::Contact& contact : model.contacts) coefficients.push_back(contact.friction);
+  return coefficients;
+}
+
 State initial_state(const Prepared& prepared) {
   State state;
   state.factors = {std::vector<double>(prepared.model.loads.size(), 0.0),
-                   std::vector<double>(prepared.model.supports.size(), 0.0)};
+                   std::vector<double>(prepared.model.supports.size(), 0.0),
+                   coefficients_at_start(prepared.model)};
   const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
   state.p = Vector::Zero(2 * N);
   state.a = Vector::Zero(prepared.contact.rigid_motions());
@@ -363,9 +391,10 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
 
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
-  contact::Evolution evolution = contact::evolve(problem, system.laws, from.history, result.start, options);
+  const contact::JointLaws laws = laws_at(prepared, factors);
+  contact::Evolution evolution = contact::evolve(problem, laws, from.history, result.start, options);
   if (prepared.model.solver.uniqueness && N > 0)
-    result.uniqueness = follow_history(problem, system.laws, from.history, result.start, options, evolution);
+    result.uniqueness = follow_history(problem, laws, from.history, result.start, options, evolution);
   result.solution = std::move(evolution.solution);
   result.problem = std::move(evolution.problem);
   to.history = std::move(evolution.history);

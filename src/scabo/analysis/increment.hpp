@@ -28,11 +28,14 @@ struct Prepared {
 /// loads and the elastic energy. `u`: per part. Zero where there is none.
 Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>& u);
 
-/// Factors of loads and supports at one time.
+/// Factors of loads and supports at one time, and coefficients of friction.
 struct Factors {
   std::vector<double> loads, supports;
+  std::vector<double> friction;  ///< of every contact; empty if no step changes one
 };
 Factors between(const Factors& from, const Factors& to, double part);
+/// Coefficients of friction before the first step; empty if no step changes one.
+std::vector<double> coefficients_at_start(const model::Model& model);
 
 /// An accepted state, which is the history from which the next increment starts. It is a value: an increment that fails
 /// does not change it.
@@ -51,6 +54,9 @@ struct State {
   Energy energy;
 };
 State initial_state(const Prepared& prepared);
+
+/// Laws of the pairs with the coefficients of friction of these factors.
+contact::JointLaws laws_at(const Prepared& prepared, const Factors& factors);
 
 /// Completes a state of which only the history is known (factors, forces and states of the pairs, rigid motions,
 /// energy): displacements, applied forces, reactions and prescribed values follow from it, bit by bit as when the state

@@ -122,7 +122,11 @@ void exchange(Io& io, AttemptResult& of) {
 template <typename Io>
 void exchange(Io& io, ContactResult& of) {
   exchange(io, of.name);
-  io(of.normal_force), io(of.tangential_force), io(of.open), io(of.stick), io(of.slip);
+  io(of.normal_force), io(of.tangential_force);
+  exchange(io, of.force);
+  io(of.moment);
+  exchange(io, of.centre_of_pressure);
+  io(of.open), io(of.stick), io(of.slip);
   exchange(io, of.broken);
   io(of.max_gap), io(of.min_gap), io(of.max_pressure);
   exchange(io, of.first_in_contact);

@@ -56,14 +56,16 @@ double next_size(const model::AutomaticIncrements& limits, double size, bool hal
   return std::clamp(ratio * size, limits.smallest, limits.largest);
 }
 
-double next_end(const model::Step& step, const StepProgress& progress) {
+double next_end(const model::Step& step, const StepProgress& progress, const std::vector<double>& corners) {
   if (!step.automatic) {
     const auto k = static_cast<std::size_t>(progress.increment);
     return step.ends.empty() ? static_cast<double>(progress.increment + 1) / step.increments : step.ends.at(k);
   }
-  const double size = progress.size > 0.0 ? progress.size : step.automatic->first, left = 1.0 - progress.reached;
   constexpr double rounding = 1e-9;  // of sums of sizes
-  if (left <= size * (1.0 + rounding)) return 1.0;
+  const auto corner = std::upper_bound(corners.begin(), corners.end(), progress.reached + rounding);
+  const double last = corner == corners.end() ? 1.0 : *corner;
+  const double size = progress.size > 0.0 ? progress.size : step.automatic->first, left = last - progress.reached;
+  if (left <= size * (1.0 + rounding)) return last;
   // What is left is divided in halves, so that no small rest remains.
   return progress.reached + (left < 2.0 * size ? std::max(0.5 * left, step.automatic->smallest) : size);
 }

@@ -51,7 +51,7 @@ struct StepProgress {
   double size = 0.0;     ///< of the next increment of an automatic step; 0: its first
 };
 
-/// Part of the step at which the next increment ends.
-double next_end(const model::Step& step, const StepProgress& progress);
+/// Part of the step at which the next increment ends; not beyond the next corner of a curve that a factor follows.
+double next_end(const model::Step& step, const StepProgress& progress, const std::vector<double>& corners = {});
 
 }  // namespace scabo::analysis

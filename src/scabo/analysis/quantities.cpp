@@ -94,6 +94,19 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
       return std::nullopt;
     case Kind::elastic_energy:
       return increment.energy.elastic;
+    case Kind::contact_force:
+      return increment.contacts[index].force[quantity.component];
+    case Kind::contact_moment:
+      return increment.contacts[index].moment;
+    case Kind::centre_of_pressure:
+      if (const auto& centre = increment.contacts[index].centre_of_pressure) return (*centre)[quantity.component];
+      return std::nullopt;
+    case Kind::max_pressure:
+      return increment.contacts[index].max_pressure;
+    case Kind::external_energy:
+      return increment.energy.external;
+    case Kind::friction_energy:
+      return increment.energy.friction;
   }
   return std::nullopt;
 }
@@ -125,6 +138,8 @@ double rounding_of(const StaticSolution& solution, const IncrementResult& increm
     case Kind::elastic_energy:
       take(increment.energy.elastic);
       break;
+    default:
+      throw BrokenInvariant("a number without an error bar");
   }
   return tolerance * largest;
 }
@@ -230,6 +245,7 @@ struct HeldPairs {
 };
 HeldPairs held_pairs(const Prepared& prepared, const State& state) {
   std::vector<Eigen::Triplet<double>> of_T, of_S;
+  const contact::JointLaws laws = laws_at(prepared, state.factors);
   int column = 0;
   for (std::size_t i = 0; i < state.states.size(); ++i) {
     const int n = 2 * static_cast<int>(i), t = n + 1;
@@ -237,7 +253,7 @@ HeldPairs held_pairs(const Prepared& prepared, const State& state) {
     of_T.emplace_back(n, column, 1.0);
     of_S.emplace_back(n, column, 1.0);
     if (state.states[i] == contact::ContactState::slip) {
-      const double mu = prepared.contact.laws.of_pair[i]->limits(state.history[i]).mu, p_t = state.p[t];
+      const double mu = laws.of_pair[i]->limits(state.history[i]).mu, p_t = state.p[t];
       if (mu > 0.0 && p_t != 0.0) of_T.emplace_back(t, column, std::copysign(mu, p_t));
     } else {
       of_T.emplace_back(t, ++column, 1.0);
@@ -279,6 +295,8 @@ Functional derivative_of(const Prepared& prepared, const State& state, const Sta
     case Kind::elastic_energy:
       add_energy(prepared, state, of);
       break;
+    default:
+      throw BrokenInvariant("a number without an error bar");
   }
   return of;
 }
@@ -334,6 +352,8 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
   std::vector<const model::Quantity*> all;
   for (const model::Quantity& quantity : model.output.error_of) all.push_back(&quantity);
   if (model.tolerance) all.push_back(&model.tolerance->of);
+  for (const model::HistoryItem& item : model.output.history)
+    if (const auto* quantity = std::get_if<model::Quantity>(&item.of)) all.push_back(quantity);
   std::vector<Diagnostic> mistakes;
   for (const model::Quantity* quantity : all) {
     if (quantity->kind == Kind::displacement) {

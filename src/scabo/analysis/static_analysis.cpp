@@ -60,20 +60,19 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
   return reason;
 }
 
-/// Proceeds from `from` to `target`, halving the step if an attempt is not accepted; every part starts from the last
-/// accepted state. With `least`, that of an automatic increment, it ends with the first attempt that is accepted, and
-/// is halved as long as its part is not less than that.
-Reached reach(const Prepared& prepared, const State& from, const Factors& target, std::optional<double> least,
-              const Options& options) {
+/// Proceeds from `from` along `factors_at` (0: its factors, 1: the end of the increment), halving the step if an
+/// attempt is not accepted; every part starts from the last accepted state. With `least`, that of an automatic
+/// increment, it ends with the first attempt that is accepted, and is halved as long as its part is not less than that.
+Reached reach(const Prepared& prepared, const State& from, const std::function<Factors(double)>& factors_at,
+              std::optional<double> least, const Options& options) {
   const IncrementRule rule;
   Reached reached;
   reached.state = from;
-  const Factors start = from.factors;
   double part = 1.0;
   int repeats = 0;
   while (reached.part < 1.0) {
     const double next = std::min(1.0, reached.part + part);
-    Attempt tried = attempt(prepared, reached.state, between(start, target, next));
+    Attempt tried = attempt(prepared, reached.state, factors_at(next));
     reached.iterations += tried.solution.iterations;
     reached.coarse_iterations += tried.solution.coarse_iterations;
     const bool may_halve = least ? 0.5 * part >= *least : reached.halvings < prepared.model.solver.halvings;
@@ -113,9 +112,10 @@ Reached reach(const Prepared& prepared, const State& from, const Factors& target
         reached.reason =
             fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
       if (tried.solution.status == contact::Status::not_converged) {
-        if (const auto motion = breaks(prepared) ? contact::mechanism_once_broken(tried.problem, prepared.contact.laws,
-                                                                                  reached.state.history)
-                                                 : std::nullopt) {
+        if (const auto motion = breaks(prepared)
+                                    ? contact::mechanism_once_broken(
+                                          tried.problem, laws_at(prepared, tried.state.factors), reached.state.history)
+                                    : std::nullopt) {
           reached.mechanism = true;
           reached.reason = fmt::format(
               "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
@@ -192,8 +192,25 @@ void drop_fields(IncrementResult& increment) {
 
 /// Factors at the start of a step.
 Factors start_of(const model::Model& model, std::size_t step) {
-  if (step == 0) return {std::vector<double>(model.loads.size(), 0.0), std::vector<double>(model.supports.size(), 0.0)};
-  return {model.steps[step - 1].load_factors, model.steps[step - 1].support_factors};
+  if (step == 0)
+    return {std::vector<double>(model.loads.size(), 0.0), std::vector<double>(model.supports.size(), 0.0),
+            coefficients_at_start(model)};
+  const model::Step& before = model.steps[step - 1];
+  return {before.load_factors, before.support_factors, before.friction};
+}
+
+/// Factors at part `s` of a step.
+Factors factors_in(const model::Model& model, std::size_t index, double s) {
+  const model::Step& step = model.steps[index];
+  Factors factors = between(start_of(model, index), {step.load_factors, step.support_factors, step.friction}, s);
+  if (s == 1.0) return factors;  // those of the curves
+  const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      if (curves[i] >= 0) of[i] = model::value_of(model.curves[static_cast<std::size_t>(curves[i])], s);
+  };
+  follow(step.load_curves, factors.loads);
+  follow(step.support_curves, factors.supports);
+  return factors;
 }
 
 RunState start_of_run(const Prepared& prepared, StaticSolution& solution, const Options& options) {
@@ -237,11 +254,18 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
     if (options.on_stage)
       options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, k)
                                       : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
-    const double begin = progress.reached, end = next_end(step, progress);
-    const Factors target = between(start_of(solution.model, run.step), {step.load_factors, step.support_factors}, end);
+    const double begin = progress.reached,
+                 end = next_end(step, progress, model::corners_of(step, solution.model.curves));
+    const Factors target = factors_in(solution.model, run.step, end);
+    const bool curved = !step.load_curves.empty() || !step.support_curves.empty();
+    const auto factors_at = [&](double part) {
+      return curved && part < 1.0 ? factors_in(solution.model, run.step, begin + part * (end - begin))
+                                  : between(run.state.factors, target, part);
+    };
     const std::optional<double> least =
         step.automatic ? std::optional(step.automatic->smallest / (end - begin)) : std::nullopt;
-    Reached reached = timed(solution.timing.newton, [&] { return reach(prepared, run.state, target, least, options); });
+    Reached reached =
+        timed(solution.timing.newton, [&] { return reach(prepared, run.state, factors_at, least, options); });
     if (reached.stopped) {
       interrupt(solution);
       return;

@@ -39,6 +39,9 @@ struct ContactResult {
   std::vector<PairResult> pairs;
   double normal_force = 0.0;      ///< sum over the pairs
   double tangential_force = 0.0;  ///< sum over the pairs
+  Vec2 force = Vec2::Zero();      ///< resultant on B
+  double moment = 0.0;            ///< of the forces on B about the contact's `about`, counter-clockwise
+  std::optional<Vec2> centre_of_pressure;  ///< mean position of the pairs, weighted by their normal forces, if positive
   int open = 0, stick = 0, slip = 0;
   std::optional<int> broken;  ///< pairs that lost cohesion and tensile strength; empty if the contact has none
   double max_gap = 0.0;       ///< of the open pairs; 0 if none is open

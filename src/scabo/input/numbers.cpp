@@ -73,7 +73,7 @@ std::string why_no_number(std::string_view text, std::size_t length) {
     return fmt::format("'{}' is not a number: leave out the unit, and use consistent units throughout", text);
   }
   if (rest[after] == '*' || rest[after] == '/' || rest[after] == '+' || rest[after] == '-' || rest[after] == '^') {
-    return fmt::format("'{}' is a formula, not a number: write its value", text);
+    return fmt::format("'{0}' is a formula, not a number: write its value, or \"${{{0}}}\"", text);
   }
   return fmt::format("must be a number, not '{}'", text);
 }

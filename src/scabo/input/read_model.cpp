@@ -7,6 +7,7 @@
 
 #include "scabo/input/document.hpp"
 #include "scabo/input/overrides.hpp"
+#include "scabo/input/parameters.hpp"
 #include "scabo/input/reading.hpp"
 
 namespace scabo::input {
@@ -81,8 +82,8 @@ void check_version(Reading& reading, const MapReader& map) {
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
-                       "steps", "solver", "output", "tolerance"},
+                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads",
+                       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
@@ -105,9 +106,10 @@ void read_sections(Reading& reading, const Value& root) {
 
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
-  read_contacts_and_ties(reading, map.get("contacts"), map.get("ties"));
+  read_contacts_and_ties(reading, map.get("contact_properties"), map.get("contacts"), map.get("ties"));
   tell_of_pieces(reading);
   const std::size_t before_steps = reading.report.count();
+  if (const auto curves = map.get("curves")) read_curves(reading, *curves);
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
   if (const auto output = map.get("output")) read_output(reading, *output);
@@ -122,7 +124,7 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
   std::vector<std::string> parts;
-  for (const char* section : {"loads", "contacts", "steps", "solver", "output", "tolerance"}) {
+  for (const char* section : {"loads", "contact_properties", "contacts", "curves", "steps", "solver", "output", "tolerance"}) {
     const MapEntry* entry = root.node->find(section);
     if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
   }
@@ -165,8 +167,9 @@ Gaps gaps_of(const Reading& reading) {
   return gaps;
 }
 
-/// The model of a tree, with the mistakes that were found in its text.
-Model read_tree(Reading& reading, const NodePtr& root, const std::string& file) {
+/// The model of a tree, whose formulas are replaced by their values, with the mistakes that were found in its text.
+Model read_tree(Reading& reading, const NodePtr& tree, const std::string& file) {
+  const NodePtr root = apply_parameters(tree, reading.report, reading.model.warnings);
   const Value whole{root, ""};
   read_sections(reading, whole);
   reading.report.add(whole, validate(reading.model, gaps_of(reading)));

@@ -15,23 +15,6 @@ constexpr const char* point_example = "[1, 0.5] or {at: [1, 0.5], name: crest}";
 constexpr const char* line_example = "{from: [0, 0], to: [1, 0], points: 101, name: axis}";
 constexpr const char* grid_example = "{spacing: 0.1} or {x: [0, 1, 11], y: [0, 2, 21]}";
 
-/// `body`: its index, or -1 without the key; nothing if it is broken.
-std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
-  const auto value = map.get("body");
-  if (!value) return -1;
-  const auto name = read_text(reading.report, *value);
-  if (!name) return {};
-  const int index = reading.body_index(*name);
-  if (index >= 0) return index;
-  if (!reading.bodies_known) return {};
-  std::vector<std::string> names;
-  if (!reading.report.full())
-    for (const Body& body : reading.model.bodies) names.push_back(body.name);
-  reading.report.error(*value,
-                       fmt::format("there is no body named {}{}", quoted_name(*name), suggestion(*name, names)));
-  return {};
-}
-
 /// `name`, or `what_3`.
 std::string read_name_of(Reading& reading, const MapReader& map, const char* what, std::size_t number) {
   if (const auto value = map.get("name")) {
@@ -155,13 +138,30 @@ void read_fields(Reading& reading, const Value& value) {
 
 }  // namespace
 
+std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
+  const auto value = map.get("body");
+  if (!value) return -1;
+  const auto name = read_text(reading.report, *value);
+  if (!name) return {};
+  const int index = reading.body_index(*name);
+  if (index >= 0) return index;
+  if (!reading.bodies_known) return {};
+  std::vector<std::string> names;
+  if (!reading.report.full())
+    for (const Body& body : reading.model.bodies) names.push_back(body.name);
+  reading.report.error(*value,
+                       fmt::format("there is no body named {}{}", quoted_name(*name), suggestion(*name, names)));
+  return {};
+}
+
 void read_output(Reading& reading, const Value& value) {
   const MapReader map(reading.report, value,
-                      {"points", "lines", "grid", "fields", "every", "error", "error_of", "discrete_problems"},
+                      {"points", "lines", "grid", "history", "fields", "every", "error", "error_of", "discrete_problems"},
                       output_example);
   if (const auto points = map.get("points")) read_points(reading, *points);
   if (const auto lines = map.get("lines")) read_lines(reading, *lines);
   if (const auto grid = map.get("grid")) read_grid(reading, *grid);
+  if (const auto history = map.get("history")) read_history(reading, *history);
   if (const auto fields = map.get("fields")) read_fields(reading, *fields);
   if (const auto every = map.get("every"))
     reading.model.output.every = static_cast<int>(read_integer(reading.report, *every, limits::every).value_or(1));

@@ -25,10 +25,17 @@ constexpr QuantityWord quantity_words[] = {
     {"reaction_y", Quantity::Kind::reaction, 1},       {"ux", Quantity::Kind::displacement, 0},
     {"uy", Quantity::Kind::displacement, 1},           {"K_I", Quantity::Kind::stress_intensity, 0},
     {"K_II", Quantity::Kind::stress_intensity, 1}};
+/// That have a history, but no error bar.
+constexpr QuantityWord history_words[] = {
+    {"force_x", Quantity::Kind::contact_force, 0},       {"force_y", Quantity::Kind::contact_force, 1},
+    {"moment", Quantity::Kind::contact_moment, 0},       {"max_pressure", Quantity::Kind::max_pressure, 0},
+    {"centre_x", Quantity::Kind::centre_of_pressure, 0}, {"centre_y", Quantity::Kind::centre_of_pressure, 1}};
 
 class QuantityReader {
  public:
-  QuantityReader(Reading& reading, const Value& value) : reading_(reading), value_(value) {}
+  /// `for_history`: also numbers without an error bar.
+  QuantityReader(Reading& reading, const Value& value, bool for_history = false)
+      : reading_(reading), value_(value), for_history_(for_history) {}
 
   std::optional<Quantity> read() {
     const auto text = read_text(reading_.report, value_);
@@ -36,11 +43,21 @@ class QuantityReader {
     quantity_.name = *text;
     quantity_.source = value_.source();
     if (*text == "elastic_energy") return quantity_;
+    if (for_history_ && (*text == "external_energy" || *text == "friction_energy")) {
+      quantity_.kind =
+          *text == "external_energy" ? Quantity::Kind::external_energy : Quantity::Kind::friction_energy;
+      return quantity_;
+    }
     const auto dot = text->rfind('.');
     const std::string word = dot == std::string::npos ? *text : text->substr(dot + 1);
     const auto* found = std::find_if(std::begin(quantity_words), std::end(quantity_words),
                                      [&](const QuantityWord& known) { return known.word == word; });
-    if (found == std::end(quantity_words)) {
+    if (for_history_ && found == std::end(quantity_words)) {
+      found = std::find_if(std::begin(history_words), std::end(history_words),
+                           [&](const QuantityWord& known) { return known.word == word; });
+      if (found == std::end(history_words)) return refuse_for_history(word);
+    }
+    if (!for_history_ && found == std::end(quantity_words)) {
       std::vector<std::string> words{"elastic_energy"};
       for (const QuantityWord& known : quantity_words) words.emplace_back(known.word);
       const std::string near = nearest_name(word, words);
@@ -67,6 +84,18 @@ class QuantityReader {
   }
 
  private:
+  std::optional<Quantity> refuse_for_history(const std::string& word) {
+    std::vector<std::string> words{"elastic_energy", "external_energy", "friction_energy"};
+    for (const QuantityWord& known : quantity_words) words.emplace_back(known.word);
+    for (const QuantityWord& known : history_words) words.emplace_back(known.word);
+    const std::string near = nearest_name(word, words);
+    return refuse(
+        fmt::format("'{}' is no number with a history: write elastic_energy, external_energy or friction_energy, or a "
+                    "name and one of normal_force, tangential_force, force_x, force_y, moment, centre_x, centre_y, "
+                    "max_pressure, max_gap, reaction_x, reaction_y, ux, uy, K_I, K_II, as in joint.normal_force{}",
+                    one_line(word), near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+  }
+
   std::optional<Quantity> refuse(const std::string& message) {
     reading_.report.error(value_, message);
     return {};
@@ -150,6 +179,7 @@ class QuantityReader {
 
   Reading& reading_;
   const Value& value_;
+  bool for_history_;
   Quantity quantity_;
 };
 
@@ -160,6 +190,43 @@ void read_quantities(Reading& reading, const Value& value, std::vector<Quantity>
   if (!items) return;
   for (const Value& item : *items)
     if (auto quantity = QuantityReader(reading, item).read()) quantities.push_back(std::move(*quantity));
+}
+
+namespace {
+
+std::optional<Section> read_section(Reading& reading, const Value& value) {
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"from", "to", "body"}, "{from: [0, 1], to: [2, 1]}");
+  Section section;
+  if (const auto from = map.need("from")) section.from = read_vector(reading.report, *from).value_or(Vec2::Zero());
+  if (const auto to = map.need("to")) section.to = read_vector(reading.report, *to).value_or(Vec2::Zero());
+  const auto body = read_body_of(reading, map);
+  if (!body || reading.report.count() > before) return {};
+  section.body = *body;
+  return section;
+}
+
+}  // namespace
+
+void read_history(Reading& reading, const Value& value) {
+  constexpr const char* example = "{tip: upper.top_right.uy, cut: {section: {from: [0, 1], to: [2, 1]}}}";
+  for (const Entry& entry : read_named(reading.report, value, "histories", example)) {
+    HistoryItem item;
+    item.name = entry.key;
+    item.source = entry.key_source;
+    if (entry.value.node->kind == Node::Kind::scalar) {
+      const auto quantity = QuantityReader(reading, entry.value, true).read();
+      if (!quantity) continue;
+      item.of = *quantity;
+    } else {
+      const MapReader map(reading.report, entry.value, {"section"}, "{section: {from: [0, 1], to: [2, 1]}}");
+      const auto cut = map.need("section");
+      const auto section = cut ? read_section(reading, *cut) : std::nullopt;
+      if (!section) continue;
+      item.of = *section;
+    }
+    reading.model.output.history.push_back(std::move(item));
+  }
 }
 
 void read_tolerance(Reading& reading, const Value& value) {

@@ -1,4 +1,5 @@
 // `steps`: the factors of loads and prescribed displacements at the end of every step.
+// A factor may follow one of the `curves` within its step.
 //
 // A step without `loads` takes everything to factor 1. A step with `loads` takes the named loads to the given factors
 // and leaves the others at their values of the previous step (0 before the first step). Prescribed displacements
@@ -35,13 +36,46 @@ void apply_everything(Step& step) {
   std::fill(step.support_factors.begin(), step.support_factors.end(), 1.0);
 }
 
-/// Takes one load or support to `factor`; reports an unknown name.
+constexpr int no_curve = -1;
+
+/// A number, or the curve that the factor follows and its value at the end.
+struct Factor {
+  double value = 0.0;
+  int curve = no_curve;
+};
+
+std::optional<Factor> read_factor(Reading& reading, const Value& value) {
+  const Node& node = *value.node;
+  const bool word = node.kind == Node::Kind::scalar && !node.unreadable && model::is_name(node.text);
+  if (!word) {
+    const auto number = read_number(reading.report, value);
+    return number ? std::optional(Factor{*number, no_curve}) : std::nullopt;
+  }
+  const auto found = reading.index_of_curve.find(node.text);
+  if (found == reading.index_of_curve.end()) {
+    if (!reading.curves_known) return {};
+    std::vector<std::string> known;
+    for (const Curve& curve : reading.model.curves) known.push_back(curve.name);
+    reading.report.error(value,
+                         fmt::format("must be a number or the name of a curve, not {}{}", quoted_name(node.text),
+                                     known.empty() ? "; the model has no curves" : suggestion(node.text, known)));
+    return {};
+  }
+  return Factor{value_of(reading.model.curves[static_cast<std::size_t>(found->second)], 1.0), found->second};
+}
+
+/// Takes one load or support to a factor; reports an unknown name.
 void set_factor(Reading& reading, const Index& supports, Step& step, const MapEntry& entry, const Value& value,
                 const Source& at) {
-  const auto factor = read_number(reading.report, value);
+  const auto factor = read_factor(reading, value);
   const auto load = reading.index_of_load.find(entry.key);
   if (load != reading.index_of_load.end() && load->second >= 0) {
-    if (factor) step.load_factors[static_cast<std::size_t>(load->second)] = *factor;
+    const auto i = static_cast<std::size_t>(load->second);
+    if (!factor) return;
+    step.load_factors[i] = factor->value;
+    if (factor->curve == no_curve) return;
+    step.load_curves.resize(step.load_factors.size(), no_curve);
+    step.load_curves[i] = factor->curve;
     return;
   }
   if (const auto found = supports.find(entry.key); found != supports.end()) {
@@ -50,7 +84,10 @@ void set_factor(Reading& reading, const Index& supports, Step& step, const MapEn
       reading.report.error(at,
                            fmt::format("support '{}' is fixed, so that a factor has no effect: remove it", entry.key));
     } else if (factor) {
-      step.support_factors[i] = *factor;
+      step.support_factors[i] = factor->value;
+      if (factor->curve == no_curve) return;
+      step.support_curves.resize(step.support_factors.size(), no_curve);
+      step.support_curves[i] = factor->curve;
     }
     return;
   }
@@ -82,6 +119,7 @@ void read_factors(Reading& reading, const Index& supports, Step& step, const Val
 
 /// `increments: 10`, `increments: auto`, or `increments: {largest: 0.1}`.
 void read_increments(Reading& reading, const Value& value, Step& step) {
+  if (value.node->unreadable) return;
   const bool is_map = value.node->kind == Node::Kind::map;
   if (!is_map && value.node->kind == Node::Kind::scalar && value.node->text == "auto") {
     step.automatic.emplace();
@@ -112,21 +150,68 @@ void read_increments(Reading& reading, const Value& value, Step& step) {
   step.automatic = automatic;
 }
 
+/// `friction: {joint: 0.3}`: coefficients at the end of the step.
+void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
+  const std::vector<Contact>& contacts = reading.model.contacts;
+  if (step.friction.empty())
+    for (const Contact& contact : contacts) step.friction.push_back(contact.friction);
+  std::vector<std::string> known;
+  for (const Contact& contact : contacts) known.push_back(contact.name);
+  for (const Entry& entry : read_named(reading.report, value, "coefficients", "{joint: 0.3}")) {
+    const auto coefficient = read_number(reading.report, entry.value);
+    const auto found = std::find(known.begin(), known.end(), entry.key);
+    if (found == known.end()) {
+      if (reading.conditions_known)
+        reading.report.error(entry.key_source, fmt::format("there is no contact named {}{}", quoted_name(entry.key),
+                                                           suggestion(entry.key, known)));
+      continue;
+    }
+    const auto c = static_cast<std::size_t>(found - known.begin());
+    if (!has_one_coefficient(contacts[c]))
+      reading.report.error(entry.key_source,
+                           fmt::format("contact '{}' has no single coefficient of friction that a step could change: "
+                                       "give it 'friction' as one number",
+                                       entry.key));
+    else if (coefficient)
+      step.friction[c] = *coefficient;
+  }
+}
+
+/// Increments end at the corners of curves, besides their equal parts.
+void divide_at_corners(const Reading& reading, Step& step) {
+  const std::vector<double> corners = corners_of(step, reading.model.curves);
+  if (step.automatic || corners.empty()) return;
+  std::vector<double> ends = corners;
+  for (int k = 1; k <= step.increments; ++k) ends.push_back(static_cast<double>(k) / step.increments);
+  std::sort(ends.begin(), ends.end());
+  constexpr double rounding = 1e-9;
+  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a <= rounding; }), ends.end());
+  ends.back() = 1.0;
+  if (static_cast<int>(ends.size()) == step.increments) return;
+  step.increments = static_cast<int>(ends.size());
+  step.ends = std::move(ends);
+}
+
 /// The step that follows one that ends with the factors of `before`.
 Step read_step(Reading& reading, const Index& supports, const Value& value, const Step& before, std::size_t number) {
-  const MapReader map(reading.report, value, {"name", "increments", "loads"},
+  const MapReader map(reading.report, value, {"name", "increments", "loads", "friction", "cycles"},
                       "{name: press, increments: 10, loads: {tip: 1.0}}");
   Step step = before;
   step.name = fmt::format("step_{}", number);
   step.increments = 1;
   step.automatic.reset();
+  step.ends.clear();
+  step.load_curves.clear();
+  step.support_curves.clear();
   step.source = value.source();
   if (const auto name = map.get("name")) {
     const auto text = read_text(reading.report, *name);
     if (text && check_name(reading.report, name->source(), *text)) step.name = *text;
   }
   if (const auto increments = map.get("increments")) read_increments(reading, *increments, step);
+  if (const auto friction = map.get("friction")) read_friction_of_step(reading, *friction, step);
   const auto loads = map.get("loads");
+  if (!loads && !step.friction.empty() && map.has("friction") && number > 1) return step;  // the loads stay as they are
   if (!loads) {
     apply_everything(step);
     return step;
@@ -135,7 +220,37 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
     if (!reading.support_is_named[i]) step.support_factors[i] = 1.0;
   }
   read_factors(reading, supports, step, *loads);
+  divide_at_corners(reading, step);
   return step;
+}
+
+void tell_of_unused_curves(Reading& reading) {
+  std::vector<bool> used(reading.model.curves.size(), false);
+  for (const Step& step : reading.model.steps)
+    for (const std::vector<int>* of : {&step.load_curves, &step.support_curves})
+      for (const int curve : *of)
+        if (curve >= 0) used[static_cast<std::size_t>(curve)] = true;
+  for (std::size_t c = 0; c < used.size(); ++c)
+    if (!used[c])
+      reading.model.warnings.push_back(
+          {WarningKind::input, "curves." + reading.model.curves[c].name,
+           fmt::format("curve '{}' has no effect: no step uses it", reading.model.curves[c].name)});
+}
+
+/// How often a step is run.
+long read_cycles(Reading& reading, const Value& value, const Step& step) {
+  if (value.node->kind != Node::Kind::map) return 1;
+  const MapEntry* entry = value.node->find("cycles");
+  if (entry == nullptr || entry->value->kind == Node::Kind::null) return 1;
+  const Value cycles{entry->value, value.path + ".cycles"};
+  const long count = read_integer(reading.report, cycles, limits::cycles).value_or(1);
+  if (count > 1 && step.load_curves.empty() && step.support_curves.empty()) {
+    reading.report.error(cycles,
+                         "repeats a step in which no factor follows a curve, so that nothing would change: give "
+                         "'loads' a curve that ends where it begins");
+    return 1;
+  }
+  return count;
 }
 
 }  // namespace
@@ -168,8 +283,108 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
     if (reading.support_is_named[i]) supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
   for (std::size_t i = 0; i < items->size(); ++i) {
     step = read_step(reading, supports, (*items)[i], step, i + 1);
-    reading.model.steps.push_back(step);
+    const long cycles = read_cycles(reading, (*items)[i], step);
+    if (factors * (reading.model.steps.size() + static_cast<std::size_t>(cycles)) > most_factors) {
+      reading.report.error((*items)[i],
+                           "needs more factors of loads and supports than can be stored: use fewer cycles");
+      return;
+    }
+    for (long k = 1; k <= cycles; ++k) {
+      Step copy = step;
+      if (cycles > 1) copy.name = fmt::format("{}_{}", step.name, k);
+      reading.model.steps.push_back(std::move(copy));
+    }
   }
+  tell_of_unused_curves(reading);
+  // A coefficient that a later step changes is, before it, that of the contact.
+  const auto& steps = reading.model.steps;
+  if (std::none_of(steps.begin(), steps.end(), [](const Step& of) { return !of.friction.empty(); })) return;
+  for (Step& of : reading.model.steps)
+    if (of.friction.empty())
+      for (const Contact& contact : reading.model.contacts) of.friction.push_back(contact.friction);
+}
+
+namespace {
+
+std::optional<CurveTable> read_curve_table(Reading& reading, const Value& value) {
+  const auto items = read_list(reading.report, value, "[[0, 0], [1, 1], [3, -1], [4, 0]]");
+  if (!items) return {};
+  if (items->size() < 2) {
+    reading.report.error(value, "needs two points or more, as in [[0, 0], [1, 1], [3, -1], [4, 0]]");
+    return {};
+  }
+  CurveTable table;
+  for (const Value& item : *items) {
+    const auto point = read_vector(reading.report, item);
+    if (!point) return {};
+    if (!table.points.empty() && !(point->x() > table.points.back().at)) {
+      reading.report.error(item, "positions must be ascending: a factor cannot jump");
+      return {};
+    }
+    table.points.push_back({point->x(), point->y()});
+  }
+  const double first = table.points.front().at, length = table.points.back().at - first;
+  for (CurveTable::Point& point : table.points) point.at = (point.at - first) / length;
+  return table;
+}
+
+std::optional<CurveTable> read_ramp(Reading& reading, const Value& value) {
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"from", "to", "begin", "end"}, "{from: 0, to: 1, begin: 0.2, end: 0.8}");
+  const auto number = [&](const char* key, double otherwise) {
+    const auto given = map.get(key);
+    return given ? read_number(reading.report, *given).value_or(otherwise) : otherwise;
+  };
+  map.need("to");
+  const double from = number("from", 0.0), to = number("to", 1.0), begin = number("begin", 0.0),
+               end = number("end", 1.0);
+  if (reading.report.count() > before) return {};
+  if (!(begin >= 0.0 && begin < end && end <= 1.0)) {
+    reading.report.error(value, "'begin' and 'end' must be parts of the step, from 0 to 1, and ascending");
+    return {};
+  }
+  return CurveTable{{{begin, from}, {end, to}}};
+}
+
+std::optional<CurveSine> read_sine(Reading& reading, const Value& value) {
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"amplitude", "periods", "mean"}, "{amplitude: 1, periods: 3}");
+  CurveSine sine;
+  sine.amplitude = number_or_unread(reading, map.need("amplitude"));
+  if (const auto periods = map.get("periods")) sine.periods = read_number(reading.report, *periods).value_or(unread);
+  if (const auto mean = map.get("mean")) sine.mean = read_number(reading.report, *mean).value_or(unread);
+  return reading.report.count() > before ? std::nullopt : std::optional(sine);
+}
+
+}  // namespace
+
+void read_curves(Reading& reading, const Value& value) {
+  const std::size_t start = reading.report.count();
+  for (const Entry& entry :
+       read_named(reading.report, value, "curves", "{cycle: {table: [[0, 0], [1, 1], [3, -1], [4, 0]]}}")) {
+    const MapReader map(reading.report, entry.value, {"table", "ramp", "sine"}, "{sine: {amplitude: 1, periods: 3}}");
+    if (!map.is_map()) continue;
+    const auto table = map.get("table"), ramp = map.get("ramp"), sine = map.get("sine");
+    if (int{table.has_value()} + int{ramp.has_value()} + int{sine.has_value()} != 1) {
+      if (map.all_known()) reading.report.error(entry.value, "needs exactly one of table, ramp and sine");
+      continue;
+    }
+    Curve curve;
+    curve.name = entry.key;
+    curve.source = entry.key_source;
+    if (sine) {
+      const auto read = read_sine(reading, *sine);
+      if (!read) continue;
+      curve.kind = *read;
+    } else {
+      const auto read = table ? read_curve_table(reading, *table) : read_ramp(reading, *ramp);
+      if (!read) continue;
+      curve.kind = *read;
+    }
+    reading.index_of_curve.emplace(curve.name, static_cast<int>(reading.model.curves.size()));
+    reading.model.curves.push_back(std::move(curve));
+  }
+  if (reading.report.count() > start) reading.curves_known = false;
 }
 
 }  // namespace scabo::input

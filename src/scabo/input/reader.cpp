@@ -48,6 +48,12 @@ void Report::error(const Source& at, std::string message) {
   diagnostics_.push_back({place, std::move(message)});
 }
 
+void Report::error(const Value& at, std::string message) {
+  if (!at.node->formula.empty() && !at.node->unreadable)
+    message += fmt::format(" (from {})", quoted_name(at.node->formula));
+  error(at.source(), std::move(message));
+}
+
 void Report::throw_if_any(const std::string& file) {
   if (count_ == 0) return;
   std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) {
@@ -76,6 +82,7 @@ std::string describe(const Node& node) {
 
 std::optional<double> read_number(Report& report, const Value& value) {
   const Node& node = *value.node;
+  if (node.unreadable) return {};
   if (node.kind != Node::Kind::scalar) {
     report.error(value, fmt::format("must be a number, not {}", describe(node)));
     return {};
@@ -105,6 +112,7 @@ std::optional<long> read_integer(Report& report, const Value& value, const model
 
 std::optional<bool> read_flag(Report& report, const Value& value) {
   const Node& node = *value.node;
+  if (node.unreadable) return {};
   if (node.kind == Node::Kind::scalar && !node.quoted) {
     if (node.text == "true") return true;
     if (node.text == "false") return false;
@@ -114,6 +122,7 @@ std::optional<bool> read_flag(Report& report, const Value& value) {
 }
 
 std::optional<std::string> read_text(Report& report, const Value& value) {
+  if (value.node->unreadable) return {};
   if (value.node->kind == Node::Kind::scalar) return value.node->text;
   report.error(value, fmt::format("must be text, not {}", describe(*value.node)));
   return {};
@@ -201,6 +210,18 @@ const MapEntry* entry_called(const Node& map, std::string_view key) {
   return nullptr;
 }
 
+/// The entry of `contact_properties` that a contact names.
+std::optional<Value> property_of(const Value& root, const Value& contact) {
+  constexpr const char* section = "contact_properties";
+  if (!contact.path.starts_with("contacts.") || contact.node->kind != Node::Kind::map) return {};
+  const MapEntry* name = contact.node->find("property");
+  const MapEntry* properties = root.node->find(section);
+  if (name == nullptr || properties == nullptr || properties->value->kind != Node::Kind::map) return {};
+  const MapEntry* property = properties->value->find(name->value->text);
+  if (property == nullptr) return {};
+  return Value{property->value, join_path(section, property->key)};
+}
+
 Located locate(const Value& root, std::string_view path) {
   Located at{root, root.source(), "", true};
   while (!path.empty()) {
@@ -215,6 +236,9 @@ Located locate(const Value& root, std::string_view path) {
       at.key = source_of_key(at.value, *entry);
       at.key_text = entry->key;
       at.value = {entry->value, join_path(at.value.path, key)};
+    } else if (const auto property = property_of(root, at.value)) {
+      at.value = *property;  // the law of a contact
+      continue;
     } else {
       std::size_t index = 0;
       const auto [end, code] = std::from_chars(key.data(), key.data() + key.size(), index);
@@ -251,6 +275,8 @@ std::string as_written(const model::Mistake& mistake, const Located& at) {
   const std::string shown = ", not " + mistake.given;
   if (const auto found = message.find(shown); found != std::string::npos)
     message.replace(found, shown.size(), ", not " + (mistake.of_key ? at.key_text : at.value.node->text));
+  const std::string& formula = at.value.node->formula;
+  if (scalar && !mistake.of_key && !formula.empty()) message += fmt::format(" (from {})", quoted_name(formula));
   return message;
 }
 
@@ -271,6 +297,7 @@ void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes)
     }
     return false;
   };
+  std::set<std::string> told_here;
   for (const model::Mistake& mistake : mistakes) {
     if (mistake.given == "nan") continue;  // stands for a number that could not be read
     if (full()) {  // without looking them up
@@ -286,6 +313,8 @@ void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes)
       continue;
     }
     if (is_told(at.value.path, !mistake.of_whole)) continue;
+    // Several contacts may share the property that is wrong, and several steps be cycles of one.
+    if (!told_here.insert(at.value.path + '\n' + mistake.message).second) continue;
     const bool whole_shape = at.complete && !mistake.of_key && at.value.path.ends_with(".shape");
     error(mistake.of_key && at.complete ? at.key : (whole_shape ? part_of_shape(at.value) : at.value).source(),
           as_written(mistake, at));

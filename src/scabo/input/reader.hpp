@@ -41,7 +41,8 @@ class Report {
   static constexpr std::size_t most = 200;  ///< more are counted, not kept
 
   void error(const Source& at, std::string message);
-  void error(const Value& at, std::string message) { error(at.source(), std::move(message)); }
+  /// Adds the formula from which a wrong number was computed.
+  void error(const Value& at, std::string message);
   /// Adds what validate says about the model read from `root`, each at its place in the file. Left out are mistakes of
   /// parts that could not be read, which have been reported.
   void add(const Value& root, const std::vector<model::Mistake>& mistakes);

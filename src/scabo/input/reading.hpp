@@ -56,6 +56,9 @@ struct Reading {
   bool conditions_known = true;             ///< false: a load, support or contact is broken
   bool rigid_known = true;                  ///< false: it is not known whether a body is rigid
 
+  Index index_of_curve;                     ///< in model.curves
+  bool curves_known = true;                 ///< false: a curve is broken
+
   bool steps_known = false;  ///< true: all steps have been read
 
   /// Mesh files by their paths; null for a broken one, which has been reported.
@@ -74,7 +77,10 @@ void read_materials(Reading& reading, const Value& value);
 void read_bodies(Reading& reading, const Value& value);
 void read_supports(Reading& reading, const Value& value);
 void read_loads(Reading& reading, const Value& value);
-void read_contacts_and_ties(Reading& reading, const std::optional<Value>& contacts, const std::optional<Value>& ties);
+void read_contacts_and_ties(Reading& reading, const std::optional<Value>& properties_section,
+                            const std::optional<Value>& contacts, const std::optional<Value>& ties);
+/// Before the steps, which refer to them.
+void read_curves(Reading& reading, const Value& value);
 /// If the section is absent, there is one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);
@@ -82,6 +88,11 @@ void read_output(Reading& reading, const Value& value);
 void read_tolerance(Reading& reading, const Value& value);
 /// A list of numbers that get an error bar.
 void read_quantities(Reading& reading, const Value& value, std::vector<Quantity>& quantities);
+
+/// `history` of the output: numbers and sections by name.
+void read_history(Reading& reading, const Value& value);
+/// `body` of a point, line or section: its index, or -1 without the key; nothing if it is broken.
+std::optional<int> read_body_of(Reading& reading, const MapReader& map);
 
 /// Contact law: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
 void read_law(Reading& reading, const MapReader& map, Contact& contact);

@@ -29,6 +29,8 @@ struct Node {
   Kind kind = Kind::null;
   std::string text;               ///< of a scalar
   bool quoted = false;            ///< a quoted scalar or a block of text
+  std::string formula;            ///< from which the number in `text` was computed; empty if it stands in the file
+  bool unreadable = false;        ///< its formula is wrong, which has been reported
   std::vector<NodePtr> items;     ///< of a sequence
   std::vector<MapEntry> entries;  ///< of a map, with distinct keys
   int line = 0;                   ///< from 1; 0 for an override

@@ -181,6 +181,7 @@ void check_law(Checking& checking, const std::string& path, const Contact& conta
   good = checking.not_negative(path, "tension", contact.tension) && good;
   if (contact.shear_strength) good = checking.not_negative(path, "shear_strength", *contact.shear_strength) && good;
   good = checking.number(path, "gap", contact.gap) && good;
+  checking.vector(path, "about", contact.about);
   if (!good) return;
   const auto refuse = [&](const char* key, bool given, const char* why) {
     if (given) checking.error_of_key(path, key, why);

@@ -61,7 +61,7 @@ void check_energy(Checking& checking, const std::string& path) {
                              load->name, body->name));
 }
 
-void check_quantity(Checking& checking, const std::string& path, const Quantity& quantity) {
+void check_quantity(Checking& checking, const std::string& path, const Quantity& quantity, bool with_bar) {
   const Model& model = checking.model;
   switch (quantity.kind) {
     case Quantity::Kind::normal_force:
@@ -80,8 +80,44 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       check_crack_of(checking, path, quantity);
       break;
     case Quantity::Kind::elastic_energy:
-      check_energy(checking, path);
+      if (with_bar) check_energy(checking, path);
       break;
+    case Quantity::Kind::contact_force:
+    case Quantity::Kind::contact_moment:
+    case Quantity::Kind::centre_of_pressure:
+    case Quantity::Kind::max_pressure:
+      check_number_of(checking, path, "contact", quantity.index, model.contacts.size());
+      break;
+    case Quantity::Kind::external_energy:
+    case Quantity::Kind::friction_energy:
+      break;
+  }
+  if (with_bar && !quantity.has_bar())
+    checking.error(path, "", "has a history, but no error bar: ask for it under output.history");
+}
+
+void check_section(Checking& checking, const std::string& path, const Section& section) {
+  const bool good =
+      checking.vector(path, "section.from", section.from) && checking.vector(path, "section.to", section.to);
+  if (good && section.from == section.to)
+    checking.error(path, "section", "the line ends where it starts: give two different points");
+  if (section.body == -1) return;
+  if (!check_number_of(checking, path, "body", section.body, checking.model.bodies.size())) return;
+  if (checking.body(section.body).rigid)
+    checking.error(path, "section.body",
+                   fmt::format("body '{}' is rigid and has no stress", checking.body(section.body).name));
+}
+
+void check_history(Checking& checking) {
+  std::unordered_set<std::string> names;
+  const std::vector<HistoryItem>& items = checking.model.output.history;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const HistoryItem& item = items[i];
+    const std::string path = path_of("output.history", item.name, i);
+    checking.enter(item.source);
+    check_name(checking, path, item.name, "history", names);
+    if (const auto* quantity = std::get_if<Quantity>(&item.of)) check_quantity(checking, path, *quantity, false);
+    if (const auto* section = std::get_if<Section>(&item.of)) check_section(checking, path, *section);
   }
 }
 
@@ -112,14 +148,15 @@ void check_tolerance(Checking& checking, const QuantityTolerance& tolerance) {
 
 void check_quantities(Checking& checking) {
   const Model& model = checking.model;
+  check_history(checking);
   for (std::size_t i = 0; i < model.output.error_of.size(); ++i) {
     const Quantity& quantity = model.output.error_of[i];
     checking.enter(quantity.source);
-    check_quantity(checking, path_of("output.error_of", quantity.source, i), quantity);
+    check_quantity(checking, path_of("output.error_of", quantity.source, i), quantity, true);
   }
   if (model.tolerance) {
     checking.enter(model.tolerance->of.source);
-    check_quantity(checking, "tolerance.of", model.tolerance->of);
+    check_quantity(checking, "tolerance.of", model.tolerance->of, true);
     check_tolerance(checking, *model.tolerance);
   }
 }

@@ -48,6 +48,84 @@ void check_automatic(Checking& checking, const std::string& path, const Automati
                     number_text(automatic.largest), number_text(automatic.first)));
 }
 
+void check_curves(Checking& checking) {
+  std::unordered_set<std::string> names;
+  for (std::size_t i = 0; i < checking.model.curves.size(); ++i) {
+    const Curve& curve = checking.model.curves[i];
+    const std::string path = path_of("curves", curve.name, i);
+    checking.enter(curve.source);
+    check_name(checking, path, curve.name, "curve", names);
+    if (const auto* sine = std::get_if<CurveSine>(&curve.kind)) {
+      checking.number(path, "sine.amplitude", sine->amplitude);
+      checking.number(path, "sine.mean", sine->mean);
+      if (checking.positive(path, "sine.periods", sine->periods) && sine->periods > 10'000.0)
+        checking.error(
+            path, "sine.periods",
+            fmt::format("must be at most 10000, not {}: use a step with 'cycles'", number_text(sine->periods)));
+      continue;
+    }
+    const auto& points = std::get<CurveTable>(curve.kind).points;
+    if (points.empty()) checking.error(path, "", "has no point: give two or more");
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::string key = fmt::format("table.{}", k);
+      if (!checking.number(path, key, points[k].at) || !checking.number(path, key, points[k].value)) return;
+      if (k > 0 && !(points[k].at > points[k - 1].at)) {
+        checking.error(path, key, "positions must be ascending: a factor cannot jump");
+        break;
+      }
+    }
+  }
+}
+
+/// Factors that follow curves begin where they are at the end of the step before.
+void check_beginnings(Checking& checking, const std::string& path, const Step& step, const Step* before) {
+  const Model& model = checking.model;
+  const auto check = [&](const std::vector<int>& curves, const std::vector<double> Step::*factors, bool support) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      if (curves[i] < 0) continue;
+      if (static_cast<std::size_t>(curves[i]) >= model.curves.size()) {
+        checking.error(path, "loads", "refers to a curve that does not exist");
+        return;
+      }
+      const Curve& curve = model.curves[static_cast<std::size_t>(curves[i])];
+      if (const auto* table = std::get_if<CurveTable>(&curve.kind); table != nullptr && table->points.empty()) return;
+      const double here = before ? (before->*factors)[i] : 0.0, begin = value_of(curve, 0.0),
+                   end = value_of(curve, 1.0);
+      const std::string& name = support ? model.supports[i].name : model.loads[i].name;
+      constexpr double rounding = 1e-9;
+      if (std::abs(begin - here) > rounding * std::max(1.0, std::abs(begin)))
+        checking.error(path, "loads." + name,
+                       fmt::format("curve '{}' begins at {}, but the factor of '{}' is {} there: a factor cannot jump; "
+                                   "add a step before that brings it there, or begin the curve at {}",
+                                   curve.name, number_text(begin), name, number_text(here), number_text(here)));
+      if ((step.*factors)[i] != end)
+        checking.error(path, "loads." + name, fmt::format("is not that at the end of curve '{}'", curve.name));
+    }
+  };
+  check(step.load_curves, &Step::load_factors, false);
+  check(step.support_curves, &Step::support_factors, true);
+}
+
+void check_friction_of_step(Checking& checking, const std::string& path, const Step& step) {
+  const Model& model = checking.model;
+  const bool any =
+      std::any_of(model.steps.begin(), model.steps.end(), [](const Step& of) { return !of.friction.empty(); });
+  if (!any) return;
+  if (step.friction.size() != model.contacts.size()) {
+    checking.error(path, "friction", "must give a coefficient for every contact");
+    return;
+  }
+  constexpr double largest = 1e6;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    if (!has_one_coefficient(model.contacts[c])) continue;
+    const std::string key = "friction." + model.contacts[c].name;
+    if (checking.not_negative(path, key, step.friction[c]) && step.friction[c] > largest)
+      checking.error(
+          path, key,
+          fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(step.friction[c])));
+  }
+}
+
 /// Only a program gives these.
 void check_ends(Checking& checking, const std::string& path, const Step& step) {
   if (step.ends.empty()) return;
@@ -60,12 +138,30 @@ void check_ends(Checking& checking, const std::string& path, const Step& step) {
 
 }  // namespace
 
+bool has_one_coefficient(const Contact& contact) {
+  return !contact.bond && !contact.shear_strength && !contact.dynamic_friction && contact.friction_along.empty();
+}
+
+std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves) {
+  std::vector<double> corners;
+  for (const std::vector<int>* of : {&step.load_curves, &step.support_curves})
+    for (const int curve : *of)
+      if (curve >= 0)
+        for (const double corner : corners_of(curves[static_cast<std::size_t>(curve)])) corners.push_back(corner);
+  std::sort(corners.begin(), corners.end());
+  constexpr double rounding = 1e-9;
+  corners.erase(std::unique(corners.begin(), corners.end(), [](double a, double b) { return b - a <= rounding; }),
+                corners.end());
+  return corners;
+}
+
 int expected_increments(const Step& step) {
   return step.automatic ? static_cast<int>(std::ceil(2.0 / step.automatic->largest)) : step.increments;
 }
 
 void check_steps(Checking& checking) {
   const Model& model = checking.model;
+  check_curves(checking);
   if (checking.gaps.steps) return;
   if (model.steps.empty() && model.analysis.type != AnalysisType::modal) {
     checking.enter({});
@@ -89,8 +185,20 @@ void check_steps(Checking& checking) {
     else if (checking.whole(path, "increments", step.increments, limits::increments))
       check_ends(checking, path, step);
     if (!check_factors(checking, path, step.load_factors, model.loads.size(), "loads") ||
-        !check_factors(checking, path, step.support_factors, model.supports.size(), "supports"))
+        !check_factors(checking, path, step.support_factors, model.supports.size(), "supports")) {
       checking.gaps.steps = true;
+      return;
+    }
+    const auto as_many = [](const std::vector<int>& curves, const std::vector<double>& of) {
+      return curves.empty() || curves.size() == of.size();
+    };
+    if (!as_many(step.load_curves, step.load_factors) || !as_many(step.support_curves, step.support_factors)) {
+      checking.error(path, "loads", "must have a curve or none for every factor");
+      checking.gaps.steps = true;
+      return;
+    }
+    check_beginnings(checking, path, step, i > 0 ? &model.steps[i - 1] : nullptr);
+    if (!checking.gaps.conditions) check_friction_of_step(checking, path, step);
   }
 }
 
@@ -98,7 +206,8 @@ void check_never_applied(Checking& checking) {
   const Model& model = checking.model;
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
-    if (std::any_of(model.steps.begin(), model.steps.end(), [&](const Step& s) { return s.load_factors[i] != 0.0; }))
+    if (std::any_of(model.steps.begin(), model.steps.end(),
+                    [&](const Step& s) { return s.load_factors[i] != 0.0 || load_curve(s, i) >= 0; }))
       continue;
     checking.enter(load.source);
     checking.error_of_key(path_of("loads", load.name, i), "",
@@ -107,7 +216,8 @@ void check_never_applied(Checking& checking) {
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];
     if (!checking.support[i]) continue;
-    if (std::any_of(model.steps.begin(), model.steps.end(), [&](const Step& s) { return s.support_factors[i] != 0.0; }))
+    if (std::any_of(model.steps.begin(), model.steps.end(),
+                    [&](const Step& s) { return s.support_factors[i] != 0.0 || support_curve(s, i) >= 0; }))
       continue;
     checking.enter(support.source);
     checking.error(path_of("supports", support.source, i), "",

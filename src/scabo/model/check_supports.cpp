@@ -129,7 +129,8 @@ bool differ(const Model& model, std::size_t first, std::size_t second, std::size
   const auto& a = model.supports[first].displacement[component];
   const auto& b = model.supports[second].displacement[component];
   return a && b && std::any_of(model.steps.begin(), model.steps.end(), [&](const Step& step) {
-           return *a * step.support_factors[first] != *b * step.support_factors[second];
+           return *a * step.support_factors[first] != *b * step.support_factors[second] ||
+                  (*a != 0.0 && support_curve(step, first) != support_curve(step, second));
          });
 }
 

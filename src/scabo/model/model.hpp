@@ -18,6 +18,7 @@
 #include "scabo/files/image.hpp"
 #include "scabo/files/imported_mesh.hpp"
 #include "scabo/geometry/outline.hpp"
+#include "scabo/model/curve.hpp"
 #include "scabo/model/quantity.hpp"
 
 namespace scabo::model {
@@ -267,6 +268,7 @@ struct Contact {
   bool bond = false;                          ///< neither opens nor slips
   std::optional<double> shear_strength;       ///< prescribed friction bound (Tresca), force / length^2
   double gap = 0.0;                           ///< length, added to the geometric gap; negative: an interference fit
+  Vec2 about = Vec2::Zero();                  ///< point to which the moment of the contact forces refers
   Source source;
 };
 
@@ -285,8 +287,8 @@ struct AutomaticIncrements {
   double smallest = 1e-4;
 };
 
-/// Factors change linearly, over `increments` increments, from those at the end of the previous step (zero before the
-/// first) to these.
+/// Factors change linearly, or along curves, over `increments` increments, from those at the end of the previous step
+/// (zero before the first) to these. Coefficients of friction change linearly.
 struct Step {
   std::string name;
   int increments = 1;                            ///< equal parts; without meaning if `automatic`
@@ -295,11 +297,28 @@ struct Step {
   std::vector<double> ends;
   std::vector<double> load_factors;     ///< at the end of the step, one for each load
   std::vector<double> support_factors;  ///< at the end of the step, one for each support
+  /// Index into Model::curves of what a factor follows within the step, for each load and support; -1: it changes
+  /// linearly. Empty if no factor follows a curve. The factor above is that of the curve at its end.
+  std::vector<int> load_curves, support_curves;
+  std::vector<double> friction;  ///< coefficient of every contact at the end of the step; empty if no step changes one
   Source source;
 };
 
 /// Library that factorises sparse stiffness matrices.
 enum class Factorisation { cholmod, mumps };
+
+/// Curve that the factor of load or support `index` follows in a step; -1: none.
+inline int load_curve(const Step& step, std::size_t index) {
+  return step.load_curves.empty() ? -1 : step.load_curves[index];
+}
+inline int support_curve(const Step& step, std::size_t index) {
+  return step.support_curves.empty() ? -1 : step.support_curves[index];
+}
+/// Whether the contact has one coefficient of friction, which a step may change.
+bool has_one_coefficient(const Contact& contact);
+
+/// Parts of a step, between 0 and 1, at which an increment ends so that no corner of a curve is passed over, ascending.
+std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves);
 
 /// Number of increments of a step; if it is not known before, what it may be.
 int expected_increments(const Step& step);
@@ -339,6 +358,25 @@ struct OutputGrid {
   Source source;
 };
 
+/// Resultant of the stress over a line that cuts bodies, on its length s from the middle towards `to`:
+///
+///     n = t turned by +90 degrees, t = (to - from) / |to - from|
+///     normal = int n . sigma n ds,  shear = int t . sigma n ds,  moment = int s (n . sigma n) ds
+///
+/// times the thickness: the force of the side that n points to on the other side, tension positive, and its moment about
+/// the middle of the line, counter-clockwise.
+struct Section {
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  int body = -1;  ///< only this body; -1: all elastic ones
+};
+
+/// What is written to history.csv after every increment.
+struct HistoryItem {
+  std::string name;
+  std::variant<Quantity, Section> of;
+  Source source;
+};
+
 /// Groups of arrays written to the .vtu files.
 struct OutputFields {
   bool displacement = true, stress = true;  ///< of every body
@@ -352,6 +390,7 @@ struct Output {
   std::vector<OutputPoint> points;
   std::vector<OutputLine> lines;
   std::optional<OutputGrid> grid;
+  std::vector<HistoryItem> history;
   bool error = false;              ///< estimate the error of every increment
   std::vector<Quantity> error_of;  ///< numbers that get an error bar
   bool discrete_problems = false;  ///< write the contact problem of every increment to a file
@@ -370,6 +409,7 @@ struct Model {
   std::vector<Load> loads;
   std::vector<Contact> contacts;
   std::vector<Tie> ties;
+  std::vector<Curve> curves;
   std::vector<Step> steps;
   SolverOptions solver;
   std::vector<Warning> warnings;  ///< about input that has no effect in this analysis, or is named otherwise

@@ -1,5 +1,5 @@
-// One number that an analysis computes, by the name under which users ask for its error bar: `joint.normal_force`,
-// `floor.reaction_y`, `tip.uy`, `plate.flaw.K_I`, `elastic_energy`.
+// One number that an analysis computes, by the name under which users ask for its error bar or its history:
+// `joint.normal_force`, `floor.reaction_y`, `tip.uy`, `plate.flaw.K_I`, `elastic_energy`; and what else has a history.
 #pragma once
 
 #include <string>
@@ -17,7 +17,14 @@ struct Quantity {
     reaction,          ///< of a support, force
     displacement,      ///< of a point, length
     stress_intensity,  ///< K_I or K_II of a crack, force / length^(3/2)
-    elastic_energy     ///< of all bodies, force times length
+    elastic_energy,    ///< of all bodies, force times length
+    // These have a history, but no error bar:
+    contact_force,       ///< of a contact: resultant on B, force
+    contact_moment,      ///< of a contact: of the forces on B about its `about`, force times length
+    centre_of_pressure,  ///< of a contact, length
+    max_pressure,        ///< of a contact, force / length^2
+    external_energy,     ///< work of loads and reactions, force times length
+    friction_energy      ///< dissipated, force times length
   };
   Kind kind = Kind::elastic_energy;
   std::string name;        ///< as given by the user
@@ -26,6 +33,8 @@ struct Quantity {
   Vec2 at = Vec2::Zero();  ///< displacement: the point
   std::string crack;       ///< `flaw`; `flaw.start` or `flaw.end` if both ends are tips
   Source source;
+
+  bool has_bar() const { return kind < Kind::contact_force; }
 };
 
 /// Meshes are refined until the error bar of the number is at most `relative` times the number.

@@ -41,6 +41,7 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   if (name == "fields.pvd" || name == "contact.pvd" || name == cells_name) return vtk_mark;
   if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
   if (name == "contact.csv") return contact_table_header;
+  if (name == "history.csv") return history_mark;
   if (name == "convergence.csv") return convergence_table_header;
   if (name == "convergence.svg" || name == "convergence.svg.part") return convergence_plot_mark;
   if (name == "log.txt") return "Scabo ";
@@ -192,7 +193,7 @@ void remove_later_fields(const fs::path& path, int last) {
 }  // namespace
 
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mesh::Mesh mesh)
-    : path_(std::move(path)), steps_(static_cast<int>(model.steps.size())), output_(model.output) {
+    : path_(std::move(path)), steps_(static_cast<int>(model.steps.size())), history_(model), output_(model.output) {
   const Stopwatch writing(write_seconds_);
   lock_.emplace(prepare_directory(path_));
   analysis::StaticSolution start;
@@ -211,6 +212,7 @@ ResultsDirectory::ResultsDirectory(fs::path path, DirectoryLock lock, const mode
       finished_(written.finished),
       fields_written_(written.fields_written),
       log_begun_(written.log_begun),
+      history_(model),
       warnings_(written.warnings),
       output_(model.output) {
   const Stopwatch writing(write_seconds_);
@@ -236,6 +238,11 @@ void ResultsDirectory::open_files(const model::Model& model, const analysis::Wri
   };
   open("contact.csv", contact_table_, contact_table_header);
   open("convergence.csv", convergence_table_, convergence_table_header);
+  if (history_.wanted()) open("history.csv", history_table_, history_.header());
+  if (history_table_ && written) {  // its last row is that of the checkpoint
+    std::ifstream stream(history_table_->path(), std::ios::binary);
+    history_.restore(std::string((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()));
+  }
   for (const PointTable table : point_tables) {
     if (!wanted(model.output, table)) continue;
     point_files_.emplace_back();
@@ -249,7 +256,7 @@ void ResultsDirectory::open_files(const model::Model& model, const analysis::Wri
 
 std::vector<GrowingFile*> ResultsDirectory::growing_files() {
   std::vector<GrowingFile*> files;
-  for (auto* file : {&contact_table_, &convergence_table_, &log_})
+  for (auto* file : {&contact_table_, &convergence_table_, &history_table_, &log_})
     if (*file) files.push_back(&**file);
   for (PointFile& of : point_files_) files.push_back(&*of.file);
   for (auto* collection : {&fields_collection_, &contact_collection_})
@@ -275,7 +282,8 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution, const analy
   if (Clock::now() >= next_summary_) write_running_summary(solution);
 } catch (const WriteError&) {
   try {  // the increment is solved, and there may be room for its totals
-    replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true));
+    replace_file(path_ / "summary.json",
+                 summary_content(solution, complete(solution.timing), true, history_.extremes()));
   } catch (const WriteError&) {
   }
   throw;
@@ -287,6 +295,7 @@ void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const
     if (finished_ % output_.every == 0 || is_last(increment)) add_fields(solution, increment);
     const Stopwatch writing(write_seconds_);
     contact_table_->append(contact_table_rows(increment));
+    if (history_table_) history_table_->append(history_.row(solution, increment));
     add_points(solution, increment);
   }
   const Stopwatch writing(write_seconds_);
@@ -380,7 +389,8 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
     log_->append(report_end(solution, complete(solution.timing)));
   }
   // Not counted in `write`, because a file cannot contain the time of its own writing.
-  replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), false));
+  replace_file(path_ / "summary.json",
+               summary_content(solution, complete(solution.timing), false, history_.extremes()));
 }
 
 analysis::Timing ResultsDirectory::complete(analysis::Timing timing) const {
@@ -406,7 +416,7 @@ void ResultsDirectory::begin_log(const analysis::StaticSolution& solution) {
 /// For long runs the file is long: writing it may take a twentieth of the time.
 void ResultsDirectory::write_running_summary(const analysis::StaticSolution& solution) {
   const Clock::time_point start = Clock::now();
-  replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true));
+  replace_file(path_ / "summary.json", summary_content(solution, complete(solution.timing), true, history_.extremes()));
   const Clock::time_point end = Clock::now();
   next_summary_ = end + 20 * (end - start);
 }

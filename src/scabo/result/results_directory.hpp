@@ -1,6 +1,6 @@
 // The results directory of a run: summary.json, contact.csv, fields.pvd with one .vtu for each increment, contact.pvd
 // with one .vtu of the contacts for each (both as requested by `output`), convergence.csv and .svg, log.txt, and if
-// requested points.csv, lines.csv, grid.csv and problems/ (docs/results.md). Increments are added as they finish, so
+// requested history.csv, points.csv, lines.csv, grid.csv and problems/ (docs/results.md). Increments are added as they finish, so
 // that they can be read while the run continues and after it was interrupted or killed.
 #pragma once
 
@@ -14,6 +14,7 @@
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/analysis/written_results.hpp"
 #include "scabo/result/files.hpp"
+#include "scabo/result/history.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/recovery.hpp"
 #include "scabo/result/vtu.hpp"
@@ -89,7 +90,8 @@ class ResultsDirectory {
   double recover_seconds_ = 0.0, write_seconds_ = 0.0;
   Clock::time_point next_summary_;
   void add_points(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
-  std::optional<GrowingFile> contact_table_, convergence_table_, log_;
+  std::optional<GrowingFile> contact_table_, convergence_table_, history_table_, log_;
+  History history_;
   struct PointFile {
     PointTable table{};
     std::optional<GrowingFile> file;  // cannot be moved, hence the deque

@@ -21,9 +21,14 @@ Json value_or_null(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
 }
 
+Json json_of(const Vec2& vector) { return {number_or_null(vector.x()), number_or_null(vector.y())}; }
+
 Json json_of(const analysis::ContactResult& contact) {
   Json json = {{"normal_force", number_or_null(contact.normal_force)},
                {"tangential_force", number_or_null(contact.tangential_force)},
+               {"force", json_of(contact.force)},
+               {"moment", number_or_null(contact.moment)},
+               {"centre_of_pressure", contact.centre_of_pressure ? json_of(*contact.centre_of_pressure) : Json()},
                {"open", contact.open},
                {"stick", contact.stick},
                {"slip", contact.slip},
@@ -156,6 +161,18 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   return json;
 }
 
+Json json_of(const HistoryExtremes& column) {
+  const auto value = [](const std::optional<HistoryExtremes::Value>& of) { return of ? Json(of->value) : Json(); };
+  const auto place = [](const std::optional<HistoryExtremes::Value>& of) {
+    return of ? Json{of->step, of->increment} : Json();
+  };
+  return {{"last", value(column.last)},
+          {"min", value(column.least)},
+          {"min_at", place(column.least)},
+          {"max", value(column.greatest)},
+          {"max_at", place(column.greatest)}};
+}
+
 Json json_of(const analysis::Timing& timing, bool running) {
   return {{"read", running ? Json() : number_or_null(timing.read)},
           {"mesh", number_or_null(timing.mesh)},
@@ -226,7 +243,8 @@ std::optional<long long> peak_memory() {
   return static_cast<long long>(usage.ru_maxrss) * 1024;
 }
 
-std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running) {
+std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running,
+                            const std::vector<HistoryExtremes>& history) {
   const ModelSizes sizes = sizes_of(solution);
   Json json;
   json["scabo"] = version();
@@ -249,6 +267,10 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
   json["increments"] = Json::array();
   for (const analysis::IncrementResult& increment : solution.increments)
     json["increments"].push_back(json_of(increment, solution.model));
+  if (!history.empty()) {
+    json["history"] = Json::object();
+    for (const HistoryExtremes& column : history) json["history"][column.column] = json_of(column);
+  }
   json["timing"] = json_of(timing, running);
   json["peak_memory_bytes"] = value_or_null(peak_memory());
   // Texts of the user may not be UTF-8; the results must not be lost because of that.

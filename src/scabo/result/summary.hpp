@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/result/history.hpp"
 
 namespace scabo::result {
 
@@ -23,7 +24,8 @@ std::optional<long long> peak_memory();
 
 /// Content of summary.json. `running`: the run has not ended, so that figures of the whole run are omitted. `timing`
 /// replaces that of the solution. Values that do not exist are null.
-std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running);
+std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running,
+                            const std::vector<HistoryExtremes>& history = {});
 
 /// The summary of a run ended by an error: `summary` with status `failed` and the reason.
 std::string failed_summary(const std::string& summary, const std::string& reason);

@@ -78,4 +78,21 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
   return laws;
 }
 
+contact::JointLaws with_coefficients(const contact::JointLaws& laws, const std::vector<ContactSystem::Pair>& pairs,
+                                     const model::Model& model, const std::vector<double>& coefficients) {
+  contact::JointLaws changed = laws;
+  std::vector<LawPointer> of_contact(coefficients.size());  // one for all pairs
+  for (std::size_t k = 0; k < pairs.size() && !coefficients.empty(); ++k) {
+    const auto c = static_cast<std::size_t>(pairs[k].contact);
+    if (!model::has_one_coefficient(model.contacts[c]) || coefficients[c] == model.contacts[c].friction) continue;
+    if (!of_contact[c]) {
+      model::Contact contact = model.contacts[c];
+      contact.friction = coefficients[c];
+      of_contact[c] = law_of(contact, 0.0);
+    }
+    changed.of_pair[k] = of_contact[c];
+  }
+  return changed;
+}
+
 }  // namespace scabo::system

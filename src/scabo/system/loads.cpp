@@ -31,6 +31,7 @@ void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes,
 /// Parameters of an element between which the position passes no break: -1, ..., 1.
 std::vector<double> parts_of(const mesh::LineElement& element, const geometry::LineBasis& basis,
                              const std::vector<Vec2>& nodes, const Breaks& breaks) {
+  if (breaks.at.empty()) return {-1.0, 1.0};  // of a uniform traction there is no position either
   const auto position = [&](double eta) {
     const Vector N = basis.values(eta);
     Vec2 x = Vec2::Zero();

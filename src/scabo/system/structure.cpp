@@ -22,7 +22,9 @@ constexpr const char* component_name[2] = {"x", "y"};
 /// Whether the two supports have the same motion in every step.
 bool same_history(const model::Model& model, int a, int b) {
   for (const model::Step& step : model.steps)
-    if (step.support_factors[static_cast<std::size_t>(a)] != step.support_factors[static_cast<std::size_t>(b)])
+    if (step.support_factors[static_cast<std::size_t>(a)] != step.support_factors[static_cast<std::size_t>(b)] ||
+        model::support_curve(step, static_cast<std::size_t>(a)) !=
+            model::support_curve(step, static_cast<std::size_t>(b)))
       return false;
   return true;
 }

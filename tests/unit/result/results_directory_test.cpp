@@ -210,8 +210,8 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
                                               "newton_iterations", "coarse_iterations", "residual", "contacts",
                                               "reactions", "cracks", "certificate", "energy", "error"));
   EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
-              ElementsAre("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure",
-                          "first_pair_in_contact", "last_pair_in_contact"));
+              ElementsAre("normal_force", "tangential_force", "force", "moment", "centre_of_pressure", "open", "stick",
+                          "slip", "max_gap", "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));
   EXPECT_THAT(keys_of(increment["certificate"]), ElementsAre("equilibrium", "penetration", "tension", "friction_excess",
                                                              "complementarity", "slip_direction", "rigid_balance"));
   EXPECT_THAT(keys_of(increment["energy"]), ElementsAre("external", "elastic", "friction"));

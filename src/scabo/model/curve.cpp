@@ -1,0 +1,39 @@
+#include "scabo/model/curve.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace scabo::model {
+
+double value_of(const Curve& curve, double s) {
+  if (const auto* sine = std::get_if<CurveSine>(&curve.kind)) {
+    // The sine of whole and half turns is exact: a cycle ends where it begins.
+    const double turns = sine->periods * s, rest = turns - std::floor(turns);
+    const double quarter = 4.0 * rest;
+    const double value = quarter == 0.0 || quarter == 2.0 ? 0.0 : std::sin(2.0 * std::numbers::pi * rest);
+    return sine->mean + sine->amplitude * value;
+  }
+  const std::vector<CurveTable::Point>& points = std::get<CurveTable>(curve.kind).points;
+  if (s <= points.front().at) return points.front().value;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (s > points[i].at) continue;
+    if (s == points[i].at) return points[i].value;
+    const double part = (s - points[i - 1].at) / (points[i].at - points[i - 1].at);
+    return points[i - 1].value + part * (points[i].value - points[i - 1].value);
+  }
+  return points.back().value;
+}
+
+std::vector<double> corners_of(const Curve& curve) {
+  std::vector<double> corners;
+  const auto add = [&](double s) {
+    if (s > 0.0 && s < 1.0) corners.push_back(s);
+  };
+  if (const auto* sine = std::get_if<CurveSine>(&curve.kind))
+    for (double quarter = 1.0; quarter < 4.0 * sine->periods; quarter += 2.0) add(0.25 * quarter / sine->periods);
+  else
+    for (const CurveTable::Point& point : std::get<CurveTable>(curve.kind).points) add(point.at);
+  return corners;
+}
+
+}  // namespace scabo::model

@@ -1,0 +1,167 @@
+#include "scabo/result/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <variant>
+
+#include "scabo/analysis/quantities.hpp"
+
+namespace scabo::result {
+
+namespace {
+
+std::vector<std::string> columns_of(const model::HistoryItem& item) {
+  if (std::holds_alternative<model::Quantity>(item.of)) return {item.name};
+  return {item.name + ".normal", item.name + ".shear", item.name + ".moment"};
+}
+
+/// Body and position of a displacement.
+mesh::OutputPoint place_of(const model::Model& model, const model::Quantity& quantity) {
+  mesh::OutputPoint point;
+  point.at = quantity.at;
+  point.body = quantity.index;
+  for (std::size_t b = 0; point.body < 0 && b < model.bodies.size(); ++b)
+    if (mesh::holds(model.bodies[b], quantity.at)) point.body = static_cast<int>(b);
+  return point;
+}
+
+/// Fields of a line of numbers; empty ones are nothing.
+std::vector<std::optional<double>> numbers_in(std::string_view line) {
+  std::vector<std::optional<double>> numbers;
+  while (true) {
+    const auto comma = line.find(',');
+    const std::string_view field = line.substr(0, comma);
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), value);
+    const bool good = !field.empty() && code == std::errc() && end == field.data() + field.size();
+    numbers.push_back(good ? std::optional(value) : std::nullopt);
+    if (comma == std::string_view::npos) return numbers;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace
+
+History::History(const model::Model& model) : items_(model.output.history) {
+  for (const model::HistoryItem& item : items_)
+    for (std::string& column : columns_of(item)) columns_.push_back({std::move(column), {}, {}, {}});
+}
+
+std::string History::header() const {
+  std::string line(history_mark.substr(0, history_mark.size() - 1));
+  for (const HistoryExtremes& column : columns_) line += "," + column.column;
+  return line + "\n";
+}
+
+void History::prepare(const analysis::StaticSolution& solution) {
+  std::vector<mesh::OutputPoint> points;
+  place_.assign(items_.size(), 0);
+  sections_.assign(items_.size(), {});
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (const auto* quantity = std::get_if<model::Quantity>(&items_[i].of)) {
+      if (quantity->kind != model::Quantity::Kind::displacement) continue;
+      place_[i] = points.size();
+      points.push_back(place_of(solution.model, *quantity));
+      continue;
+    }
+    sections_[i].points = points_of_section(solution, items_[i], std::get<model::Section>(items_[i].of));
+    sections_[i].first = points.size();
+    for (const SectionPoint& point : sections_[i].points) points.push_back(point.at);
+  }
+  int increments = 0;
+  for (const model::Step& step : solution.model.steps) increments += model::expected_increments(step);
+  evaluation_.emplace(solution, std::move(points), increments);
+}
+
+void History::take(std::size_t column, double value, int step, int increment) {
+  HistoryExtremes& of = columns_[column];
+  const HistoryExtremes::Value here{value, step, increment};
+  of.last = here;
+  if (!of.least || value < of.least->value) of.least = here;
+  if (!of.greatest || value > of.greatest->value) of.greatest = here;
+}
+
+std::string History::row(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
+  if (!evaluation_) prepare(solution);
+  const std::vector<PointResult> values =
+      evaluation_->points().empty() ? std::vector<PointResult>() : evaluation_->at(solution, increment);
+  fmt::memory_buffer line;
+  fmt::format_to(std::back_inserter(line), "{},{},{}", increment.step, increment.increment,
+                 increment.step - 1 + increment.reached);
+  std::size_t column = 0;
+  const auto add = [&](const std::optional<double>& value) {
+    if (value && std::isfinite(*value)) {
+      fmt::format_to(std::back_inserter(line), ",{}", *value);
+      take(column, *value, increment.step, increment.increment);
+    } else {
+      line.push_back(',');
+      columns_[column].last.reset();
+    }
+    ++column;
+  };
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (const auto* quantity = std::get_if<model::Quantity>(&items_[i].of)) {
+      if (quantity->kind == model::Quantity::Kind::displacement)
+        add(values[place_[i]].values.displacement[quantity->component]);
+      else
+        add(analysis::value_of(solution, increment, *quantity));
+      continue;
+    }
+    const SectionPoints& section = sections_[i];
+    Vec2 force = Vec2::Zero();
+    double moment = 0.0;
+    for (std::size_t k = 0; k < section.points.size(); ++k) {
+      const SectionPoint& point = section.points[k];
+      const element::Vec3& stress = values[section.first + k].values.stress;
+      const Vec2 traction(stress[0] * point.normal.x() + stress[2] * point.normal.y(),
+                          stress[2] * point.normal.x() + stress[1] * point.normal.y());
+      force += point.weight * traction;
+      moment += point.weight * cross(point.arm, traction);
+    }
+    const Vec2 n = section.points.front().normal, along(n.y(), -n.x());
+    add(force.dot(n));
+    add(force.dot(along));
+    add(moment);
+  }
+  line.push_back('\n');
+  return fmt::to_string(line);
+}
+
+void History::restore(std::string_view table) {
+  table.remove_prefix(std::min(table.size(), table.find('\n') + 1));  // the header
+  while (!table.empty()) {
+    const auto end = table.find('\n');
+    const std::vector<std::optional<double>> numbers = numbers_in(table.substr(0, end));
+    table.remove_prefix(end == std::string_view::npos ? table.size() : end + 1);
+    constexpr std::size_t before = 3;
+    if (numbers.size() != columns_.size() + before || !numbers[0] || !numbers[1]) continue;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (numbers[c + before])
+        take(c, *numbers[c + before], static_cast<int>(*numbers[0]), static_cast<int>(*numbers[1]));
+      else
+        columns_[c].last.reset();
+    }
+  }
+}
+
+void check_sections(const model::Model& model, const mesh::Mesh& mesh) {
+  analysis::StaticSolution solution;
+  solution.model = model;
+  solution.mesh = mesh;
+  std::vector<Diagnostic> mistakes;
+  for (const model::HistoryItem& item : model.output.history)
+    if (const auto* section = std::get_if<model::Section>(&item.of)) {
+      try {
+        points_of_section(solution, item, *section);
+      } catch (const InputError& error) {
+        mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
+      }
+    }
+  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+}
+
+}  // namespace scabo::result

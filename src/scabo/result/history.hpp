@@ -1,0 +1,61 @@
+// history.csv: one row for each increment, with the quantities for which `output: {history: ...}` asks, and their
+// extremes over the run (docs/results.md).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/result/point_tables.hpp"
+#include "scabo/result/section.hpp"
+
+namespace scabo::result {
+
+/// First columns of the table.
+constexpr std::string_view history_mark = "step,increment,time,";
+
+/// The last value of a column, and the extremes over the increments that have one.
+struct HistoryExtremes {
+  std::string column;
+  struct Value {
+    double value = 0.0;
+    int step = 0, increment = 0;
+  };
+  std::optional<Value> last, least, greatest;  ///< without any value: empty
+};
+
+class History {
+ public:
+  explicit History(const model::Model& model);
+
+  bool wanted() const { return !columns_.empty(); }
+  /// First line of the table.
+  std::string header() const;
+  /// One line, and its values taken into the extremes. Throws InputError for a section that cuts no body.
+  std::string row(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
+  /// Takes the values of rows that were written before into the extremes.
+  void restore(std::string_view table);
+  const std::vector<HistoryExtremes>& extremes() const { return columns_; }
+
+ private:
+  struct SectionPoints {
+    std::vector<SectionPoint> points;
+    std::size_t first = 0;  // in the points of the evaluation
+  };
+  void prepare(const analysis::StaticSolution& solution);
+  void take(std::size_t column, double value, int step, int increment);
+
+  std::vector<model::HistoryItem> items_;
+  std::vector<HistoryExtremes> columns_;
+  std::optional<PointEvaluation> evaluation_;  // of all places and sections; empty before the first increment
+  std::vector<std::size_t> place_;             // [item]: its point in the evaluation, of a displacement
+  std::vector<SectionPoints> sections_;        // [item]; empty for numbers
+};
+
+/// Throws InputError for sections that cannot be evaluated, before the solve.
+void check_sections(const model::Model& model, const mesh::Mesh& mesh);
+
+}  // namespace scabo::result
