@@ -69,6 +69,8 @@ std::vector<model::Place> singular_places(const StaticSolution& solution) {
   std::vector<model::Place> places;
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) places.push_back(*load.on);
+  for (const model::Spring& spring : solution.model.springs)
+    if (is_point(spring.on)) places.push_back(spring.on);
   const Reactions reactions = reactions_of(solution);
   for (std::size_t i = 0; i < solution.model.supports.size(); ++i) {
     const model::Place& place = solution.model.supports[i].on;
@@ -177,6 +179,7 @@ void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
       place.near = mesh.bodies[static_cast<std::size_t>(place.body)].nodes[static_cast<std::size_t>(nodes.front())];
   };
   for (model::Support& support : model.supports) hold(support.on);
+  for (model::Spring& spring : model.springs) hold(spring.on);
   for (model::Load& load : model.loads)
     if (load.on) hold(*load.on);
 }

@@ -110,7 +110,8 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
       results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre),
                          super_element->corner().of(u, loads)});
       element::StressIntensity& factors = results.back().factors;
-      if (touching.contains(c)) factors.T_left.reset(), factors.T_right.reset();
+      if (touching.contains(c) || !increment.fields.initial_of(b).is_zero())
+        factors.T_left.reset(), factors.T_right.reset();
       if (in_resonance(factors, loads)) take_back(factors);
     }
   }

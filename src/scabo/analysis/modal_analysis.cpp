@@ -76,12 +76,14 @@ ModalResult solve_modal(model::Model model, const Options& options) {
 
   stage("mesh");
   std::vector<std::vector<system::Constraint>> constraints;
+  system::ModelSprings springs;
   system::Dofs dofs;
   {
     const Stopwatch stopwatch(result.timing.mesh);
     structure.mesh = mesh::make_mesh(structure.model);
     dofs = system::Dofs(structure.model, structure.mesh);
     constraints = system::constraints_of(structure.model, structure.mesh, dofs);
+    springs = system::springs_of(structure.model, structure.mesh, dofs);
   }
   const int threads = worthwhile_threads(structure.model, structure.mesh, options.threads);
   linalg::set_blas_threads(threads);
@@ -99,6 +101,7 @@ ModalResult solve_modal(model::Model model, const Options& options) {
     {
       const Stopwatch stopwatch(result.timing.mass);
       K = system::part_stiffness(structure.model, structure.mesh, structure.cells, dofs, p);
+      K.springs = springs.of_part[p];
       M = system::part_mass(structure.model, structure.mesh, structure.cells, dofs, p, masses);
     }
     stage("modes of " + dofs.name_of(p, structure.model));

@@ -35,7 +35,8 @@ std::string without_reference(const Prepared& prepared, const State& state) {
     const model::Body& body = prepared.model.bodies[b];
     if (!body.outside || body.reference) continue;
     const std::size_t part = prepared.structure.dofs.part_of(static_cast<int>(b));
-    const Vector forces = state.forces[part] + prepared.contact.motion[part].transpose() * state.p;
+    const Vector forces = state.forces[part] + prepared.contact.motion[part].transpose() * state.p +
+                          prepared.structure.parts[part]->spring_forces(state.u[part]);
     const Vec2 sum = forces.reshaped(2, forces.size() / 2).rowwise().sum();
     if (sum.norm() > 1e-9 * forces.lpNorm<1>())
       return fmt::format(
@@ -66,7 +67,7 @@ void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vect
 
 std::optional<Prepared::Reference> reference_of(const model::Model& model, const mesh::Mesh& mesh,
                                                 const std::vector<element::SolvedCells>& cells) {
-  if (!model.supports.empty()) return std::nullopt;
+  if (!model.supports.empty() || !model.springs.empty()) return std::nullopt;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     if (!body.outside || !body.reference) continue;

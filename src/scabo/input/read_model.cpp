@@ -80,7 +80,7 @@ void check_version(Reading& reading, const MapReader& map) {
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
+                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "springs", "loads", "contacts", "ties",
                        "steps", "solver", "output", "tolerance"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
@@ -103,8 +103,10 @@ void read_sections(Reading& reading, const Value& root) {
   if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.rigid; })) map.need("materials");
 
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
+  if (const auto springs = map.get("springs")) read_springs(reading, *springs);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
   read_contacts_and_ties(reading, map.get("contacts"), map.get("ties"));
+  find_contacts_of_loads(reading);
   tell_of_pieces(reading);
   const std::size_t before_steps = reading.report.count();
   read_steps(reading, map.get("steps"));
