@@ -293,6 +293,30 @@ steps:
     EXPECT_LT((u.segment<2>(static_cast<Eigen::Index>(2 * i)) + closure / 2.0 * nodes[i]).norm(), 1e-7 * closure);
 }
 
+TEST(InitialStress, WithGravityBesidesIsWarnedOf) {
+  const auto warnings = [](const char* weight) {
+    const auto model = input::parse_model(fmt::format(R"(
+scabo: 1
+materials: {{soil: {{young: 50e6, poisson: 0.3, density: 2000}}}}
+bodies:
+  soil: {{material: soil, shape: {{rectangle: {{corner: [0, -4], size: [6, 4]}}}}, mesh: {{size: 1}}}}
+  block: {{material: soil, shape: {{rectangle: {{corner: [1, 0], size: [1, 1]}}}}, mesh: {{size: 1}}}}
+supports: [{{on: soil.bottom, fix: [x, y]}}, {{on: block.top, fix: x}}]
+contacts: {{joint: {{between: [soil.top, block.bottom]}}}}
+loads:
+  insitu: {{on: soil, field: {{vertical: {{unit_weight: 20e3, surface: 0}}, K0: 0.5}}}}
+  weight: {{{}gravity: [0, -10]}}
+)",
+                                                      weight),
+                                          "test.yaml");
+    std::string texts;
+    for (const Warning& warning : model.warnings) texts += warning.text;
+    return texts;
+  };
+  EXPECT_NE(warnings("").find("gravity 'weight' acts on body 'soil'"), std::string::npos);
+  EXPECT_EQ(warnings("on: block, "), "");
+}
+
 // A trench in a half-plane, whose free surface is that of the field: with the pressures of the ground that was there on
 // its walls and bottom it stays at rest.
 TEST(InitialStress, OfAHalfPlaneWithATrenchIsReleasedInTheTrench) {

@@ -151,6 +151,28 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
                        support.name)});
 }
 
+/// Warns of gravity on a body whose stress is already that of ground under its weight.
+void tell_of_weight_twice(Model& model) {
+  const auto acts_on = [](const Load& load, int body, const Body& of) {
+    return load.on ? load.on->body == body : !of.rigid;
+  };
+  for (const Load& gravity : model.loads)
+    for (const Load& field : model.loads) {
+      if (!std::holds_alternative<Gravity>(gravity.kind) || !std::holds_alternative<GroundStress>(field.kind)) continue;
+      for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        const Body& body = model.bodies[b];
+        const auto index = static_cast<int>(b);
+        if (body.outside || !acts_on(gravity, index, body) || !acts_on(field, index, body)) continue;
+        model.warnings.push_back(
+            {WarningKind::input, gravity.name,
+             fmt::format("gravity '{}' acts on body '{}', whose stress '{}' is that of ground under its weight already: "
+                         "the weight counts twice; name the other bodies by 'on', if it should not",
+                         gravity.name, body.name, field.name)});
+        break;
+      }
+    }
+}
+
 /// What validate cannot judge, because it could not be read.
 Gaps gaps_of(const Reading& reading) {
   Gaps gaps;
@@ -182,6 +204,7 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
   read_sections(reading, whole);
   reading.report.add(whole, validate(reading.model, gaps_of(reading)));
   tell_what_has_no_effect(reading, whole);
+  tell_of_weight_twice(reading.model);
   reading.report.throw_if_any(file);
   return std::move(reading.model);
 }
