@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "run.hpp"
+#include "scabo/result/point_tables.hpp"
 #include "scabo/result/probe.hpp"
+#include "scabo/result/recovery.hpp"
 
 namespace scabo::verification {
 namespace {
@@ -291,6 +293,41 @@ steps:
   const auto& nodes = solution.mesh.bodies[0].nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     EXPECT_LT((u.segment<2>(static_cast<Eigen::Index>(2 * i)) + closure / 2.0 * nodes[i]).norm(), 1e-7 * closure);
+}
+
+// Out of the plane: as given, by the law of the material, or K0 times the vertical stress; in tables and in pictures, of
+// one super-element, of many equal cells (whose fields are a map) and of finite elements.
+TEST(InitialStress, HasItsStressOutOfThePlane) {
+  struct Case {
+    const char* field;
+    double xx, yy, zz;
+  };
+  for (const char* mesh : {"size: 1", "kind: quadtree, size: 0.2", "kind: fem, size: 0.5", "kind: polygons, size: 0.5"})
+    for (const Case& of : {Case{"{stress: [-3e6, -8e6, 0]}", -3e6, -8e6, 0.2 * -11e6},
+                           Case{"{stress: [-3e6, -8e6, 0], szz: -5e6}", -3e6, -8e6, -5e6},
+                           Case{"{vertical: {unit_weight: 20e3, surface: 10}, K0: 0.5}", -80e3, -160e3, -80e3}}) {
+      const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{rock: {{young: 10e9, poisson: 0.2}}}}
+bodies: {{rock: {{material: rock, shape: {{rectangle: {{corner: [0, 0], size: [6, 4]}}}}, mesh: {{{}}}}}}}
+supports: [{{on: rock.bottom, fix: [x, y]}}, {{on: rock.left, fix: [x, y]}}, {{on: rock.right, fix: [x, y]}}, {{on: rock.top, fix: [x, y]}}]
+loads: {{insitu: {{field: {}}}}}
+)",
+                                            mesh, of.field));
+      const Vec2 x(3.3, 2.0);
+      const auto at = result::PointEvaluation(solution, {{"p", 0, x, 0.0}}, 1).at(solution, last(solution)).front();
+      EXPECT_LT((at.values.stress - element::Vec3(of.xx, of.yy, 0.0)).norm(), 1e-9 * 8e6) << mesh << of.field;
+      EXPECT_NEAR(at.stress_zz, of.zz, 1e-9 * 8e6) << mesh << of.field;
+      EXPECT_NEAR(at.energy_density, 0.0, 1e-6);
+      const result::Recovery recovery(solution);
+      const result::Fields fields = recovery.fields(solution, last(solution).fields);
+      for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {
+        const double part = of.xx == -80e3 ? (10.0 - recovery.grid().points[3 * i + 1]) / 8.0 : 1.0;
+        EXPECT_NEAR(fields.stress_yy[i], part * of.yy, 1e-6 * 8e6) << mesh << of.field;
+        EXPECT_NEAR(fields.stress_zz[i], part * of.zz, 1e-6 * 8e6) << mesh << of.field;
+      }
+    }
 }
 
 TEST(InitialStress, WithGravityBesidesIsWarnedOf) {

@@ -63,6 +63,40 @@ TEST(PorePressure, ThatFallsAlongTheBaseHasTheRightForceAndMoment) {
   }
 }
 
+// A drain at x = 0.37 within an element: full pressure to the left of it falls to a third there, then to zero.
+TEST(PorePressure, WithADrainWithinAnElementIsExact) {
+  const double a = 0.37, p = 120e3;
+  // Two trapezoids: 40 kN/m2 and more over a, a triangle to 2 m.
+  const double left = 0.5 * (p + p / 3.0) * a, right = 0.5 * p / 3.0 * (2.0 - a);
+  const double moment_left = a * a * (p / 3.0 / 2.0 + (p - p / 3.0) / 6.0), moment_right = right * (a + (2.0 - a) / 3.0);
+  for (const char* mesh : {"size: 0.5, order: 1", "size: 0.5", "kind: fem, size: 0.3"}) {
+    const auto solution =
+        block_with_uplift("{in: joint, pressure: {over: x, at: [0, 0.37, 2], values: [120e3, 40e3, 0]}}", 0.0, 0.6, mesh);
+    const auto& joint = contact_of(last(solution));
+    EXPECT_NEAR(*joint.pore_force, 0.5 * (left + right), 1e-11 * p) << mesh;
+    double moment = 0.0;
+    for (const analysis::PairResult& pair : joint.pairs) moment += pair.position.x() * pair.normal_force;
+    EXPECT_NEAR(moment, 400e3 - 0.5 * (moment_left + moment_right), 1e-9 * 400e3) << mesh;
+  }
+}
+
+// Between two bodies that are divided differently, in water that reaches half up the joint between them.
+TEST(PorePressure, OfWaterThatReachesHalfUpAJointIsExact) {
+  const auto solution = run(R"(
+scabo: 1
+materials: {concrete: {young: 30e9, poisson: 0.2}}
+bodies:
+  left: {material: concrete, shape: {rectangle: {corner: [0, 0], size: [2, 3]}}, mesh: {size: 0.4, order: 3}}
+  right: {material: concrete, shape: {rectangle: {corner: [2, 0], size: [2, 3]}}, mesh: {kind: fem, size: 0.45}}
+supports: [{on: left.left, fix: [x, y]}, {on: right.right, fix: [x, y]}]
+contacts: {joint: {between: [left.right, right.left], friction: 0.5}}
+loads: {water: {in: joint, water: {level: 1.3, unit_weight: 9.81e3}}}
+)");
+  EXPECT_NEAR(*contact_of(last(solution)).pore_force, 0.5 * 9.81e3 * 1.3 * 1.3, 1e-9);
+  EXPECT_GT(contact_of(last(solution)).open, 0);  // the water opens the joint
+  EXPECT_NEAR(last(solution).reactions[0].x(), 0.5 * 9.81e3 * 1.3 * 1.3 + contact_of(last(solution)).normal_force, 1e-7);
+}
+
 // The factor of a step: the block slides when the pressure rises, not by the push.
 TEST(PorePressure, RisesByStepsAsALoad) {
   const auto solution = run(R"(
