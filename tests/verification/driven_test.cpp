@@ -70,8 +70,8 @@ TEST(Rotations, OfARigidPlateNeedTheMomentThatTurnsIt) {
 TEST(Rotations, AboutAPointMoveItsNeighbours) {
   const Vec2 at(-0.5, 1.0), centroid(1.0, 1.1), shift(2e-4, -3e-4);
   const double angle = 5e-4;
-  const auto first = plate_on_block(
-      "- {on: plate, rotation: 5e-4, at: [-0.5, 1], displacement: [2e-4, -3e-4], name: drive}", "");
+  const auto first =
+      plate_on_block("- {on: plate, rotation: 5e-4, at: [-0.5, 1], displacement: [2e-4, -3e-4], name: drive}", "");
   const Vec2 arm = centroid - at, moved = shift + angle * Vec2(-arm.y(), arm.x());
   const Vec2 found = last(first).fields.displacements[1].head<2>();
   EXPECT_LT((found - moved).norm(), 1e-16);

@@ -32,7 +32,8 @@ element::Vec3 at_rest(double y) {
   return {horizontal * vertical, vertical, 0.0};
 }
 
-/// 6 x 4 m of ground on rollers, its surface under its surcharge. `bodies`: text after `bodies:`; `more`: other sections.
+/// 6 x 4 m of ground on rollers, its surface under its surcharge. `bodies`: text after `bodies:`; `more`: other
+/// sections.
 analysis::StaticSolution ground(const std::string& bodies, const std::string& supports, const std::string& top,
                                 const std::string& more = {}, const std::string& loads = {}) {
   return run(fmt::format(R"(
@@ -53,8 +54,8 @@ loads:
 }
 
 TEST(InitialStress, OfGroundOnRollersLeavesItAtRest) {
-  for (const char* mesh : {"size: 1, order: 3", "size: 1, order: 1", "kind: fem, size: 0.7", "kind: polygons, size: 0.8",
-                           "kind: quadtree, size: 1, order: 4"}) {
+  for (const char* mesh : {"size: 1, order: 3", "size: 1, order: 1", "kind: fem, size: 0.7",
+                           "kind: polygons, size: 0.8", "kind: quadtree, size: 1, order: 4"}) {
     const auto solution = ground(
         fmt::format("  soil: {{material: soil, shape: {{rectangle: {{corner: [0, -4], size: [6, 4]}}}}, mesh: {{{}}}}}",
                     mesh),
@@ -63,7 +64,8 @@ TEST(InitialStress, OfGroundOnRollersLeavesItAtRest) {
     for (const Vec2& x : {Vec2(2.3, -0.4), Vec2(5.1, -3.2)})
       EXPECT_LT((values_at(solution, x).stress - at_rest(x.y())).norm(), 1e-11 * weight_of_soil * 4.0) << mesh;
     const double sum = 0.7 * (4.0 * surcharge + 8.0 * weight_of_soil);  // of the vertical stress along a side
-    EXPECT_LT((last(solution).reactions[0] - Vec2(0.0, 0.7 * 6.0 * (surcharge + 4.0 * weight_of_soil))).norm(), 1e-11 * sum);
+    EXPECT_LT((last(solution).reactions[0] - Vec2(0.0, 0.7 * 6.0 * (surcharge + 4.0 * weight_of_soil))).norm(),
+              1e-11 * sum);
     EXPECT_LT((last(solution).reactions[1] - Vec2(horizontal * sum, 0.0)).norm(), 1e-11 * sum);
     EXPECT_LT(std::abs(last(solution).energy.elastic), 1e-12 * sum * weight_of_soil / young_of_soil);
   }
@@ -95,18 +97,18 @@ TEST(InitialStress, IsCarriedByContactsAtRest) {
   for (const auto& contact : contacts) EXPECT_EQ(contact.open + contact.slip * (contact.tangential_force != 0.0), 0);
 }
 
-// A crack at 45 degrees carries shear besides, (1 - K0) / (1 + K0) = 0.25 of the pressure, which friction holds. The tip's
-// cell has no pairs on its faces, so that the ground is at rest but for what is released in this small cell.
+// A crack at 45 degrees carries shear besides, (1 - K0) / (1 + K0) = 0.25 of the pressure, which friction holds. The
+// tip's cell has no pairs on its faces, so that the ground is at rest but for what is released in this small cell.
 TEST(InitialStress, IsCarriedByAClosedCrackAtRest) {
-  const auto solution = ground(R"(
+  const auto solution =
+      ground(R"(
   soil:
     material: soil
     shape: {rectangle: {corner: [0, -4], size: [6, 4]}}
     mesh: {kind: polygons, size: 0.8}
     cracks: [{name: flaw, path: [[2, -3], [4, -1]]}])",
-                               "{on: soil.bottom, fix: y}, {on: soil.left, fix: x}, {on: soil.right, fix: x}",
-                               "soil.top",
-                               "contacts: {flaw: {between: [soil.flaw.right, soil.flaw.left], friction: 0.3}}");
+             "{on: soil.bottom, fix: y}, {on: soil.left, fix: x}, {on: soil.right, fix: x}", "soil.top",
+             "contacts: {flaw: {between: [soil.flaw.right, soil.flaw.left], friction: 0.3}}");
   EXPECT_LT(largest_displacement(solution), 1e-4 * weight_of_soil * 4.0 / young_of_soil * 4.0);
   double normal = 0.0, tangential = 0.0;
   for (const analysis::PairResult& pair : contact_of(last(solution)).pairs)
@@ -139,7 +141,8 @@ loads: {{insitu: {{field: {{stress: [-4e6, -8e6, 1e6]}}}}}}
   }
 }
 
-// Kirsch: three times the tension at the crown of the hole, and his stress anywhere; biaxial and shear by superposition.
+// Kirsch: three times the tension at the crown of the hole, and his stress anywhere; biaxial and shear by
+// superposition.
 TEST(InitialStress, FarFromAHoleIsKirschsByOneLine) {
   for (const element::Vec3& far : {element::Vec3(1.0, 0.0, 0.0), element::Vec3(-0.6, -1.3, 0.4)}) {
     const auto solution = run(fmt::format(R"(
@@ -157,8 +160,8 @@ loads: {{far: {{on: plate, field: {{stress: [{}, {}, {}]}}}}}}
         const double rr = mean * (1.0 - a2) + direct * (1.0 - 4.0 * a2 + 3.0 * a4),
                      tt = mean * (1.0 + a2) - direct * (1.0 + 3.0 * a4), rt = across * (1.0 + 2.0 * a2 - 3.0 * a4);
         const double c = std::cos(theta), s = std::sin(theta);
-        const element::Vec3 exact(c * c * rr + s * s * tt - 2.0 * s * c * rt, s * s * rr + c * c * tt + 2.0 * s * c * rt,
-                                  s * c * (rr - tt) + (c * c - s * s) * rt);
+        const element::Vec3 exact(c * c * rr + s * s * tt - 2.0 * s * c * rt,
+                                  s * s * rr + c * c * tt + 2.0 * s * c * rt, s * c * (rr - tt) + (c * c - s * s) * rt);
         const Vec2 x = Vec2(3.0, -1.0) + r * (1.0 + 1e-12) * Vec2(c, s);
         EXPECT_LT((values_at(solution, x).stress - exact).norm(), 1e-6) << r << ", " << theta;
       }
@@ -188,10 +191,11 @@ loads:
 )",
                            body, field));
   };
-  for (const char* body : {"mesh: {kind: polygons, size: 0.4, order: 3}\n    holes: {bore: {circle: {centre: [3, 3], radius: 0.5}}}\n    "
-                           "cracks: [{name: flaw, path: [[1, 1], [2, 1.3]]}]",
-                           "mesh: {size: 0.4, order: 6}\n    cracks: [{tip: [2, 2.1], mouth: [0, 2], name: flaw}]",
-                           "mesh: {kind: fem, size: 0.4}\n    holes: {bore: {circle: {centre: [3, 3], radius: 0.5}}}"}) {
+  for (const char* body :
+       {"mesh: {kind: polygons, size: 0.4, order: 3}\n    holes: {bore: {circle: {centre: [3, 3], radius: 0.5}}}\n    "
+        "cracks: [{name: flaw, path: [[1, 1], [2, 1.3]]}]",
+        "mesh: {size: 0.4, order: 6}\n    cracks: [{tip: [2, 2.1], mouth: [0, 2], name: flaw}]",
+        "mesh: {kind: fem, size: 0.4}\n    holes: {bore: {circle: {centre: [3, 3], radius: 0.5}}}"}) {
     const auto with = plate(body, "insitu: {field: {stress: [40, 100, 20]}}"), without = plate(body, "");
     for (const Vec2& x : {Vec2(3.0, 2.45), Vec2(0.7, 3.1), Vec2(2.1, 1.3)})
       EXPECT_LT((values_at(with, x).stress - values_at(without, x).stress).norm(), 1e-8 * 100.0) << body;
@@ -204,7 +208,8 @@ loads:
   }
 }
 
-// Gravity between rollers makes K0 = nu / (1 - nu): ground with a tunnel has the same stress by gravity as by the field.
+// Gravity between rollers makes K0 = nu / (1 - nu): ground with a tunnel has the same stress by gravity as by the
+// field.
 TEST(InitialStress, WithATunnelIsThatOfGravityBetweenRollers) {
   const double nu = 0.25;
   const auto tunnel = [&](const std::string& load) {
@@ -223,7 +228,8 @@ loads: {{load: {}}}
 )",
                            nu, load));
   };
-  const auto by_field = tunnel(fmt::format("{{field: {{vertical: {{unit_weight: 20e3, surface: 0}}, K0: {:.17g}}}}}", nu / (1 - nu)));
+  const auto by_field =
+      tunnel(fmt::format("{{field: {{vertical: {{unit_weight: 20e3, surface: 0}}, K0: {:.17g}}}}}", nu / (1 - nu)));
   const auto by_gravity = tunnel("{gravity: [0, -10]}");
   const double stress = 20e3 * 12.0;
   // Cells with curved sides do not have the quadratic displacement of gravity exactly: 1.5e-7 with order 4.
@@ -262,7 +268,8 @@ loads: {{insitu: {{field: {{vertical: {{unit_weight: {9:.17g}, surface: 0, up: [
   const auto first = pit(0.0, 1.0);
   const Vector& u = last(first).fields.displacements[0];
   EXPECT_GT(u.lpNorm<Eigen::Infinity>(), 1e-4);
-  for (const auto& [angle, l] : {std::pair(0.0, 1e3), std::pair(0.0, 1e-3), std::pair(0.7, 1.0), std::pair(-2.0, 1e3)}) {
+  for (const auto& [angle, l] :
+       {std::pair(0.0, 1e3), std::pair(0.0, 1e-3), std::pair(0.7, 1.0), std::pair(-2.0, 1e3)}) {
     const auto twin = pit(angle, l);
     const Vector& v = last(twin).fields.displacements[0];
     Mat2 turn;
@@ -295,8 +302,8 @@ steps:
     EXPECT_LT((u.segment<2>(static_cast<Eigen::Index>(2 * i)) + closure / 2.0 * nodes[i]).norm(), 1e-7 * closure);
 }
 
-// Out of the plane: as given, by the law of the material, or K0 times the vertical stress; in tables and in pictures, of
-// one super-element, of many equal cells (whose fields are a map) and of finite elements.
+// Out of the plane: as given, by the law of the material, or K0 times the vertical stress; in tables and in pictures,
+// of one super-element, of many equal cells (whose fields are a map) and of finite elements.
 TEST(InitialStress, HasItsStressOutOfThePlane) {
   struct Case {
     const char* field;
@@ -352,6 +359,24 @@ loads:
   };
   EXPECT_NE(warnings("").find("gravity 'weight' acts on body 'soil'"), std::string::npos);
   EXPECT_EQ(warnings("on: block, "), "");
+}
+
+// A near field tied to the unbounded ground around it: both have the field, and nothing moves; nor is there a
+// resultant.
+TEST(InitialStress, OfTiedUnboundedGroundLeavesItAtRest) {
+  const auto solution = run(R"(
+scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  near: {material: steel, shape: {rectangle: {corner: [-4, -4], size: [8, 8]}}, mesh: {kind: polygons, size: 1, order: 3}}
+  far: {material: steel, outside: true, shape: {rectangle: {corner: [-4, -4], size: [8, 8]}}, mesh: {size: 1, order: 4}}
+ties: {border: {between: [near, far]}}
+loads: {far: {field: {stress: [100e6, 20e6, -5e6]}}}
+)");
+  EXPECT_LT(largest_displacement(solution), 1e-12 * 1e8 / 210e9);
+  EXPECT_LT((values_at(solution, {1.2, 2.3}, 0).stress - element::Vec3(100e6, 20e6, -5e6)).norm(), 1e-3);
+  EXPECT_LT((values_at(solution, {9.0, 5.0}, 1).stress - element::Vec3(100e6, 20e6, -5e6)).norm(), 1e-3);
+  EXPECT_TRUE(solution.warnings.empty());
 }
 
 // A trench in a half-plane, whose free surface is that of the field: with the pressures of the ground that was there on

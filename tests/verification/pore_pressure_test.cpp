@@ -1,5 +1,5 @@
-// Pressure in contacts and cracks: a block with uplift slides at mu (W - U) and lifts off at W; water in a joint; a crack
-// under pressure.
+// Pressure in contacts and cracks: a block with uplift slides at mu (W - U) and lifts off at W; water in a joint; a
+// crack under pressure.
 #include <fmt/format.h>
 
 #include "models.hpp"
@@ -68,10 +68,11 @@ TEST(PorePressure, WithADrainWithinAnElementIsExact) {
   const double a = 0.37, p = 120e3;
   // Two trapezoids: 40 kN/m2 and more over a, a triangle to 2 m.
   const double left = 0.5 * (p + p / 3.0) * a, right = 0.5 * p / 3.0 * (2.0 - a);
-  const double moment_left = a * a * (p / 3.0 / 2.0 + (p - p / 3.0) / 6.0), moment_right = right * (a + (2.0 - a) / 3.0);
+  const double moment_left = a * a * (p / 3.0 / 2.0 + (p - p / 3.0) / 6.0),
+               moment_right = right * (a + (2.0 - a) / 3.0);
   for (const char* mesh : {"size: 0.5, order: 1", "size: 0.5", "kind: fem, size: 0.3"}) {
-    const auto solution =
-        block_with_uplift("{in: joint, pressure: {over: x, at: [0, 0.37, 2], values: [120e3, 40e3, 0]}}", 0.0, 0.6, mesh);
+    const auto solution = block_with_uplift(
+        "{in: joint, pressure: {over: x, at: [0, 0.37, 2], values: [120e3, 40e3, 0]}}", 0.0, 0.6, mesh);
     const auto& joint = contact_of(last(solution));
     EXPECT_NEAR(*joint.pore_force, 0.5 * (left + right), 1e-11 * p) << mesh;
     double moment = 0.0;
@@ -94,7 +95,8 @@ loads: {water: {in: joint, water: {level: 1.3, unit_weight: 9.81e3}}}
 )");
   EXPECT_NEAR(*contact_of(last(solution)).pore_force, 0.5 * 9.81e3 * 1.3 * 1.3, 1e-9);
   EXPECT_GT(contact_of(last(solution)).open, 0);  // the water opens the joint
-  EXPECT_NEAR(last(solution).reactions[0].x(), 0.5 * 9.81e3 * 1.3 * 1.3 + contact_of(last(solution)).normal_force, 1e-7);
+  EXPECT_NEAR(last(solution).reactions[0].x(), 0.5 * 9.81e3 * 1.3 * 1.3 + contact_of(last(solution)).normal_force,
+              1e-7);
 }
 
 // The factor of a step: the block slides when the pressure rises, not by the push.
@@ -163,8 +165,8 @@ loads:
   }
 }
 
-// In an open crack it is the pressure on both faces; in a closed one it takes as much off the pairs, and the factors are
-// those of the effective stress.
+// In an open crack it is the pressure on both faces; in a closed one it takes as much off the pairs, and the factors
+// are those of the effective stress.
 TEST(PorePressure, InACrackIsThatOnItsFaces) {
   CrackedPlate plate;
   plate.half_width = 10, plate.size = 2.5, plate.yy = 0.0;

@@ -30,7 +30,8 @@ struct Frame {
   /// Edges bottom, right, top and left, corners vertex_1 (bottom left) and so on.
   std::string box(double x, double y, double width, double height) const {
     return fmt::format(
-        "{{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, right: edge_2, top: edge_3, left: edge_4}}}}}}",
+        "{{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, right: edge_2, top: edge_3, left: "
+        "edge_4}}}}}}",
         (*this)(x, y), (*this)(x + width, y), (*this)(x + width, y + height), (*this)(x, y + height));
   }
 };
@@ -42,7 +43,8 @@ TEST(Springs, UnderARigidBlockGiveItsTranslationAndRotation) {
   const Vec2 F(3e4, -8e4);
   for (const double angle : {0.0, 0.6}) {
     const Frame frame{angle, 1.0};
-    const auto solution = run(fmt::format(R"(
+    const auto solution =
+        run(fmt::format(R"(
 scabo: 1
 analysis: {{thickness: {}}}
 materials: {{stuff: {{young: 1e9, poisson: 0.2}}}}
@@ -53,8 +55,7 @@ supports: [{{on: aside, fix: [x, y]}}]
 springs: [{{on: block.bottom, k_n: {}, k_t: {}, name: bed}}]
 loads: {{push: {{on: block.vertex_3, force: {}}}}}
 )",
-                                          t, frame.box(9, 0, 1, 1), frame.box(-0.5 * B, 0, B, H), k_n, k_t,
-                                          frame.direction(F)));
+                        t, frame.box(9, 0, 1, 1), frame.box(-0.5 * B, 0, B, H), k_n, k_t, frame.direction(F)));
     const Vector& motion = last(solution).fields.displacements[1];
     const double rotation = (F.y() * 0.5 * B - F.x() * H) / (k_n * t * B * B * B / 12.0);
     const Vec2 base(F.x() / (k_t * B * t), F.y() / (k_n * B * t));
@@ -137,8 +138,7 @@ TEST(Springs, UnderALongBeamAreWinklersFoundation) {
   const auto w = [&](double x) { return std::exp(-a * x) * (A * std::cos(b * x) + B * std::sin(b * x)); };
   const auto moment = [&](double x) {  // of P in the middle: positive below it
     const double c = std::cos(b * x), s = std::sin(b * x);
-    const double second =
-        std::exp(-a * x) * ((a * a - b * b) * (A * c + B * s) + 2.0 * a * b * (A * s - B * c));
+    const double second = std::exp(-a * x) * ((a * a - b * b) * (A * c + B * s) + 2.0 * a * b * (A * s - B * c));
     return -EI * (second - 4.0 * beta * w(x));
   };
   EXPECT_NEAR(A, P * lambda / (2.0 * k), 0.02 * A);  // Euler and Bernoulli
@@ -255,7 +255,8 @@ loads: {{push: {{on: {{body: disc, near: [3, 2]}}, force: [0, -1]}}}}
     }
 }
 
-// Radially symmetric: a disc under pressure p on its rim in springs k_n moves by u = p' R (1 - nu) / E, with p' = p - k u.
+// Radially symmetric: a disc under pressure p on its rim in springs k_n moves by u = p' R (1 - nu) / E, with p' = p - k
+// u.
 TEST(Springs, AroundADiscShareItsPressure) {
   const double E = 1e9, nu = 0.2, R = 2.0, p = 1e6, k = 3e8;
   const auto solution = run(fmt::format(R"(
@@ -288,10 +289,11 @@ loads: {{press: {{on: {}, force: [0, -1e5]}}}}
 )",
                        bodies, springs, ties, load);
   };
-  const auto two = run(text(R"(  left: {material: stuff, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.25}}
+  const auto two = run(text(
+      R"(  left: {material: stuff, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.25}}
   right: {material: stuff, shape: {rectangle: {corner: [2, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.25}})",
-                            "{on: left.bottom, k_n: 1e8, k_t: 1e7}, {on: right.bottom, k_n: 1e8, k_t: 1e7}",
-                            "joint: {between: [left.right, right.left]}", "right.top_right"));
+      "{on: left.bottom, k_n: 1e8, k_t: 1e7}, {on: right.bottom, k_n: 1e8, k_t: 1e7}",
+      "joint: {between: [left.right, right.left]}", "right.top_right"));
   const auto one = run(text(
       "  whole: {material: stuff, shape: {rectangle: {corner: [0, 0], size: [4, 1]}}, mesh: {kind: fem, size: 0.25}}",
       "{on: whole.bottom, k_n: 1e8, k_t: 1e7}", "", "whole.top_right"));

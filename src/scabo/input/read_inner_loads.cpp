@@ -198,8 +198,9 @@ std::optional<decltype(Load::kind)> read_field(Reading& reading, const Value& va
   if (!map.is_map()) return {};
   if (map.has("stress") == map.has("vertical")) {
     if (map.all_known())
-      reading.report.error(value, "needs stress: [sxx, syy, sxy], the same everywhere, or vertical: {unit_weight, "
-                                  "surface} and K0, of ground under its weight");
+      reading.report.error(value,
+                           "needs stress: [sxx, syy, sxy], the same everywhere, or vertical: {unit_weight, "
+                           "surface} and K0, of ground under its weight");
     return {};
   }
   for (const char* key : {"szz", "K0"})

@@ -183,10 +183,11 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
     if (map.has(kind)) kinds.emplace_back(kind);
   }
   if (kinds.size() > 1) {
-    report.error(entry.key_source, fmt::format("needs exactly one of force, moment, traction, pressure, water, gravity, "
-                                               "body_force, temperature and field, not both {} and "
-                                               "{}",
-                                               kinds[0], kinds[1]));
+    report.error(entry.key_source,
+                 fmt::format("needs exactly one of force, moment, traction, pressure, water, gravity, "
+                             "body_force, temperature and field, not both {} and "
+                             "{}",
+                             kinds[0], kinds[1]));
     return {};
   }
   if (kinds.empty()) {

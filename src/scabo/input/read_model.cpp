@@ -80,8 +80,8 @@ void check_version(Reading& reading, const MapReader& map) {
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "springs", "loads", "contacts", "ties",
-                       "steps", "solver", "output", "tolerance"},
+                      {"scabo", "title", "analysis", "materials", "bodies", "supports", "springs", "loads", "contacts",
+                       "ties", "steps", "solver", "output", "tolerance"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
@@ -165,9 +165,10 @@ void tell_of_weight_twice(Model& model) {
         if (body.outside || !acts_on(gravity, index, body) || !acts_on(field, index, body)) continue;
         model.warnings.push_back(
             {WarningKind::input, gravity.name,
-             fmt::format("gravity '{}' acts on body '{}', whose stress '{}' is that of ground under its weight already: "
-                         "the weight counts twice; name the other bodies by 'on', if it should not",
-                         gravity.name, body.name, field.name)});
+             fmt::format(
+                 "gravity '{}' acts on body '{}', whose stress '{}' is that of ground under its weight already: "
+                 "the weight counts twice; name the other bodies by 'on', if it should not",
+                 gravity.name, body.name, field.name)});
         break;
       }
     }

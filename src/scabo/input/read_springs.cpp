@@ -29,8 +29,9 @@ bool read_stiffness(Reading& reading, const MapReader& map, const ReadPlace& pla
   const char* keys[2] = {of_edge ? "k_n" : "k_x", of_edge ? "k_t" : "k_y"};
   // Springs act on no other places, which model/check_springs.cpp says.
   const bool on_edge = place.place && place.place->kind == Place::Kind::edge,
-             on_point = place.place && (place.place->kind == Place::Kind::corner ||
-                                        place.place->kind == Place::Kind::near || place.place->kind == Place::Kind::mouth);
+             on_point =
+                 place.place && (place.place->kind == Place::Kind::corner || place.place->kind == Place::Kind::near ||
+                                 place.place->kind == Place::Kind::mouth);
   for (std::size_t k = 0; k < 2; ++k) {
     if (of_edge ? on_point : on_edge)
       map.refuse(keys[k], of_edge ? "is the stiffness of an edge, which this place is not: give k_x and k_y, in N/m"

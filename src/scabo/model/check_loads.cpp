@@ -24,15 +24,15 @@ Cases(Functions...) -> Cases<Functions...>;
 /// The key of a load in a model file.
 const char* key_of(const Load& load) {
   return std::visit(
-      Cases{[](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
-            [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
-            [](const BodyForce&) { return "body_force"; }, [](const Temperature&) { return "temperature"; },
-            [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; },
-            [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
-            [](const Water&) { return "water"; }, [](const UniformStress&) { return "field"; },
-            [](const GroundStress&) { return "field"; },
-            [](const Moment&) { return "moment"; },
-            [](const PorePressure& pores) { return std::holds_alternative<Water>(pores.value) ? "water" : "pressure"; }},
+      Cases{
+          [](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
+          [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
+          [](const BodyForce&) { return "body_force"; }, [](const Temperature&) { return "temperature"; },
+          [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; },
+          [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
+          [](const Water&) { return "water"; }, [](const UniformStress&) { return "field"; },
+          [](const GroundStress&) { return "field"; }, [](const Moment&) { return "moment"; },
+          [](const PorePressure& pores) { return std::holds_alternative<Water>(pores.value) ? "water" : "pressure"; }},
       load.kind);
 }
 
@@ -69,12 +69,13 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
     return of.rigid ? fmt::format("'{}' is rigid: it has no stress", body) : "";
   }
   if (kind == "moment") {
-    if (of.rigid)
-      return place.kind == Place::Kind::body ? "" : fmt::format("'{0}' is rigid: write on: {0}", body);
-    const bool straight = place.kind == Place::Kind::edge && is_straight(of.outline.edges[static_cast<std::size_t>(place.index)]);
-    return straight ? ""
-                    : "a moment on an elastic body acts on a straight edge, as a linear traction along its normal: name "
-                      "one, or give two opposite forces";
+    if (of.rigid) return place.kind == Place::Kind::body ? "" : fmt::format("'{0}' is rigid: write on: {0}", body);
+    const bool straight =
+        place.kind == Place::Kind::edge && is_straight(of.outline.edges[static_cast<std::size_t>(place.index)]);
+    return straight
+               ? ""
+               : "a moment on an elastic body acts on a straight edge, as a linear traction along its normal: name "
+                 "one, or give two opposite forces";
   }
   if (kind == "gravity" || kind == "body_force" || kind == "temperature") {
     if (place.kind != Place::Kind::body) return fmt::format("{} acts on a whole body: write on: {}", kind, body);

@@ -44,13 +44,23 @@ bool check_axes(Checking& checking, const std::string& path, const Support& supp
 bool check_rotation(Checking& checking, const std::string& path, const Support& support) {
   if (!support.rotation) return true;
   if (!checking.number(path, "rotation", *support.rotation)) return false;
+  constexpr double largest = 0.1;
+  if (std::abs(*support.rotation) > largest) {
+    checking.error(path, "rotation",
+                   fmt::format("must be from -0.1 to 0.1, not {}: it is in radians, and the theory is valid for small "
+                               "rotations only",
+                               number_text(*support.rotation)),
+                   number_text(*support.rotation));
+    return false;
+  }
   if (support.at && !checking.vector(path, "at", *support.at)) return false;
   if (!checking.is_body(support.on.body)) return true;
   const Body& body = checking.body(support.on.body);
   if (body.rigid && support.on.kind == Place::Kind::body && support.axes == SupportAxes::xy) return true;
   checking.error(path, "rotation",
-                 body.rigid ? fmt::format("is that of a rigid body as a whole: write on: {}", body.name)
-                            : fmt::format("'{}' is elastic: only rigid bodies have a rotation; put one on it", body.name));
+                 body.rigid
+                     ? fmt::format("is that of a rigid body as a whole: write on: {}", body.name)
+                     : fmt::format("'{}' is elastic: only rigid bodies have a rotation; put one on it", body.name));
   return false;
 }
 

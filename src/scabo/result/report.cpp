@@ -256,8 +256,9 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
 
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
   std::string text;
-  for (const std::string& part : {report_contacts(increment), report_reactions(model, increment),
-                                  report_springs(model, increment), report_cracks(increment), report_quantities(increment)})
+  for (const std::string& part :
+       {report_contacts(increment), report_reactions(model, increment), report_springs(model, increment),
+        report_cracks(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   return text;
 }

@@ -170,16 +170,17 @@ class Applied {
           boundary.push_back(element);
     // The elements of an unbounded cell run around its hole, which has the normal out of the body on its other side.
     const double sign = body_.outside ? 1.0 : -1.0;
-    const auto released = [&](const Vec2& x, const Vec2& n) { return Vec2(sign * element::traction_of(stress.at(x), n)); };
-    nodal += traction_forces(boundary, body_mesh_.nodes, thickness(), released,
-                             {[](const Vec2&) { return 0.0; }, {}});
+    const auto released = [&](const Vec2& x, const Vec2& n) {
+      return Vec2(sign * element::traction_of(stress.at(x), n));
+    };
+    nodal += traction_forces(boundary, body_mesh_.nodes, thickness(), released, {[](const Vec2&) { return 0.0; }, {}});
     release_side_faces(stress);
   }
 
   /// The same on the side faces of open cells, which have no elements: linear from the scaling centre to the boundary.
   void release_side_faces(const element::InitialStress& stress) {
-    const double level = 1e-13 * (stress.constant.norm() + body_mesh_.nodes.front().norm() *
-                                                               (stress.per_x.norm() + stress.per_y.norm()));
+    const double level = 1e-13 * (stress.constant.norm() +
+                                  body_mesh_.nodes.front().norm() * (stress.per_x.norm() + stress.per_y.norm()));
     for (std::size_t c = 0; c < body_mesh_.cells.size(); ++c) {
       if (!cells_[c] || !cells_[c]->ring.is_open()) continue;
       const element::SolvedSuperElement& cell = *cells_[c];
@@ -304,7 +305,8 @@ void add_pore_pressure(Structure& structure, const model::PorePressure& pores, c
       if (node >= 0)
         forces[p].segment<2>(structure.dofs.of(body, node, 0)) += force;
       else
-        forces[p] += rigid_point(point, structure.parts[p]->reference(), structure.parts[p]->lever()).transpose() * force;
+        forces[p] +=
+            rigid_point(point, structure.parts[p]->reference(), structure.parts[p]->lever()).transpose() * force;
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const Vec2 force = of_pairs[static_cast<Eigen::Index>(i)] * pairs[i].normal;

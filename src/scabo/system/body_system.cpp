@@ -192,8 +192,8 @@ class ElasticBody final : public BodySystem {
         const linalg::SparseMatrix K = has_springs() ? with_springs(stiffness()) : stiffness().sparse;
         return inclined_.none() ? K : inclined_.stiffness(K);
       };
-      factored_->solver = linalg::SymmetricPositiveSolver(
-          principal_part(alone ? stiffness().sparse : whole(), dofs_, place_), options);
+      factored_->solver =
+          linalg::SymmetricPositiveSolver(principal_part(alone ? stiffness().sparse : whole(), dofs_, place_), options);
     }
   }
 
@@ -335,9 +335,9 @@ class ElasticBody final : public BodySystem {
     return unit * stiff_force(u) > 1e-12 * f.lpNorm<Eigen::Infinity>();
   }
 
-  /// (K + S) u - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out (translations
-  /// and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that come from
-  /// rounding have no resultant this way.
+  /// (K + S) u - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out
+  /// (translations and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that
+  /// come from rounding have no resultant this way.
   Vector forces_left(linalg::TwofoldVector u, const Vector& f) const {
     linalg::TwofoldVector springs;
     if (has_springs()) springs = linalg::product(stiffness().springs.matrix, u);
@@ -375,8 +375,9 @@ class ElasticBody final : public BodySystem {
     linalg::TwofoldVector u;
     Vector left;
   };
-  /// By conjugate gradients, whose preconditioner is the factor of K + S: exact but for few directions, the bending of a
-  /// slender body or its motion on soft springs, in which rounding of the factor counts. Plain refinement is their first step.
+  /// By conjugate gradients, whose preconditioner is the factor of K + S: exact but for few directions, the bending of
+  /// a slender body or its motion on soft springs, in which rounding of the factor counts. Plain refinement is their
+  /// first step.
   Refined refined(const Vector& u, const Vector& f) const {
     Refined best{linalg::twofold(u), {}};
     best.left = forces_left(best.u, f);
@@ -412,8 +413,8 @@ class ElasticBody final : public BodySystem {
     return best;
   }
 
-  /// (K + S) u - f. Where rounding u matters, of the displacement that u is the rounded value of, if it is one: u must not
-  /// differ from it in more than its last digits.
+  /// (K + S) u - f. Where rounding u matters, of the displacement that u is the rounded value of, if it is one: u must
+  /// not differ from it in more than its last digits.
   Vector unbalanced(const Vector& u, const Vector& f) const {
     Vector plain = internal_forces(u) - f;
     if (!u.allFinite() || !rounding_matters(u, f)) return plain;
@@ -546,9 +547,10 @@ class RigidBody final : public BodySystem {
   /// A = Y (Y'S Y)^-1 Y', with Y the motions that supports leave free and springs resist.
   void find_flexibility(const Matrix& left_by_supports) {
     const Matrix along_rest = left_by_supports.transpose() * rigid_motions_;
-    const Matrix Y = left_by_supports * (rigid_motions_.cols() > 0 ? null_space(along_rest.transpose())
-                                                                   : Matrix(Matrix::Identity(left_by_supports.cols(),
-                                                                                             left_by_supports.cols())));
+    const Matrix Y =
+        left_by_supports * (rigid_motions_.cols() > 0
+                                ? null_space(along_rest.transpose())
+                                : Matrix(Matrix::Identity(left_by_supports.cols(), left_by_supports.cols())));
     if (Y.cols() == 0) return;
     const Matrix stiffness = Y.transpose() * (springs_.matrix * Y);
     flexibility_ = Y * stiffness.ldlt().solve(Y.transpose());

@@ -146,7 +146,8 @@ NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::ve
     const Matrix rigid = orthonormal(N_free, M_free);
     return finish(K_free, M_free, rigid, elastic_modes(K_free, M_free, rigid, wanted), count, dofs, K.size());
   }
-  const Sparse K_free = part_of(K.springs.none() ? K.sparse : Sparse(K.sparse + K.springs.matrix), dofs), M_free = part_of(M.sparse, dofs);
+  const Sparse K_free = part_of(K.springs.none() ? K.sparse : Sparse(K.sparse + K.springs.matrix), dofs),
+               M_free = part_of(M.sparse, dofs);
   const Matrix rigid = orthonormal(N_free, M_free);
   linalg::EigenPairs pairs{Vector(0), Matrix(static_cast<Eigen::Index>(dofs.size()), 0)};
   if (wanted > 0) pairs = elastic_modes(K_free, M_free, rigid, wanted, *elastic_body(K, nodes, constraints), dofs);

@@ -19,8 +19,8 @@ VaryingTraction traction_of(const model::PorePressure& pores) {
 }
 
 /// Eq. (1) on one elastic side, by its nodes; without those of which it does not hold.
-std::map<int, Vec2> forces_of_side(const model::Place& place, const std::vector<int>& paired, const VaryingTraction& load,
-                                   double thickness, const mesh::Mesh& mesh) {
+std::map<int, Vec2> forces_of_side(const model::Place& place, const std::vector<int>& paired,
+                                   const VaryingTraction& load, double thickness, const mesh::Mesh& mesh) {
   const std::vector<Vec2>& nodes = mesh.bodies[static_cast<std::size_t>(place.body)].nodes;
   std::map<int, int> pairs_of;
   for (const int node : paired) ++pairs_of[node];
@@ -64,7 +64,8 @@ Vector pore_forces(const model::PorePressure& pores, int contact, const model::M
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     double& force = sum[static_cast<Eigen::Index>(i)];
-    force = sides[i] > 0 ? force / sides[i] : pressure_at(pores, pairs[i].point_a) * lengths[i] * model.analysis.thickness;
+    force =
+        sides[i] > 0 ? force / sides[i] : pressure_at(pores, pairs[i].point_a) * lengths[i] * model.analysis.thickness;
   }
   return sum;
 }

@@ -1,12 +1,12 @@
-// Pressure of a fluid in contacts (model::PorePressure): forces P n on B and -P n on A of every pair, open or closed, with
-// its normal n out of A. What the pairs carry besides are effective forces; the total ones are the sum of both.
+// Pressure of a fluid in contacts (model::PorePressure): forces P n on B and -P n on A of every pair, open or closed,
+// with its normal n out of A. What the pairs carry besides are effective forces; the total ones are the sum of both.
 //
 //     P = t * integral of N p ds                                                                               (1)
 //
-// over the elements of a side all of whose nodes take part in the contact, as tributary lengths are (of two elastic sides
-// the mean), in parts between the kinks and jumps of p: forces and moments of a pressure that is linear between them are
-// exact on straight elements. Where a node has several pairs, at the ends of other cracks, or no such element, P is the
-// pressure at the pair times its tributary length and t.
+// over the elements of a side all of whose nodes take part in the contact, as tributary lengths are (of two elastic
+// sides the mean), in parts between the kinks and jumps of p: forces and moments of a pressure that is linear between
+// them are exact on straight elements. Where a node has several pairs, at the ends of other cracks, or no such element,
+// P is the pressure at the pair times its tributary length and t.
 #pragma once
 
 #include "scabo/mesh/mesh.hpp"

@@ -90,9 +90,9 @@ class Assembly {
           for (std::size_t j = 0; j < element.nodes.size(); ++j)
             for (int row = 0; row < 2; ++row)
               for (int column = 0; column < 2; ++column)
-                entries.emplace_back(dofs_.of(spring.on.body, element.nodes[i], row),
-                                     dofs_.of(spring.on.body, element.nodes[j], column),
-                                     N[static_cast<Eigen::Index>(i)] * N[static_cast<Eigen::Index>(j)] * k(row, column));
+                entries.emplace_back(
+                    dofs_.of(spring.on.body, element.nodes[i], row), dofs_.of(spring.on.body, element.nodes[j], column),
+                    N[static_cast<Eigen::Index>(i)] * N[static_cast<Eigen::Index>(j)] * k(row, column));
       });
   }
 

@@ -37,8 +37,8 @@ class ConstraintCollector {
     const auto body = static_cast<std::size_t>(support.on.body);
     const std::size_t part = dofs_.part_of(support.on.body);
     if (support.rotation)
-      constraints_[part].push_back({-1, Vec2::Zero(), 0, true, index,
-                                    *support.rotation * half_size(model_.bodies[body].outline), Vec2::Zero()});
+      constraints_[part].push_back(
+          {-1, Vec2::Zero(), 0, true, index, *support.rotation * half_size(model_.bodies[body].outline), Vec2::Zero()});
     for (int component = 0; component < 2; ++component) {
       const auto value = support.displacement[static_cast<std::size_t>(component)];
       if (!value) continue;
@@ -156,8 +156,8 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
                                             std::vector<Constraint> constraints, const Springs& springs) {
   std::string contradiction;
   const int last_support = constraints.empty() ? -1 : constraints.back().support;
-  auto system = rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), springs,
-                           contradiction);
+  auto system =
+      rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), springs, contradiction);
   if (!contradiction.empty())
     throw InputError(model.file, {{model.supports[static_cast<std::size_t>(last_support)].source,
                                    fmt::format("the supports of rigid body '{}' contradict each other: a rigid body "
@@ -239,7 +239,8 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
                                                 : dofs.name_of(p, model) + " are insufficiently supported: they are";
     diagnostics.push_back(
         {body.source,
-         fmt::format("{} free to move by {}; add a support or springs that prevent this motion, or a contact", what, motions)});
+         fmt::format("{} free to move by {}; add a support or springs that prevent this motion, or a contact", what,
+                     motions)});
   }
   if (!diagnostics.empty()) throw InputError(model.file, std::move(diagnostics));
 }
