@@ -40,8 +40,8 @@ struct ContactResult {
   std::vector<PairResult> pairs;
   double normal_force = 0.0;      ///< sum over the pairs
   double tangential_force = 0.0;  ///< sum over the pairs
-  /// Sum over all pairs of the forces of pore pressure along n, on B; empty if none acts. Normal forces of the pairs are
-  /// effective ones, and the total is the sum.
+  /// Sum over all pairs of the forces of pore pressure along n, on B; empty if none acts. Normal forces of the pairs
+  /// are effective ones, and the total is the sum.
   std::optional<double> pore_force;
   int open = 0, stick = 0, slip = 0;
   std::optional<int> broken;  ///< pairs that lost cohesion and tensile strength; empty if the contact has none
@@ -133,7 +133,7 @@ struct IncrementResult {
   std::vector<Vec2> reactions;  ///< one for each support of the model, in its order: force on the body
   /// One for each support of the model: moment on the body about the point of a support that prescribes a rotation.
   std::vector<std::optional<double>> moments;
-  std::vector<Vec2> springs;    ///< one for each of the model, in its order: force on the body
+  std::vector<Vec2> springs;  ///< one for each of the model, in its order: force on the body
   /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces.
   double largest_force = 0.0;
   contact::Certificate certificate;

@@ -269,13 +269,14 @@ struct GroundStress {
   Vec2 up = Vec2(0.0, 1.0);  ///< unit vector
 };
 
-/// A moment, force times length, counter-clockwise: on an edge as a traction along its normal that is linear along it and
-/// has no resultant, on a rigid body.
+/// A moment, force times length, counter-clockwise: on an edge as a traction along its normal that is linear along it
+/// and has no resultant, on a rigid body.
 struct Moment {
   double value = 0.0;
 };
 
-/// Pressure of a fluid in contacts, on both sides of open and closed pairs. Forces of the pairs are then effective ones.
+/// Pressure of a fluid in contacts, on both sides of open and closed pairs. Forces of the pairs are then effective
+/// ones.
 struct PorePressure {
   std::vector<int> contacts;  ///< indices into Model::contacts
   /// The same everywhere; a table over x or y; or that of still water.

@@ -1,4 +1,5 @@
-// One body with its supports and springs: its displacement under nodal forces, prescribed displacements and rigid motions.
+// One body with its supports and springs: its displacement under nodal forces, prescribed displacements and rigid
+// motions.
 //
 // Displacement vectors have two components per node; those of a rigid body have three, [u_x, u_y, L rotation] about its
 // centroid, with L half its size so that all three are lengths. For both,
@@ -7,8 +8,8 @@
 //
 // u_p: displacement under applied forces f and prescribed displacements d. A: flexibility, which is zero on the
 // supports and, if supports leave rigid motions Nn free, on as many further degrees of freedom. a: amplitudes of those
-// motions, which follow from their equilibrium Nn'(f + C'p) = 0. No springs are added but those of the model, S: u_p and A
-// are those of K + S, and Nn has only motions under which no spring changes its length.
+// motions, which follow from their equilibrium Nn'(f + C'p) = 0. No springs are added but those of the model, S: u_p
+// and A are those of K + S, and Nn has only motions under which no spring changes its length.
 //
 // In slender bodies K u is a small difference of large numbers: for a cantilever of length L and depth h they are
 // (L/h)^3 times the load, and rounding u alone causes a relative error of 4e-9 at 100:1. In such bodies displacement,
@@ -139,8 +140,9 @@ struct NotPositiveDefinitePart : linalg::NotPositiveDefinite {
   std::size_t part;
 };
 
-/// A rigid body with reference point `reference` and extent `size`; the matrix of its springs is 3 x 3. If constraints contradict each other,
-/// `contradiction` is set to a description of the first that does, which the caller must report; otherwise it is empty.
+/// A rigid body with reference point `reference` and extent `size`; the matrix of its springs is 3 x 3. If constraints
+/// contradict each other, `contradiction` is set to a description of the first that does, which the caller must report;
+/// otherwise it is empty.
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
                                        Springs springs, std::string& contradiction);
 
