@@ -18,6 +18,7 @@
 #include "interrupt.hpp"
 #include "scabo/analysis/checkpoint.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/model/wording.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/results_directory.hpp"
 #include "scabo/result/version.hpp"
@@ -168,7 +169,7 @@ class Sweep {
     for (const SweepRow& row : rows_) ++counts[row.status];
     std::string text;
     for (const auto& [name, number] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, name);
-    return fmt::format("{}: {}\nTable: {}\n", count(static_cast<long>(rows_.size()), "point"), text,
+    return fmt::format("{}: {}\nTable: {}\n", model::counted(static_cast<long>(rows_.size()), "point"), text,
                        (directory_ / "sweep.csv").string());
   }
 

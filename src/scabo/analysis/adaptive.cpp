@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "scabo/analysis/refinement.hpp"
+#include "scabo/base/components.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/two_orders.hpp"
 #include "scabo/mesh/crack_faces.hpp"
@@ -69,6 +70,8 @@ std::vector<model::Place> singular_places(const StaticSolution& solution) {
   std::vector<model::Place> places;
   for (const model::Load& load : solution.model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) places.push_back(*load.on);
+  for (const model::Spring& spring : solution.model.springs)
+    if (is_point(spring.on)) places.push_back(spring.on);
   const Reactions reactions = reactions_of(solution);
   for (std::size_t i = 0; i < solution.model.supports.size(); ++i) {
     const model::Place& place = solution.model.supports[i].on;
@@ -185,6 +188,7 @@ void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
       place.near = mesh.bodies[static_cast<std::size_t>(place.body)].nodes[static_cast<std::size_t>(nodes.front())];
   };
   for (model::Support& support : model.supports) hold(support.on);
+  for (model::Spring& spring : model.springs) hold(spring.on);
   for (model::Load& load : model.loads)
     if (load.on) hold(*load.on);
 }
@@ -300,7 +304,7 @@ CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::s
       finite, element::elasticity_matrix(material, analysis.plane), analysis.thickness);
   std::vector<int> dofs;
   for (const int node : finite.nodes())
-    for (const int component : {0, 1}) dofs.push_back(2 * own.at(node) + component);
+    for (const int component : {0, 1}) dofs.push_back(static_cast<int>(place_of(own.at(node), component)));
   made.k(dofs, dofs) = k;
   return made;
 }

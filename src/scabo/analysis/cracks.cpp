@@ -153,6 +153,7 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
       results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre),
                          super_element->corner().of(u, loads)});
       element::StressIntensity& factors = results.back().factors;
+      if (!increment.fields.initial_of(b).is_zero()) factors.T_left.reset(), factors.T_right.reset();
       if (const auto tip = touching.find(c); tip != touching.end()) {
         factors.T_left.reset(), factors.T_right.reset();
         const mesh::Cell& cell = solution.mesh.bodies[b].cells[c];

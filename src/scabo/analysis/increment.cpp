@@ -188,6 +188,7 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
     // Of a rigid body imbalance() is the balance; what acts on an unbounded part goes to infinity.
     if (dofs.is_rigid(p) || dofs.is_unbounded(p)) continue;
     system::add_reactions(part.constraints(), state.reactions[p], forces);
+    if (part.has_springs()) forces += part.spring_forces(state.u[p]);
     // Against all forces on the part: those of a fine mesh are small, and many.
     const double unbalanced = resultant(part, dofs.nodes(p), forces).lpNorm<Eigen::Infinity>();
     certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / std::max(scale, forces.lpNorm<1>()));
@@ -263,6 +264,9 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     results[c].name = prepared.model.contacts[c].name;
+    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
+      if (const auto& pores = prepared.structure.pores[load]; !pores.empty() && pores[c])
+        results[c].pore_force = results[c].pore_force.value_or(0.0) + state.factors.loads[load] * *pores[c];
     add_totals(prepared.model.contacts[c].about, results[c]);
   }
   return results;
@@ -432,13 +436,19 @@ Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>&
   return N * dofs.of_body(body, u[dofs.part_of(body)]);
 }
 
+const element::InitialStress& FieldState::initial_of(std::size_t body) const {
+  static const element::InitialStress none;
+  return initial.empty() ? none : initial[body];
+}
+
 IncrementResult describe(const Prepared& prepared, const State& state) {
   IncrementResult result;
   for (std::size_t i = 0; i < prepared.model.loads.size(); ++i)
     result.factors[prepared.model.loads[i].name] = state.factors.loads[i];
   for (std::size_t i = 0; i < prepared.model.supports.size(); ++i) {
     const model::Support& support = prepared.model.supports[i];
-    if (support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0)
+    if (support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0 ||
+        support.rotation.value_or(0.0) != 0.0)
       result.factors[support.name] = state.factors.supports[i];
   }
   result.contacts = contact_results(prepared, state);
@@ -446,22 +456,33 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   result.largest_force = largest_force(state);
   result.lost_to_rounding = lost_to_rounding(prepared, state);
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
+  result.moments.resize(prepared.model.supports.size());
   for (std::size_t p = 0; p < state.u.size(); ++p) {
     const std::vector<system::Constraint>& constraints = prepared.structure.parts[p]->constraints();
     for (std::size_t c = 0; c < constraints.size(); ++c) {
-      if (constraints[c].rotation) continue;
+      if (constraints[c].rotation) {
+        const auto support = static_cast<std::size_t>(constraints[c].support);
+        if (prepared.model.supports[support].rotation)
+          result.moments[support] =
+              state.reactions[p][static_cast<Eigen::Index>(c)] * prepared.structure.parts[p]->lever();
+        continue;
+      }
       result.reactions[static_cast<std::size_t>(constraints[c].support)] +=
           state.reactions[p][static_cast<Eigen::Index>(c)] * constraints[c].direction();
     }
   }
   const system::Dofs& dofs = prepared.structure.dofs;
+  result.springs = system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u);
   result.fields.interior.resize(prepared.model.bodies.size());
+  result.fields.initial.resize(prepared.model.bodies.size());
   for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
     const auto body = static_cast<int>(b);
     result.fields.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
     if (prepared.model.bodies[b].rigid) result.fields.displacements[b][2] /= part_of(prepared, body).lever();
-    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
+    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load) {
       add(result.fields.interior[b], prepared.structure.interior[load][b], state.factors.loads[load]);
+      result.fields.initial[b].add(prepared.structure.initial[load][b], state.factors.loads[load]);
+    }
   }
   return result;
 }

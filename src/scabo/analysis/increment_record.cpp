@@ -122,6 +122,7 @@ void exchange(Io& io, AttemptResult& of) {
 template <typename Io>
 void exchange(Io& io, ContactResult& of) {
   exchange(io, of.name);
+  exchange(io, of.pore_force);
   io(of.normal_force), io(of.tangential_force);
   exchange(io, of.force);
   io(of.moment);
@@ -165,6 +166,8 @@ void exchange(Io& io, IncrementResult& of) {
   io(of.converged), io(of.newton_iterations), io(of.coarse_iterations), io(of.halvings), io(of.residual);
   exchange(io, of.contacts);
   exchange(io, of.reactions);
+  exchange(io, of.moments);
+  exchange(io, of.springs);
   io(of.largest_force);
   exchange(io, of.certificate);
   io(of.lost_to_rounding), io(of.energy.external), io(of.energy.elastic), io(of.energy.friction);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "scabo/analysis/worthwhile_threads.hpp"
+#include "scabo/base/components.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/element/mass.hpp"
 #include "scabo/linalg/dense.hpp"
@@ -53,8 +54,8 @@ NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, con
   }
   Eigen::Index node = 0, component = 0;
   const double largest = std::sqrt(phi.reshaped(2, phi.size() / 2).colwise().squaredNorm().maxCoeff(&node));
-  phi.segment<2>(2 * node).cwiseAbs().maxCoeff(&component);
-  const double scale = (phi[2 * node + component] < 0.0 ? -1.0 : 1.0) / largest;
+  phi.segment<2>(place_of(node)).cwiseAbs().maxCoeff(&component);
+  const double scale = (phi[place_of(node, static_cast<int>(component))] < 0.0 ? -1.0 : 1.0) / largest;
   for (const int body : mode.bodies) mode.shape.push_back(dofs.of_body(body, scale * phi));
   mode.modal_mass = scale * scale;
   return mode;
@@ -76,12 +77,14 @@ ModalResult solve_modal(model::Model model, const Options& options) {
 
   stage("mesh");
   std::vector<std::vector<system::Constraint>> constraints;
+  system::ModelSprings springs;
   system::Dofs dofs;
   {
     const Stopwatch stopwatch(result.timing.mesh);
     structure.mesh = mesh::make_mesh(structure.model);
     dofs = system::Dofs(structure.model, structure.mesh);
     constraints = system::constraints_of(structure.model, structure.mesh, dofs);
+    springs = system::springs_of(structure.model, structure.mesh, dofs);
   }
   const int threads = worthwhile_threads(structure.model, structure.mesh, options.threads);
   linalg::set_blas_threads(threads);
@@ -99,6 +102,7 @@ ModalResult solve_modal(model::Model model, const Options& options) {
     {
       const Stopwatch stopwatch(result.timing.mass);
       K = system::part_stiffness(structure.model, structure.mesh, structure.cells, dofs, p);
+      K.springs = springs.of_part[p];
       M = system::part_mass(structure.model, structure.mesh, structure.cells, dofs, p, masses);
     }
     stage("modes of " + dofs.name_of(p, structure.model));
@@ -125,9 +129,7 @@ FieldState state_of(const ModalResult& result, const NaturalMode& mode) {
   const model::Model& model = result.structure.model;
   FieldState state;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const auto size = model.bodies[b].rigid
-                          ? Eigen::Index{3}
-                          : static_cast<Eigen::Index>(2 * result.structure.mesh.bodies[b].nodes.size());
+    const auto size = model.bodies[b].rigid ? Eigen::Index{3} : places_of(result.structure.mesh.bodies[b].nodes.size());
     state.displacements.push_back(Vector::Zero(size));
     state.interior.emplace_back();
   }

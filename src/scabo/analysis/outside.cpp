@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "scabo/element/interior_field.hpp"
 
 namespace scabo::analysis {
@@ -35,9 +37,20 @@ std::string without_reference(const Prepared& prepared, const State& state) {
     const model::Body& body = prepared.model.bodies[b];
     if (!body.outside || body.reference) continue;
     const std::size_t part = prepared.structure.dofs.part_of(static_cast<int>(b));
-    const Vector forces = state.forces[part] + prepared.contact.motion[part].transpose() * state.p;
+    const Vector forces = state.forces[part] + prepared.contact.motion[part].transpose() * state.p +
+                          prepared.structure.parts[part]->spring_forces(state.u[part]);
     const Vec2 sum = forces.reshaped(2, forces.size() / 2).rowwise().sum();
-    if (sum.norm() > 1e-9 * forces.lpNorm<1>())
+    // Tractions of a field that cancel each other between tied bodies leave the rounding of their sum.
+    double of_fields = 0.0;
+    for (std::size_t load = 0; load < state.factors.loads.size(); ++load)
+      for (const int of_part : prepared.structure.dofs.bodies_of(part)) {
+        const auto body_of_part = static_cast<std::size_t>(of_part);
+        of_fields +=
+            std::abs(state.factors.loads[load]) *
+            prepared.structure.initial[load][body_of_part].at(prepared.mesh.bodies[body_of_part].nodes.front()).norm();
+      }
+    of_fields *= 2.0 * prepared.structure.parts[part]->lever() * prepared.model.analysis.thickness;
+    if (sum.norm() > 1e-9 * forces.lpNorm<1>() && sum.norm() > 1e-12 * of_fields)
       return fmt::format(
           "the forces on the unbounded body '{}' have a resultant ({:.4g}, {:.4g}): in the plane its displacement is "
           "then determined only up to a translation. Here it is fixed at a distance of a thousand radii; give a "
@@ -66,7 +79,7 @@ void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vect
 
 std::optional<Prepared::Reference> reference_of(const model::Model& model, const mesh::Mesh& mesh,
                                                 const std::vector<element::SolvedCells>& cells) {
-  if (!model.supports.empty()) return std::nullopt;
+  if (!model.supports.empty() || !model.springs.empty()) return std::nullopt;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     if (!body.outside || !body.reference) continue;

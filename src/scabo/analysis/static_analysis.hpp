@@ -13,6 +13,7 @@
 
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/cell_library.hpp"
+#include "scabo/element/initial_stress.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
@@ -42,6 +43,9 @@ struct ContactResult {
   Vec2 force = Vec2::Zero();      ///< resultant on B
   double moment = 0.0;            ///< of the forces on B about the contact's `about`, counter-clockwise
   std::optional<Vec2> centre_of_pressure;  ///< mean position of the pairs, weighted by their normal forces, if positive
+  /// Sum over all pairs of the forces of pore pressure along n, on B; empty if none acts. Normal forces of the pairs
+  /// are effective ones, and the total is the sum.
+  std::optional<double> pore_force;
   int open = 0, stick = 0, slip = 0;
   std::optional<int> broken;  ///< pairs that lost cohesion and tensile strength; empty if the contact has none
   double max_gap = 0.0;       ///< of the open pairs; 0 if none is open
@@ -53,7 +57,7 @@ struct ContactResult {
 /// Work since the start, force times length.
 struct Energy {
   double external = 0.0;  ///< of loads and of reactions at prescribed displacements
-  double elastic = 0.0;   ///< stored
+  double elastic = 0.0;   ///< stored in bodies and springs
   double friction = 0.0;  ///< dissipated
 };
 
@@ -98,6 +102,10 @@ struct FieldState {
   /// those of contact pairs (PairResult) are already relative.
   Vec2 reference_displacement = Vec2::Zero();
   std::vector<element::CellLoads> interior;  ///< [body][cell]: loads inside; empty for a body without any
+  /// Per body: stress that it has without any displacement; empty: none has any.
+  std::vector<element::InitialStress> initial;
+
+  const element::InitialStress& initial_of(std::size_t body) const;
 };
 
 /// A number with its error bar (goal.hpp).
@@ -126,6 +134,9 @@ struct IncrementResult {
   double residual = 0.0;
   std::vector<ContactResult> contacts;
   std::vector<Vec2> reactions;  ///< one for each support of the model, in its order: force on the body
+  /// One for each support of the model: moment on the body about the point of a support that prescribes a rotation.
+  std::vector<std::optional<double>> moments;
+  std::vector<Vec2> springs;  ///< one for each of the model, in its order: force on the body
   /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces.
   double largest_force = 0.0;
   contact::Certificate certificate;

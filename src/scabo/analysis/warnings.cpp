@@ -189,7 +189,8 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
   std::vector<Warning> warnings;
   for (std::size_t load = 0; load < model.loads.size(); ++load) {
     double largest = 0.0, moving = 0.0;
-    bool inside = false;
+    const auto& initial = structure.initial[load];
+    bool inside = std::any_of(initial.begin(), initial.end(), [](const auto& body) { return !body.is_zero(); });
     for (const element::CellLoads& body : structure.interior[load])
       for (const element::InteriorLoads& cell : body)
         inside = inside || !cell.loads.empty() || !cell.temperature.is_zero();
@@ -201,6 +202,10 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
       if (structure.dofs.is_rigid(p)) {
         const Matrix& motions = part.rigid_motions();
         if (motions.cols() > 0) moving = std::max(moving, (motions.transpose() * forces).lpNorm<Eigen::Infinity>());
+        if (part.is_flexible()) {
+          const Matrix A = part.flexibility({0, 1, 2});
+          moving = std::max(moving, (A * forces).lpNorm<Eigen::Infinity>() / A.lpNorm<Eigen::Infinity>());
+        }
         continue;
       }
       for (std::size_t c = 0; c < part.constraints().size(); ++c) {

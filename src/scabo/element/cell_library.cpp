@@ -9,6 +9,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "scabo/base/components.hpp"
 #include "scabo/element/batch.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/ill_posed.hpp"
@@ -146,8 +147,7 @@ std::size_t hash_of(const SolvedSuperElement& super_element) {
 std::vector<int> dofs_of(const mesh::Cell& cell) {
   std::vector<int> dofs;
   for (const int node : cell.nodes()) {
-    dofs.push_back(2 * node);
-    dofs.push_back(2 * node + 1);
+    for (const int c : {0, 1}) dofs.push_back(static_cast<int>(place_of(node, c)));
   }
   return dofs;
 }

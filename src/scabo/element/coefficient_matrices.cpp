@@ -5,6 +5,7 @@
 #include <string>
 #include <type_traits>
 
+#include "scabo/base/components.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
@@ -61,8 +62,8 @@ StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& elemen
   strain.B1.resize(3, 2 * N.size());
   strain.B2.resize(3, 2 * N.size());
   for (Eigen::Index i = 0; i < N.size(); ++i) {
-    strain.B1.middleCols<2>(2 * i) = N[i] / strain.J * b1;
-    strain.B2.middleCols<2>(2 * i) = N_eta[i] / strain.J * b2;
+    strain.B1.middleCols<2>(place_of(i)) = N[i] / strain.J * b1;
+    strain.B2.middleCols<2>(place_of(i)) = N_eta[i] / strain.J * b2;
   }
   return strain;
 }
@@ -79,7 +80,7 @@ class Assembly {
         auto& list = neighbours_[static_cast<std::size_t>(node)];
         list.insert(list.end(), element.nodes.begin(), element.nodes.end());
       }
-    const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
+    const auto n = places_of(ring.nodes.size());
     Eigen::SparseMatrix<Real> pattern(n, n);
     Eigen::Index entries = 0;
     for (auto& list : neighbours_) {
@@ -91,7 +92,7 @@ class Assembly {
     int at = 0;
     for (std::size_t node = 0; node < neighbours_.size(); ++node)
       for (std::size_t c = 0; c < 2; ++c) {
-        pattern.outerIndexPtr()[2 * node + c] = at;
+        pattern.outerIndexPtr()[place_of(node, static_cast<int>(c))] = at;
         for (const int row : neighbours_[node])
           for (int r = 0; r < 2; ++r) pattern.innerIndexPtr()[at++] = 2 * row + r;
       }

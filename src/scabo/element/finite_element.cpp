@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
@@ -282,8 +283,7 @@ std::vector<int> dofs_of(const FiniteElement& element) {
   std::vector<int> dofs;
   dofs.reserve(static_cast<std::size_t>(2 * element.size()));
   for (const int node : element.nodes()) {
-    dofs.push_back(2 * node);
-    dofs.push_back(2 * node + 1);
+    for (const int c : {0, 1}) dofs.push_back(static_cast<int>(place_of(node, c)));
   }
   return dofs;
 }
@@ -360,7 +360,7 @@ ElementVector finite_element_body_force(const FiniteElement& element, const Line
     ElementVector f(2 * n);
     for (std::size_t i = 0; i < n; ++i) {
       const Vec2 moment = thickness * moments[i];
-      f.template segment<2>(static_cast<Eigen::Index>(2 * i)) =
+      f.template segment<2>(place_of(i)) =
           areas[i] * thickness * constant +
           Vec2(b_x.per_x * moment.x() + b_x.per_y * moment.y(), b_y.per_x * moment.x() + b_y.per_y * moment.y());
     }
@@ -388,8 +388,7 @@ PointValues finite_element_values(const FiniteElement& element, const ElementVec
     constexpr int n = size_of(kind());
     const auto shape = shape_at<kind()>(element, natural.x(), natural.y());
     PointValues point;
-    for (std::size_t i = 0; i < n; ++i)
-      point.displacement += shape.N[i] * u.template segment<2>(static_cast<Eigen::Index>(2 * i));
+    for (std::size_t i = 0; i < n; ++i) point.displacement += shape.N[i] * u.template segment<2>(place_of(i));
     point.strain = strain_matrix<n>(shape) * u;
     point.stress = D * (point.strain - free_strain);
     return point;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
@@ -64,7 +65,7 @@ PointValues point_values(const Ring& ring, const RadialField::Values& values, co
   const StrainMatrices matrices = strain_matrices(ring, line, N, basis.derivatives(eta));
   PointValues point;
   for (std::size_t i = 0; i < line.nodes.size(); ++i) {
-    const auto local = static_cast<Eigen::Index>(2 * i), global = static_cast<Eigen::Index>(2 * line.nodes[i]);
+    const auto local = place_of(i), global = place_of(line.nodes[i]);
     point.displacement += N[static_cast<Eigen::Index>(i)] * values.u.segment<2>(global);
     point.strain += matrices.B1.middleCols<2>(local) * values.u_xi.segment<2>(global) +
                     matrices.B2.middleCols<2>(local) * values.u_part.segment<2>(global);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/linalg/sylvester.hpp"
@@ -70,10 +71,10 @@ Eigen::SparseMatrix<double> boundary_mass(const Ring& ring, const std::vector<do
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t j = 0; j < nodes.size(); ++j)
         for (int component = 0; component < 2; ++component)
-          entries.emplace_back(2 * nodes[i] + component, 2 * nodes[j] + component,
+          entries.emplace_back(place_of(nodes[i], component), place_of(nodes[j], component),
                                m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
-  const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
+  const auto n = places_of(ring.nodes.size());
   Eigen::SparseMatrix<double> M0(n, n);
   M0.setFromTriplets(entries.begin(), entries.end());
   return M0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/parallel.hpp"
 
@@ -27,10 +28,10 @@ Matrix boundary_rows(const Ring& ring, const ScaledPoint& point) {
   const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
   const Vector N = basis.values(point.eta);
   const StrainMatrices strain = strain_matrices(ring, element, N, basis.derivatives(point.eta));
-  Matrix rows = Matrix::Zero(static_cast<Eigen::Index>(2 * ring.nodes.size()), 8);
+  Matrix rows = Matrix::Zero(places_of(ring.nodes.size()), 8);
   for (std::size_t i = 0; i < element.nodes.size(); ++i)
     for (Eigen::Index k = 0; k < 2; ++k) {
-      const Eigen::Index to = 2 * element.nodes[i] + k, from = static_cast<Eigen::Index>(2 * i) + k;
+      const Eigen::Index to = place_of(element.nodes[i], k), from = place_of(i, k);
       rows(to, k) = N[static_cast<Eigen::Index>(i)];
       rows.block<1, 3>(to, 2) = strain.B1.col(from).transpose();
       rows.block<1, 3>(to, 5) = strain.B2.col(from).transpose();

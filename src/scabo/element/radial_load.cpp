@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
@@ -22,7 +23,7 @@ void for_each_rule_point(const Ring& ring, Visit visit) {
   }
 }
 
-Vector zero_of(const Ring& ring) { return Vector::Zero(static_cast<Eigen::Index>(2 * ring.nodes.size())); }
+Vector zero_of(const Ring& ring) { return Vector::Zero(places_of(ring.nodes.size())); }
 
 }  // namespace
 
@@ -37,8 +38,8 @@ std::vector<RadialLoad> body_force_loads(const Ring& ring, const LinearField& b_
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       const double share = N[static_cast<Eigen::Index>(i)] * point.jacobian() * weight * thickness *
                            density[density.size() == 1 ? 0 : e];
-      at_centre.g.segment<2>(2 * element.nodes[i]) += share * constant;
-      growing.g.segment<2>(2 * element.nodes[i]) += share * linear;
+      at_centre.g.segment<2>(place_of(element.nodes[i])) += share * constant;
+      growing.g.segment<2>(place_of(element.nodes[i])) += share * linear;
     }
   });
   std::vector<RadialLoad> loads;
@@ -51,7 +52,7 @@ RadialLoad face_load(const Ring& ring, Face face, double power, const Vec2& valu
   ensure(ring.is_open() && power > -1.0, "side faces belong to open super-elements; their tractions are integrable");
   const int node = face == Face::first ? ring.first_node() : ring.last_node();
   RadialLoad load{power + 1.0, zero_of(ring), {}};
-  load.g.segment<2>(2 * node) = ring.nodes[static_cast<std::size_t>(node)].norm() * thickness * value;  // eq. (3)
+  load.g.segment<2>(place_of(node)) = ring.nodes[static_cast<std::size_t>(node)].norm() * thickness * value;  // eq. (3)
   return load;
 }
 
@@ -71,7 +72,7 @@ std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, con
     const double linear = temperature.at(boundary_point(ring, element, N, N_eta).x) - temperature.constant;
     const Vector c = strain.B1.transpose() * stress, g = strain.B2.transpose() * stress;  // eq. (4)
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
-      const auto local = static_cast<Eigen::Index>(2 * i), global = static_cast<Eigen::Index>(2 * element.nodes[i]);
+      const auto local = place_of(i), global = place_of(element.nodes[i]);
       at_centre.c.segment<2>(global) += temperature.constant * c.segment<2>(local);
       at_centre.g.segment<2>(global) += temperature.constant * g.segment<2>(local);
       growing.c.segment<2>(global) += linear * c.segment<2>(local);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/base/components.hpp"
 #include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
@@ -248,7 +249,7 @@ void take_rotation_out(const Ring& ring, Matrix& K) {
   const Vector D = K.diagonal();
   Vec2 centre = Vec2::Zero(), weight = Vec2::Zero();
   for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
-    const Vec2 d = D.segment<2>(static_cast<Eigen::Index>(2 * i));
+    const Vec2 d = D.segment<2>(place_of(i));
     weight += d;
     centre += Vec2(d.y() * ring.nodes[i].x(), d.x() * ring.nodes[i].y());
   }
@@ -256,7 +257,7 @@ void take_rotation_out(const Ring& ring, Matrix& K) {
   Vector r(K.rows());
   for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
     const Vec2 arm = ring.nodes[i] - centre;
-    r.segment<2>(static_cast<Eigen::Index>(2 * i)) = Vec2(-arm.y(), arm.x());
+    r.segment<2>(place_of(i)) = Vec2(-arm.y(), arm.x());
   }
   const auto lower = K.selfadjointView<Eigen::Lower>();
   const Vector force = lower * r, w = D.cwiseProduct(r) / D.cwiseProduct(r).dot(r);
@@ -270,11 +271,11 @@ void take_rotation_out(const Ring& ring, Matrix& K) {
 SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, double thickness, int threads,
                                          const Domain& domain) {
   const CoefficientMatrices matrices = coefficient_matrices(ring, D, thickness);
-  const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
+  const auto n = places_of(ring.nodes.size());
   Matrix motions = Matrix::Zero(n, 3);  // two translations, the rotation
   for (Eigen::Index i = 0; i < n; ++i) motions(i, i % 2) = 1.0;
   for (std::size_t i = 0; i < ring.nodes.size(); ++i)
-    motions.block<2, 1>(static_cast<Eigen::Index>(2 * i), 2) = Vec2(-ring.nodes[i].y(), ring.nodes[i].x());
+    motions.block<2, 1>(place_of(i), 2) = Vec2(-ring.nodes[i].y(), ring.nodes[i].x());
 
   std::vector<Eigen::SparseMatrix<double>> bases = symmetry_blocks(ring, D);
   SuperElementSolution solution;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scabo/base/components.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/ordered_schur.hpp"
@@ -50,8 +51,9 @@ double boundary_distance(const Ring& ring, double angle) {
 void add(Triplets& entries, const mesh::LineElement& element, const Matrix& local) {
   for (Eigen::Index i = 0; i < local.rows(); ++i)
     for (Eigen::Index j = 0; j < local.cols(); ++j)
-      entries.emplace_back(2 * element.nodes[static_cast<std::size_t>(i / 2)] + static_cast<int>(i % 2),
-                           2 * element.nodes[static_cast<std::size_t>(j / 2)] + static_cast<int>(j % 2), local(i, j));
+      entries.emplace_back(place_of(element.nodes[static_cast<std::size_t>(i / 2)], static_cast<int>(i % 2)),
+                           place_of(element.nodes[static_cast<std::size_t>(j / 2)], static_cast<int>(j % 2)),
+                           local(i, j));
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& di
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
     const mesh::LineElement& element = ring.elements[e];
     const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
-    const Eigen::Index m = 2 * basis.nodes();
+    const Eigen::Index m = places_of(basis.nodes());
     Matrix e0 = Matrix::Zero(m, m), e1 = e0, e2 = e0;
     for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
       const auto row = static_cast<Eigen::Index>(q);
@@ -75,7 +77,7 @@ CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& di
       Eigen::Matrix<double, 3, Eigen::Dynamic> dB2(3, m);  // at constant |J|
       for (Eigen::Index i = 0; i < N.size(); ++i) {
         x_eta += N_eta[i] * ring.node(element.nodes[static_cast<std::size_t>(i)]);
-        dB2.middleCols<2>(2 * i) = N_eta[i] / strain.J * b2;
+        dB2.middleCols<2>(place_of(i)) = N_eta[i] / strain.J * b2;
       }
       const double dJ = cross(-direction, x_eta), weight = basis.rule().weights[q];
       const Mat3 law = weight * corner.D.of(e);
@@ -88,7 +90,7 @@ CoefficientMatrices coefficient_derivatives(const Corner& corner, const Vec2& di
     add(entries1, element, e1);
     add(entries2, element, e2);
   }
-  const auto n = static_cast<Eigen::Index>(2 * ring.nodes.size());
+  const auto n = places_of(ring.nodes.size());
   CoefficientMatrices derivatives{Eigen::SparseMatrix<double>(n, n), Eigen::SparseMatrix<double>(n, n),
                                   Eigen::SparseMatrix<double>(n, n)};
   derivatives.E0.setFromTriplets(entries0.begin(), entries0.end());
@@ -196,7 +198,7 @@ StressIntensity CornerAnalysis::of(const Vector& u, const std::vector<RadialLoad
     }
     return result;
   }
-  const auto along = [&](const Vector& field, int at) { return Vec2(frame_ * field.segment<2>(2 * at)); };
+  const auto along = [&](const Vector& field, int at) { return Vec2(frame_ * field.segment<2>(place_of(at))); };
   Vector singular = Vector::Zero(u.size());
   for (const ModeGroup& group : modes_.singular) singular += group.Phi * coordinates(group, u, inside);
   const Vec2 opening = along(singular, ring_.last_node()) - along(singular, ring_.first_node());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::element {
@@ -44,13 +45,13 @@ Vector prolonged(const std::vector<mesh::LineElement>& from, const Vector& u, co
     for (std::size_t i = 0; i < points.size(); ++i) {
       Vec2 value = Vec2::Zero();
       if (same) {
-        value = u.segment<2>(2 * from[e].nodes[i]);
+        value = u.segment<2>(place_of(from[e].nodes[i]));
       } else {
         const Vector N = basis.values(points[i]);
         for (std::size_t j = 0; j < from[e].nodes.size(); ++j)
-          value += N[static_cast<Eigen::Index>(j)] * u.segment<2>(2 * from[e].nodes[j]);
+          value += N[static_cast<Eigen::Index>(j)] * u.segment<2>(place_of(from[e].nodes[j]));
       }
-      result.segment<2>(2 * to[e].nodes[i]) = value;
+      result.segment<2>(place_of(to[e].nodes[i])) = value;
     }
   }
   return result;

@@ -176,9 +176,10 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
       joint.b = b;
       return joint;
     };
-    if (const Contact* contact = std::get_if<Contact>(&touching.law))
+    if (const Contact* contact = std::get_if<Contact>(&touching.law)) {
+      reading.contacts_of_entry[entry.key].push_back(static_cast<int>(reading.model.contacts.size()));
       reading.model.contacts.push_back(named(*contact));
-    else
+    } else
       reading.model.ties.push_back(named(std::get<Tie>(touching.law)));
   }
   if (number == 0 && reading.report.clean())
@@ -305,6 +306,7 @@ void read_contact_entry(Reading& reading, ContactProperties& properties, const E
     joints.touching.push_back({&entry, std::move(*contact), between, reach});
   } else {
     joints.taken.insert(contact->a, contact->b);
+    reading.contacts_of_entry[entry.key].push_back(static_cast<int>(reading.model.contacts.size()));
     reading.model.contacts.push_back(std::move(*contact));
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "scabo/input/numbers.hpp"
 
@@ -152,6 +153,67 @@ std::optional<BodyForce> read_body_force(Reading& reading, const Value& value) {
   if (map.is_map() && value.node->entries.empty()) reading.report.error(value, "needs constant, x or y");
   if (reading.report.count() > before) return {};
   return BodyForce{{constant.x(), per_x.x(), per_y.x()}, {constant.y(), per_x.y(), per_y.y()}};
+}
+
+namespace {
+
+std::optional<UniformStress> read_uniform_stress(Reading& reading, const MapReader& map) {
+  const Value value = *map.get("stress");
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != 3) {
+    reading.report.error(value, fmt::format("must be [sxx, syy, sxy], tension positive, not {}",
+                                            value.node->kind == Node::Kind::sequence
+                                                ? fmt::format("a list of {}", value.node->items.size())
+                                                : describe(*value.node)));
+    return {};
+  }
+  UniformStress stress;
+  for (std::size_t i = 0; i < 3; ++i) stress.value[i] = number_or_unread(reading, value.item(i));
+  if (const auto zz = map.get("szz")) stress.zz = number_or_unread(reading, zz);
+  return stress;
+}
+
+std::optional<GroundStress> read_ground_stress(Reading& reading, const MapReader& map) {
+  GroundStress ground;
+  ground.K0 = number_or_unread(reading, map.need("K0"));
+  const MapReader vertical(reading.report, *map.get("vertical"), {"unit_weight", "surface", "surcharge", "up"},
+                           "{unit_weight: 20e3, surface: 0}",
+                           {{"density", "give unit_weight, density times the acceleration of gravity"},
+                            {"level", "write surface"},
+                            {"depth", "give surface, a coordinate"}});
+  if (!vertical.is_map()) return {};
+  ground.unit_weight = number_or_unread(reading, vertical.need("unit_weight"));
+  ground.surface = number_or_unread(reading, vertical.need("surface"));
+  if (const auto surcharge = vertical.get("surcharge")) ground.surcharge = number_or_unread(reading, surcharge);
+  if (const auto up = vertical.get("up"))
+    if (const auto direction = read_vector(reading.report, *up))
+      ground.up = direction->norm() > 0.0 ? Vec2(direction->stableNormalized()) : Vec2(Vec2::Zero());
+  return ground;
+}
+
+}  // namespace
+
+std::optional<decltype(Load::kind)> read_field(Reading& reading, const Value& value) {
+  const std::size_t before = reading.report.count();
+  const MapReader map(reading.report, value, {"stress", "szz", "vertical", "K0"}, "{stress: [-5e6, -10e6, 0]}");
+  if (!map.is_map()) return {};
+  if (map.has("stress") == map.has("vertical")) {
+    if (map.all_known())
+      reading.report.error(value,
+                           "needs stress: [sxx, syy, sxy], the same everywhere, or vertical: {unit_weight, "
+                           "surface} and K0, of ground under its weight");
+    return {};
+  }
+  for (const char* key : {"szz", "K0"})
+    if (map.has(key) && map.has("stress") == (std::string_view(key) == "K0"))
+      map.refuse(key, map.has("stress") ? "belongs to vertical: leave it out" : "belongs to stress: leave it out");
+  std::optional<decltype(Load::kind)> kind;
+  if (map.has("stress")) {
+    if (const auto stress = read_uniform_stress(reading, map)) kind = *stress;
+  } else if (const auto ground = read_ground_stress(reading, map)) {
+    kind = *ground;
+  }
+  if (reading.report.count() > before) return {};
+  return kind;
 }
 
 std::optional<Temperature> read_temperature(Reading& reading, const Value& value) {

@@ -5,12 +5,16 @@
 
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/input/read_inner_loads.hpp"
+#include "scabo/input/suggestions.hpp"
 
 namespace scabo::input {
 
 namespace {
 
 constexpr const char* load_example = "{on: upper.top_right, force: [0, -100e3]}";
+
+const std::vector<std::string> load_keys = {"on",    "in",      "force",      "moment",      "traction", "pressure",
+                                            "water", "gravity", "body_force", "temperature", "field"};
 
 constexpr const char* table_example[2] = {"{at: [[0, 0], [0, 3]], values: [[1e3, 0], [0, 0]]}",
                                           "{at: [[0, 0], [0, 3]], values: [30e3, 0]}"};
@@ -103,8 +107,14 @@ std::optional<Water> read_water(Reading& reading, const Value& value) {
 std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& value, const std::string& kind,
                                               bool on_face, const std::optional<Place>& on) {
   if (kind == "water") return read_water(reading, value);
+  if (kind == "moment") {
+    const auto moment = read_number(reading.report, value);
+    if (!moment) return {};
+    return Moment{*moment};
+  }
   if (kind == "body_force") return read_body_force(reading, value);
   if (kind == "temperature") return read_temperature(reading, value);
+  if (kind == "field") return read_field(reading, value);
   if (on_face) return read_face_traction(reading, value, kind == "pressure");
   // Powers and points of xi, which only side faces take.
   const bool is_map = value.node->kind == Node::Kind::map;
@@ -128,35 +138,68 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
   return Gravity{*vector};
 }
 
+/// `{in: joint, pressure: p}`, a table over x or y, or water.
+std::optional<Load> read_load_in_contact(Reading& reading, const Entry& entry, const MapReader& map) {
+  Report& report = reading.report;
+  const std::size_t before = report.count();
+  for (const char* key : {"on", "force", "moment", "traction", "gravity", "body_force", "temperature", "field"})
+    map.refuse(key, "does not go together with in: in contacts there are pressure and water");
+  if (map.has("pressure") == map.has("water")) {
+    if (report.count() == before && map.all_known())
+      report.error(entry.key_source, "in a contact needs pressure or water, one of the two");
+    return {};
+  }
+  PorePressure pores;
+  if (map.has("water")) {
+    if (const auto water = read_water(reading, *map.get("water"))) pores.value = *water;
+  } else if (const Value value = *map.get("pressure"); value.node->kind != Node::Kind::map) {
+    pores.value = number_or_unread(reading, value);
+  } else if (const auto over = MapReader(report, value, {"at", "over", "values"}, table_example[1]).get("over");
+             !over || over->node->text == "length") {
+    report.error(value, "in a contact a table is over numbers: add over: x or over: y");
+  } else if (const auto table = read_table(reading, value, {}, true)) {
+    pores.value = *table;
+  }
+  if (report.count() > before) return {};
+  Load load;
+  load.name = entry.key;
+  load.source = entry.key_source;
+  load.kind = std::move(pores);
+  return load;
+}
+
 std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, entry.value,
-                      {"on", "force", "traction", "pressure", "water", "gravity", "body_force", "temperature"},
-                      load_example, {{"moment", "use two opposite forces"}});
+  const MapReader map(report, entry.value, load_keys, load_example);
   if (!map.is_map()) return {};
+  if (map.has("in")) return read_load_in_contact(reading, entry, map);
   Load load;
   load.name = entry.key;
   load.source = entry.key_source;
   std::vector<std::string> kinds;
-  for (const char* kind : {"force", "traction", "pressure", "water", "gravity", "body_force", "temperature"}) {
+  for (const char* kind :
+       {"force", "moment", "traction", "pressure", "water", "gravity", "body_force", "temperature", "field"}) {
     if (map.has(kind)) kinds.emplace_back(kind);
   }
   if (kinds.size() > 1) {
-    report.error(entry.key_source, fmt::format("needs exactly one of force, traction, pressure, water, gravity, "
-                                               "body_force and temperature, not both {} and "
-                                               "{}",
-                                               kinds[0], kinds[1]));
+    report.error(entry.key_source,
+                 fmt::format("needs exactly one of force, moment, traction, pressure, water, gravity, "
+                             "body_force, temperature and field, not both {} and "
+                             "{}",
+                             kinds[0], kinds[1]));
     return {};
   }
   if (kinds.empty()) {
     if (report.count() == before)
       report.error(entry.key_source,
-                   "needs exactly one of force, traction, pressure, water, gravity, body_force and temperature");
+                   "needs exactly one of force, moment, traction, pressure, water, gravity, body_force, temperature "
+                   "and field");
     return {};
   }
   const std::string& kind = kinds.front();
-  const auto on = kind == "gravity" || kind == "temperature" ? map.get("on") : map.need("on");
+  const bool of_all = kind == "gravity" || kind == "temperature" || kind == "field";
+  const auto on = of_all ? map.get("on") : map.need("on");
   if (on) {
     load.on = read_place(reading, *on).place;
   }
@@ -186,6 +229,9 @@ void read_loads(Reading& reading, const Value& value) {
     }
     if (auto load = read_load(reading, entry)) {
       index = static_cast<int>(reading.model.loads.size());
+      if (std::holds_alternative<PorePressure>(load->kind))
+        reading.loads_in_contacts.emplace_back(
+            reading.model.loads.size(), *MapReader(reading.report, entry.value, load_keys, load_example).get("in"));
       reading.model.loads.push_back(std::move(*load));
     } else {
       reading.conditions_known = false;
@@ -193,6 +239,24 @@ void read_loads(Reading& reading, const Value& value) {
   }
   if (reading.report.count() > before) reading.conditions_known = false;
   reading.places_known = places_known;
+}
+
+void find_contacts_of_loads(Reading& reading) {
+  for (const auto& [index, value] : reading.loads_in_contacts) {
+    const auto name = read_text(reading.report, value);
+    if (!name) continue;
+    auto& pores = std::get<PorePressure>(reading.model.loads[index].kind);
+    if (const auto entry = reading.contacts_of_entry.find(*name); entry != reading.contacts_of_entry.end())
+      pores.contacts = entry->second;
+    const auto& contacts = reading.model.contacts;
+    for (std::size_t c = 0; c < contacts.size() && pores.contacts.empty(); ++c)
+      if (contacts[c].name == *name) pores.contacts = {static_cast<int>(c)};
+    if (!pores.contacts.empty() || !reading.conditions_known) continue;
+    std::vector<std::string> known;
+    for (const Contact& contact : contacts) known.push_back(contact.name);
+    reading.report.error(value, fmt::format("there is no contact '{}'{}", *name, suggestion(*name, known)));
+    reading.conditions_known = false;
+  }
 }
 
 }  // namespace scabo::input

@@ -82,7 +82,7 @@ void check_version(Reading& reading, const MapReader& map) {
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads",
+                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
                        "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
@@ -105,8 +105,10 @@ void read_sections(Reading& reading, const Value& root) {
   if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.rigid; })) map.need("materials");
 
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
+  if (const auto springs = map.get("springs")) read_springs(reading, *springs);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
   read_contacts_and_ties(reading, map.get("contact_properties"), map.get("contacts"), map.get("ties"));
+  find_contacts_of_loads(reading);
   tell_of_pieces(reading);
   const std::size_t before_steps = reading.report.count();
   if (const auto curves = map.get("curves")) read_curves(reading, *curves);
@@ -152,6 +154,29 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
                        support.name)});
 }
 
+/// Warns of gravity on a body whose stress is already that of ground under its weight.
+void tell_of_weight_twice(Model& model) {
+  const auto acts_on = [](const Load& load, int body, const Body& of) {
+    return load.on ? load.on->body == body : !of.rigid;
+  };
+  for (const Load& gravity : model.loads)
+    for (const Load& field : model.loads) {
+      if (!std::holds_alternative<Gravity>(gravity.kind) || !std::holds_alternative<GroundStress>(field.kind)) continue;
+      for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        const Body& body = model.bodies[b];
+        const auto index = static_cast<int>(b);
+        if (body.outside || !acts_on(gravity, index, body) || !acts_on(field, index, body)) continue;
+        model.warnings.push_back(
+            {WarningKind::input, gravity.name,
+             fmt::format(
+                 "gravity '{}' acts on body '{}', whose stress '{}' is that of ground under its weight already: "
+                 "the weight counts twice; name the other bodies by 'on', if it should not",
+                 gravity.name, body.name, field.name)});
+        break;
+      }
+    }
+}
+
 /// What validate cannot judge, because it could not be read.
 Gaps gaps_of(const Reading& reading) {
   Gaps gaps;
@@ -174,6 +199,7 @@ Model read_tree(Reading& reading, const NodePtr& tree, const std::string& file) 
   read_sections(reading, whole);
   reading.report.add(whole, validate(reading.model, gaps_of(reading)));
   tell_what_has_no_effect(reading, whole);
+  tell_of_weight_twice(reading.model);
   reading.report.throw_if_any(file);
   return std::move(reading.model);
 }

@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t most_factors = 20'000'000;
 
 bool is_fixed(const Support& support) {
-  return std::all_of(support.displacement.begin(), support.displacement.end(),
+  return support.rotation.value_or(0.0) == 0.0 &&
+         std::all_of(support.displacement.begin(), support.displacement.end(),
                      [](const std::optional<double>& u) { return !u || *u == 0.0; });
 }
 

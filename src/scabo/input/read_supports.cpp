@@ -146,7 +146,7 @@ std::optional<Prescribed> read_displacement(Reading& reading, const Value& value
 std::optional<Support> read_support(Reading& reading, const Value& value) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"on", "fix", "displacement", "name"}, support_example);
+  const MapReader map(report, value, {"on", "fix", "displacement", "rotation", "at", "name"}, support_example);
   Support support;
   support.source = value.source();
   if (const auto name = map.get("name")) {
@@ -162,7 +162,17 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map()) return {};
   std::optional<Prescribed> prescribed;
-  if (map.has("fix") == map.has("displacement")) {
+  const auto rotation = map.get("rotation");
+  if (rotation) support.rotation = number_or_unread(reading, rotation);
+  if (const auto at = map.get("at")) {
+    if (!rotation) map.refuse("at", "is the point that a rotation is about: give a rotation too, 0 to prevent it");
+    support.at = read_vector(report, *at);
+  }
+  if (rotation && map.has("fix"))
+    map.refuse("rotation", "does not go together with fix: write displacement: [0, 0] beside it");
+  if (rotation && !map.has("fix") && !map.has("displacement")) {
+    prescribed = Prescribed{};
+  } else if (map.has("fix") == map.has("displacement")) {
     if (map.has("fix") || report.count() == before) {
       report.error(value, map.has("fix") ? "needs one of fix and displacement, not both" : "needs fix or displacement");
     }

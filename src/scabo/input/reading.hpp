@@ -51,6 +51,10 @@ struct Reading {
   Index index_of_body;                      ///< in model.bodies
   Index index_of_material;                  ///< in model.materials
   Index index_of_load;                      ///< in model.loads; -1 for a broken load
+  /// Loads that act in a contact, by their index in model.loads, and its name: contacts are read after loads.
+  std::vector<std::pair<std::size_t, Value>> loads_in_contacts;
+  /// Indices in model.contacts of what every entry of the section gave.
+  std::map<std::string, std::vector<int>> contacts_of_entry;
   std::set<std::string> own_support_names;  ///< given by the user
   std::vector<bool> support_is_named;       ///< for each of model.supports: its name was given by the user
   bool conditions_known = true;             ///< false: a load, support or contact is broken
@@ -76,9 +80,12 @@ void read_output(Reading& reading, const Value& value);
 void read_materials(Reading& reading, const Value& value);
 void read_bodies(Reading& reading, const Value& value);
 void read_supports(Reading& reading, const Value& value);
+void read_springs(Reading& reading, const Value& value);
 void read_loads(Reading& reading, const Value& value);
 void read_contacts_and_ties(Reading& reading, const std::optional<Value>& properties_section,
                             const std::optional<Value>& contacts, const std::optional<Value>& ties);
+/// Finds the contacts of loads that act in contacts, after both are read.
+void find_contacts_of_loads(Reading& reading);
 /// Before the steps, which refer to them.
 void read_curves(Reading& reading, const Value& value);
 /// If the section is absent, there is one step that takes everything to factor 1.

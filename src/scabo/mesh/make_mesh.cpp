@@ -92,6 +92,7 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
                                             body.name, body.cracks.front().name)});
   };
   for (const model::Support& support : model.supports) look(support.on, support.on.source);
+  for (const model::Spring& spring : model.springs) look(spring.on, spring.on.source);
   for (const model::Load& load : model.loads)
     if (load.on) look(*load.on, load.on->source);
   return mistakes;

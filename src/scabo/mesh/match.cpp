@@ -425,6 +425,7 @@ FixedNodes fixed_nodes(const model::Model& model, const std::vector<BodyMesh>& b
     fixed[static_cast<std::size_t>(place.body)].insert(nodes.begin(), nodes.end());
   };
   for (const model::Support& support : model.supports) hold(support.on);
+  for (const model::Spring& spring : model.springs) hold(spring.on);
   for (const model::Load& load : model.loads)
     if (load.on) hold(*load.on);
   for (std::size_t b = 0; b < bodies.size(); ++b)

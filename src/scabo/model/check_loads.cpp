@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "scabo/geometry/box.hpp"
 #include "scabo/model/checking.hpp"
 
 namespace scabo::model {
@@ -23,12 +24,15 @@ Cases(Functions...) -> Cases<Functions...>;
 /// The key of a load in a model file.
 const char* key_of(const Load& load) {
   return std::visit(
-      Cases{[](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
-            [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
-            [](const BodyForce&) { return "body_force"; }, [](const Temperature&) { return "temperature"; },
-            [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; },
-            [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
-            [](const Water&) { return "water"; }},
+      Cases{
+          [](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
+          [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
+          [](const BodyForce&) { return "body_force"; }, [](const Temperature&) { return "temperature"; },
+          [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; },
+          [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
+          [](const Water&) { return "water"; }, [](const UniformStress&) { return "field"; },
+          [](const GroundStress&) { return "field"; }, [](const Moment&) { return "moment"; },
+          [](const PorePressure& pores) { return std::holds_alternative<Water>(pores.value) ? "water" : "pressure"; }},
       load.kind);
 }
 
@@ -49,9 +53,30 @@ const char* kind_text(Place::Kind kind) {
   return "";
 }
 
+bool is_straight(const Edge& edge) {
+  const Vec2 along = (edge.end - edge.start).normalized();
+  if (edge.arc || (edge.end - edge.start).norm() == 0.0) return false;
+  for (int i = 1; i < edge.segments(); ++i)
+    if (std::abs(cross(along, edge.chain_point(i) - edge.start)) > 1e-9 * edge.length()) return false;
+  return true;
+}
+
 /// Why a load of this kind cannot act on a place, and an alternative; empty if it can.
 std::string why_not_on(const Body& of, const Place& place, const std::string& kind) {
   const std::string& body = of.name;
+  if (kind == "field") {
+    if (place.kind != Place::Kind::body) return fmt::format("a field acts on a whole body: write on: {}", body);
+    return of.rigid ? fmt::format("'{}' is rigid: it has no stress", body) : "";
+  }
+  if (kind == "moment") {
+    if (of.rigid) return place.kind == Place::Kind::body ? "" : fmt::format("'{0}' is rigid: write on: {0}", body);
+    const bool straight =
+        place.kind == Place::Kind::edge && is_straight(of.outline.edges[static_cast<std::size_t>(place.index)]);
+    return straight
+               ? ""
+               : "a moment on an elastic body acts on a straight edge, as a linear traction along its normal: name "
+                 "one, or give two opposite forces";
+  }
   if (kind == "gravity" || kind == "body_force" || kind == "temperature") {
     if (place.kind != Place::Kind::body) return fmt::format("{} acts on a whole body: write on: {}", kind, body);
     if (of.rigid)
@@ -155,6 +180,45 @@ bool check_water(Checking& checking, const std::string& path, const Water& water
   return false;
 }
 
+bool check_uniform(Checking& checking, const std::string& path, const UniformStress& stress) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!checking.number(path, fmt::format("field.stress.{}", i), stress.value[i])) return false;
+  if (!stress.zz) return true;
+  if (!checking.number(path, "field.szz", *stress.zz)) return false;
+  if (checking.model.analysis.plane == Plane::strain) return true;
+  checking.error(path, "field.szz", "there is no stress out of the plane in plane stress: leave it out");
+  return false;
+}
+
+bool check_ground(Checking& checking, const std::string& path, const GroundStress& ground,
+                  const std::optional<Place>& on) {
+  if (!checking.positive(path, "field.vertical.unit_weight", ground.unit_weight) ||
+      !checking.number(path, "field.vertical.surface", ground.surface) ||
+      !checking.not_negative(path, "field.vertical.surcharge", ground.surcharge) ||
+      !checking.not_negative(path, "field.K0", ground.K0))
+    return false;
+  if (std::abs(ground.up.norm() - 1.0) > 1e-9) {
+    checking.error(path, "field.vertical.up",
+                   "must not be [0, 0]: it is the direction in which the depth decreases, as in [0, 1]");
+    return false;
+  }
+  for (std::size_t b = 0; b < checking.model.bodies.size(); ++b) {
+    const Body& body = checking.model.bodies[b];
+    if (on ? on->body != static_cast<int>(b) : body.rigid) continue;
+    if (!checking.sound_shape(static_cast<int>(b))) continue;
+    double highest = -HUGE_VAL;
+    for (const Edge& edge : body.outline.edges)
+      for (const double t : {0.0, 0.25, 0.5, 0.75}) highest = std::max(highest, ground.up.dot(edge.at(t)));
+    if (highest <= ground.surface + 1e-6 * geometry::outline_size(body.outline)) continue;
+    checking.error(path, "field.vertical.surface",
+                   fmt::format("body '{}' reaches to {:.6g}, above the surface at {}: raise the surface, or name the "
+                               "bodies below it by 'on'",
+                               body.name, highest, number_text(ground.surface)));
+    return false;
+  }
+  return true;
+}
+
 bool check_values(Checking& checking, const std::string& path, const Load& load) {
   const std::string kind = key_of(load);
   const auto of_vector = [&](const auto& with) { return checking.vector(path, kind, with.value); };
@@ -169,15 +233,32 @@ bool check_values(Checking& checking, const std::string& path, const Load& load)
             },
             [&](const Temperature& temperature) { return check_linear(checking, path, kind, temperature.change); },
             [&](const EdgeTable& table) { return check_table(checking, path, kind, table); },
-            [&](const Water& water) { return check_water(checking, path, water); }},
+            [&](const Water& water) { return check_water(checking, path, water); },
+            [&](const UniformStress& stress) { return check_uniform(checking, path, stress); },
+            [&](const Moment& moment) { return checking.number(path, kind, moment.value); },
+            [&](const PorePressure& pores) {
+              if (const auto* table = std::get_if<EdgeTable>(&pores.value))
+                return check_table(checking, path, kind, *table);
+              if (const auto* water = std::get_if<Water>(&pores.value)) return check_water(checking, path, *water);
+              return checking.number(path, kind, std::get<double>(pores.value));
+            },
+            [&](const GroundStress& ground) { return check_ground(checking, path, ground, load.on); }},
       load.kind);
 }
 
 /// Whether a load acts where loads of its kind can.
 bool check_on(Checking& checking, const std::string& path, const Load& load) {
   const std::string kind = key_of(load);
+  if (const auto* pores = std::get_if<PorePressure>(&load.kind)) {
+    const auto count = static_cast<int>(checking.model.contacts.size());
+    const bool known = std::all_of(pores->contacts.begin(), pores->contacts.end(),
+                                   [&](int contact) { return contact >= 0 && contact < count; });
+    if (known && !pores->contacts.empty()) return true;
+    if (!checking.gaps.conditions) checking.error(path, "in", "names no contact of the model");
+    return false;
+  }
   if (!load.on) {
-    if (kind == "gravity" || kind == "temperature") return true;
+    if (kind == "gravity" || kind == "temperature" || kind == "field") return true;
     checking.error(path, "", "'on' is missing");
     return false;
   }

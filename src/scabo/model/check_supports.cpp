@@ -40,6 +40,30 @@ bool check_axes(Checking& checking, const std::string& path, const Support& supp
   return false;
 }
 
+/// Whether a support that prescribes a rotation acts on a rigid body.
+bool check_rotation(Checking& checking, const std::string& path, const Support& support) {
+  if (!support.rotation) return true;
+  if (!checking.number(path, "rotation", *support.rotation)) return false;
+  constexpr double largest = 0.1;
+  if (std::abs(*support.rotation) > largest) {
+    checking.error(path, "rotation",
+                   fmt::format("must be from -0.1 to 0.1, not {}: it is in radians, and the theory is valid for small "
+                               "rotations only",
+                               number_text(*support.rotation)),
+                   number_text(*support.rotation));
+    return false;
+  }
+  if (support.at && !checking.vector(path, "at", *support.at)) return false;
+  if (!checking.is_body(support.on.body)) return true;
+  const Body& body = checking.body(support.on.body);
+  if (body.rigid && support.on.kind == Place::Kind::body && support.axes == SupportAxes::xy) return true;
+  checking.error(path, "rotation",
+                 body.rigid
+                     ? fmt::format("is that of a rigid body as a whole: write on: {}", body.name)
+                     : fmt::format("'{}' is elastic: only rigid bodies have a rotation; put one on it", body.name));
+  return false;
+}
+
 }  // namespace
 
 void check_supports(Checking& checking) {
@@ -69,7 +93,8 @@ void check_supports(Checking& checking) {
       if (support.displacement[c] &&
           !checking.number(path, key_of_component(support.axes, c), *support.displacement[c]))
         good = false;
-    if (!support.displacement[0] && !support.displacement[1]) {
+    good = check_rotation(checking, path, support) && good;
+    if (!support.displacement[0] && !support.displacement[1] && !support.rotation) {
       checking.error(path, "displacement", "prescribes no displacement: give a number for x or y");
       good = false;
     }
@@ -188,7 +213,8 @@ void check_conflicting_supports(Checking& checking) {
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];
     // Along other directions they are compared at the nodes (system/structure.cpp).
-    if (!checking.support[i] || support.axes != SupportAxes::xy) continue;
+    // Where a rotation is prescribed, points move differently: the body compares them (system/body_system.hpp).
+    if (!checking.support[i] || support.axes != SupportAxes::xy || support.rotation) continue;
     Places& places = of_body[static_cast<std::size_t>(support.on.body)];
     const auto at = places.find(key_of(support.on));
     // A whole body shares points with all places; once one was compared, another like it adds nothing.

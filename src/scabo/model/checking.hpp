@@ -23,8 +23,9 @@ class Checking {
   Gaps gaps;                   ///< those of the reader, and parts that turned out to be wrong
   std::vector<char> shape;     ///< per body: its outline is sound
   std::vector<char> faces;     ///< per body: its cracks and side faces are sound
-  std::vector<char> held;      ///< per body: it has a support
+  std::vector<char> held;      ///< per body: it has a support or springs
   std::vector<char> touched;   ///< per body: it has a contact or tie
+  std::vector<char> sprung;    ///< per body: it has springs
   std::vector<char> support;   ///< per support: it is sound
   std::vector<char> load;      ///< per load: it is sound
   std::vector<Mistake> found;  ///< the mistakes
@@ -68,6 +69,7 @@ void check_solver(Checking& checking);
 void check_materials(Checking& checking);
 void check_bodies(Checking& checking);
 void check_supports(Checking& checking);
+void check_springs(Checking& checking);
 void check_loads(Checking& checking);
 void check_contacts_and_ties(Checking& checking);
 void check_steps(Checking& checking);

@@ -187,6 +187,20 @@ struct Support {
   Source source;
   SupportAxes axes = SupportAxes::xy;
   Vec2 along = Vec2(1.0, 0.0);  ///< unit vector, of SupportAxes::direction
+  /// Rigid body as a whole: its rotation, counter-clockwise at factor 1, radians. The displacement is then that of the
+  /// point `at`, or of its centroid, and the moment of the support about this point is among the results.
+  std::optional<double> rotation = {};
+  std::optional<Vec2> at = {};
+};
+
+/// Springs between a place and the ground, which does not move. They push and pull from the start of the analysis on.
+struct Spring {
+  std::string name;  ///< given by the user, or the text of the place, made unique
+  Place on;          ///< an edge, or a corner or point
+  /// Edge: along its outward normal and its tangent, force / length^3 (traction per displacement, over the thickness).
+  /// Corner or point: along x and y, force / length. 0 or more, one of them more than 0.
+  std::array<double, 2> stiffness{};
+  Source source;
 };
 
 struct Force {
@@ -242,10 +256,40 @@ struct Water {
   Vec2 up = Vec2(0.0, 1.0);  ///< unit vector
 };
 
+/// Stress of a body before anything is done to it, the same everywhere; of an unbounded body that far from it.
+struct UniformStress {
+  std::array<double, 3> value{};  ///< [xx, yy, xy], force / length^2, tension positive
+  std::optional<double> zz;       ///< plane strain; otherwise by the law of the material
+};
+/// Stress of ground under its own weight: linear in depth, with its surface at right angles to `up`.
+struct GroundStress {
+  double unit_weight = 0.0;  ///< force / length^3, > 0
+  double surface = 0.0;      ///< up . x of the surface, below which the bodies lie
+  double K0 = 0.0;           ///< horizontal stress over vertical stress, >= 0
+  double surcharge = 0.0;    ///< force / length^2, pressure on the surface, >= 0
+  Vec2 up = Vec2(0.0, 1.0);  ///< unit vector
+};
+
+/// A moment, force times length, counter-clockwise: on an edge as a traction along its normal that is linear along it
+/// and has no resultant, on a rigid body.
+struct Moment {
+  double value = 0.0;
+};
+
+/// Pressure of a fluid in contacts, on both sides of open and closed pairs. Forces of the pairs are then effective
+/// ones.
+struct PorePressure {
+  std::vector<int> contacts;  ///< indices into Model::contacts
+  /// The same everywhere; a table over x or y; or that of still water.
+  std::variant<double, EdgeTable, Water> value = 0.0;
+};
+
 struct Load {
   std::string name;
-  std::optional<Place> on;  ///< empty: gravity or temperature of every elastic body
-  std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature, EdgeTable, Water> kind;
+  std::optional<Place> on;  ///< empty: gravity, temperature or stress of every elastic body, or in contacts
+  std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature, EdgeTable, Water,
+               UniformStress, GroundStress, Moment, PorePressure>
+      kind;
   Source source;
 };
 
@@ -406,6 +450,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Support> supports;
+  std::vector<Spring> springs;
   std::vector<Load> loads;
   std::vector<Contact> contacts;
   std::vector<Tie> ties;

@@ -29,6 +29,7 @@ Checking::Checking(const Model& checked, const Gaps& reader_gaps)
       faces(checked.bodies.size(), 0),
       held(reader_gaps.held),
       touched(reader_gaps.touched),
+      sprung(checked.bodies.size(), 0),
       support(checked.supports.size(), 0),
       load(checked.loads.size(), 0) {
   held.resize(checked.bodies.size(), 0);
@@ -154,9 +155,11 @@ bool may_interfere(const Checking& checking, const Contact& contact) {
 void check_something_loads(Checking& checking) {
   const Model& model = checking.model;
   if (checking.gaps.conditions || !model.loads.empty() || model.bodies.empty()) return;
-  for (const Support& support : model.supports)
+  for (const Support& support : model.supports) {
+    if (support.rotation.value_or(0.0) != 0.0) return;
     for (const auto& displacement : support.displacement)
       if (displacement.value_or(0.0) != 0.0) return;
+  }
   for (const Contact& contact : model.contacts)
     if (may_interfere(checking, contact)) return;
   checking.enter({});
@@ -171,6 +174,7 @@ void check_bodies_held(Checking& checking) {
     if (checking.touched[i]) continue;
     checking.enter(body.source);
     if (body.rigid) {
+      if (checking.sprung[i]) continue;
       checking.error_of_key(
           path_of("bodies", body.name, i), "",
           fmt::format("rigid body '{}' is in no contact and has no effect: add a contact, or remove the body",
@@ -179,7 +183,7 @@ void check_bodies_held(Checking& checking) {
     } else if (!checking.held[i] && !body.outside) {
       checking.error_of_key(
           path_of("bodies", body.name, i), "",
-          fmt::format("body '{}' is insufficiently supported: it has no support, contact or tie", body.name));
+          fmt::format("body '{}' is insufficiently supported: it has no support, springs, contact or tie", body.name));
       checking.of_whole();
     }
   }
@@ -192,6 +196,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   check_materials(checking);
   check_bodies(checking);
   check_supports(checking);
+  check_springs(checking);
   check_loads(checking);
   check_contacts_and_ties(checking);
   check_steps(checking);

@@ -1,5 +1,7 @@
 #include "scabo/result/cell_polygons.hpp"
 
+#include "scabo/base/components.hpp"
+
 namespace scabo::result {
 
 CellPolygons cell_polygons(const analysis::StaticSolution& solution, const analysis::FieldState& state) {
@@ -9,7 +11,7 @@ CellPolygons cell_polygons(const analysis::StaticSolution& solution, const analy
   for (std::size_t b = 0; b < solution.mesh.bodies.size(); ++b) {
     const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-      const Vec2 u = state.displacements[b].segment<2>(static_cast<Eigen::Index>(2 * i)) - state.reference_displacement;
+      const Vec2 u = state.displacements[b].segment<2>(place_of(i)) - state.reference_displacement;
       polygons.points.insert(polygons.points.end(), {mesh.nodes[i].x(), mesh.nodes[i].y(), 0.0});
       polygons.displacement.insert(polygons.displacement.end(), {u.x(), u.y(), 0.0});
     }

@@ -135,7 +135,8 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
         result.values.displacement = rows.N * u - increment.fields.reference_displacement;
         result.values.strain = rows.B * u;
         result.values.stress =
-            super_element->sectors.D.of(static_cast<std::size_t>(place.scaled.element)) * result.values.strain;
+            super_element->sectors.D.of(static_cast<std::size_t>(place.scaled.element)) * result.values.strain +
+            increment.fields.initial_of(b).at(x);
       } else {
         const auto values = named.rigid ? probe->at(x) : std::optional(probe->at(x, place));
         ensure(values.has_value(), "a point of a body has no value");
@@ -155,10 +156,12 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
                                            solution.model.analysis.plane) *
                    temperature;
       }
-      result.stress_zz =
-          element::stress_zz(result.values.stress, solution.model.materials[static_cast<std::size_t>(material)],
-                             solution.model.analysis.plane, temperature);
-      result.energy_density = 0.5 * result.values.stress.dot(elastic);
+      const model::Material& of_point = solution.model.materials[static_cast<std::size_t>(material)];
+      const element::InitialStress& initial = increment.fields.initial_of(b);
+      const element::Vec3 change = result.values.stress - initial.at(x);
+      result.stress_zz = element::stress_zz(change, of_point, solution.model.analysis.plane, temperature) +
+                         initial.zz_at(x, of_point, solution.model.analysis.plane);
+      result.energy_density = 0.5 * change.dot(elastic);
     }
   }
   return results;

@@ -103,6 +103,7 @@ element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
   } else {
     values = FiniteElementState(solution_, state_, body_, place.cell).at(place.natural);
   }
+  values.stress += state_.initial_of(body_).at(x);
   values.displacement -= reference_displacement_;
   return values;
 }

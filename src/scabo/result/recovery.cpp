@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "scabo/base/components.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
@@ -19,9 +20,17 @@ namespace {
 
 constexpr int ring_count = 10, inner_rings = 6;
 
-double zz_of(const analysis::StaticSolution& solution, int material, const element::Vec3& stress, double temperature) {
-  return element::stress_zz(stress, solution.model.materials[static_cast<std::size_t>(material)],
-                            solution.model.analysis.plane, temperature);
+/// Sets the values of a point at x, of whose stress `change` is what came with the deformation.
+void set_values(Fields& fields, std::size_t point, const Vec2& u, const element::Vec3& change, const Vec2& x,
+                const analysis::StaticSolution& solution, int material, double temperature,
+                const element::InitialStress& initial) {
+  const model::Material& of_point = solution.model.materials[static_cast<std::size_t>(material)];
+  const model::Plane plane = solution.model.analysis.plane;
+  const double zz = element::stress_zz(change, of_point, plane, temperature);
+  if (initial.is_zero())
+    fields.set(point, u, change, zz);
+  else
+    fields.set(point, u, change + initial.at(x), zz + initial.zz_at(x, of_point, plane));
 }
 
 /// How many cells are equal to a super-element.
@@ -193,7 +202,7 @@ Eigen::Matrix3Xd ring_stresses(const element::SolvedSuperElement& super_element,
     element::Vec3 strain = -super_element.sectors.unit_strain_of(sample.element) *
                            temperature.at(centre + xi * super_element.ring.node(sampling.nodes[point]));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto local = static_cast<Eigen::Index>(2 * i), global = static_cast<Eigen::Index>(2 * nodes[i]);
+      const auto local = place_of(i), global = place_of(nodes[i]);
       strain.noalias() += sample.B1.middleCols<2>(local) * values.u_xi.segment<2>(global);
       strain.noalias() += sample.B2.middleCols<2>(local) * values.u_part.segment<2>(global);
     }
@@ -213,7 +222,8 @@ void values_inside(const element::SolvedSuperElement& super_element, const Vec2&
     const element::RadialField::Values values = field.at(xi);
     const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, xi, temperature);
     for (std::size_t i = 0; i < sampling.nodes.size(); ++i)
-      set(Vec2(values.u.segment<2>(2 * sampling.nodes[i])), element::Vec3(stresses.col(static_cast<Eigen::Index>(i))),
+      set(Vec2(values.u.segment<2>(place_of(sampling.nodes[i]))),
+          element::Vec3(stresses.col(static_cast<Eigen::Index>(i))),
           super_element.sectors.material_of(sampling.sectors[i]),
           Vec2(xi * super_element.ring.node(sampling.nodes[i])));
   }
@@ -236,10 +246,11 @@ void values_inside(const element::SolvedSuperElement& super_element, const Vec2&
 void recover_inside(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
                     const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
                     const element::RadialField& field, const element::LinearField& temperature,
-                    std::size_t first_level) {
+                    const element::InitialStress& initial, std::size_t first_level) {
   values_inside(super_element, centre, sampling, field, temperature, first_level,
                 [&](const Vec2& u, const element::Vec3& stress, int material, const Vec2& x) {
-                  fields.set(point++, u, stress, zz_of(solution, material, stress, temperature.at(centre + x)));
+                  set_values(fields, point++, u, stress, centre + x, solution, material, temperature.at(centre + x),
+                             initial);
                 });
 }
 
@@ -251,15 +262,17 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
   const element::InteriorLoads& interior = element::loads_in(state.interior[body], 0);
   const element::RadialField field(super_element.solution(), super_element.modes(), boundary, interior.loads);
   const std::size_t first = point;
-  recover_inside(fields, first, solution, super_element, centre, sampling, field, interior.temperature, 0);
+  recover_inside(fields, first, solution, super_element, centre, sampling, field, interior.temperature,
+                 state.initial_of(body), 0);
   for (std::size_t i = 0; i < sampling.nodes.size(); ++i)  // exactly, without the field
-    fields.set_displacement(first + i, boundary.segment<2>(2 * sampling.nodes[i]));
+    fields.set_displacement(first + i, boundary.segment<2>(place_of(sampling.nodes[i])));
 }
 
 /// By the map of its super-element, which many cells share. Displacements are relative to the first node: the map then
 /// gives a translation no stress, not even by rounding.
 Eigen::Matrix3Xd recover_mapped_cell(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
-                                     const CellsBody::OfCell& of_cell, Vector own) {
+                                     const CellsBody::OfCell& of_cell, Vector own, const Grid& grid,
+                                     const element::InitialStress& initial) {
   const CellMap& map = *of_cell.sampling->map;
   const Vec2 shift = own.head<2>();
   own.reshaped(2, own.size() / 2).colwise() -= shift;
@@ -267,8 +280,10 @@ Eigen::Matrix3Xd recover_mapped_cell(Fields& fields, std::size_t point, const an
   const auto inside = static_cast<Eigen::Index>(map.materials.size());
   for (Eigen::Index i = 0; i < inside; ++i) {
     const element::Vec3 stress = values.segment<3>(5 * i + 2);
-    fields.set(point++, Vec2(shift + values.segment<2>(5 * i)), stress,
-               zz_of(solution, map.materials[static_cast<std::size_t>(i)], stress, 0.0));
+    set_values(fields, point, Vec2(shift + values.segment<2>(5 * i)), stress,
+               Vec2(grid.points[3 * point], grid.points[3 * point + 1]), solution,
+               map.materials[static_cast<std::size_t>(i)], 0.0, initial);
+    ++point;
   }
   const Eigen::Index outer = (values.size() - 5 * inside) / 3;
   return values.tail(3 * outer).reshaped(3, outer);
@@ -277,7 +292,7 @@ Eigen::Matrix3Xd recover_mapped_cell(Fields& fields, std::size_t point, const an
 /// Values inside cell `c` into `fields`; the stresses of its points on the sides are returned.
 Eigen::Matrix3Xd recover_cell(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
                               const analysis::FieldState& state, std::size_t body, std::size_t c,
-                              const CellsBody::OfCell& of_cell) {
+                              const CellsBody::OfCell& of_cell, const Grid& grid) {
   const auto& super_element = solution.cells[body][c];
   if (!super_element) {
     const FiniteElementState finite(solution, state, body, c);
@@ -292,16 +307,16 @@ Eigen::Matrix3Xd recover_cell(Fields& fields, std::size_t first, const analysis:
   const std::size_t inner = first + static_cast<std::size_t>(of_cell.inner);
   Vector own = state.displacements[body](element::dofs_of(cell));
   if (of_cell.sampling->map && interior.loads.empty() && interior.temperature.is_zero())
-    return recover_mapped_cell(fields, inner, solution, of_cell, std::move(own));
+    return recover_mapped_cell(fields, inner, solution, of_cell, std::move(own), grid, state.initial_of(body));
   const element::RadialField field(super_element->solution(), super_element->modes(), own, interior.loads);
   recover_inside(fields, inner, solution, *super_element, cell.centre, *of_cell.sampling, field, interior.temperature,
-                 1);
+                 state.initial_of(body), 1);
   return ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior.temperature);
 }
 
 /// Stress on the sides of cells is the mean of the cells that share the point.
 void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
-                   const analysis::FieldState& state, std::size_t body, const CellsBody& made) {
+                   const analysis::FieldState& state, std::size_t body, const CellsBody& made, const Grid& grid) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(made.nodes.size()));
   std::vector<int> cells_at(made.nodes.size(), 0);
@@ -311,7 +326,7 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
     const std::size_t count = std::min(at_once, mesh.cells.size() - begin);
     linalg::parallel_for(static_cast<int>(count), solution.threads, [&](int k) {
       const auto at = static_cast<std::size_t>(k);
-      of_part[at] = recover_cell(fields, first, solution, state, body, begin + at, made.cells[begin + at]);
+      of_part[at] = recover_cell(fields, first, solution, state, body, begin + at, made.cells[begin + at], grid);
     });
     for (std::size_t k = 0; k < count; ++k) {
       const std::vector<std::int32_t>& outer = made.cells[begin + k].outer;
@@ -328,9 +343,9 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
   for (std::size_t point = 0; point < made.nodes.size(); ++point) {
     const int node = made.nodes[point];
     const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(point)) / cells_at[point];
-    fields.set(
-        first + point, u.segment<2>(2 * node), stress,
-        zz_of(solution, made.materials[point], stress, temperature.at(mesh.nodes[static_cast<std::size_t>(node)])));
+    const Vec2& x = mesh.nodes[static_cast<std::size_t>(node)];
+    set_values(fields, first + point, u.segment<2>(place_of(node)), stress, x, solution, made.materials[point],
+               temperature.at(x), state.initial_of(body));
   }
 }
 
@@ -436,7 +451,7 @@ namespace {
 /// Column by column: the values of a unit displacement.
 CellMap cell_map(const element::SolvedSuperElement& super_element, const RingSampling& sampling) {
   CellMap map;
-  const auto n = static_cast<Eigen::Index>(2 * super_element.ring.nodes.size());
+  const auto n = places_of(super_element.ring.nodes.size());
   for (Eigen::Index j = 0; j < n; ++j) {
     const element::RadialField field(super_element.solution(), super_element.modes(), Vector::Unit(n, j));
     std::vector<double> column;
@@ -505,7 +520,7 @@ Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis
       for (std::size_t i = 0; i < rigid->arms.size(); ++i)
         fields.set(point + i, rigid_displacement(state.displacements[b], rigid->arms[i]), element::Vec3::Zero(), 0.0);
     } else {
-      recover_cells(fields, point, solution, state, b, std::get<CellsBody>(bodies_[b]));
+      recover_cells(fields, point, solution, state, b, std::get<CellsBody>(bodies_[b]), grid_);
     }
   }
   for (std::size_t point = 0; point < grid_.point_count(); ++point)

@@ -164,13 +164,17 @@ std::string report_contacts(const analysis::IncrementResult& increment) {
                                   [](const auto& contact) { return contact.broken.has_value(); });
   std::vector<std::vector<std::string>> rows = {{"contact", "normal force", "tangential force", "open", "stick", "slip",
                                                  "in contact", "max pressure", "max gap"}};
+  const bool pores = std::any_of(increment.contacts.begin(), increment.contacts.end(),
+                                 [](const auto& contact) { return contact.pore_force.has_value(); });
   if (breaks) rows.front().emplace_back("broken");
+  if (pores) rows.front().emplace_back("pore force");
   const double force = force_level(increment), length = length_level(increment);
   for (const analysis::ContactResult& contact : increment.contacts) {
     rows.push_back({contact.name, shown(contact.normal_force, force), shown(contact.tangential_force, force),
                     fmt::format("{}", contact.open), fmt::format("{}", contact.stick), fmt::format("{}", contact.slip),
                     pairs_in_contact(contact), shown_pressure(contact, force), shown(contact.max_gap, length, 4)});
     if (breaks) rows.back().push_back(contact.broken ? fmt::format("{}", *contact.broken) : "-");
+    if (pores) rows.back().push_back(contact.pore_force ? shown(*contact.pore_force, force) : "-");
   }
   return table(rows);
 }
@@ -179,9 +183,25 @@ std::string report_reactions(const model::Model& model, const analysis::Incremen
   if (increment.reactions.empty()) return {};
   const double force = force_level(increment);
   std::vector<std::vector<std::string>> rows = {{"support", "reaction x", "reaction y"}};
-  for (std::size_t i = 0; i < increment.reactions.size(); ++i)
+  const bool moments = std::any_of(increment.moments.begin(), increment.moments.end(),
+                                   [](const auto& moment) { return moment.has_value(); });
+  if (moments) rows.front().emplace_back("moment");
+  for (std::size_t i = 0; i < increment.reactions.size(); ++i) {
     rows.push_back(
         {model.supports[i].name, shown(increment.reactions[i].x(), force), shown(increment.reactions[i].y(), force)});
+    if (moments)
+      rows.back().push_back(increment.moments[i] ? fmt::format("{:.6g}", *increment.moments[i]) : std::string("-"));
+  }
+  return table(rows);
+}
+
+std::string report_springs(const model::Model& model, const analysis::IncrementResult& increment) {
+  if (increment.springs.empty()) return {};
+  const double force = force_level(increment);
+  std::vector<std::vector<std::string>> rows = {{"springs", "force x", "force y"}};
+  for (std::size_t i = 0; i < increment.springs.size(); ++i)
+    rows.push_back(
+        {model.springs[i].name, shown(increment.springs[i].x(), force), shown(increment.springs[i].y(), force)});
   return table(rows);
 }
 
@@ -236,8 +256,9 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
 
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
   std::string text;
-  for (const std::string& part : {report_contacts(increment), report_reactions(model, increment),
-                                  report_cracks(increment), report_quantities(increment)})
+  for (const std::string& part :
+       {report_contacts(increment), report_reactions(model, increment), report_springs(model, increment),
+        report_cracks(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   return text;
 }

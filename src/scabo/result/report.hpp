@@ -35,6 +35,9 @@ std::string report_contacts(const analysis::IncrementResult& increment);
 /// Force of every support on its body; empty if there is none.
 std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment);
 
+/// Force of every entry of `springs` on its body; empty if there is none.
+std::string report_springs(const model::Model& model, const analysis::IncrementResult& increment);
+
 /// Table of stress intensity factors; empty without cracks.
 std::string report_cracks(const analysis::IncrementResult& increment);
 

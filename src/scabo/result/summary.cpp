@@ -37,6 +37,10 @@ Json json_of(const analysis::ContactResult& contact) {
                {"first_pair_in_contact", value_or_null(contact.first_in_contact)},
                {"last_pair_in_contact", value_or_null(contact.last_in_contact)}};
   if (contact.broken) json["broken"] = *contact.broken;
+  if (contact.pore_force) {
+    json["pore_force"] = number_or_null(*contact.pore_force);
+    json["total_normal_force"] = number_or_null(contact.normal_force + *contact.pore_force);
+  }
   return json;
 }
 
@@ -148,6 +152,12 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   for (std::size_t i = 0; i < increment.reactions.size(); ++i)
     json["reactions"][model.supports[i].name] = {number_or_null(increment.reactions[i].x()),
                                                  number_or_null(increment.reactions[i].y())};
+  for (std::size_t i = 0; i < increment.moments.size(); ++i)
+    if (increment.moments[i]) json["moments"][model.supports[i].name] = number_or_null(*increment.moments[i]);
+  if (!model.springs.empty()) json["springs"] = Json::object();
+  for (std::size_t i = 0; i < increment.springs.size(); ++i)
+    json["springs"][model.springs[i].name] = {number_or_null(increment.springs[i].x()),
+                                              number_or_null(increment.springs[i].y())};
   for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);

@@ -1,9 +1,16 @@
 // The loads of a model as nodal forces and as loads inside bodies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "scabo/base/components.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
+#include "scabo/system/pore_pressure.hpp"
 #include "scabo/system/structure.hpp"
 
 namespace scabo::system {
@@ -25,6 +32,7 @@ class Applied {
 
   Vector nodal = Vector();      // in the numbering of the body
   element::CellLoads interior;  // empty: none
+  element::InitialStress initial;
 
   void operator()(const model::Force& force) {
     if (body_.rigid) {
@@ -41,7 +49,7 @@ class Applied {
       apply_traction(at, [&](const Vec2&, const Vec2&) { return traction; });
     } else {
       nodal = Vector::Zero(size());
-      nodal.segment<2>(2 * at.nodes.front()) = force.value;
+      nodal.segment<2>(place_of(at.nodes.front())) = force.value;
     }
   }
 
@@ -124,7 +132,87 @@ class Applied {
         });
   }
 
+  /// Normal traction linear along a straight edge, without a resultant.
+  void operator()(const model::Moment& moment) {
+    if (body_.rigid) {
+      nodal = Vector::Unit(3, 2) * (moment.value / part_.lever());
+      return;
+    }
+    const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
+    const model::Edge& edge = body_.outline.edges[static_cast<std::size_t>(place_->index)];
+    const double length = edge.length(), slope = 12.0 * moment.value / (thickness() * length * length * length);
+    const Vec2 along = (edge.end - edge.start) / length, middle = 0.5 * (edge.start + edge.end);
+    // The normal is the direction of the edge turned clockwise.
+    apply_traction(at, [&](const Vec2& x, const Vec2& n) { return Vec2(-slope * along.dot(x - middle) * n); });
+  }
+
+  void operator()(const model::PorePressure&) {}  // not of a body: add_pore_pressure()
+
+  void operator()(const model::UniformStress& uniform) { apply(element::initial_stress(uniform)); }
+  void operator()(const model::GroundStress& ground) { apply(element::initial_stress(ground)); }
+
  private:
+  /// A stress in equilibrium with the weight that belongs to it does not deform a body on whose boundary the tractions
+  /// act that it has there. What is not there acts as a load: -n sigma on the boundary. On the sides between cells the
+  /// two cells cancel each other; they are left out.
+  void apply(const element::InitialStress& stress) {
+    initial = stress;
+    nodal = Vector::Zero(size());
+    const auto side = [](auto first, auto last) { return std::array{*first, *(first + 1), *(last - 1)}; };
+    std::vector<std::array<int, 3>> sides;
+    for (const mesh::Cell& cell : body_mesh_.cells)
+      for (const mesh::LineElement& element : cell.boundary)
+        sides.push_back(side(element.nodes.begin(), element.nodes.end()));
+    std::sort(sides.begin(), sides.end());
+    std::vector<mesh::LineElement> boundary;
+    for (const mesh::Cell& cell : body_mesh_.cells)
+      for (const mesh::LineElement& element : cell.boundary)
+        if (!std::binary_search(sides.begin(), sides.end(), side(element.nodes.rbegin(), element.nodes.rend())))
+          boundary.push_back(element);
+    // The elements of an unbounded cell run around its hole, which has the normal out of the body on its other side.
+    const double sign = body_.outside ? 1.0 : -1.0;
+    const auto released = [&](const Vec2& x, const Vec2& n) {
+      return Vec2(sign * element::traction_of(stress.at(x), n));
+    };
+    nodal += traction_forces(boundary, body_mesh_.nodes, thickness(), released, {[](const Vec2&) { return 0.0; }, {}});
+    release_side_faces(stress);
+  }
+
+  /// The same on the side faces of open cells, which have no elements: linear from the scaling centre to the boundary.
+  void release_side_faces(const element::InitialStress& stress) {
+    const double level = 1e-13 * (stress.constant.norm() +
+                                  body_mesh_.nodes.front().norm() * (stress.per_x.norm() + stress.per_y.norm()));
+    for (std::size_t c = 0; c < body_mesh_.cells.size(); ++c) {
+      if (!cells_[c] || !cells_[c]->ring.is_open()) continue;
+      const element::SolvedSuperElement& cell = *cells_[c];
+      const Vec2& centre = body_mesh_.cells[c].centre;
+      std::vector<element::RadialLoad> loads;
+      for (const auto face : {element::Face::first, element::Face::last}) {
+        const Vec2 n = element::face_normal(cell.ring, face);
+        const int node = face == element::Face::first ? cell.ring.first_node() : cell.ring.last_node();
+        const Vec2 end = centre + cell.ring.nodes[static_cast<std::size_t>(node)];
+        const Vec2 at_centre = -element::traction_of(stress.at(centre), n),
+                   change = -element::traction_of(stress.at(end), n) - at_centre;
+        if (at_centre.norm() <= level && change.norm() <= level) continue;
+        if (cell.domain.unbounded)
+          throw InputError(model_.file,
+                           {{body_.source, fmt::format("the stress of a field acts on the free surface of this body, "
+                                                       "which reaches to infinity from ({:.6g}, {:.6g}): only a field "
+                                                       "without traction there is possible, as of ground below its "
+                                                       "surface",
+                                                       end.x(), end.y())}});
+        if (at_centre.norm() > level)
+          element::add_radial_loads(loads, {element::face_load(cell.ring, face, 0.0, at_centre, thickness())}, 1.0);
+        if (change.norm() > level)
+          element::add_radial_loads(loads, {element::face_load(cell.ring, face, 1.0, change, thickness())}, 1.0);
+      }
+      if (loads.empty()) continue;
+      interior.resize(body_mesh_.cells.size());
+      nodal(element::dofs_of(body_mesh_.cells[c])) += element::equivalent_load(cell.solution(), loads);
+      interior[c].loads = std::move(loads);
+    }
+  }
+
   /// Fills `interior` and adds what it is worth at the nodes, which `of_finite` returns for finite elements.
   template <typename OfSuperElement, typename OfFinite>
   void for_each_cell(const OfSuperElement& of_super_element, const OfFinite& of_finite) {
@@ -170,7 +258,7 @@ class Applied {
   static element::LinearField about(const Vec2& centre, const model::Linear& field) {
     return {field.constant + field.per_x * centre.x() + field.per_y * centre.y(), field.per_x, field.per_y};
   }
-  Eigen::Index size() const { return static_cast<Eigen::Index>(2 * body_mesh_.nodes.size()); }
+  Eigen::Index size() const { return places_of(body_mesh_.nodes.size()); }
   double thickness() const { return model_.analysis.thickness; }
   void apply_traction(const mesh::PlaceNodes& at, const TractionField& traction) {
     nodal = traction_forces(at.elements, body_mesh_.nodes, thickness(), traction);
@@ -187,8 +275,8 @@ class Applied {
     const Vector forces = traction_forces(edge.elements, edge.nodes, thickness(), varying.traction, varying.breaks);
     nodal = Vector::Zero(3);
     for (std::size_t i = 0; i < edge.nodes.size(); ++i)
-      nodal += rigid_point(edge.nodes[i], part_.reference(), part_.lever()).transpose() *
-               forces.segment<2>(static_cast<Eigen::Index>(2 * i));
+      nodal +=
+          rigid_point(edge.nodes[i], part_.reference(), part_.lever()).transpose() * forces.segment<2>(place_of(i));
   }
 
   const model::Model& model_;
@@ -202,20 +290,80 @@ class Applied {
 
 }  // namespace
 
+namespace {
+
+/// Forces on both sides of all pairs, and on the side faces at the tips of cracks, which have no pairs.
+void add_pore_pressure(Structure& structure, const model::PorePressure& pores, const model::Model& model,
+                       const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells) {
+  std::vector<Vector>& forces = structure.loads.back();
+  for (const int c : pores.contacts) {
+    const model::Contact& contact = model.contacts[static_cast<std::size_t>(c)];
+    const std::vector<mesh::ContactPair>& pairs = mesh.interfaces[static_cast<std::size_t>(c)].pairs;
+    const Vector of_pairs = pore_forces(pores, c, model, mesh);
+    const auto add = [&](int body, int node, const Vec2& point, const Vec2& force) {
+      const std::size_t p = structure.dofs.part_of(body);
+      if (forces[p].size() == 0) forces[p] = Vector::Zero(structure.dofs.size(p));
+      if (node >= 0)
+        forces[p].segment<2>(structure.dofs.of(body, node, 0)) += force;
+      else
+        forces[p] +=
+            rigid_point(point, structure.parts[p]->reference(), structure.parts[p]->lever()).transpose() * force;
+    };
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Vec2 force = of_pairs[static_cast<Eigen::Index>(i)] * pairs[i].normal;
+      add(contact.b.body, pairs[i].node_b, pairs[i].point_b, force);
+      add(contact.a.body, pairs[i].node_a, pairs[i].point_a, -force);
+    }
+    std::optional<double>& sum = structure.pores.back()[static_cast<std::size_t>(c)];
+    sum = sum.value_or(0.0) + of_pairs.sum();
+    if (contact.a.kind != model::Place::Kind::face) continue;
+    const auto b = static_cast<std::size_t>(contact.a.body);
+    for (const mesh::TipFace& tip : mesh::tip_faces(model.bodies[b], mesh.bodies[b])) {
+      if (tip.crack != contact.a.index / 2) continue;
+      const mesh::Cell& cell = mesh.bodies[b].cells[tip.cell];
+      const element::SolvedSuperElement& solved = *cells[b][tip.cell];
+      const auto face = tip.last ? element::Face::last : element::Face::first;
+      const Vec2 traction = -pressure_at(pores, cell.centre) * element::face_normal(solved.ring, face);
+      const std::vector<element::RadialLoad> loads = {
+          element::face_load(solved.ring, face, 0.0, traction, model.analysis.thickness)};
+      element::CellLoads& interior = structure.interior.back()[b];
+      interior.resize(mesh.bodies[b].cells.size());
+      element::add_radial_loads(interior[tip.cell].loads, loads, 1.0);
+      Vector nodal = Vector::Zero(places_of(mesh.bodies[b].nodes.size()));
+      nodal(element::dofs_of(cell)) += element::equivalent_load(solved.solution(), loads);
+      structure.dofs.add(contact.a.body, nodal, forces[structure.dofs.part_of(contact.a.body)]);
+    }
+  }
+}
+
+}  // namespace
+
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
                const std::vector<element::SolvedCells>& cells) {
   for (const model::Load& load : model.loads) {
     std::vector<Vector>& forces = structure.loads.emplace_back(structure.parts.size());
     std::vector<element::CellLoads>& interior = structure.interior.emplace_back(model.bodies.size());
+    std::vector<element::InitialStress>& initial = structure.initial.emplace_back(model.bodies.size());
+    std::vector<std::optional<double>>& pores = structure.pores.emplace_back();
+    if (const auto* pressure = std::get_if<model::PorePressure>(&load.kind)) {
+      pores.resize(model.contacts.size());
+      add_pore_pressure(structure, *pressure, model, mesh, cells);
+      continue;
+    }
+    const bool of_unbounded = std::holds_alternative<model::UniformStress>(load.kind) ||
+                              std::holds_alternative<model::GroundStress>(load.kind);
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      // Without a place, the load acts on every bounded elastic body.
-      if (load.on ? load.on->body != static_cast<int>(b) : model.bodies[b].rigid || model.bodies[b].outside) continue;
+      // Without a place, the load acts on every elastic body; only a stress on unbounded ones too.
+      if (load.on ? load.on->body != static_cast<int>(b)
+                  : model.bodies[b].rigid || (model.bodies[b].outside && !of_unbounded))
+        continue;
       const auto body = static_cast<int>(b);
       const std::size_t part = structure.dofs.part_of(body);
       Applied applied(model, mesh, cells, *structure.parts[part], b, load.on ? &*load.on : nullptr);
       std::visit(applied, load.kind);
       structure.dofs.add(body, applied.nodal, forces[part]);
       interior[b] = std::move(applied.interior);
+      initial[b] = applied.initial;
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "scabo/base/components.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/linalg/parallel.hpp"
 
@@ -116,7 +117,7 @@ class Assembler {
         for (std::size_t k = 0; k < 2; ++k) {
           const std::span<const int> rows = rows_.of(node);
           const std::size_t first = first_entry(node) + k * 2 * rows.size();
-          matrix_.outerIndexPtr()[2 * node + k + 1] = static_cast<int>(first + 2 * rows.size());
+          matrix_.outerIndexPtr()[place_of(node, static_cast<int>(k)) + 1] = static_cast<int>(first + 2 * rows.size());
           for (std::size_t i = 0; i < rows.size(); ++i) {
             matrix_.innerIndexPtr()[first + 2 * i] = 2 * rows[i];
             matrix_.innerIndexPtr()[first + 2 * i + 1] = 2 * rows[i] + 1;
@@ -142,7 +143,7 @@ class Assembler {
       linalg::parallel_for(sets, threads_, [&](int set) {
         for (std::size_t cell = begin; cell < end; ++cell) {
           const std::span<const int> nodes = cells_.of(cell);
-          const auto n = static_cast<Eigen::Index>(2 * nodes.size());
+          const auto n = places_of(nodes.size());
           const CellMatrix K(matrices[cell - begin], n, n);
           for (std::size_t j = 0; j < nodes.size(); ++j)
             if (nodes[j] / together % sets == set) add_columns(nodes, j, K);
@@ -155,7 +156,7 @@ class Assembler {
 
  private:
   static constexpr std::size_t few = 4096;  // nodes, of which one thread takes less than a millisecond
-  static Eigen::Index columns(std::size_t nodes) { return static_cast<Eigen::Index>(2 * nodes); }
+  static Eigen::Index columns(std::size_t nodes) { return places_of(nodes); }
   std::size_t first_entry(std::size_t node) const { return 4 * rows_.start[node]; }
 
   /// The two columns of node j of a cell.
@@ -164,10 +165,10 @@ class Assembler {
     const std::span<const int> rows = rows_.of(node);
     double* x = matrix_.valuePtr() + first_entry(node);
     double* y = x + 2 * rows.size();
-    const auto column = static_cast<Eigen::Index>(2 * j);
+    const auto column = place_of(j);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto at = 2 * (std::lower_bound(rows.begin(), rows.end(), nodes[i]) - rows.begin());
-      const auto row = static_cast<Eigen::Index>(2 * i);
+      const auto row = place_of(i);
       x[at] += K(row, column);
       x[at + 1] += K(row + 1, column);
       y[at] += K(row, column + 1);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -13,6 +15,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "scabo/base/components.hpp"
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/linalg/twofold.hpp"
 #include "scabo/system/inclined_nodes.hpp"
@@ -66,10 +69,25 @@ Matrix null_space(const Matrix& A) {
   return svd.matrixV().rightCols(n - rank);
 }
 
+/// Of the motions `free`, 3 x m, with orthonormal columns: those that change no spring's length, 3 x k, k <= m.
+Matrix at_rest(const Matrix& free, const std::vector<HeldDirection>& springs, const Vec2& reference, double lever) {
+  if (springs.empty() || free.cols() == 0) return free;
+  Matrix gram = Matrix::Zero(3, 3);  // of the rows, all of which count alike however soft the springs are
+  for (const HeldDirection& held : springs) {
+    const Eigen::RowVector3d row = held.direction.transpose() * rigid_point(held.point, reference, lever);
+    gram += row.transpose() * row;
+  }
+  // Columns along which the rows vanish. Squares: 1e-12 stands for arms of 1e-6 of the body.
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(free.transpose() * gram * free);
+  Eigen::Index still = 0;
+  while (still < free.cols() && eigen.eigenvalues()[still] <= 1e-12 * gram.trace()) ++still;
+  return free * eigen.eigenvectors().leftCols(still);
+}
+
 }  // namespace
 
-Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints, Vec2& reference,
-                    double& lever) {
+Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints,
+                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever) {
   Vec2 low = nodes.front(), high = nodes.front();
   for (const Vec2& x : nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
   reference = 0.5 * (low + high);
@@ -79,7 +97,7 @@ Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint
     held.row(static_cast<Eigen::Index>(c)) =
         constraints[c].direction().transpose() *
         rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever);
-  return null_space(held);
+  return at_rest(null_space(held), springs, reference, lever);
 }
 
 void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces) {
@@ -113,16 +131,22 @@ linalg::SparseMatrix principal_part(const linalg::SparseMatrix& K, const std::ve
 }
 
 /// Bit for bit.
-bool equal(const Stiffness& a, const Stiffness& b) {
-  if (a.dense || b.dense) return a.dense == b.dense && a.unbounded == b.unbounded;
+bool equal(const linalg::SparseMatrix& a, const linalg::SparseMatrix& b) {
   const auto same = [](const auto* first, const auto* second, Eigen::Index count) {
-    return std::memcmp(first, second, static_cast<std::size_t>(count) * sizeof(*first)) == 0;
+    return count == 0 || std::memcmp(first, second, static_cast<std::size_t>(count) * sizeof(*first)) == 0;
   };
-  return a.rounding == b.rounding && a.unbounded == b.unbounded && a.size() == b.size() && a.entries() == b.entries() &&
-         same(a.sparse.outerIndexPtr(), b.sparse.outerIndexPtr(), a.size() + 1) &&
-         same(a.sparse.innerIndexPtr(), b.sparse.innerIndexPtr(), a.entries()) &&
-         same(a.sparse.valuePtr(), b.sparse.valuePtr(), a.entries());
+  return a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         same(a.outerIndexPtr(), b.outerIndexPtr(), a.cols() + 1) &&
+         same(a.innerIndexPtr(), b.innerIndexPtr(), a.nonZeros()) && same(a.valuePtr(), b.valuePtr(), a.nonZeros());
 }
+bool equal(const Stiffness& a, const Stiffness& b) {
+  if (a.unbounded != b.unbounded || !equal(a.springs.matrix, b.springs.matrix)) return false;
+  if (a.dense || b.dense) return a.dense == b.dense;
+  return a.rounding == b.rounding && equal(a.sparse, b.sparse);
+}
+
+/// K + S, of a sparse K.
+linalg::SparseMatrix with_springs(const Stiffness& stiffness) { return stiffness.sparse + stiffness.springs.matrix; }
 
 /// Equal for equal ones.
 std::size_t hash_of(const Stiffness& stiffness) {
@@ -155,16 +179,28 @@ class ElasticBody final : public BodySystem {
 
   void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes) {
     for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
-    if (stiffness().dense)
-      factored_->solver = linalg::SymmetricPositiveSolver(
-          inclined_.none() ? Matrix((*stiffness().dense)(dofs_, dofs_))
-                           : Matrix(inclined_.stiffness(*stiffness().dense)(dofs_, dofs_)));
-    else
-      factored_->solver = linalg::SymmetricPositiveSolver(
-          principal_part(inclined_.none() ? stiffness().sparse : inclined_.stiffness(stiffness().sparse), dofs_,
-                         place_),
-          options);
+    const bool alone = inclined_.none() && stiffness().springs.none();
+    if (stiffness().dense) {
+      const auto whole = [&] {
+        Matrix K = *stiffness().dense;
+        if (has_springs()) K += stiffness().springs.matrix;
+        return inclined_.none() ? K : inclined_.stiffness(std::move(K));
+      };
+      factored_->solver = linalg::SymmetricPositiveSolver(alone ? Matrix((*stiffness().dense)(dofs_, dofs_))
+                                                                : Matrix(whole()(dofs_, dofs_)));
+    } else {
+      const auto whole = [&] {
+        const linalg::SparseMatrix K = has_springs() ? with_springs(stiffness()) : stiffness().sparse;
+        return inclined_.none() ? K : inclined_.stiffness(K);
+      };
+      factored_->solver =
+          linalg::SymmetricPositiveSolver(principal_part(alone ? stiffness().sparse : whole(), dofs_, place_), options);
+    }
   }
+
+  Vector spring_forces(const Vector& u) const override { return -stiffness().springs.times(u); }
+  bool is_flexible() const override { return true; }
+  bool has_springs() const override { return !stiffness().springs.none(); }
 
   Eigen::Index size() const override { return stiffness().size(); }
 
@@ -198,7 +234,7 @@ class ElasticBody final : public BodySystem {
         continue;
       }
       const auto [at, added] = column_of.emplace(node, static_cast<int>(both.size()));
-      if (added) both.insert(both.end(), {2 * node, 2 * node + 1});
+      if (added) both.insert(both.end(), {static_cast<int>(place_of(node)), static_cast<int>(place_of(node, 1))});
       for (int k = 0; k < 2; ++k) entries.emplace_back(row, at->second + k, (*M)(dofs[i] % 2, k));
     }
     Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(both.size()));
@@ -279,14 +315,18 @@ class ElasticBody final : public BodySystem {
     return inclined_.displacements(std::move(v));
   }
 
-  /// K u, without the part that a translation of the whole body would add by rounding.
+  /// (K + S) u, without the part that a translation of the whole body would add to K u by rounding.
   Vector internal_forces(Vector u) const {
-    if (stiffness().unbounded) return stiffness().times(u);
-    const Eigen::Index nodes = size() / 2;
-    auto by_node = u.reshaped(2, nodes);
-    const Vec2 mean = by_node.rowwise().mean();
-    by_node.colwise() -= mean;
-    return stiffness().times(u);
+    const Vector springs = has_springs() ? stiffness().springs.times(u) : Vector();
+    if (!stiffness().unbounded) {
+      const Eigen::Index nodes = size() / 2;
+      auto by_node = u.reshaped(2, nodes);
+      const Vec2 mean = by_node.rowwise().mean();
+      by_node.colwise() -= mean;
+    }
+    Vector forces = stiffness().times(u);
+    if (has_springs()) forces += springs;
+    return forces;
   }
 
   /// Whether rounding u can leave forces that are not small beside f: in slender bodies K u is a small difference of
@@ -296,13 +336,16 @@ class ElasticBody final : public BodySystem {
     return unit * stiff_force(u) > 1e-12 * f.lpNorm<Eigen::Infinity>();
   }
 
-  /// K u - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out (translations
-  /// and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that come from
-  /// rounding have no resultant this way.
+  /// (K + S) u - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out
+  /// (translations and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that
+  /// come from rounding have no resultant this way.
   Vector forces_left(linalg::TwofoldVector u, const Vector& f) const {
+    linalg::TwofoldVector springs;
+    if (has_springs()) springs = linalg::product(stiffness().springs.matrix, u);
     if (!stiffness().unbounded) take_out_rigid_motions(u);
     linalg::TwofoldVector forces = stiffness().times(u);
     if (!stiffness().unbounded) take_out_rigid_motions(forces);
+    for (std::size_t i = 0; i < springs.size(); ++i) forces[i] = forces[i] + springs[i];
     Vector left(size());
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
@@ -333,8 +376,9 @@ class ElasticBody final : public BodySystem {
     linalg::TwofoldVector u;
     Vector left;
   };
-  /// By conjugate gradients, whose preconditioner is the factor of K: exact but for few directions, the bending of a
-  /// slender body, in which rounding of the factor counts. Plain refinement is their first step.
+  /// By conjugate gradients, whose preconditioner is the factor of K + S: exact but for few directions, the bending of
+  /// a slender body or its motion on soft springs, in which rounding of the factor counts. Plain refinement is their
+  /// first step.
   Refined refined(const Vector& u, const Vector& f) const {
     Refined best{linalg::twofold(u), {}};
     best.left = forces_left(best.u, f);
@@ -370,8 +414,8 @@ class ElasticBody final : public BodySystem {
     return best;
   }
 
-  /// K u - f. Where rounding u matters, of the displacement that u is the rounded value of, if it is one: u must not
-  /// differ from it in more than its last digits.
+  /// (K + S) u - f. Where rounding u matters, of the displacement that u is the rounded value of, if it is one: u must
+  /// not differ from it in more than its last digits.
   Vector unbalanced(const Vector& u, const Vector& f) const {
     Vector plain = internal_forces(u) - f;
     if (!u.allFinite() || !rounding_matters(u, f)) return plain;
@@ -397,12 +441,11 @@ class ElasticBody final : public BodySystem {
   }
 
   void find_rigid_motions(const std::vector<Vec2>& nodes) {
-    rigid_coordinates_ = free_motions(nodes, constraints_, reference_, lever_);
+    rigid_coordinates_ = free_motions(nodes, constraints_, stiffness().springs.directions, reference_, lever_);
     if (stiffness().unbounded) rigid_coordinates_ = Matrix::Zero(3, 0);
     rigid_motions_.resize(size(), rigid_coordinates_.cols());
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      rigid_motions_.middleRows<2>(static_cast<Eigen::Index>(2 * i)) =
-          rigid_point(nodes[i], reference_, lever_) * rigid_coordinates_;
+      rigid_motions_.middleRows<2>(place_of(i)) = rigid_point(nodes[i], reference_, lever_) * rigid_coordinates_;
     for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) {
       Vector along = inclined_.along(rigid_motions_.col(k));
       for (const Constraint& constraint : constraints_) along[constraint.dof] = 0.0;
@@ -437,7 +480,8 @@ class ElasticBody final : public BodySystem {
 
 class RigidBody final : public BodySystem {
  public:
-  RigidBody(const Vec2& reference, double size, std::vector<Constraint> constraints) {
+  RigidBody(const Vec2& reference, double size, std::vector<Constraint> constraints, Springs springs)
+      : springs_(std::move(springs)) {
     constraints_ = std::move(constraints);
     reference_ = reference;
     lever_ = size;
@@ -449,35 +493,45 @@ class RigidBody final : public BodySystem {
                               : Eigen::RowVector3d(constraint.direction().transpose() *
                                                    rigid_point(constraint.point, reference_, lever_));
     }
-    rigid_motions_ = rigid_coordinates_ = null_space(held_);
+    const Matrix left_by_supports = null_space(held_);
+    rigid_motions_ = rigid_coordinates_ = at_rest(left_by_supports, springs_.directions, reference_, lever_);
     constrained_.compute(held_);
+    if (!springs_.none()) find_flexibility(left_by_supports);
   }
 
   Eigen::Index size() const override { return 3; }
 
-  Vector displacement(const Vector&, const Vector& prescribed) const override {
-    if (held_.rows() == 0) return Vector::Zero(3);
-    return constrained_.solve(prescribed);
+  Vector displacement(const Vector& f, const Vector& prescribed) const override {
+    Vector u = Vector::Zero(3);
+    if (held_.rows() > 0) u = constrained_.solve(prescribed);
+    if (is_flexible())
+      for (int round = 0; round < 2; ++round)  // the second refines
+        u += flexibility_ * (f - springs_.matrix * u);
+    return u;
   }
 
   Matrix flexibility(const std::vector<int>& dofs) const override {
     const auto n = static_cast<Eigen::Index>(dofs.size());
-    return Matrix::Zero(n, n);
+    return is_flexible() ? Matrix(flexibility_(dofs, dofs)) : Matrix(Matrix::Zero(n, n));
   }
 
-  Vector reactions(const Vector&, const Vector& f) const override {
+  Vector reactions(const Vector& u, const Vector& f) const override {
     if (held_.rows() == 0) return Vector();
-    return Matrix(held_.transpose()).completeOrthogonalDecomposition().solve(-f);
+    return Matrix(held_.transpose()).completeOrthogonalDecomposition().solve(-(f + spring_forces(u)));
   }
 
   double imbalance(const Vector& u, const Vector& f) const override {
-    if (held_.rows() == 0) return f.lpNorm<Eigen::Infinity>();
-    return (f + held_.transpose() * reactions(u, f)).lpNorm<Eigen::Infinity>();
+    const Vector acting = f + spring_forces(u);
+    if (held_.rows() == 0) return acting.lpNorm<Eigen::Infinity>();
+    return (acting + held_.transpose() * reactions(u, f)).lpNorm<Eigen::Infinity>();
   }
 
-  double elastic_energy(const Vector&) const override { return 0.0; }
+  double elastic_energy(const Vector& u) const override { return -0.5 * u.dot(spring_forces(u)); }
   double energy_lost(const Vector&) const override { return 0.0; }
   double stiff_force(const Vector&) const override { return 0.0; }
+  Vector spring_forces(const Vector& u) const override { return -springs_.times(u); }
+  bool is_flexible() const override { return flexibility_.size() > 0; }
+  bool has_springs() const override { return !springs_.none(); }
 
   /// Largest amount by which the constraints contradict each other at factor 1, and the constraint.
   std::pair<double, std::size_t> contradiction() const {
@@ -490,7 +544,22 @@ class RigidBody final : public BodySystem {
   }
 
  private:
+  /// A = Y (Y'S Y)^-1 Y', with Y the motions that supports leave free and springs resist.
+  void find_flexibility(const Matrix& left_by_supports) {
+    const Matrix along_rest = left_by_supports.transpose() * rigid_motions_;
+    const Matrix Y =
+        left_by_supports * (rigid_motions_.cols() > 0
+                                ? null_space(along_rest.transpose())
+                                : Matrix(Matrix::Identity(left_by_supports.cols(), left_by_supports.cols())));
+    if (Y.cols() == 0) return;
+    const Matrix stiffness = Y.transpose() * (springs_.matrix * Y);
+    flexibility_ = Y * stiffness.ldlt().solve(Y.transpose());
+    flexibility_ = 0.5 * (flexibility_ + flexibility_.transpose()).eval();
+  }
+
   Matrix held_;  // constraints x 3
+  Springs springs_;
+  Matrix flexibility_;  // A, 3 x 3; empty: no force moves the body
   Eigen::CompleteOrthogonalDecomposition<Matrix> constrained_;
 };
 
@@ -547,8 +616,8 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
 }
 
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
-                                       std::string& contradiction) {
-  auto body = std::make_unique<RigidBody>(reference, size, std::move(constraints));
+                                       Springs springs, std::string& contradiction) {
+  auto body = std::make_unique<RigidBody>(reference, size, std::move(constraints), std::move(springs));
   const auto [amount, which] = body->contradiction();
   if (amount > 1e-9) contradiction = fmt::format("constraint {} cannot hold together with the others", which + 1);
   return body;

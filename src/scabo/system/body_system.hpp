@@ -1,4 +1,5 @@
-// One body with its supports: its displacement under nodal forces, prescribed displacements and rigid motions.
+// One body with its supports and springs: its displacement under nodal forces, prescribed displacements and rigid
+// motions.
 //
 // Displacement vectors have two components per node; those of a rigid body have three, [u_x, u_y, L rotation] about its
 // centroid, with L half its size so that all three are lengths. For both,
@@ -7,7 +8,8 @@
 //
 // u_p: displacement under applied forces f and prescribed displacements d. A: flexibility, which is zero on the
 // supports and, if supports leave rigid motions Nn free, on as many further degrees of freedom. a: amplitudes of those
-// motions, which follow from their equilibrium Nn'(f + C'p) = 0. No springs are added anywhere.
+// motions, which follow from their equilibrium Nn'(f + C'p) = 0. No springs are added but those of the model, S: u_p
+// and A are those of K + S, and Nn has only motions under which no spring changes its length.
 //
 // In slender bodies K u is a small difference of large numbers: for a cantilever of length L and depth h they are
 // (L/h)^3 times the load, and rounding u alone causes a relative error of 4e-9 at 100:1. In such bodies displacement,
@@ -26,12 +28,28 @@
 
 namespace scabo::system {
 
-/// Stiffness of an elastic body: dense for one super-element, sparse for finite elements.
+/// A point of a body that springs hold along a direction.
+struct HeldDirection {
+  Vec2 point, direction;  ///< direction: of unit length
+};
+
+/// Springs between a body and the ground (springs.hpp). Their forces on the body are -S u.
+struct Springs {
+  linalg::SparseMatrix matrix;            ///< S, as large as u, positive semidefinite; 0 x 0 without springs
+  std::vector<HeldDirection> directions;  ///< motions that leave all of them at rest are free: S is zero along them
+
+  bool none() const { return matrix.size() == 0; }
+  Vector times(const Vector& u) const { return none() ? Vector(Vector::Zero(u.size())) : Vector(matrix * u); }
+};
+
+/// Stiffness of an elastic body: dense for one super-element, sparse for finite elements. Springs are kept apart from
+/// it: it resists no rigid motion, they do.
 struct Stiffness {
   std::shared_ptr<const Matrix> dense;
   linalg::SparseMatrix sparse;
   double rounding = std::numeric_limits<double>::epsilon();  ///< relative error of its entries
   bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
+  Springs springs;
 
   Eigen::Index size() const { return dense ? dense->rows() : sparse.rows(); }
   Vector times(const Vector& u) const;
@@ -71,7 +89,7 @@ class BodySystem {
   virtual Vector reactions(const Vector& u, const Vector& f) const = 0;
   /// Largest unbalanced force on a degree of freedom without constraint.
   virtual double imbalance(const Vector& u, const Vector& f) const = 0;
-  /// 1/2 u'K u.
+  /// 1/2 u'(K + S) u.
   virtual double elastic_energy(const Vector& u) const = 0;
   /// Estimated error of elastic_energy(u) by the rounding of the entries of K. Its ratio to the energy is the relative
   /// error of the displacement under the load.
@@ -83,6 +101,11 @@ class BodySystem {
   virtual const void* factor() const { return nullptr; }
 
   const std::vector<Constraint>& constraints() const { return constraints_; }
+  /// Forces of the springs on the body, -S u.
+  virtual Vector spring_forces(const Vector& u) const = 0;
+  /// Whether forces move it: not a rigid body without springs.
+  virtual bool is_flexible() const = 0;
+  virtual bool has_springs() const = 0;
 
  protected:
   std::vector<Constraint> constraints_;
@@ -117,15 +140,16 @@ struct NotPositiveDefinitePart : linalg::NotPositiveDefinite {
   std::size_t part;
 };
 
-/// A rigid body with reference point `reference` and extent `size`. If constraints contradict each other,
-/// `contradiction` is set to a description of the first that does, which the caller must report; otherwise it is empty.
+/// A rigid body with reference point `reference` and extent `size`; the matrix of its springs is 3 x 3. If constraints
+/// contradict each other, `contradiction` is set to a description of the first that does, which the caller must report;
+/// otherwise it is empty.
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
-                                       std::string& contradiction);
+                                       Springs springs, std::string& contradiction);
 
-/// Rigid motions that the constraints leave free in an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the centre
-/// of rotation and L.
-Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints, Vec2& reference,
-                    double& lever);
+/// Rigid motions that constraints and springs leave free in an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the
+/// centre of rotation and L.
+Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints,
+                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever);
 
 /// Displacement of a point `x` of a rigid body per unit [u_x, u_y, L rotation], 2 x 3.
 Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever);

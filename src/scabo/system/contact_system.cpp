@@ -135,23 +135,28 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   ContactSystem system;
   Eigen::Index columns = 0;
   Vector diagonal = Vector::Zero(rows);
+  double largest = 0.0, largest_on_springs = 0.0;  // of the diagonal; a soft spring says nothing of stiff bodies
   std::vector<double> work;  // of a part, roughly
   for (std::size_t p = 0; p < structure.parts.size(); ++p)
-    work.push_back(structure.dofs.is_rigid(p)
+    work.push_back(!structure.parts[p]->is_flexible()
                        ? 0.0
                        : 20.0 * static_cast<double>(motion[p].cols()) * static_cast<double>(motion[p].nonZeros()) +
                              std::pow(static_cast<double>(motion[p].nonZeros()), 3.0));
   std::vector<PartFlexibility> flexibilities(structure.parts.size());
   linalg::parallel_for(work, threads, [&](int k) {
     const auto p = static_cast<std::size_t>(k);
-    if (!structure.dofs.is_rigid(p)) flexibilities[p] = flexibility_of(motion[p], *structure.parts[p]);
+    if (structure.parts[p]->is_flexible()) flexibilities[p] = flexibility_of(motion[p], *structure.parts[p]);
   });
   Triplets of_G;
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
     const BodySystem& part = *structure.parts[p];
     system.first_rigid.push_back(static_cast<int>(columns));
     const PartFlexibility& added = flexibilities[p];
-    if (added.block.size() > 0) diagonal(added.rows) += added.block.diagonal();
+    if (added.block.size() > 0) {
+      diagonal(added.rows) += added.block.diagonal();
+      double& of_kind = part.has_springs() ? largest_on_springs : largest;
+      of_kind = std::max(of_kind, added.block.diagonal().maxCoeff());
+    }
     const Matrix& rigid = part.rigid_motions();
     for (Eigen::Index column = 0; column < motion[p].cols(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator it(motion[p], column); it; ++it)
@@ -168,7 +173,7 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
       moved[it.row()] = std::max(moved[it.row()], std::abs(it.value()));
 
   // A pair whose gap is changed by no force and no rigid motion is held by supports on both sides.
-  const double largest = rows > 0 ? diagonal.maxCoeff() : 0.0;
+  if (largest == 0.0) largest = largest_on_springs;
   std::vector<int> moving, held, place(static_cast<std::size_t>(rows), -1);
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
     const bool moves = diagonal[2 * i] > 1e-13 * largest || moved[2 * i] > 1e-12;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scabo/base/components.hpp"
 #include "scabo/base/disjoint_sets.hpp"
 
 namespace scabo::system {
@@ -11,7 +12,8 @@ namespace scabo::system {
 Dofs::Dofs(const model::Model& model, const mesh::Mesh& mesh)
     : part_of_(model.bodies.size()), numbers_(model.bodies.size()) {
   DisjointSets bodies(model.bodies.size());
-  for (const model::Tie& tie : model.ties) bodies.join(static_cast<std::size_t>(tie.a.body), static_cast<std::size_t>(tie.b.body));
+  for (const model::Tie& tie : model.ties)
+    bodies.join(static_cast<std::size_t>(tie.a.body), static_cast<std::size_t>(tie.b.body));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const std::size_t first = bodies.root(b);
     if (first == b) parts_.push_back({});
@@ -69,9 +71,9 @@ std::vector<int> Dofs::of(int body, std::span<const int> nodes) const {
 Vector Dofs::of_body(int body, const Vector& of_part) const {
   const std::vector<int>& number = numbers_[static_cast<std::size_t>(body)];
   if (number.empty()) return of_part;
-  Vector values(static_cast<Eigen::Index>(2 * number.size()));
+  Vector values(places_of(number.size()));
   for (std::size_t i = 0; i < number.size(); ++i)
-    values.segment<2>(static_cast<Eigen::Index>(2 * i)) = of_part.segment<2>(2 * number[i]);
+    values.segment<2>(place_of(i)) = of_part.segment<2>(place_of(number[i]));
   return values;
 }
 
@@ -84,7 +86,7 @@ void Dofs::add(int body, const Vector& values, Vector& to_part) const {
     return;
   }
   for (std::size_t i = 0; i < number.size(); ++i)
-    to_part.segment<2>(2 * number[i]) += values.segment<2>(static_cast<Eigen::Index>(2 * i));
+    to_part.segment<2>(place_of(number[i])) += values.segment<2>(place_of(i));
 }
 
 }  // namespace scabo::system

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scabo/base/components.hpp"
 #include "scabo/mesh/mesh.hpp"
 
 namespace scabo::system {
@@ -26,14 +27,14 @@ class Dofs {
   bool is_unbounded(std::size_t part) const { return parts_[part].unbounded; }
   /// Positions of the nodes of an elastic part; none for a rigid one.
   const std::vector<Vec2>& nodes(std::size_t part) const { return parts_[part].nodes; }
-  Eigen::Index size(std::size_t part) const {
-    return parts_[part].rigid ? 3 : static_cast<Eigen::Index>(2 * parts_[part].nodes.size());
-  }
+  Eigen::Index size(std::size_t part) const { return parts_[part].rigid ? 3 : places_of(parts_[part].nodes.size()); }
   /// `body 'upper'`, or `the tied bodies 'wall', 'base'`; of many the first four, and how many others.
   std::string name_of(std::size_t part, const model::Model& model) const;
 
   /// Number, in its part, of component 0 (x) or 1 (y) of a node of an elastic body.
-  int of(int body, int node, int component) const { return 2 * node_in_part(body, node) + component; }
+  int of(int body, int node, int component) const {
+    return static_cast<int>(place_of(node_in_part(body, node), component));
+  }
   /// Numbers of the two components of each of some nodes, in their order.
   std::vector<int> of(int body, std::span<const int> nodes) const;
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 
+#include "scabo/base/components.hpp"
+
 namespace scabo::system {
 
 namespace {
@@ -12,7 +14,8 @@ namespace {
 /// The values of every node of `nodes` times its matrix.
 template <typename Nodes, typename MatrixOf>
 Vector multiplied(const Nodes& nodes, Vector values, const MatrixOf& matrix_of) {
-  for (const auto& at : nodes) values.segment<2>(2 * at.node) = (matrix_of(at) * values.segment<2>(2 * at.node)).eval();
+  for (const auto& at : nodes)
+    values.segment<2>(place_of(at.node)) = (matrix_of(at) * values.segment<2>(place_of(at.node))).eval();
   return values;
 }
 
@@ -61,9 +64,10 @@ Vector InclinedNodes::forces(Vector components) const {
 }
 
 Matrix InclinedNodes::stiffness(Matrix K) const {
-  for (const Inclined& at : nodes_) K.middleCols<2>(2 * at.node) = (K.middleCols<2>(2 * at.node) * at.M).eval();
   for (const Inclined& at : nodes_)
-    K.middleRows<2>(2 * at.node) = (at.M.transpose() * K.middleRows<2>(2 * at.node)).eval();
+    K.middleCols<2>(place_of(at.node)) = (K.middleCols<2>(place_of(at.node)) * at.M).eval();
+  for (const Inclined& at : nodes_)
+    K.middleRows<2>(place_of(at.node)) = (at.M.transpose() * K.middleRows<2>(place_of(at.node))).eval();
   return K;
 }
 
@@ -73,7 +77,7 @@ Eigen::SparseMatrix<double> InclinedNodes::stiffness(const Eigen::SparseMatrix<d
     const Mat2* M = of(node);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
-        if (M || i == j) entries.emplace_back(2 * node + i, 2 * node + j, M ? (*M)(i, j) : 1.0);
+        if (M || i == j) entries.emplace_back(place_of(node, i), place_of(node, j), M ? (*M)(i, j) : 1.0);
   }
   Eigen::SparseMatrix<double> T(K.rows(), K.cols());
   T.setFromTriplets(entries.begin(), entries.end());

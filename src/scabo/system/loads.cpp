@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
@@ -63,7 +64,7 @@ std::vector<double> parts_of(const mesh::LineElement& element, const geometry::L
 
 Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
                        const TractionField& traction, const Breaks& breaks) {
-  Vector f = Vector::Zero(static_cast<Eigen::Index>(2 * nodes.size()));
+  Vector f = Vector::Zero(places_of(nodes.size()));
   for (const mesh::LineElement& element : elements) {
     const int order = static_cast<int>(element.nodes.size()) - 1;
     const auto& basis = geometry::LineBasis::of_order(order);
@@ -83,7 +84,7 @@ Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std
         const Vec2 force =
             traction(x, Vec2(x_eta.y(), -x_eta.x()) / length) * (half * rule.weights[q] * length * thickness);
         for (std::size_t i = 0; i < element.nodes.size(); ++i)
-          f.segment<2>(2 * element.nodes[i]) += N[static_cast<Eigen::Index>(i)] * force;
+          f.segment<2>(place_of(element.nodes[i])) += N[static_cast<Eigen::Index>(i)] * force;
       }
     }
   }
@@ -154,12 +155,12 @@ EdgeElements elements_of(const model::Edge& edge) {
 
 Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
                        const TractionField& traction) {
-  Vector f = Vector::Zero(static_cast<Eigen::Index>(2 * nodes.size()));
+  Vector f = Vector::Zero(places_of(nodes.size()));
   for (const mesh::LineElement& element : elements)
     integrate(element, nodes, [&](const auto& N, const Vec2& x, const Vec2& n, double ds) {
       const Vec2 force = traction(x, n) * (ds * thickness);
       for (std::size_t i = 0; i < element.nodes.size(); ++i)
-        f.segment<2>(2 * element.nodes[i]) += N[static_cast<Eigen::Index>(i)] * force;
+        f.segment<2>(place_of(element.nodes[i])) += N[static_cast<Eigen::Index>(i)] * force;
     });
   return f;
 }

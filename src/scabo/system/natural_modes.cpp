@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "scabo/base/components.hpp"
 #include "scabo/linalg/symmetric_eigen.hpp"
 
 namespace scabo::system {
@@ -131,21 +132,23 @@ NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::ve
   if (dofs.empty()) return {Vector(0), Matrix(K.size(), 0), 0, Vector(0)};
   Vec2 reference;
   double lever = 0.0;
-  const Matrix motions = free_motions(nodes, constraints, reference, lever);
+  const Matrix motions = free_motions(nodes, constraints, K.springs.directions, reference, lever);
   Matrix N(K.size(), motions.cols());
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    N.middleRows<2>(static_cast<Eigen::Index>(2 * i)) = rigid_point(nodes[i], reference, lever) * motions;
+    N.middleRows<2>(place_of(i)) = rigid_point(nodes[i], reference, lever) * motions;
   const Matrix N_free = N(dofs, Eigen::all);
   const auto elastic = static_cast<int>(dofs.size()) - static_cast<int>(motions.cols());
   const int wanted = std::clamp(count - static_cast<int>(motions.cols()), 0, elastic);
 
   if (K.dense || static_cast<Eigen::Index>(dofs.size()) < std::max<Eigen::Index>(dense_at_most, 4 * wanted)) {
-    const Matrix K_free = K.dense ? Matrix((*K.dense)(dofs, dofs)) : Matrix(part_of(K.sparse, dofs));
+    Matrix K_free = K.dense ? Matrix((*K.dense)(dofs, dofs)) : Matrix(part_of(K.sparse, dofs));
+    if (!K.springs.none()) K_free += part_of(K.springs.matrix, dofs);
     const Matrix M_free = M.dense ? Matrix((*M.dense)(dofs, dofs)) : Matrix(part_of(M.sparse, dofs));
     const Matrix rigid = orthonormal(N_free, M_free);
     return finish(K_free, M_free, rigid, elastic_modes(K_free, M_free, rigid, wanted), count, dofs, K.size());
   }
-  const Sparse K_free = part_of(K.sparse, dofs), M_free = part_of(M.sparse, dofs);
+  const Sparse K_free = part_of(K.springs.none() ? K.sparse : Sparse(K.sparse + K.springs.matrix), dofs),
+               M_free = part_of(M.sparse, dofs);
   const Matrix rigid = orthonormal(N_free, M_free);
   linalg::EigenPairs pairs{Vector(0), Matrix(static_cast<Eigen::Index>(dofs.size()), 0)};
   if (wanted > 0) pairs = elastic_modes(K_free, M_free, rigid, wanted, *elastic_body(K, nodes, constraints), dofs);

@@ -29,13 +29,6 @@ bool same_history(const model::Model& model, int a, int b) {
   return true;
 }
 
-double half_size(const model::Outline& outline) {
-  Vec2 low = outline.edges.front().start, high = low;
-  for (const model::Edge& edge : outline.edges)
-    for (double t : {0.0, 0.5}) low = low.cwiseMin(edge.at(t)), high = high.cwiseMax(edge.at(t));
-  return 0.5 * (high - low).norm();
-}
-
 class ConstraintCollector {
  public:
   ConstraintCollector(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs)
@@ -45,13 +38,18 @@ class ConstraintCollector {
     const model::Support& support = model_.supports[static_cast<std::size_t>(index)];
     const auto body = static_cast<std::size_t>(support.on.body);
     const std::size_t part = dofs_.part_of(support.on.body);
+    if (support.rotation)
+      constraints_[part].push_back(
+          {-1, Vec2::Zero(), 0, true, index, *support.rotation * half_size(model_.bodies[body].outline), Vec2::Zero()});
     for (int component = 0; component < 2; ++component) {
       const auto value = support.displacement[static_cast<std::size_t>(component)];
       if (!value) continue;
       if (model_.bodies[body].rigid) {
-        for (const Vec2& point : rigid_points(support.on, model_.bodies[body]))
+        const std::vector<Vec2> points =
+            support.at ? std::vector<Vec2>{*support.at} : rigid_points(support.on, model_.bodies[body]);
+        for (const Vec2& point : points)
           constraints_[part].push_back(constraint_along(support, component, point, index, *value));
-        if (support.on.kind == model::Place::Kind::body && !holds_rotation(part))
+        if (!support.rotation && support.on.kind == model::Place::Kind::body && !holds_rotation(part))
           constraints_[part].push_back({-1, Vec2::Zero(), component, true, index, 0.0, Vec2::Zero()});
         continue;
       }
@@ -157,10 +155,11 @@ class ConstraintCollector {
 };
 
 std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const model::Body& body,
-                                            std::vector<Constraint> constraints) {
+                                            std::vector<Constraint> constraints, const Springs& springs) {
   std::string contradiction;
   const int last_support = constraints.empty() ? -1 : constraints.back().support;
-  auto system = rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), contradiction);
+  auto system =
+      rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), springs, contradiction);
   if (!contradiction.empty())
     throw InputError(model.file, {{model.supports[static_cast<std::size_t>(last_support)].source,
                                    fmt::format("the supports of rigid body '{}' contradict each other: a rigid body "
@@ -180,6 +179,13 @@ std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh, 
 }
 
 }  // namespace
+
+double half_size(const model::Outline& outline) {
+  Vec2 low = outline.edges.front().start, high = low;
+  for (const model::Edge& edge : outline.edges)
+    for (double t : {0.0, 0.5}) low = low.cwiseMin(edge.at(t)), high = high.cwiseMax(edge.at(t));
+  return 0.5 * (high - low).norm();
+}
 
 std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body) {
   const auto index = static_cast<std::size_t>(place.index);
@@ -209,6 +215,7 @@ std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, c
 void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
   const Dofs dofs(model, mesh);
   const auto constraints = constraints_of(model, mesh, dofs);
+  const ModelSprings springs = springs_of(model, mesh, dofs);
   const std::vector<bool> touched = in_contact(model, mesh, dofs);
   std::vector<Diagnostic> diagnostics;
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
@@ -219,12 +226,12 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
     double lever = 0.0;
     Matrix free;
     if (body.rigid) {
-      const auto system = make_rigid_body(model, body, constraints[p]);
+      const auto system = make_rigid_body(model, body, constraints[p], springs.of_part[p]);
       reference = system->reference();
       lever = system->lever();
       free = system->rigid_coordinates();
     } else {
-      free = free_motions(dofs.nodes(p), constraints[p], reference, lever);
+      free = free_motions(dofs.nodes(p), constraints[p], springs.of_part[p].directions, reference, lever);
     }
     if (free.cols() == 0) continue;
     std::string motions;
@@ -234,7 +241,8 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
                                                 : dofs.name_of(p, model) + " are insufficiently supported: they are";
     diagnostics.push_back(
         {body.source,
-         fmt::format("{} free to move by {}; add a support that prevents this motion, or a contact", what, motions)});
+         fmt::format("{} free to move by {}; add a support or springs that prevent this motion, or a contact", what,
+                     motions)});
   }
   if (!diagnostics.empty()) throw InputError(model.file, std::move(diagnostics));
 }
@@ -251,6 +259,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                                    "the library of MUMPS was not found: write cholmod, "
                                    "or install libmumps-seq-dev"}});
   auto constraints = constraints_of(model, mesh, dofs);
+  structure.springs = springs_of(model, mesh, dofs);
   structure.parts.resize(dofs.parts());
   const auto body_of = [&](std::size_t p) -> const model::Body& {
     return model.bodies[static_cast<std::size_t>(dofs.bodies_of(p).front())];
@@ -259,22 +268,28 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
   std::vector<ElasticPart> parts;
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
     if (body_of(p).rigid) {
-      structure.parts[p] = make_rigid_body(model, body_of(p), std::move(constraints[p]));
+      structure.parts[p] = make_rigid_body(model, body_of(p), std::move(constraints[p]), structure.springs.of_part[p]);
       continue;
     }
     elastic.push_back(p);
     Stiffness stiffness =
         timed(structure.assembly_seconds, [&] { return part_stiffness(model, mesh, cells, dofs, p, threads); });
+    stiffness.springs = structure.springs.of_part[p];
     parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p])});
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options);
     for (std::size_t k = 0; k < elastic.size(); ++k) structure.parts[elastic[k]] = std::move(bodies[k]);
   } catch (const NotPositiveDefinitePart& failed) {
-    throw InputError(model.file, {{body_of(elastic[failed.part]).source,
-                                   "its stiffness matrix is not positive definite to working precision: the body is "
+    const bool on_springs = !structure.springs.of_part[elastic[failed.part]].none();
+    throw InputError(model.file,
+                     {{body_of(elastic[failed.part]).source,
+                       fmt::format("its stiffness matrix is not positive definite to working precision: the body is "
                                    "too slender (3000:1 or more), or its material constants (by a factor of about "
-                                   "1e12) or its element sizes differ too much"}});
+                                   "1e12) or its element sizes differ too much{}",
+                                   on_springs ? ", or its springs are too soft (by a factor of about 1e12): make it "
+                                                "rigid if only its motion matters"
+                                              : "")}});
   }
   return structure;
 }

@@ -1,23 +1,31 @@
-// All bodies with their supports and loads.
+// All bodies with their supports, springs and loads.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scabo/element/cell_library.hpp"
+#include "scabo/element/initial_stress.hpp"
 #include "scabo/element/radial_load.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/dofs.hpp"
+#include "scabo/system/springs.hpp"
 
 namespace scabo::system {
 
 struct Structure {
   Dofs dofs;
   std::vector<std::unique_ptr<BodySystem>> parts;  ///< one for each part of `dofs`
+  ModelSprings springs;                            ///< those of the parts, spring by spring
   /// [load][part]: generalised forces at factor 1; empty where the load does not act on the part.
   std::vector<std::vector<Vector>> loads;
   /// [load][body][cell]: loads inside the cells, at factor 1; empty where the load does not act inside the body.
   std::vector<std::vector<element::CellLoads>> interior;
+  /// [load][body]: stress before the body deforms, at factor 1; zero where the load is none.
+  std::vector<std::vector<element::InitialStress>> initial;
+  /// [load][contact]: sum of the forces of pore pressure in the contact, at factor 1; empty where the load is none.
+  std::vector<std::vector<std::optional<double>>> pores;
   double assembly_seconds = 0.0;  ///< of `make_structure`, for its stiffness matrices
 };
 
@@ -26,7 +34,7 @@ struct Structure {
 std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh,
                                                     const Dofs& dofs);
 
-/// Throws InputError for bodies and parts that are held neither by supports nor by contact pairs.
+/// Throws InputError for bodies and parts that are held neither by supports nor by springs nor by contact pairs.
 void check_supports(const model::Model& model, const mesh::Mesh& mesh);
 
 /// Factorises every part, on up to `threads` threads. `cells[body]`: its solved super-elements.
@@ -39,5 +47,8 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
 
 /// Points of a rigid body that belong to a place.
 std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body);
+
+/// Half the diagonal of the box around an outline: L of a rigid body, whose motions are about its centroid.
+double half_size(const model::Outline& outline);
 
 }  // namespace scabo::system

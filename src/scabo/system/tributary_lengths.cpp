@@ -46,9 +46,6 @@ struct ClosedTip {
   double free = 0.0;  ///< length, > 0
 };
 
-/// Eq. (2), at a distance r > d from the tip.
-double amplification(const ClosedTip& tip, double r) { return (r - 0.5 * tip.free) / std::sqrt(r * (r - tip.free)); }
-
 /// Integrals of N_i over an element of a face, with the amplification of eq. (2) where a tip is near. Near the end of
 /// the free length with r - d = s^2, so that the integrand is smooth.
 std::vector<double> amplified_lengths(const std::vector<Vec2>& points, const std::vector<ClosedTip>& tips) {

@@ -36,21 +36,21 @@ const std::vector<Vec2> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
 TEST(FreeMotions, ThreeWithoutSupportsNoneWhenIsostatic) {
   Vec2 reference;
   double lever = 0.0;
-  EXPECT_EQ(free_motions(square, {}, reference, lever).cols(), 3);
+  EXPECT_EQ(free_motions(square, {}, {}, reference, lever).cols(), 3);
   EXPECT_EQ(reference, Vec2(1, 1));
   EXPECT_DOUBLE_EQ(lever, std::sqrt(2.0));
-  EXPECT_EQ(free_motions(square, {hold(0, 0), hold(0, 1), hold(1, 1)}, reference, lever).cols(), 0);
-  EXPECT_EQ(free_motions(square, {hold(0, 0), hold(0, 1), hold(1, 0)}, reference, lever).cols(), 1);
+  EXPECT_EQ(free_motions(square, {hold(0, 0), hold(0, 1), hold(1, 1)}, {}, reference, lever).cols(), 0);
+  EXPECT_EQ(free_motions(square, {hold(0, 0), hold(0, 1), hold(1, 0)}, {}, reference, lever).cols(), 1);
 }
 
 TEST(FreeMotions, AreDescribedByWhatTheyDo) {
   Vec2 reference;
   double lever = 0.0;
-  Matrix motion = free_motions(square, {hold(0, 1), hold(1, 1)}, reference, lever);  // a roller along the bottom
+  Matrix motion = free_motions(square, {hold(0, 1), hold(1, 1)}, {}, reference, lever);  // a roller along the bottom
   ASSERT_EQ(motion.cols(), 1);
   EXPECT_THAT(describe_motion(motion.col(0), reference, lever),
               testing::AnyOf("translation along (1, 0)", "translation along (-1, 0)"));
-  motion = free_motions(square, {hold(1, 0), hold(1, 1)}, reference, lever);  // a hinge
+  motion = free_motions(square, {hold(1, 0), hold(1, 1)}, {}, reference, lever);  // a hinge
   ASSERT_EQ(motion.cols(), 1);
   EXPECT_EQ(describe_motion(motion.col(0), reference, lever), "rotation about (2, 0)");
 }
@@ -59,7 +59,7 @@ TEST(FreeMotions, MoveNoConstraint) {
   const std::vector<Constraint> held = {hold(0, 0), hold(2, 1)};  // x at (0, 0), y at (2, 2): pole (2, 0)
   Vec2 reference;
   double lever = 0.0;
-  const Matrix motion = free_motions(square, held, reference, lever);
+  const Matrix motion = free_motions(square, held, {}, reference, lever);
   ASSERT_EQ(motion.cols(), 1);
   for (const Constraint& constraint : held) {
     const Vec2 moved = rigid_point(square[static_cast<std::size_t>(constraint.dof / 2)], reference, lever) * motion;
@@ -183,7 +183,7 @@ TEST(RigidBody, MovesWithItsSupportsAndTheirReactionsBalance) {
   std::string contradiction;
   // Held in x and y at (0, 0) and in y at (2, 0), which is pushed down by 0.1: a rotation.
   const auto body = rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 0), hold_rigid({0, 0}, 1), hold_rigid({2, 0}, 1, -0.1)},
-                               contradiction);
+                               {}, contradiction);
   EXPECT_EQ(contradiction, "");
   EXPECT_EQ(body->size(), 3);
   EXPECT_EQ(body->rigid_motions().cols(), 0);
@@ -200,8 +200,8 @@ TEST(RigidBody, MovesWithItsSupportsAndTheirReactionsBalance) {
 
 TEST(RigidBody, KeepsTheMotionsThatNothingHolds) {
   std::string contradiction;
-  EXPECT_EQ(rigid_body({1, 1}, 2.0, {}, contradiction)->rigid_motions().cols(), 3);
-  const auto roller = rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 1), hold_rigid({2, 0}, 1)}, contradiction);
+  EXPECT_EQ(rigid_body({1, 1}, 2.0, {}, {}, contradiction)->rigid_motions().cols(), 3);
+  const auto roller = rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 1), hold_rigid({2, 0}, 1)}, {}, contradiction);
   ASSERT_EQ(roller->rigid_motions().cols(), 1);
   EXPECT_THAT(describe_motion(roller->rigid_coordinates().col(0), roller->reference(), roller->lever()),
               testing::HasSubstr("translation along"));
@@ -212,10 +212,10 @@ TEST(RigidBody, KeepsTheMotionsThatNothingHolds) {
 TEST(RigidBody, FindsSupportsThatContradictEachOther) {
   std::string contradiction;
   rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 0, 0.1), hold_rigid({2, 0}, 0, 0.2)},
-             contradiction);  // it would stretch
+             {}, contradiction);  // it would stretch
   EXPECT_NE(contradiction, "");
   contradiction.clear();
-  rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 0, 0.1), hold_rigid({2, 0}, 0, 0.1)}, contradiction);
+  rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 0, 0.1), hold_rigid({2, 0}, 0, 0.1)}, {}, contradiction);
   EXPECT_EQ(contradiction, "");
 }
 

@@ -1,0 +1,156 @@
+#include "scabo/system/springs.hpp"
+
+#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/line_basis.hpp"
+#include "scabo/system/loads.hpp"
+#include "scabo/system/structure.hpp"
+
+namespace scabo::system {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// Calls `visit(N, x, n, ds)` at the integration points of an element of an edge: shape functions, position, outward
+/// normal, weighted length. Normals of arcs are those of the arc, so that the normal springs around a circle do not
+/// resist its rotation.
+template <typename Visit>
+void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes, const model::Edge& edge, Visit visit) {
+  const int order = static_cast<int>(element.nodes.size()) - 1;
+  const auto& basis = geometry::LineBasis::of_order(order);
+  const geometry::GaussRule rule = geometry::gauss_rule(3 * order / 2 + 2);  // N, N and x,eta of curved elements
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    const Vector N = basis.values(rule.points[q]), N_eta = basis.derivatives(rule.points[q]);
+    Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
+    for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+      x += N[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
+      x_eta += N_eta[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
+    }
+    const double length = x_eta.norm();
+    Vec2 n = Vec2(x_eta.y(), -x_eta.x()) / length;
+    if (edge.arc)
+      if (const auto foot = geometry::foot_on(edge, x)) n = foot->normal;
+    visit(N, x, n, rule.weights[q] * length);
+  }
+}
+
+/// k_n n n' + k_t t t'.
+Mat2 tensor_of(const model::Spring& spring, const Vec2& n) {
+  const Vec2 t(-n.y(), n.x());
+  return spring.stiffness[0] * n * n.transpose() + spring.stiffness[1] * t * t.transpose();
+}
+
+/// The directions with springs among two that are at right angles.
+void hold(const model::Spring& spring, const Vec2& x, const Vec2& first, std::vector<HeldDirection>& held) {
+  if (spring.stiffness[0] > 0.0) held.push_back({x, first});
+  if (spring.stiffness[1] > 0.0) held.push_back({x, Vec2(-first.y(), first.x())});
+}
+
+class Assembly {
+ public:
+  Assembly(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs)
+      : model_(model), mesh_(mesh), dofs_(dofs) {}
+
+  /// S of one spring; adds the directions that it holds.
+  linalg::SparseMatrix add(const model::Spring& spring, std::vector<HeldDirection>& held) const {
+    Triplets entries;
+    const auto b = static_cast<std::size_t>(spring.on.body);
+    if (model_.bodies[b].rigid)
+      add_to_rigid(spring, model_.bodies[b], entries, held);
+    else
+      add_to_elastic(spring, mesh_.bodies[b], entries, held);
+    const Eigen::Index size = dofs_.size(dofs_.part_of(spring.on.body));
+    linalg::SparseMatrix S(size, size);
+    S.setFromTriplets(entries.begin(), entries.end());
+    return S;
+  }
+
+ private:
+  const model::Edge& edge_of(const model::Spring& spring) const {
+    return model_.bodies[static_cast<std::size_t>(spring.on.body)]
+        .outline.edges[static_cast<std::size_t>(spring.on.index)];
+  }
+
+  void add_to_elastic(const model::Spring& spring, const mesh::BodyMesh& mesh, Triplets& entries,
+                      std::vector<HeldDirection>& held) const {
+    const mesh::PlaceNodes at = mesh::nodes_of(spring.on, mesh_);
+    if (spring.on.kind != model::Place::Kind::edge) {
+      for (int k = 0; k < 2; ++k) {
+        const int dof = dofs_.of(spring.on.body, at.nodes.front(), k);
+        entries.emplace_back(dof, dof, spring.stiffness[static_cast<std::size_t>(k)]);
+      }
+      hold(spring, mesh.nodes[static_cast<std::size_t>(at.nodes.front())], Vec2::UnitX(), held);
+      return;
+    }
+    for (const mesh::LineElement& element : at.elements)
+      integrate(element, mesh.nodes, edge_of(spring), [&](const Vector& N, const Vec2& x, const Vec2& n, double ds) {
+        const Mat2 k = tensor_of(spring, n) * (ds * model_.analysis.thickness);
+        hold(spring, x, n, held);
+        for (std::size_t i = 0; i < element.nodes.size(); ++i)
+          for (std::size_t j = 0; j < element.nodes.size(); ++j)
+            for (int row = 0; row < 2; ++row)
+              for (int column = 0; column < 2; ++column)
+                entries.emplace_back(
+                    dofs_.of(spring.on.body, element.nodes[i], row), dofs_.of(spring.on.body, element.nodes[j], column),
+                    N[static_cast<Eigen::Index>(i)] * N[static_cast<Eigen::Index>(j)] * k(row, column));
+      });
+  }
+
+  void add_to_rigid(const model::Spring& spring, const model::Body& body, Triplets& entries,
+                    std::vector<HeldDirection>& held) const {
+    const Vec2 reference = body.outline.centroid();
+    const double lever = half_size(body.outline);
+    Matrix S = Matrix::Zero(3, 3);
+    const auto add = [&](const Vec2& x, const Mat2& k) {
+      const Eigen::Matrix<double, 2, 3> R = rigid_point(x, reference, lever);
+      S += R.transpose() * k * R;
+    };
+    if (spring.on.kind != model::Place::Kind::edge) {
+      const Vec2 x = rigid_points(spring.on, body).front();
+      add(x, Vec2(spring.stiffness[0], spring.stiffness[1]).asDiagonal());
+      hold(spring, x, Vec2::UnitX(), held);
+    } else {
+      const EdgeElements edge = elements_of(edge_of(spring));
+      for (const mesh::LineElement& element : edge.elements)
+        integrate(element, edge.nodes, edge_of(spring), [&](const Vector&, const Vec2& x, const Vec2& n, double ds) {
+          add(x, tensor_of(spring, n) * (ds * model_.analysis.thickness));
+          hold(spring, x, n, held);
+        });
+    }
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) entries.emplace_back(i, j, S(i, j));
+  }
+
+  const model::Model& model_;
+  const mesh::Mesh& mesh_;
+  const Dofs& dofs_;
+};
+
+}  // namespace
+
+ModelSprings springs_of(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
+  ModelSprings springs;
+  springs.of_part.resize(dofs.parts());
+  const Assembly assembly(model, mesh, dofs);
+  for (const model::Spring& spring : model.springs) {
+    Springs& of_part = springs.of_part[dofs.part_of(spring.on.body)];
+    springs.of_spring.push_back(assembly.add(spring, of_part.directions));
+    const linalg::SparseMatrix& S = springs.of_spring.back();
+    of_part.matrix = of_part.none() ? S : linalg::SparseMatrix(of_part.matrix + S);
+  }
+  return springs;
+}
+
+std::vector<Vec2> spring_resultants(const ModelSprings& springs, const model::Model& model, const Dofs& dofs,
+                                    const std::vector<Vector>& u) {
+  std::vector<Vec2> resultants;
+  for (std::size_t s = 0; s < springs.of_spring.size(); ++s) {
+    const std::size_t part = dofs.part_of(model.springs[s].on.body);
+    const Vector forces = -(springs.of_spring[s] * u[part]);
+    resultants.emplace_back(dofs.is_rigid(part) ? Vec2(forces.head<2>())
+                                                : Vec2(forces.reshaped(2, forces.size() / 2).rowwise().sum()));
+  }
+  return resultants;
+}
+
+}  // namespace scabo::system

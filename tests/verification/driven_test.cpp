@@ -1,0 +1,100 @@
+// Moments on edges and rigid bodies; rigid bodies that are driven by the displacement of a point and a rotation.
+#include <fmt/format.h>
+
+#include "run.hpp"
+
+namespace scabo::verification {
+namespace {
+
+// Pure bending is exact: u_y = M x^2 / (2 E I) on the axis of a beam on rollers at its left end.
+TEST(Moments, OnTheEndOfACantileverBendItExactly) {
+  const double E = 30e9, h = 0.5, t = 0.2, L = 4.0, M = 25e3, I = t * h * h * h / 12.0;
+  for (const double sign : {1.0, -1.0})
+    for (const char* mesh : {"size: 0.5, order: 2", "kind: fem, size: 0.5", "kind: polygons, size: 0.3, order: 3"}) {
+      const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{thickness: {}}}
+materials: {{stuff: {{young: {}, poisson: 0.3}}}}
+bodies: {{beam: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [{}, {}]}}}}, mesh: {{{}}}}}}}
+supports: [{{on: beam.left, fix: x}}, {{on: beam.bottom_left, fix: y}}]
+loads: {{turn: {{on: beam.right, moment: {}}}}}
+)",
+                                            t, E, L, h, mesh, sign * M));
+      const auto& nodes = solution.mesh.bodies[0].nodes;
+      const Vector& u = last(solution).fields.displacements[0];
+      const double c = sign * M / (E * I);  // curvature: counter-clockwise at the right end bends the beam upwards
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double x = nodes[i].x(), y = nodes[i].y() - 0.5 * h;
+        const Vec2 exact(-c * x * y, 0.5 * c * (x * x + 0.3 * (y * y - 0.25 * h * h)));
+        EXPECT_LT((u.segment<2>(static_cast<Eigen::Index>(2 * i)) - exact).norm(), 1e-9 * std::abs(c) * L * L) << mesh;
+      }
+      EXPECT_LT(last(solution).reactions[0].norm(), 1e-9 * M / h);
+    }
+}
+
+// A rigid plate on an elastic block turns by M over the stiffness that a prescribed rotation finds.
+analysis::StaticSolution plate_on_block(const std::string& support, const std::string& load,
+                                        const std::string& steps = {}) {
+  return run(fmt::format(R"(
+scabo: 1
+materials: {{stuff: {{young: 1e9, poisson: 0.3}}}}
+bodies:
+  block: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{size: 0.25, order: 3}}}}
+  plate: {{rigid: true, shape: {{rectangle: {{corner: [-0.5, 1], size: [3, 0.2]}}}}}}
+supports:
+  - {{on: block.bottom, fix: [x, y]}}
+  {}
+contacts: {{glue: {{between: [block.top, plate.bottom], bond: true}}}}
+loads: {{{}}}
+{}
+)",
+                         support, load, steps));
+}
+
+TEST(Rotations, OfARigidPlateNeedTheMomentThatTurnsIt) {
+  const auto turned = plate_on_block("- {on: plate, rotation: 1e-3, name: drive}", "");
+  ASSERT_TRUE(last(turned).moments[1].has_value());
+  const double M = *last(turned).moments[1];
+  EXPECT_GT(M, 0.0);
+  EXPECT_FALSE(last(turned).moments[0].has_value());
+  EXPECT_NEAR(last(turned).fields.displacements[1][2], 1e-3, 1e-17);
+  EXPECT_LT(last(turned).reactions[1].norm(), 1e-9 * M);  // its translation is free
+  EXPECT_NEAR(last(turned).energy.external, 0.5 * M * 1e-3, 1e-12 * M);
+  EXPECT_NEAR(last(turned).energy.elastic, 0.5 * M * 1e-3, 1e-10 * M * 1e-3);
+  const auto by_moment = plate_on_block("", fmt::format("turn: {{on: plate, moment: {:.17g}}}", M));
+  EXPECT_NEAR(last(by_moment).fields.displacements[1][2], 1e-3, 1e-12);
+  EXPECT_LT((last(by_moment).fields.displacements[1] - last(turned).fields.displacements[1]).norm(), 1e-12);
+}
+
+// About another point: the same motion has the same force, and a moment that differs by the arm of the force.
+TEST(Rotations, AboutAPointMoveItsNeighbours) {
+  const Vec2 at(-0.5, 1.0), centroid(1.0, 1.1), shift(2e-4, -3e-4);
+  const double angle = 5e-4;
+  const auto first =
+      plate_on_block("- {on: plate, rotation: 5e-4, at: [-0.5, 1], displacement: [2e-4, -3e-4], name: drive}", "");
+  const Vec2 arm = centroid - at, moved = shift + angle * Vec2(-arm.y(), arm.x());
+  const Vec2 found = last(first).fields.displacements[1].head<2>();
+  EXPECT_LT((found - moved).norm(), 1e-16);
+  const auto second =
+      plate_on_block(fmt::format("- {{on: plate, rotation: 5e-4, displacement: [{:.17g}, {:.17g}], name: drive}}",
+                                 moved.x(), moved.y()),
+                     "");
+  const Vec2 F = last(first).reactions[1];
+  EXPECT_LT((last(second).reactions[1] - F).norm(), 1e-10 * F.norm());
+  EXPECT_NEAR(*last(first).moments[1], *last(second).moments[1] + arm.x() * F.y() - arm.y() * F.x(), 1e-10 * F.norm());
+  EXPECT_NEAR(last(first).energy.external, last(first).energy.elastic, 1e-10 * last(first).energy.elastic);
+}
+
+TEST(Rotations, ScaleWithTheFactorOfTheirStep) {
+  const auto solution = plate_on_block("- {on: plate, rotation: 1e-3, name: drive}", "", R"(
+steps:
+  - {name: there, loads: {drive: 1}}
+  - {name: back, loads: {drive: -0.5}}
+)");
+  ASSERT_EQ(solution.increments.size(), 2u);
+  EXPECT_NEAR(*solution.increments[1].moments[1], -0.5 * *solution.increments[0].moments[1],
+              1e-10 * *solution.increments[0].moments[1]);
+}
+
+}  // namespace
+}  // namespace scabo::verification
