@@ -187,7 +187,8 @@ TEST(PorePressure, InACrackIsThatOnItsFaces) {
   EXPECT_EQ(contact_of(last(closed)).open, 0);
   EXPECT_NEAR(factors_at(last(closed), "plate.flaw.end").K_I, 0.0, 1e-5 * K);
   for (const analysis::PairResult& pair : contact_of(last(closed)).pairs) {
-    EXPECT_NEAR(pair.pressure, 2.5, std::abs(pair.position.x()) < 2.0 - 1e-6 ? 2e-2 : 0.25) << pair.position.transpose();
+    EXPECT_NEAR(pair.pressure, 2.5, std::abs(pair.position.x()) < 2.0 - 1e-6 ? 2e-2 : 0.25)
+        << pair.position.transpose();
   }
 }
 

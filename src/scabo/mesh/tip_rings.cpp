@@ -32,6 +32,9 @@ std::vector<Vec2> raised_arms(const LineElement& element, const std::vector<Vec2
       arm += N(k, static_cast<Eigen::Index>(j)) * (nodes[static_cast<std::size_t>(element.nodes[j])] - tip);
     arms.push_back(arm);
   }
+  // Without rounding, because the two faces of a crack begin and end at the same places.
+  arms.front() = nodes[static_cast<std::size_t>(element.nodes.front())] - tip;
+  arms.back() = nodes[static_cast<std::size_t>(element.nodes.back())] - tip;
   return arms;
 }
 

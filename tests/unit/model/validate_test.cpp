@@ -126,11 +126,6 @@ std::vector<Mutation> mutations() {
        "bodies.upper.sectors"},
       {"mesh_tolerance_nan", [](Model& m) { m.bodies[1].mesh.tolerance = nan; }, "bodies.upper.mesh.tolerance"},
       {"mesh_tolerance_small", [](Model& m) { m.bodies[1].mesh.tolerance = 1e-9; }, "bodies.upper.mesh.tolerance"},
-      {"refine_of_one_super_element",
-       [](Model& m) {
-         m.bodies[1].mesh.refine = {{Vec2(0, 1), -1, 0.1, {}}};
-       },
-       "bodies.upper.mesh.refine"},
       {"refine_size",
        [](Model& m) {
          m.bodies[1].mesh.kind = MeshKind::polygons;
