@@ -272,6 +272,8 @@ std::vector<GoalCase> goal_cases() {
   cases.push_back({"Tunnel_refined", tunnel(0.5, 1), "ground.rim_start.ux", 1.3e-3, 1e-4});
   cases.push_back({"Corner", corner("superelement", 0.25, 2), "elastic_energy", corner_energy});
   cases.push_back({"Corner_superelement", corner("superelement", 0.25, 2), "elastic_energy", corner_energy, 1e-3});
+  cases.push_back({"Ring_of_parts", ring("superelement", 0.5, 2), "ring.vertex_1.ux", widening});
+  cases.push_back({"Ring_of_parts_refined", ring("superelement", 0.5, 2), "ring.vertex_1.ux", widening, 1e-4});
   cases.push_back({"Corner_quadtree", corner("quadtree", 0.25, 2), "elastic_energy", corner_energy, 1e-2});
   cases.push_back({"Corner_polygons", corner("polygons", 0.25, 2), "elastic_energy", corner_energy, 1e-2});
   return cases;

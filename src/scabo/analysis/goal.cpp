@@ -319,8 +319,9 @@ MeshErrors goal_errors(const GoalPass& pass, double& sum) {
 /// cannot be refined alike, they are matched anew in every mesh.
 model::Model with_tolerances(model::Model model) {
   for (model::Body& body : model.bodies) {
-    const model::MeshKind kind = body.mesh.kind;
-    if (!body.rigid && !body.image && kind != model::MeshKind::parts) body.mesh.tolerance = model.tolerance->relative;
+    if (body.rigid || body.image) continue;
+    body.mesh.tolerance = model.tolerance->relative;
+    if (body.mesh.kind == model::MeshKind::parts) body.mesh.kind = model::MeshKind::polygons;  // parts are too large
   }
   try {
     check_refinable(model, mesh::make_mesh(model));

@@ -10,7 +10,7 @@ namespace scabo::model {
 namespace {
 
 /// Whether meshes of the body can be refined for a tolerance.
-bool can_be_refined(const Body& body) { return !body.rigid && !body.image && body.mesh.kind != MeshKind::parts; }
+bool can_be_refined(const Body& body) { return !body.rigid && !body.image; }
 
 bool check_number_of(Checking& checking, const std::string& path, const char* what, int index, std::size_t count) {
   if (index >= 0 && static_cast<std::size_t>(index) < count) return true;
