@@ -266,13 +266,13 @@ TEST_P(RatesOfCells, KirschsPlate) {
   // Sides on the hole turn by at most 15 degrees, whatever the size: only sizes below 0.25 count.
   const bool few = kind() == "superelement", polygons = kind() == "polygons";
   for (int order = 1; order <= highest_order(); ++order) {
-    const double size = polygons && order == 4                                         ? 0.18
-                        : few || polygons || (!is_fem(kind()) && kind() != "quadtree") ? 0.125
-                        : is_fem(kind()) && order == 2                                 ? 0.125
-                                                                                       : 0.25,
-                 finer = polygons && order == 4  ? 0.125 / 0.18
-                         : few && order % 2 == 0 ? 0.7
-                                                 : 0.5;
+    const bool fine = kind() == "imported" || few || polygons;
+    const double size = order == 4 && polygons                   ? 0.18
+                        : fine || (is_fem(kind()) && order == 2) ? 0.125
+                                                                 : 0.25,
+                 finer = order == 4 && polygons ? 0.125 / 0.18
+                         : few && order > 1     ? 0.7
+                                                : 0.5;
     // Squared, an error of 3.5e-7 is 1.2e-13 of the energy, whose rounding (1e-14, by the order of elimination) moves
     // the rate of order 4 between sizes so close to each other by 0.1.
     const double lost = polygons && order == 4 ? 0.4 : 0.15;
