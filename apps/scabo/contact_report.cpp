@@ -8,6 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "scabo/contact/status_name.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/report.hpp"
@@ -18,20 +19,6 @@ namespace scabo::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string_view name_of(contact::Status status) {
-  switch (status) {
-    case contact::Status::solved:
-      return "solved";
-    case contact::Status::not_converged:
-      return "not_converged";
-    case contact::Status::mechanism:
-      return "mechanism";
-    case contact::Status::infeasible:
-      return "infeasible";
-  }
-  throw BrokenInvariant("a status without a name");
-}
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -111,7 +98,7 @@ Json json_of(const contact::UniquenessReport& report) {
 }  // namespace
 
 std::string_view spoken_name_of(contact::Status status) {
-  return status == contact::Status::not_converged ? "did not converge" : name_of(status);
+  return status == contact::Status::not_converged ? "did not converge" : contact::name_of(status);
 }
 
 std::string report_table(const std::string& file, const contact::SavedProblem& saved, const Judged& judged) {
@@ -123,7 +110,7 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
   if (problem.G.cols() > 0) text += ", " + model::counted(problem.G.cols(), "rigid motion");
   if (saved.start.p.size() > 0) text += ", with a start";
 
-  std::string outcome(name_of(solution.status));
+  std::string outcome(contact::name_of(solution.status));
   outcome[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(outcome[0])));
   std::replace(outcome.begin(), outcome.end(), '_', ' ');
   text += fmt::format(
@@ -146,7 +133,7 @@ std::string report_table(const std::string& file, const contact::SavedProblem& s
 std::string report_json(const std::string& file, const contact::SavedProblem& saved, const Judged& judged) {
   const contact::Problem& problem = saved.problem;
   const contact::Solution& solution = judged.solution;
-  Json json = {{"status", name_of(solution.status)},
+  Json json = {{"status", contact::name_of(solution.status)},
                {"natural_map_residual", number_or_null(solution.natural_map_residual)},
                {"iterations", solution.iterations},
                {"coarse_iterations", solution.coarse_iterations},

@@ -5,6 +5,7 @@
 
 #include "arrays.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/contact/status_name.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "solved.hpp"
 
@@ -64,20 +65,6 @@ std::shared_ptr<Solution> solve(const std::optional<Numbers>& dense, const std::
   return std::make_shared<Solution>(contact::solve(problem, start, options));
 }
 
-std::string status_of(const Solution& solution) {
-  switch (solution.status) {
-    case contact::Status::solved:
-      return "solved";
-    case contact::Status::not_converged:
-      return "not_converged";
-    case contact::Status::mechanism:
-      return "mechanism";
-    case contact::Status::infeasible:
-      return "infeasible";
-  }
-  throw BrokenInvariant("a status without a name");
-}
-
 py::dict certificate_of(const Solution& solution) {
   const Certificate& found = solution.certificate;
   py::dict certificate;
@@ -101,7 +88,7 @@ py::array vector_view(const py::object& self) {
 
 void bind_contact(py::module_& module) {
   py::class_<Solution, std::shared_ptr<Solution>>(module, "DiscreteSolution")
-      .def_property_readonly("status", &status_of)
+      .def_property_readonly("status", [](const Solution& of) { return contact::name_of(of.status); })
       .def_property_readonly("forces", &vector_view<&Solution::p>)
       .def_property_readonly("rigid_motions", &vector_view<&Solution::a>)
       .def_property_readonly("gap", &vector_view<&Solution::gap>)

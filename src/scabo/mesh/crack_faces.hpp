@@ -20,8 +20,8 @@ namespace scabo::mesh {
 /// Opposite nodes of the two faces of a crack.
 struct FacePair {
   int left = -1, right = -1;
-  /// Integral of N ds n over the elements that have both nodes, n out of the left face: its length is the tributary
-  /// length of the pair.
+  /// Integral of N ds n over the elements that have both nodes, n out of the left face: its direction is the
+  /// normal of the pair, its length the tributary length away from tips (system/tributary_lengths.hpp).
   Vec2 normal = Vec2::Zero();
 };
 
