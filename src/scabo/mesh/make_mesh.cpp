@@ -24,9 +24,6 @@ namespace scabo::mesh {
 
 namespace {
 
-/// A larger number in one model is taken as a mistyped size.
-constexpr double most_nodes_of_model = 1e6;
-
 /// Reason why a body that could be divided makes the model too large, found before memory is allocated. Bodies after it
 /// are not looked at, which saves one message for each of many copies.
 std::optional<Diagnostic> too_many_together(const model::Body& body, double nodes_before) {
@@ -35,13 +32,13 @@ std::optional<Diagnostic> too_many_together(const model::Body& body, double node
   const double nodes = cells                                    ? approximate_nodes(body)
                        : body.mesh.kind == model::MeshKind::fem ? count_grid_nodes(body)
                                                                 : count_boundary_nodes(body);
-  if (nodes > most_nodes_of_model || !(nodes_before + nodes > most_nodes_of_model)) return {};
+  if (nodes > model::limits::model_nodes || !(nodes_before + nodes > model::limits::model_nodes)) return {};
   return Diagnostic{
       body.mesh.source,
       fmt::format("with body '{}' the model would have {}{} nodes, more than the {:.7g} allowed: use "
                   "larger mesh sizes or fewer bodies",
                   body.name, cells ? "about " : "",
-                  text_of_count(nodes_before + nodes, most_nodes_of_model, cells ? 2 : 3), most_nodes_of_model)};
+                  text_of_count(nodes_before + nodes, model::limits::model_nodes, cells ? 2 : 3), model::limits::model_nodes)};
 }
 
 /// Reason why the body cannot be divided, found before memory is allocated.
@@ -52,10 +49,10 @@ std::vector<Diagnostic> obstacles(const model::Body& body) {
              fmt::format("'kind: fem' uses elements of order 1 or 2, not {}: use one of these", body.mesh.order)}};
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
-  if (!(nodes <= most_nodes_of_model)) {
+  if (!(nodes <= model::limits::model_nodes)) {
     return {{body.mesh.source,
              fmt::format("size {:.6g} would give {} nodes, more than the {:.7g} allowed: use a larger 'size'",
-                         body.mesh.size, text_of_count(nodes, most_nodes_of_model, 3), most_nodes_of_model)}};
+                         body.mesh.size, text_of_count(nodes, model::limits::model_nodes, 3), model::limits::model_nodes)}};
   }
   if (!body.mesh.refine.empty() && 2.0 * nodes > model::limits::superelement_dofs) {
     return {{body.mesh.refine.front().source,
@@ -131,8 +128,8 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
     }
     if (model::is_divided_inside(body)) {
       const SizeField& wanted = sizes.empty() ? no_limit : sizes[b];
-      auto divided = body.imported ? cells_of_file(body, wanted, most_nodes_of_model - nodes)
-                                   : divide_into_cells(body, wanted, most_nodes_of_model - nodes);
+      auto divided = body.imported ? cells_of_file(body, wanted, model::limits::model_nodes - nodes)
+                                   : divide_into_cells(body, wanted, model::limits::model_nodes - nodes);
       if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
         mistakes.push_back(*wrong);
         continue;

@@ -15,8 +15,6 @@ namespace scabo::model {
 
 namespace {
 
-constexpr double most_fem_dofs = 1e6;
-
 /// One body under check; `outline` runs counter-clockwise, for unbounded bodies as well.
 struct BodyCheck {
   Checking& checking;
@@ -409,7 +407,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
 bool check_dofs(const BodyCheck& of) {
   const bool fem = of.body.mesh.kind == MeshKind::fem;
   const double dofs = estimated_dofs(of.outline, of.body.mesh);
-  const double most = fem ? most_fem_dofs : limits::superelement_dofs;
+  const double most = fem ? 2.0 * limits::model_nodes : limits::superelement_dofs;
   if (dofs <= most) return true;
   of.checking.error(of.path, "mesh.size",
                     fmt::format("gives {:.6g} degrees of freedom, but {} at most {:.6g}: use a larger size{}", dofs,

@@ -161,28 +161,28 @@ TEST(BoundaryDivision, NamesAnEdgeThatTheCentreDoesNotSee) {
 TEST(BoundaryDivision, RefusesMeshesTooLargeToBeMeant) {
   const model::Body block = elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-9);
   EXPECT_EQ(message_of(with({block})),
-            "model.yaml:7:11: bodies.block.mesh: size 1e-09 would give 8e+09 nodes, more than the 1000000 allowed: use "
+            "model.yaml:7:11: bodies.block.mesh: size 1e-09 would give 8e+09 nodes, more than the 4000000 allowed: use "
             "a larger 'size'");
   EXPECT_THAT(message_of(with({fem(block)})), HasSubstr("3e+18 nodes"));
   EXPECT_THAT(message_of(with({elastic("block", test::rectangle({0, 0}, {1, 1}), 1e-300)})), HasSubstr("8e+300"));
-  const model::Body large = elastic("large", test::rectangle({0, 0}, {1, 1}), 1e-5);
-  EXPECT_THAT(message_of(with({large, large})), HasSubstr("with body 'large' the model would have 1.6e+06 nodes"));
+  const model::Body large = elastic("large", test::rectangle({0, 0}, {1, 1}), 2.5e-6);
+  EXPECT_THAT(message_of(with({large, large})), HasSubstr("with body 'large' the model would have 6.4e+06 nodes"));
 }
 
 TEST(BoundaryDivision, TellsOnceThatCopiesAreTooManyTogether) {
-  // 4 edges in 50,000 elements of order 2: 400,000 nodes each.
-  model::Body block = elastic("block_1", test::rectangle({0, 0}, {1, 1}), 2e-5);
+  // 4 edges in 200,000 elements of order 2: 1,600,000 nodes each.
+  model::Body block = elastic("block_1", test::rectangle({0, 0}, {1, 1}), 5e-6);
   std::vector<model::Body> blocks(5, block);
   for (int b = 1; b < 5; ++b) blocks[static_cast<std::size_t>(b)].name = "block_" + std::to_string(b + 1);
   EXPECT_EQ(
       message_of(with(blocks)),
-      "model.yaml:7:11: bodies.block_1.mesh: with body 'block_3' the model would have 1.2e+06 nodes, more than the "
-      "1000000 allowed: use larger mesh sizes or fewer bodies");
-  // 249,998 elements on each of two edges, and two on each of the others: 8 nodes above the limit with the small one.
-  model::Body large = elastic("large", test::rectangle({0, 0}, {1, 1.9 / 249998}), 1.0 / 249998);
+      "model.yaml:7:11: bodies.block_1.mesh: with body 'block_3' the model would have 4.8e+06 nodes, more than the "
+      "4000000 allowed: use larger mesh sizes or fewer bodies");
+  // 999,998 elements on each of two edges, and two on each of the others: 8 nodes above the limit with the small one.
+  model::Body large = elastic("large", test::rectangle({0, 0}, {1, 1.9 / 999998}), 1.0 / 999998);
   large.mesh.order = 2;
   const model::Body small = elastic("small", test::rectangle({5, 0}, {1, 1}), 1.0, 2);
-  EXPECT_THAT(message_of(with({large, small})), HasSubstr("would have 1000008 nodes, more than the 1000000 allowed"));
+  EXPECT_THAT(message_of(with({large, small})), HasSubstr("would have 4000008 nodes, more than the 4000000 allowed"));
 }
 
 TEST(BoundaryDivision, ReportsEveryBodysMistakesAtOnce) {
