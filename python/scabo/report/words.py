@@ -31,7 +31,7 @@ STATUS = {
 def verdict(summary, increments):
     """How the run ended: a level for its colour, a heading and sentences."""
     level, heading = STATUS.get(summary["status"], ("bad", summary["status"].replace("_", " ")))
-    sentences = [summary["reason"]] if summary.get("reason") else []
+    sentences = [sentence(summary["reason"])] if summary.get("reason") else []
     if summary.get("analysis") == "modal":
         count = len(summary.get("modes", []))
         heading = "Solved" if summary["status"] == "solved" else heading
@@ -45,6 +45,10 @@ def verdict(summary, increments):
     else:
         sentences.append("No increment was finished, so that there are no results.")
     return {"level": level, "heading": heading, "text": " ".join(sentences)}
+
+
+def sentence(text):
+    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 
 def certificate(increments):
