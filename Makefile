@@ -23,6 +23,8 @@ PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
 
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
+# Node.js and npm for the page of reports, unless there are some from elsewhere.
+report = $(shell command -v npm >/dev/null 2>&1 || echo report)
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
 .PHONY: help demo build python wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python format packages install package clean
@@ -40,7 +42,7 @@ build:
 	@cmake --build --preset release --target product --parallel $(JOBS)
 
 python:
-	@cmake/install_packages.sh build python
+	@cmake/install_packages.sh build python $(report)
 	@$(configure) release -DSCABO_PYTHON_MODULE=ON
 	@cmake --build --preset release --target python_package --parallel $(JOBS)
 
@@ -48,7 +50,7 @@ wheel: python
 	@cmake --build --preset release --target wheel
 
 test:
-	@cmake/install_packages.sh build test python
+	@cmake/install_packages.sh build test python $(report)
 	@MAKE="$(MAKE)" cmake/run_stages.sh "Release build and tests" test-release \
 	  "Sanitizer build and tests" test-asan "Fuzzers" fuzz
 
@@ -97,13 +99,13 @@ format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
 packages:
-	@cmake/install_packages.sh build test python cad bench
+	@cmake/install_packages.sh build test python $(report) cad bench
 
 install: build
 	@cmake --install build --prefix "$(PREFIX)"
 
 package:
-	@cmake/install_packages.sh build package
+	@cmake/install_packages.sh build package $(report)
 	@$(MAKE) --no-print-directory build
 	@cpack --config build/CPackConfig.cmake
 

@@ -1,6 +1,7 @@
 # What `make build` builds and `cmake --install` installs:
 #   bin/scabo, lib/libscabo, include/scabo/<part>/*.hpp, lib/cmake/scabo (find_package(scabo)),
-#   share/scabo/model.schema.json, share/scabo/examples, share/scabo/scabo_plot (pictures), share/doc/scabo,
+#   share/scabo/model.schema.json, share/scabo/examples, share/scabo/scabo_plot (pictures), scabo_report and
+#   report_template.html (reports), share/doc/scabo,
 #   share/man/man1/scabo.1, completion for bash, zsh and fish.
 #   the Python package (python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)

@@ -51,7 +51,7 @@ def contents(package, version):
     """Names in the wheel and what they contain."""
     info = f"scabo-{version}.dist-info"
     for path in sorted(package.rglob("*")):
-        if path.suffix in (".py", ".pyi", ".so") or path.name == "py.typed":
+        if path.suffix in (".py", ".pyi", ".so", ".html") or path.name == "py.typed":
             yield f"scabo/{path.relative_to(package).as_posix()}", path.read_bytes()
     major, minor = sys.version_info[:2]
     yield f"{info}/METADATA", METADATA.format(version=version, major=major, minor=minor).encode()

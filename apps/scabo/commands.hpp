@@ -25,6 +25,7 @@ struct RunOptions {
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< 1 or more
   bool quiet = false;                                                                 ///< only errors and warnings
   bool ignore_memory = false;  ///< starts even if the estimated memory is not available
+  bool report = false;         ///< ends with a page for the browser
 };
 
 struct SweepOptions {
@@ -83,6 +84,8 @@ ExitStatus solve_contact(const ContactOptions& options);
 ExitStatus print_schema();
 /// Pictures by the program for them, with the words after `scabo plot`; returns only by an exception.
 ExitStatus plot(const std::vector<std::string>& arguments);
+/// A page for the browser in the same way, with the words after `scabo report`.
+ExitStatus report(const std::vector<std::string>& arguments);
 /// `scabo new`. Throws InputError if the file exists.
 ExitStatus write_new_model(const NewOptions& options);
 

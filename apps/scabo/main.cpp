@@ -78,6 +78,12 @@ constexpr const char* plot_example = R"(Example:
 the contacts with the state of every pair; `history`: curves over the increments; `convergence` of the contact solver;
 `mesh`. It needs Python with NumPy and Matplotlib (apt install python3-matplotlib).)";
 
+constexpr const char* report_example = R"(Example:
+  scabo report model.results --units m,N
+
+One HTML file for any browser, without a network: the fields to zoom, pick and deform, curves along the contacts linked
+with them, increments, convergence, certificate and warnings. It needs Python with NumPy (apt install python3-numpy).)";
+
 constexpr const char* new_example = R"(Example:
   scabo new beam && scabo run beam.yaml && scabo plot beam.results)";
 
@@ -135,6 +141,7 @@ class CommandLine {
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
     run_->add_flag("--ignore-memory", run_options_.ignore_memory,
                    "Starts even if less memory is available than the analysis is expected to need");
+    run_->add_flag("--report", run_options_.report, "Ends with a page for the browser, as `scabo report` writes it");
     run_->footer(run_example);
 
     resume_->add_option("DIR", resume_options_.directory, "Results directory of the run")->required()->option_text(" ");
@@ -206,6 +213,7 @@ class CommandLine {
 
     schema_->footer(schema_example);
     add_plot();
+    add_report();
 
     std::vector<std::string> kinds;
     for (const StarterModel& model : starter_models()) kinds.emplace_back(model.name);
@@ -245,6 +253,7 @@ class CommandLine {
     if (*exponents_) return print_exponents(exponents_options_);
     if (*contact_) return solve_contact(contact_options_);
     if (*plot_) return plot({words_.begin() + 1, words_.end()});
+    if (*report_) return report({words_.begin() + 1, words_.end()});
     if (*new_) return write_new_model(new_options_);
     if (*completion_) return print(completion_script(describe_commands(app_), shell_));
     if (*manual_) return print(manual_page(describe_commands(app_)));
@@ -322,6 +331,21 @@ class CommandLine {
     plot_->footer(plot_example);
   }
 
+  /// Likewise passed on.
+  void add_report() {
+    report_->add_option("DIR", report_options_.directory, "Results directory of a run")->required()->option_text(" ");
+    report_->add_option("-o,--output", report_options_.text, "Name of the page; default: model.report.html beside DIR")
+        ->option_text("FILE");
+    report_->add_option("--units", report_options_.text, "Units of the model, as in --units m,N; the page can change them")
+        ->option_text("LENGTH,FORCE");
+    report_->add_option("--size", report_options_.size,
+                        "Largest size of the page in megabytes; default: 25. Of long runs it leaves out fields of increments")
+        ->option_text("MB")
+        ->check(CLI::PositiveNumber);
+    report_->add_flag("-q,--quiet", report_options_.quiet, "Does not print the name of the page");
+    report_->footer(report_example);
+  }
+
   static ExitStatus print(const std::string& text) {
     print_output(text);
     return ExitStatus::solved;
@@ -338,6 +362,7 @@ class CommandLine {
   CLI::Option* output_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   CLI::App* plot_ = app_.add_subcommand("plot", "Draws pictures of results");
+  CLI::App* report_ = app_.add_subcommand("report", "Writes results as one page for the browser");
   CLI::App* new_ = app_.add_subcommand("new", "Writes a commented model to begin with");
   CLI::App* completion_ = app_.add_subcommand("completion", "Prints completion of commands and options for a shell");
   CLI::App* manual_ = app_.add_subcommand("manual", "Prints the manual page");
@@ -348,6 +373,12 @@ class CommandLine {
     int increment = 0;
     double scale = 0.0;
   } plot_options_;
+  /// The same of `report`.
+  struct {
+    std::string directory, text;
+    double size = 0.0;
+    bool quiet = false;
+  } report_options_;
   NewOptions new_options_;
   std::string shell_;
   std::vector<std::string> words_;  ///< the command line as given

@@ -73,8 +73,9 @@ std::string manual_page(const std::vector<CommandDescription>& commands) {
                         commands[i].footer.empty() ? "" : ".PP\n" + as_printed(commands[i].footer));
   text += ".SH EXIT STATUS\n" + as_printed(program.footer.substr(program.footer.find('\n') + 1));
   text +=
-      ".SH ENVIRONMENT\n.TP\n.B SCABO_PYTHON\nPython interpreter for \\fBscabo plot\\fR; default: the first of "
-      "/usr/bin/python3 and python3 that has Matplotlib\n.TP\n.B NO_COLOR\nIf set, messages have no colour\n";
+      ".SH ENVIRONMENT\n.TP\n.B SCABO_PYTHON\nPython interpreter for \\fBscabo plot\\fR and \\fBscabo report\\fR; "
+      "default: the first of /usr/bin/python3 and python3 that has Matplotlib, or for a report NumPy\n"
+      ".TP\n.B NO_COLOR\nIf set, messages have no colour\n";
   return text;
 }
 

@@ -1,7 +1,9 @@
 // `scabo run`: from the model file to certified results on disk.
 #include <chrono>
+#include <optional>
 
 #include "commands.hpp"
+#include "report.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/settings.hpp"
 #include "scabo/result/history.hpp"
@@ -28,7 +30,12 @@ ExitStatus run(const RunOptions& options) {
   const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
   const double reading = std::chrono::duration<double>(Clock::now() - start).count();
   const auto output = options.output.empty() ? default_output(options.model) : options.output;
-  if (model.analysis.type == model::AnalysisType::modal) return run_modal(model, output, options, reading);
+  std::optional<ReportAtEnd> report_at_end;
+  if (options.report) report_at_end.emplace();
+  const auto reported = [&](ExitStatus status) {  // after a signal the user wants an end, not another program
+    return report_at_end && status < ExitStatus::signalled ? report_at_end->write(output, status, options.quiet) : status;
+  };
+  if (model.analysis.type == model::AnalysisType::modal) return reported(run_modal(model, output, options, reading));
 
   ignore_broken_pipes();
   // The model is checked before the directory is created or cleared, and the directory is created before the solve: a
@@ -48,7 +55,7 @@ ExitStatus run(const RunOptions& options) {
     run.begun.origin = run::origin_of(model, options.settings, output, run.threads);
     run.begun.results = directory.written();
   }
-  return solve_and_report(std::move(run), interrupt, options.quiet);
+  return reported(solve_and_report(std::move(run), interrupt, options.quiet));
 }
 
 }  // namespace scabo::app

@@ -245,6 +245,7 @@ class Result:
             raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")
         try:
             from . import plot
+            picture = getattr(plot, what)
         except ImportError as error:
             raise ImportError(f"plot() needs scabo.plot and Matplotlib (python3-matplotlib): {error}") from None
         number = self._number(increment)
@@ -252,7 +253,7 @@ class Result:
             options["increment"] = number + 1  # files and pictures count from 1
 
         def draw(directory: str) -> Any:
-            return getattr(plot, what)(plot.Results(directory), **options)
+            return picture(plot.Results(directory), **options)
 
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
             return draw(self.directory)

@@ -7,13 +7,31 @@
 
 `stress`, `mesh`, `contact`, `convergence` and `history` each return a Matplotlib figure. What they draw comes from functions that
 return arrays (geometry.py, contacts.py, curves.py); colours, marks and fonts from style.py. The folder is a program too:
-`python3 .../scabo/plot DIR` does what `scabo plot DIR` does.
+`python3 .../scabo/plot DIR` does what `scabo plot DIR` does. Matplotlib is imported with the first of these five functions:
+reports read the files with this package and need only NumPy.
 """
-from .contacts import contact
-from .curves import convergence, history
-from .fields import stress
-from .meshes import mesh
+import importlib
+from typing import TYPE_CHECKING
+
 from .results import Results, ResultsError
 from .units import Units
 
+if TYPE_CHECKING:
+    from .contacts import contact
+    from .curves import convergence, history
+    from .fields import stress
+    from .meshes import mesh
+
 __all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "history", "mesh", "stress"]
+
+_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "history": "curves", "mesh": "meshes", "stress": "fields"}
+
+
+def __getattr__(name):
+    if name not in _DRAWN_BY:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module("." + _DRAWN_BY[name], __name__), name)
+
+
+def __dir__():
+    return sorted([*globals(), *_DRAWN_BY])

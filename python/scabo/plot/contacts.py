@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from . import geometry, style
-from .results import NothingToDraw, ResultsError
+from .results import NothingToDraw, ResultsError, without_rounding
 from .units import Units
 
 CURVES = (("pressure", "pressure", "stress"), ("shear", "shear", "stress"), ("gap", "gap", "length"), ("slip", "slip", "length"))
@@ -37,14 +37,6 @@ def lines_of(results, number, names=()):
     return [Line(name, geometry.arc_length(rows["x"], rows["y"]), rows["x"], rows["y"],
                  {"pressure": rows["pressure"], "shear": rows["shear"], "gap": without_rounding(rows, "gap", "normal"),
                   "slip": without_rounding(rows, "slip", "tangential")}, rows["state"]) for name, rows in chosen.items()]
-
-
-def without_rounding(rows, key, direction):
-    """Gap or slip, zero where it is nothing but rounding, as in the tables of log.txt: below 1e-12 of the largest displacement in its
-    direction, or below the rounding of coordinates."""
-    moved = max(np.abs(rows[f"{direction}_displacement_{side}"]).max() for side in "ab")
-    rounding = max(1e-12 * moved, 4e-16 * np.abs([rows["x"], rows["y"]]).max())
-    return np.where(np.abs(rows[key]) <= rounding, 0.0, rows[key])
 
 
 def counts_of(lines):

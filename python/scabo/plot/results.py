@@ -163,6 +163,14 @@ class Results:
             raise ResultsError(f"{path}: is damaged ({error}); run the model again") from None
 
 
+def without_rounding(rows, key, direction):
+    """Gap or slip, zero where it is nothing but rounding, as in the tables of log.txt: below 1e-12 of the largest displacement in its
+    direction, or below the rounding of coordinates."""
+    moved = max(np.abs(rows[f"{direction}_displacement_{side}"]).max() for side in "ab")
+    rounding = max(1e-12 * moved, 4e-16 * np.abs([rows["x"], rows["y"]]).max())
+    return np.where(np.abs(rows[key]) <= rounding, 0.0, rows[key])
+
+
 def _numbers(column):
     return np.array([value if value else "nan" for value in column], dtype=float)
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scabo/result/files.hpp"
+#include "scabo/result/model_content.hpp"
 #include "scabo/result/recovery.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/summary.hpp"
@@ -79,6 +80,7 @@ std::string modal_summary_content(const analysis::ModalResult& result, bool runn
                    {"dofs", sizes.dofs},
                    {"super_elements", sizes.super_elements},
                    {"contact_pairs", sizes.contact_pairs}};
+  json["model"].update(model_content(result.structure.model, result.structure.mesh));
   json["total_mass"] = result.total_mass;
   json["frequencies"] = Json::array();
   json["modes"] = Json::array();

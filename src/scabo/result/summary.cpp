@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "scabo/result/model_content.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -268,6 +269,7 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
                    {"dofs", sizes.dofs},
                    {"super_elements", sizes.super_elements},
                    {"contact_pairs", sizes.contact_pairs}};
+  json["model"].update(model_content(solution.model, solution.mesh));
   json["passes"] = Json::array();
   for (const analysis::RefinementPass& pass : solution.passes)
     json["passes"].push_back({{"dofs", pass.dofs},

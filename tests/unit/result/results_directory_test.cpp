@@ -202,7 +202,11 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const Json summary = Json::parse(content_of(path_ / "summary.json"));
   EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "warning_kinds", "model",
                                             "passes", "increments", "timing", "peak_memory_bytes"));
-  EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs"));
+  EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs", "plane", "thickness",
+                                                    "materials", "bodies", "contacts", "steps"));
+  EXPECT_THAT(keys_of(summary["model"]["materials"][0]), ElementsAre("name", "law", "young", "poisson", "density"));
+  EXPECT_THAT(keys_of(summary["model"]["bodies"][0]), ElementsAre("name", "rigid", "unbounded", "materials", "nodes",
+                                                                  "super_elements", "finite_elements"));
   EXPECT_THAT(keys_of(summary["timing"]), ElementsAre("read", "mesh", "super_elements", "assemble", "factorise",
                                                       "condense", "newton", "recover", "write", "total"));
   const Json& increment = summary["increments"][0];
@@ -236,6 +240,14 @@ TEST_F(Results, SummaryValues) {
   EXPECT_EQ(summary["model"]["dofs"], 2 * (16 + 21));
   EXPECT_EQ(summary["model"]["super_elements"], 1);
   EXPECT_EQ(summary["model"]["contact_pairs"], 2);
+  EXPECT_EQ(summary["model"]["plane"], "stress");
+  const Json& bodies = summary["model"]["bodies"];
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0]["name"], "upper");
+  EXPECT_EQ(bodies[0]["materials"], Json::array({run.solution.model.materials[0].name}));
+  EXPECT_EQ(bodies[0]["super_elements"], 1);
+  EXPECT_EQ(bodies[1]["finite_elements"], 4);
+  EXPECT_EQ(bodies[1]["nodes"], 21);
   ASSERT_EQ(summary["increments"].size(), 3U);
   const Json& increment = summary["increments"][1];
   EXPECT_EQ(increment["increment"], 2);

@@ -1,0 +1,132 @@
+"""What a page says beside its fields: model, increments, certificate, history and convergence, as values of JSON."""
+import math
+
+import numpy as np
+
+from . import words
+from .choice import in_order_of_importance
+
+MOST_CONTACTS = 8     # with totals of their own, those with the largest forces; sums are of all
+MOST_SUPPORTS = 8
+MOST_ROWS = 20000     # of convergence.csv
+MOST_HISTORY = 200000  # numbers of history.csv
+MOST_LISTED = 500     # bodies and contacts in the tables of the model
+TOTALS = ("normal_force", "tangential_force", "max_pressure", "max_gap")
+
+
+def content_of(results):
+    summary = results.summary
+    increments = results.increments
+    model = dict(summary.get("model", {}))
+    for key in ("bodies", "contacts", "materials"):
+        model[key] = shortened(model.get(key, []))
+    failed = [entry for entry in summary.get("increments", []) if not entry["converged"]]
+    return {
+        "version": summary["scabo"], "title": results.title, "status": summary["status"], "directory": results.directory.resolve().name,
+        "verdict": words.verdict(summary, increments), "warnings": summary.get("warnings", []), "model": model, "modal": results.modal,
+        "passes": summary.get("passes", []), "timing": summary.get("timing", {}), "memory": summary.get("peak_memory_bytes"),
+        "modes": summary.get("modes", []) if results.modal else [], "total_mass": summary.get("total_mass"),
+        "certificate": words.certificate(increments), "increments": [row_of(entry, number, model) for number, entry in enumerate(increments, start=1)],
+        "failed": [{key: entry.get(key) for key in ("step", "increment", "reached", "newton_iterations", "residual")} for entry in failed],
+        "cracks": cracks_of(increments), "quantities": increments[-1].get("quantities", []) if increments else [],
+        "totals": totals_of(increments), "reactions": reactions_of(increments), "history": history_of(results),
+        "convergence": convergence_of(results),
+    }
+
+
+def shortened(entries):
+    return {"count": len(entries), "listed": entries[:MOST_LISTED]}
+
+
+def row_of(entry, number, model):
+    """One row of the table of increments."""
+    contacts = entry["contacts"].values()
+    figures = [abs(value) for value in (entry.get("certificate") or {}).values() if isinstance(value, (int, float))]
+    steps = model.get("steps", [])
+    return {"number": number, "step": entry["step"], "increment": entry["increment"], "reached": entry["reached"],
+            "step_name": steps[entry["step"] - 1] if entry["step"] <= len(steps) else str(entry["step"]),
+            "time": entry["step"] - 1 + entry["reached"], "factors": entry["factors"], "iterations": entry["newton_iterations"],
+            "coarse": entry.get("coarse_iterations", 0), "residual": entry["residual"], "certificate": max(figures, default=None),
+            "open": sum(contact["open"] for contact in contacts), "stick": sum(contact["stick"] for contact in contacts),
+            "slip": sum(contact["slip"] for contact in contacts), "energy": entry.get("energy"),
+            "error": (entry.get("error") or {}).get("relative_energy_norm")}
+
+
+def series(increments, group, name, part):
+    """A value of one contact or support after every increment; None where it does not exist."""
+    values = []
+    for entry in increments:
+        value = entry.get(group, {}).get(name)
+        value = value[part] if value is not None else None
+        values.append(value)
+    return values
+
+
+def largest(increments, group, size, most):
+    """Names with the largest sizes of all increments, in the order of the model, and how many there are."""
+    sizes = {}
+    for entry in increments:
+        for name, value in entry.get(group, {}).items():
+            sizes[name] = max(sizes.get(name, 0.0), size(value))
+    chosen = set(sorted(sizes, key=sizes.get, reverse=True)[:most])
+    return [name for name in sizes if name in chosen], len(sizes)
+
+
+def totals_of(increments):
+    names, count = largest(increments, "contacts", lambda contact: abs(contact["normal_force"] or 0.0), MOST_CONTACTS)
+    return {"count": count, "contacts": [{"name": name, **{key: series(increments, "contacts", name, key) for key in TOTALS}} for name in names]}
+
+
+def reactions_of(increments):
+    names, count = largest(increments, "reactions", lambda force: math.hypot(*(part or 0.0 for part in force)), MOST_SUPPORTS)
+    return {"count": count, "supports": [{"name": name, "x": series(increments, "reactions", name, 0), "y": series(increments, "reactions", name, 1)}
+                                         for name in names]}
+
+
+def cracks_of(increments):
+    """Factors of cracks after the last increment."""
+    if not increments:
+        return []
+    wanted = ("K_I", "K_II", "T", "G", "J", "K_tt", "K_rt")
+    return [{"name": name, "kind": crack["kind"], **{key: crack[key] for key in wanted if crack.get(key) is not None}}
+            for name, crack in increments[-1].get("cracks", {}).items()]
+
+
+def history_of(results):
+    """Columns of history.csv; of a long file rows at equal distances."""
+    table = None if results.modal else results.table("history.csv")
+    if not table or not len(table.get("time", ())):
+        return None
+    rows = len(table["time"])
+    every = max(1, -(-rows * len(table) // MOST_HISTORY))
+    kept = np.unique([*range(0, rows, every), rows - 1])
+    columns = [name for name in table if name not in ("step", "increment", "time")]
+    return {"time": numbers(table["time"][kept]), "columns": [{"name": name, "values": numbers(table[name][kept])} for name in columns],
+            "note": f"One row of {every} is shown." if every > 1 else ""}
+
+
+def convergence_of(results):
+    """Columns of convergence.csv; of a long one the rows of as many increments as have a place."""
+    table = None if results.modal else results.table("convergence.csv")
+    if table is None or len(table["residual"]) == 0:
+        return None
+    keys = table["step"] * 1e6 + table["increment"]
+    keep, note = np.ones(len(keys), dtype=bool), ""
+    if len(keys) > MOST_ROWS:
+        order, counts = np.unique(keys, return_counts=True)
+        spent, taken = 0, []
+        for number in in_order_of_importance(len(order), []):
+            if taken and spent + counts[number - 1] > MOST_ROWS:
+                break
+            taken.append(order[number - 1])
+            spent += counts[number - 1]
+        keep = np.isin(keys, taken)
+        note = f"Iterations of {len(taken)} of {len(order)} increments are in this page."
+    stages, stage = np.unique(table["stage"][keep], return_inverse=True)
+    whole = {key: table[key][keep].astype(int).tolist() for key in ("step", "increment", "attempt", "iteration")}
+    return {**whole, "residual": numbers(table["residual"][keep]), "stage": stage.tolist(), "stages": stages.tolist(), "note": note}
+
+
+def numbers(values):
+    """A list in which None stands for what is not a number."""
+    return [float(value) if math.isfinite(value) else None for value in values]

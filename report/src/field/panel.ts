@@ -1,0 +1,268 @@
+// The field view: picture, its controls, the legend and the values at the picked point.
+import { bytes, floats, whole } from "../arrays";
+import { button, checkbox, css, element, labelled, section, select } from "../dom";
+import type { State } from "../state";
+import { ColourBar } from "./bar";
+import { Camera } from "./camera";
+import { levels } from "./colours";
+import { FieldData } from "./data";
+import { interact } from "./interaction";
+import { Overlay } from "./overlay";
+import { Shape } from "./pick";
+import { Readout } from "./readout";
+import { FieldScene, type Geometry } from "./scene";
+
+const NEAR = 14; // pixels from the mouse to a pair
+
+interface PairPlaces {
+  x: Float32Array;
+  y: Float32Array;
+  a: Uint32Array;
+  b: Uint32Array;
+}
+
+export class FieldPanel {
+  readonly root: HTMLElement;
+  readonly camera: Camera;
+  frames = 0; // drawn so far
+  private readonly canvas = element("canvas", {
+    id: "field-view", tabindex: 0, role: "application",
+    "aria-label": "Field. Arrow keys move, plus and minus zoom, 0 shows all, Enter reads the values in the middle, Escape clears them, "
+      + "Page up and Page down change the increment, Space plays.",
+  });
+  private readonly stage = element("div", { class: "stage" });
+  private readonly overlay = new Overlay();
+  private readonly bar = new ColourBar();
+  private readonly note = element("p", { class: "note", role: "status" });
+  private readonly data: FieldData;
+  private readonly readout: Readout;
+  private scene!: FieldScene;
+  private shape!: Shape;
+  private geometry!: Geometry;
+  private pairs: PairPlaces | null = null;
+  private current = 0; // increment whose displacements are in the picture
+  private values: Float32Array = new Float32Array();
+  private waiting = false;
+  private keyboard = false;
+  private request = 0;
+  private swing = 1; // of a mode that is played
+
+  constructor(private readonly state: State, private readonly actions: { step(by: number): void; play(): void }) {
+    const field = state.content.field!;
+    this.data = new FieldData(state.content);
+    const around = (point: [number, number]): [number, number] => [point[0] - field.centre[0], point[1] - field.centre[1]];
+    this.camera = new Camera(around(field.low), around(field.high));
+    this.readout = new Readout(state, this.data, (x, y) => this.pickPlace(x, y));
+    this.stage.append(this.canvas, this.overlay.root);
+    this.root = section("field", "Field", this.controls(), this.stage, this.bar.root, this.note, this.readout.root);
+  }
+
+  async start(): Promise<void> {
+    this.geometry = await this.data.geometry();
+    this.scene = new FieldScene(this.canvas, this.geometry);
+    this.shape = new Shape(this.geometry.points, this.geometry.triangles);
+    if (this.state.content.pairs) {
+      const [x, y, a, b] = await Promise.all([floats("pair_x"), floats("pair_y"), whole("pair_a"), whole("pair_b")]);
+      this.pairs = { x, y, a, b };
+      this.scene.setPairs(x, y);
+    }
+    interact(this.canvas, this.camera, {
+      changed: () => this.draw(), pick: (px, py) => this.pickPixel(px, py), hover: (px, py) => this.hover(px, py), leave: () => this.leave(),
+      step: this.actions.step, play: this.actions.play, clear: () => this.state.set({ picked: null, pair: -1 }),
+    });
+    this.canvas.addEventListener("focus", () => { this.keyboard = this.canvas.matches(":focus-visible"); this.draw(); });
+    this.canvas.addEventListener("blur", () => { this.keyboard = false; this.draw(); });
+    const { state } = this;
+    state.on(["increment", "quantity"], () => void this.load());
+    state.on(["range", "bands", "units"], () => { this.colour(); this.draw(); this.readout.show(this.shape, this.current); });
+    state.on(["magnification"], () => { this.deform(); this.draw(); });
+    state.on(["mesh", "elements", "undeformed", "states"], () => { this.scene.show(state.shown); this.draw(); });
+    state.on(["picked"], () => { this.readout.show(this.shape, this.current); this.draw(); });
+    state.on(["pair"], () => this.draw());
+    state.on(["dark"], () => { this.theme(); this.draw(); });
+    new ResizeObserver(() => this.resize()).observe(this.stage);
+    this.theme();
+    this.scene.show(state.shown);
+    this.resize();
+    this.camera.reset();
+    await this.load();
+  }
+
+  private controls(): HTMLElement {
+    const { shown, content } = this.state, set = this.state.set.bind(this.state);
+    const scale = element("input", { id: "magnification", type: "range", min: 0, max: 100, step: 0.5, "aria-label": "Magnification of displacements" });
+    const exact = element("input", { id: "magnification-number", type: "number", min: 0, step: "any", "aria-label": "Magnification of displacements as a number" });
+    const most = 4 * (content.field!.magnification || 1);
+    const write = () => {
+      scale.value = String(100 * Math.sqrt(Math.min(shown.magnification / most, 1)));
+      exact.value = String(Number(shown.magnification.toPrecision(3)));
+    };
+    scale.addEventListener("input", () => set({ magnification: Number((most * (Number(scale.value) / 100) ** 2).toPrecision(3)) }));
+    exact.addEventListener("change", () => { const wanted = Number(exact.value); if (Number.isFinite(wanted) && wanted >= 0) set({ magnification: wanted }); else write(); });
+    this.state.on(["magnification"], write);
+    write();
+    const quantities = select("quantity", this.data.quantities.map(({ key, name }) => [key, name]), shown.quantity, (quantity) => set({ quantity }));
+    const ranges = select("range", [["increment", content.modal ? "this mode" : "this increment"], ...(content.field!.increments.length > 1 && !content.modal
+      ? [["all", "all increments"] as [string, string]] : []), ["extremes", "extreme values"]], shown.range, (range) => set({ range: range as "increment" }));
+    const checks = element("div", { class: "checks" },
+      checkbox("Mesh", shown.mesh, (mesh) => set({ mesh }), "show-mesh"),
+      checkbox("Super-elements", shown.elements, (elements) => set({ elements }), "show-elements"),
+      this.data.moves && checkbox("Undeformed", shown.undeformed, (undeformed) => set({ undeformed }), "show-undeformed"),
+      content.pairs && checkbox("Contact states", shown.states, (states) => set({ states }), "show-states"),
+      checkbox("Bands", shown.bands, (bands) => set({ bands }), "show-bands"));
+    const zoom = element("div", { class: "buttons", role: "group", "aria-label": "Zoom" },
+      button("−", () => { this.camera.zoom(0.7); this.draw(); }, { "aria-label": "Zoom out", title: "Zoom out (−)" }),
+      button("+", () => { this.camera.zoom(1 / 0.7); this.draw(); }, { "aria-label": "Zoom in", title: "Zoom in (+)" }),
+      button("Show all", () => { this.camera.reset(); this.draw(); }, { id: "show-all", title: "Show all (0)" }));
+    return element("div", { class: "controls" }, labelled("Show", quantities), labelled("Colours span", ranges),
+      this.data.moves && element("div", { class: "control" }, element("span", { class: "label" }, "Deformation ×"), element("span", { class: "pair-of" }, scale, exact)),
+      checks, zoom);
+  }
+
+  private theme(): void {
+    this.scene.setTheme({
+      line: css("--line"), faint: css("--faint"), rigid: css("--rigid"), none: css("--rigid"), paper: css("--card"), open: css("--open"),
+      stick: css("--stick"), slip: css("--slip"),
+    });
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.stage;
+    if (!clientWidth || !clientHeight) return;
+    const grown = clientWidth / this.camera.width;
+    this.camera.width = clientWidth;
+    this.camera.height = clientHeight;
+    if (Number.isFinite(grown)) this.camera.scale *= grown;
+    this.scene.resize(clientWidth, clientHeight);
+    this.draw();
+  }
+
+  /** Values of the increment that is chosen; the last request counts, whichever array is unpacked first. */
+  private async load(): Promise<void> {
+    const { content, shown } = this.state, request = ++this.request;
+    const increment = this.state.available(content.field!.increments);
+    const [[ux, uy], values, states] = await Promise.all([
+      this.data.displacement(increment), this.data.values(shown.quantity, increment),
+      content.pairs && bytes(`state_${this.state.available(content.pairs.increments)}`),
+    ]);
+    if (request !== this.request) return;
+    if (increment !== this.current) this.scene.setDisplacement(ux, uy);
+    if (states && this.pairs) this.scene.setStates(states, this.pairs.a);
+    this.current = increment;
+    this.displacements = [ux, uy];
+    this.values = values;
+    this.scene.setValues(values);
+    const differs = increment !== shown.increment ? `The fields of ${content.modal ? "mode" : "increment"} ${shown.increment} are not in this page: those of ${increment} are shown. ` : "";
+    this.note.textContent = differs + content.field!.note;
+    this.colour();
+    this.deform();
+    this.draw();
+    await this.readout.show(this.shape, increment);
+    this.root.dataset.increment = String(increment);
+    this.root.dataset.quantity = shown.quantity;
+  }
+
+  private displacements: [Float32Array | null, Float32Array | null] = [null, null];
+
+  private colour(): void {
+    const { shown } = this.state, quantity = this.data.quantity(shown.quantity);
+    const [low, high] = this.data.range(this.state, this.current), [, , least, greatest] = this.data.extremes(shown.quantity, this.current);
+    const scale = shown.units.scale(quantity.dimension, Math.max(Math.abs(low), Math.abs(high)));
+    const chosen = levels(low * scale.factor, high * scale.factor);
+    const inModel = { ...chosen, low: chosen.low / scale.factor, high: chosen.high / scale.factor, step: chosen.step / scale.factor };
+    this.scene.setLevels(inModel, shown.bands);
+    this.bar.show(quantity.name, scale, inModel, shown.bands, least < inModel.low - 1e-9 * inModel.step, greatest > inModel.high + 1e-9 * inModel.step);
+  }
+
+  private deform(): void {
+    const magnification = this.state.shown.magnification * this.swing;
+    this.scene.setMagnification(magnification);
+    this.shape.move(...this.displacements, magnification);
+  }
+
+  /** A mode that is played: from 1 to -1 and back. */
+  setSwing(part: number): void {
+    this.swing = part;
+    this.deform();
+    this.draw();
+  }
+
+  private pickPixel(px: number, py: number): void {
+    this.state.set({ picked: this.shape.pick(...this.camera.toPlane(px, py)) });
+  }
+
+  /** A place of the undeformed model, in its units. */
+  private pickPlace(x: number, y: number): boolean {
+    const [cx, cy] = this.state.content.field!.centre;
+    const picked = this.shape.pickUndeformed(x - cx, y - cy);
+    if (picked) this.state.set({ picked });
+    return picked !== null;
+  }
+
+  private hover(px: number, py: number): void {
+    const pair = this.nearestPair(px, py);
+    if (pair >= 0 || this.hovered) this.state.set({ pair });
+    this.hovered = pair >= 0;
+    const picked = this.shape.pick(...this.camera.toPlane(px, py));
+    const quantity = this.data.quantity(this.state.shown.quantity);
+    this.overlay.hint.textContent = picked ? `${quantity.name} ${this.state.shown.units.text(quantity.dimension, this.shape.value(picked, this.values))}` : "";
+    this.canvas.classList.toggle("over", picked !== null);
+  }
+
+  private hovered = false;
+
+  private leave(): void {
+    if (this.hovered) this.state.set({ pair: -1 });
+    this.hovered = false;
+    this.overlay.hint.textContent = "";
+  }
+
+  private placesOf(pair: number): [number, number][] {
+    const { x, y, a, b } = this.pairs!, places: [number, number][] = [];
+    for (const point of [a[pair], b[pair]]) if (point) places.push(this.shape.at(point - 1));
+    return places.length ? places : [[x[pair], y[pair]]];
+  }
+
+  private nearestPair(px: number, py: number): number {
+    if (!this.pairs) return -1;
+    let best = -1, least = NEAR / this.camera.scale;
+    const [cx, cy] = this.camera.toPlane(px, py);
+    for (let i = 0; i < this.pairs.x.length; ++i) {
+      if (Math.abs(this.pairs.x[i] - cx) > 0.25 * this.camera.size + least) continue;
+      const [x, y] = this.placesOf(i)[0], distance = Math.hypot(x - cx, y - cy);
+      if (distance < least) [best, least] = [i, distance];
+    }
+    return best;
+  }
+
+  /** Draws once before the next frame, however often it is called. */
+  draw(): void {
+    if (this.waiting || !this.scene) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.drawNow();
+    });
+  }
+
+  drawNow(): void {
+    const { shown } = this.state;
+    this.scene.draw(this.camera);
+    const picked = shown.picked ? this.shape.place(shown.picked).deformed : null;
+    this.overlay.show(this.camera, picked, shown.pair >= 0 && this.pairs ? this.placesOf(shown.pair) : [], this.keyboard);
+    this.overlay.showScale(this.camera, shown.units.scale("length", this.camera.width / this.camera.scale));
+    ++this.frames;
+  }
+
+  /** For tests: the pixel of a place of the undeformed model. */
+  pixelOf(x: number, y: number): [number, number] {
+    const [cx, cy] = this.state.content.field!.centre;
+    const picked = this.shape.pickUndeformed(x - cx, y - cy);
+    return this.camera.toPixel(...(picked ? this.shape.place(picked).deformed : [x - cx, y - cy] as [number, number]));
+  }
+
+  pixelOfPair(pair: number): [number, number] {
+    return this.camera.toPixel(...this.placesOf(pair)[0]);
+  }
+}
+

@@ -1,0 +1,83 @@
+// The page: reads what it is filled with and puts its parts together.
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+import { ContactPanel } from "./charts/contacts";
+import { ConvergencePanel } from "./charts/convergence";
+import { HistoryPanel } from "./charts/history";
+import { readContent, type Content } from "./content";
+import { element } from "./dom";
+import { FieldPanel } from "./field/panel";
+import { applyTheme, header, navigation } from "./header";
+import { IncrementBar } from "./increment_bar";
+import { State } from "./state";
+import { certificate, increments, model, modes, verdict, warnings } from "./tables";
+import { Units } from "./units";
+
+declare global {
+  interface Window {
+    scaboReport: { ready: Promise<void>; state: State; field: FieldPanel | null; contacts: ContactPanel | null };
+  }
+}
+
+function firstQuantity({ field, modal }: Content): string {
+  const keys = field?.quantities.map((quantity) => quantity.key) ?? [];
+  if (modal && keys.includes("ux")) return "displacement";
+  return ["von_mises", "principal_1", "xx"].find((key) => keys.includes(key)) ?? (keys.includes("ux") ? "displacement" : keys[0] ?? "");
+}
+
+/** The contact that carries most after the last increment. */
+function firstContact({ pairs, totals }: Content): number {
+  if (!pairs || !totals.contacts.length) return 0;
+  const last = (series: (number | null)[]) => Math.abs(series[series.length - 1] ?? 0);
+  const most = totals.contacts.reduce((best, contact) => (last(contact.normal_force) > last(best.normal_force) ? contact : best));
+  return Math.max(0, pairs.names.indexOf(most.name));
+}
+
+async function start(): Promise<void> {
+  const content = readContent(), page = document.getElementById("page")!;
+  const count = content.modal ? content.modes.length : content.increments.length;
+  const [length, force] = content.units ?? [null, null];
+  const state = new State(content, {
+    increment: content.modal ? 1 : count, quantity: firstQuantity(content), magnification: content.field?.magnification ?? 0, range: "increment", bands: true, mesh: false,
+    elements: (content.model.super_elements ?? 0) <= 2000, undeformed: true, states: true, contact: firstContact(content), pair: -1, picked: null,
+    units: new Units(length, force), dark: false,
+  });
+  applyTheme(state, "system");
+  let field: FieldPanel | null = null;
+  const bar = count ? new IncrementBar(state, (part) => field?.setSwing(part)) : null;
+  field = content.field ? new FieldPanel(state, { step: (by) => bar!.step(by), play: () => bar!.play() }) : null;
+  const contacts = content.pairs ? new ContactPanel(state) : null;
+  const side: (HTMLElement | null)[] = [content.convergence && count ? new ConvergencePanel(state).root : null, !content.modal && count ? new HistoryPanel(state).root : null];
+  const outcome = verdict(state);
+  let summary = model(state);
+  const rest = [warnings(content), content.modal ? modes(state) : count ? increments(state) : null, content.certificate.length ? certificate(content) : null, summary];
+  const parts = [field?.root, contacts?.root, ...side, ...rest].filter((part): part is HTMLElement => !!part);
+  page.append(header(state), navigation(parts), element("main", {}, outcome, bar?.root ?? "",
+    element("div", { class: contacts ? "wide-and-narrow" : "single" }, ...[field?.root, contacts?.root].filter((part): part is HTMLElement => !!part)),
+    !content.field && count ? element("p", { class: "card note" }, "The run wrote no fields (`output` in the model file), so that there is no picture of them.") : "",
+    element("div", { class: side.every((part) => part) ? "halves" : "single" }, ...side.filter((part): part is HTMLElement => !!part)), ...rest.filter((part): part is HTMLElement => !!part)),
+    element("footer", {}, `Written by Scabo ${content.version} (scabo report). This file asks no network for anything. Values are those of the results directory, to seven digits; `
+      + "between the points of the results the picture interpolates."));
+  state.on(["units"], () => {
+    const renewed = model(state);
+    summary.replaceWith(renewed);
+    summary = renewed;
+  });
+  let made!: () => void;
+  window.scaboReport = { ready: new Promise((resolve) => (made = resolve)), state, field, contacts };
+  try {
+    await Promise.all([field?.start(), contacts?.load()]);
+  } catch (error) {
+    const webgl = /WebGL/i.test(String(error));
+    field?.root.querySelector(".stage")?.replaceChildren(element("p", { class: "failed", role: "alert" }, webgl
+      ? "This browser draws no WebGL 2, which the picture needs. Everything else on this page works without it." : `The picture could not be drawn: ${String(error)}`));
+    if (!webgl) throw error;
+  }
+  document.documentElement.dataset.ready = "true";
+  made();
+}
+
+start().catch((error: unknown) => {
+  document.getElementById("page")!.append(element("p", { class: "failed", role: "alert" }, `This report could not be shown: ${String(error)}`));
+  throw error;
+});

@@ -1,0 +1,161 @@
+"""A report in headless Chromium: it opens from a file without errors and without a network, its values are those of the program, pairs
+light up in the field and in the curves, the keyboard reaches everything, and there is light and dark.
+
+Skipped where there is no Chromium or where the page was not built (no Node.js, no npm)."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
+import matplotlib.image
+import numpy as np
+import support
+
+TITLE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> <!--scabo:arrays--> & \"beam\" ünïcode"
+COLUMNS = {"ux": "ux", "uy": "uy", "xx": "stress_xx", "yy": "stress_yy", "xy": "stress_xy", "zz": "stress_zz", "von_mises": "von_mises",
+           "principal_1": "principal_1", "principal_2": "principal_2", "principal_3": "principal_3"}
+RINGS = (2, 5, 7)        # of the lower beam, 80 nodes each; a node in the middle of an element has one value of the stress
+NODES = (7, 33, 61)
+BETWEEN = ((1.234, 0.567), (5.43, 2.21))
+PAIR, OTHER = 30, 11     # from 0: one that slips, one that is open
+
+
+def chromium():
+    return next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        modules, node = os.environ.get("SCABO_REPORT_MODULES", ""), os.environ.get("SCABO_NODE") or shutil.which("node")
+        template = pathlib.Path(support.SCABO).resolve().parents[1] / "share" / "scabo" / "report_template.html"
+        if not chromium():
+            raise unittest.SkipTest("there is no Chromium (apt install chromium)")
+        if not node or not template.exists() or not pathlib.Path(modules, "playwright-core").is_dir():
+            raise unittest.SkipTest("the page for reports was not built (apt install nodejs npm)")
+        cls.holder = support.tempfile.TemporaryDirectory(prefix="scabo_test_")
+        cls.addClassCleanup(cls.holder.cleanup)
+        cls.folder = pathlib.Path(cls.holder.name)
+        sys.path.insert(0, str(template.parent))
+        from scabo_plot import Results, geometry
+        cls.run_model("first")
+        first = Results(cls.folder / "first")
+        grid = first.fields(3)
+        cls.points = [grid.points[80 * ring + node] for ring, node in zip(RINGS, NODES)]
+        wanted = json.dumps([{"name": f"p{k}", "at": [float(value) for value in at]} for k, at in enumerate(cls.points)])
+        cls.run_model("beam", "--set", f"output={{points: {wanted}}}")
+        cls.results = Results(cls.folder / "beam")
+        run = support.scabo("report", cls.folder / "beam", "-o", cls.folder / "beam.html", "--units", "m,N", SCABO_PYTHON=sys.executable)
+        assert (run.returncode, run.stderr) == (0, ""), run.stderr
+        cls.triangles = geometry.triangles(grid)
+        cls.asked = [(number, *map(float, at)) for number in (3, 1) for at in (*cls.points, *BETWEEN)]
+        job = subprocess.run([node, pathlib.Path(__file__).with_name("browser.mjs"), modules, chromium(), cls.folder / "beam.html", cls.folder],
+                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER}), text=True, capture_output=True,
+                             timeout=support.PATIENCE)
+        assert job.returncode == 0, job.stderr
+        cls.seen = json.loads(job.stdout)
+
+    @classmethod
+    def run_model(cls, name, *settings):
+        run = support.scabo("run", support.BEAM, "-q", "-o", cls.folder / name, "--set", "steps.0.increments=3", "--set", f"title={json.dumps(TITLE)}",
+                            *settings)
+        assert run.returncode == 0, run.stderr
+
+    def test_no_error_no_network_and_no_text_is_code(self):
+        self.assertEqual(self.seen["errors"], [])
+        self.assertEqual(self.seen["requests"], [])
+        self.assertEqual((self.seen["dialogs"], self.seen["injected"]), (0, 0))
+        self.assertEqual(self.seen["title"], TITLE)
+        self.assertEqual(self.seen["heading"], TITLE)
+
+    def test_the_page_says_what_the_results_say(self):
+        text = self.seen["text"]
+        for words in ("Solved and certified", "All 3 increments converged", "Do all forces balance?", "concrete", "10 GPa", "lower.top", "friction 0.2", "320"):
+            self.assertIn(words, text)
+
+    def test_picks_are_the_values_of_the_program(self):
+        with open(self.folder / "beam" / "points.csv", newline="", encoding="utf-8") as file:
+            rows = {(int(row["increment"]), row["name"]): row for row in csv.DictReader(file)}
+        for (number, x, y), pick in zip(self.asked, self.seen["picks"]):
+            known = next((k for k, at in enumerate(self.points) if (x, y) == tuple(map(float, at))), None)
+            if known is None:
+                continue
+            for way in ("clicked", "typed"):
+                for key, column in COLUMNS.items():
+                    exact = float(rows[number, f"p{known}"][column])
+                    size = max(abs(float(rows[number, f"p{known}"][of])) for of in (("ux", "uy") if key in ("ux", "uy") else ("von_mises",)))
+                    self.assertAlmostEqual(pick[way][key], exact, delta=(2e-6 if way == "typed" else 2e-5) * size, msg=(way, number, known, key))
+
+    def test_picks_between_points_are_interpolated(self):
+        for (number, x, y), pick in zip(self.asked, self.seen["picks"]):
+            if (x, y) not in BETWEEN:
+                continue
+            grid = self.results.fields(number)
+            a, b, c = (grid.points[self.triangles[:, k]] for k in range(3))
+            weights = np.linalg.solve(np.stack([np.column_stack([p, np.ones(len(p))]) for p in (a, b, c)], axis=2), np.array([x, y, 1.0])[:, None])[..., 0]
+            inside, = np.flatnonzero((weights > 0).all(axis=1))
+            for key, array in (("xx", "stress_xx"), ("von_mises", "von_mises")):
+                value = float(weights[inside] @ grid.point_data[array][self.triangles[inside]])
+                self.assertAlmostEqual(pick["typed"][key], value, delta=1e-5 * abs(grid.point_data[array]).max())
+            self.assertEqual(pick["typed"]["displacement"] > 0, True)
+
+    def test_increments_differ(self):
+        half = len(self.asked) // 2
+        for last, first in zip(self.seen["picks"][:half], self.seen["picks"][half:]):
+            self.assertGreater(abs(last["typed"]["uy"]), 1.5 * abs(first["typed"]["uy"]))
+
+    def test_outside_there_is_nothing(self):
+        self.assertIn("There is no elastic body", self.seen["outside"])
+
+    def rows_of_pair(self, pair):
+        rows = support.rows_of(self.folder / "beam")
+        return next(row for row in rows if row["increment"] == "1" and row["pair"] == rows[pair]["pair"])
+
+    def test_pairs_light_up_both_ways(self):
+        self.assertIsNone(self.seen["dark_pair"]["ring"])
+        for name, pair in (("from_field", PAIR), ("from_curve", OTHER)):
+            seen = self.seen[name]
+            self.assertEqual((seen["pair"], seen["values"]), (pair, str(pair)), name)
+            ring = [float(part) for part in seen["ring"].removeprefix("translate(").removesuffix(")").split()]
+            np.testing.assert_allclose(ring, seen["place"], atol=0.1, err_msg=name)
+            row = self.rows_of_pair(pair)
+            for key in ("pressure", "shear", "slip", "normal_force"):
+                self.assertAlmostEqual(seen["shown"][key], float(row[key]), delta=1e-6 * abs(float(row[key])) + 1e-300, msg=(name, key))
+        self.assertAlmostEqual(self.seen["from_field"]["cursor"], self.seen["from_field"]["expected"], delta=1.5)
+        self.assertEqual(self.seen["from_keyboard"]["pair"], OTHER)
+
+    def test_the_keyboard_reaches_everything(self):
+        wanted = ["units", "theme", "play", "increment", "quantity", "range", "magnification", "show-mesh", "show-elements", "field-view", "pick-x", "pair"]
+        places = [self.seen["reached"].index(name) for name in wanted]
+        self.assertEqual(places, sorted(places), "in the order of the page")
+        self.assertEqual(self.seen["unlabelled"], [])
+        start, right, up, nearer, again = self.seen["cameras"]
+        self.assertGreater(right[0], start[0])
+        self.assertGreater(up[1], right[1])
+        self.assertAlmostEqual(nearer[2], 1.25 * up[2])
+        np.testing.assert_allclose(again, start)
+        self.assertTrue(self.seen["middle"])
+        self.assertEqual(self.seen["stepped"], 1, "before the first there is none")
+
+    def test_light_and_dark(self):
+        light, dark, system = self.seen["backgrounds"]
+        brightness = lambda colour: sum(map(int, colour.removeprefix("rgb(").removesuffix(")").split(",")))
+        self.assertGreater(brightness(light), 600)
+        self.assertLess(brightness(dark), 150)
+        self.assertEqual(dark, system)
+        for name, corner in (("light", 0.8), ("dark", 0.0)):
+            pixels = matplotlib.image.imread(self.folder / f"{name}.png")[..., :3]
+            self.assertGreater(len(np.unique((32 * pixels).astype(int).reshape(-1, 3), axis=0)), 60, f"{name}: colours of the field")
+            self.assertAlmostEqual(float(pixels[8, 8].mean()), corner, delta=0.25)
+
+    def test_all_quantities_can_be_shown(self):
+        self.assertEqual(self.seen["quantities"], ["ux", "uy", "displacement", "von_mises", "principal_1", "principal_2", "principal_3", "xx", "yy", "xy", "zz"])
+
+
+if __name__ == "__main__":
+    support.main()
