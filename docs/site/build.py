@@ -109,7 +109,9 @@ def stage(source: pathlib.Path) -> None:
     for pattern in PAGES:
         for page in sorted(ROOT.glob(pattern)):
             copy_page(page, source / page.relative_to(ROOT))
-    shutil.copy(SITE / "index.md", source / "index.md")
+    index = (SITE / "index.md").read_text(encoding="utf-8")
+    others = [f"docs/{page.stem}" for page in sorted((ROOT / "docs").glob("*.md")) if f"\ndocs/{page.stem}\n" not in index and page.stem != "README"]
+    write(source / "index.md", lambda: index.replace("docs/pictures\n", "\n".join(["docs/pictures", *others]) + "\n"))
     methods = (ROOT / "docs/README.md").read_text(encoding="utf-8").partition("## Methods")[2].replace("](methods/", "](").replace("](notation", "](../notation")
     write(source / "docs/methods/README.md", lambda: f"# Methods{methods}")
     for page, glob in (("docs/methods/README.md", "[0-9]*"), ("docs/decisions/README.md", "[0-9]*"), ("examples/README.md", "[0-9]*/README")):
@@ -128,6 +130,12 @@ def stage(source: pathlib.Path) -> None:
 def copy_page(page: pathlib.Path, to: pathlib.Path) -> None:
     text = page.read_text(encoding="utf-8")
     lines = text.split("\n")
+    inside = {number for block in blocks_of(text) for number in range(block.first, block.last)}
+    titles = [number for number, line in enumerate(lines) if line.startswith("# ") and number not in inside]
+    if len(titles) > 1:  # a page of the manual has one title
+        for number in range(titles[0] + 1, len(lines)):
+            if re.match(r"#+ ", lines[number]) and number not in inside:
+                lines[number] = "#" + lines[number]
     # Commands get colours: an indented block of them becomes a fenced one.
     for block in reversed(blocks_of(text)):
         if not block.fenced:

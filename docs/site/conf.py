@@ -14,8 +14,10 @@ extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinx.ext.autodoc"]
 myst_enable_extensions = ["dollarmath", "html_image"]
 myst_heading_anchors = 5
 myst_dmath_double_inline = True
+myst_update_mathjax = False  # it is for version 3; what it would set stands in tex2jax below
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_CHTML-full"
-mathjax2_config = {"showMathMenu": False, "messageStyle": "none", "CommonHTML": {"linebreaks": {"automatic": False}},
+mathjax2_config = {"showMathMenu": False, "messageStyle": "none",
+                   "tex2jax": {"processClass": "tex2jax_process|mathjax_process|math"}, "CommonHTML": {"linebreaks": {"automatic": False}},
                    "TeX": {"equationNumbers": {"autoNumber": "none"}}}
 
 autodoc_member_order = "bysource"
@@ -33,6 +35,7 @@ html_title = f"Scabo {release}"
 html_static_path = [str(SITE / "static")]
 html_css_files = ["manual.css"]
 html_show_sourcelink = False
+html_show_copyright = False
 html_copy_source = False
 highlight_language = "none"
 pygments_style = "friendly"

@@ -26,8 +26,7 @@ def page(scabo: pathlib.Path, build: pathlib.Path, source: pathlib.Path, jobs: i
     for folder, text in zip(examples, entries):
         first = next(iter(sorted(pictures.glob(f"{folder.name}.*.png"), key=lambda file: KINDS.index(file.name.split(".")[1]))), None)
         title = title_of(folder)
-        picture = f'<img src="gallery/{first.name}" alt="{title}">' if first else ""
-        tiles.append(f'<div><a href="#{anchor(title)}">{picture}<p>{title}</p></a></div>')
+        tiles += ["<div>", "", f"![{title}](gallery/{first.name})" if first else "", "", f"[{title}](#{anchor(title)})", "", "</div>"]
     tiles.append("</div>")
     return "\n".join(["# Gallery", "", "Every picture of this page is made by running the [example](examples/README.md) and drawing its results, by the commands",
                       "that are shown, when this manual is built.", "", *tiles, "", *entries])

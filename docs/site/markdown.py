@@ -6,6 +6,7 @@ A mark is a comment on the line above a block, invisible to readers:
     <!-- snippet: status=2 -->             the exit status that the commands are meant to have; 0 unless stated
     <!-- snippet: output -->               what the last command prints, compared word by word; `...` stands for anything
     <!-- snippet: not run, REASON -->      cannot be run in a test, and why
+    <!-- snippet: before, COMMAND -->      stands alone: what a reader has done before, run by the test
 """
 from __future__ import annotations
 
@@ -82,12 +83,13 @@ def mark_above(lines: list[str], number: int) -> str:
 
 
 def outside_code(text: str) -> str:
-    """The page with its blocks and code spans blanked; lines keep their numbers."""
+    """The page with its blocks, code spans and formulas blanked; lines keep their numbers."""
     lines = text.split("\n")
     for block in blocks_of(text):
         for number in range(block.first, min(block.last, len(lines))):
             lines[number] = ""
-    return re.sub(r"(`+)[^`].*?\1", lambda found: " " * len(found[0]), "\n".join(lines))
+    text = re.sub(r"(`+)[^`].*?\1", lambda found: " " * len(found[0]), "\n".join(lines))
+    return re.sub(r"\$\$.*?\$\$|\$[^$\n]+(\n[^$\n]+)?\$", lambda found: re.sub(r"[^\n]", " ", found[0]), text, flags=re.S)
 
 
 def slug_of(heading: str) -> str:

@@ -66,9 +66,8 @@ class Reference:
             self.sections.append((title if forms == 1 else f"{title} (form {forms})", schema))
         for key, inner in schema.get("properties", {}).items():
             self.visit(f"{title}.{key}" if title else key, inner)
-        for choice in schema.get("oneOf", []):
-            if isinstance(choice, dict) and set(choice) - {"required", "not"}:
-                self.visit(title, choice)
+        for choice in choices_of(schema):
+            self.visit(title, choice)
 
     def visit(self, path: str, schema: dict) -> None:
         name, inner = self.target(schema)
@@ -86,7 +85,7 @@ class Reference:
         if "properties" in inner:
             self.collect(path, inner)
         else:
-            for choice in inner.get("oneOf", []):
+            for choice in choices_of(inner):
                 self.visit(path, choice)
         self.within(path, inner)
 
@@ -112,8 +111,8 @@ class Reference:
         if isinstance(value, list) and isinstance(inner.get("items"), dict):
             for held in value:
                 self.find(inner["items"], held, file)
-        for choice in inner.get("oneOf", []):
-            if set(choice) - {"required", "not"} and may_be(self.target(choice)[1], value):
+        for choice in choices_of(inner):
+            if may_be(self.target(choice)[1], value):
                 self.find(choice, value, file)
 
     # ---- text -----------------------------------------------------------------------------------------------
@@ -135,8 +134,8 @@ class Reference:
             return f"`{text_of(schema['const'])}`"
         if "enum" in schema:
             return " or ".join(f"`{text_of(value)}`" for value in schema["enum"])
-        if "oneOf" in schema and "properties" not in schema:
-            kinds = [self.type_of(choice) for choice in schema["oneOf"]]
+        if choices_of(schema) and "properties" not in schema:
+            kinds = [self.type_of(choice) for choice in choices_of(schema)]
             return " or ".join(dict.fromkeys(kinds))
         types = schema.get("type", "object" if "properties" in schema else "any")
         types = [kind for kind in ([types] if isinstance(types, str) else types) if kind != "null"]
@@ -224,6 +223,11 @@ number is that of an [example](../examples/README.md), the others are in `tests/
 
 def load(file: pathlib.Path) -> object:
     return yaml.load(file.read_text(encoding="utf-8"), Loader)
+
+
+def choices_of(schema: dict) -> list[dict]:
+    """What a value may be; not what `oneOf` only says of required keys."""
+    return [choice for choice in schema.get("oneOf", []) + schema.get("anyOf", []) if set(choice) - {"required", "not", "properties"} or "type" in choice]
 
 
 def may_be(choice: dict, value: object) -> bool:
