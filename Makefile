@@ -11,6 +11,7 @@
 #   make bench-elements  super-elements against the eigenvector route, one thread
 #   make bench-python    the Python package against the program
 #   make format      lay the sources out by .clang-format
+#   make docs        the manual, build/docs/html/index.html
 #   make packages    everything that apt can bring
 #   make install     to PREFIX (/usr/local)
 #   make package     a .deb in build/package
@@ -27,7 +28,7 @@ configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 report = $(shell command -v npm >/dev/null 2>&1 || echo report)
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build python wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python format packages install package clean
+.PHONY: help demo build python wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python docs format packages install package clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -38,6 +39,7 @@ demo:
 	@$(with_python) examples/01_double_cantilever/compare.py --scabo build/bin/scabo
 
 build:
+	@cmake/install_packages.sh build
 	@$(configure) release
 	@cmake --build --preset release --target product --parallel $(JOBS)
 
@@ -94,12 +96,17 @@ bench-python: python
 	@$(MAKE) --no-print-directory build
 	@export PYTHONPATH=build/python && $(with_python) benchmarks/python/run.py --scabo build/bin/scabo
 
+docs: python
+	@cmake/install_packages.sh docs
+	@cmake --build --preset release --target product verification_programs --parallel $(JOBS)
+	@/usr/bin/python3 docs/site/build.py --build build --output build/docs
+
 format:
 	@cmake/install_packages.sh format
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
 packages:
-	@cmake/install_packages.sh build test python $(report) cad bench
+	@cmake/install_packages.sh build test python $(report) cad docs bench
 
 install: build
 	@cmake --install build --prefix "$(PREFIX)"

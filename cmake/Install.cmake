@@ -55,6 +55,6 @@ install(DIRECTORY python/scabo/plot/ DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo/
 
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo
         PATTERN "*.results" EXCLUDE PATTERN "__pycache__" EXCLUDE)
-install(DIRECTORY docs TYPE DOC)  # as beside README.md, whose links then lead there
+install(DIRECTORY docs TYPE DOC PATTERN "site" EXCLUDE PATTERN "__pycache__" EXCLUDE)  # as beside README.md, whose links then lead there
 install(FILES cmake/copyright TYPE DOC)  # where Debian looks for it
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)

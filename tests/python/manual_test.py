@@ -1,49 +1,12 @@
-"""The snippets of docs/python.md and of the README, run in their order, and the three tutorial programs."""
-import os
-import pathlib
+"""The three tutorial programs. The snippets of docs/python.md and of the README are run by tests/docs."""
 import re
 import subprocess
 import sys
 import unittest
-import warnings
-
-import matplotlib
 
 from support import PATIENCE, ROOT, InTemporaryDirectory
 
-matplotlib.use("Agg")
 TUTORIALS = ROOT / "examples" / "python"
-
-
-def snippets_of(file):
-    """Line and text of every Python snippet of a page."""
-    text = file.read_text(encoding="utf-8")
-    return [(text[:match.start()].count("\n") + 2, match[1]) for match in re.finditer(r"^```python\n(.*?)^```", text, re.M | re.S)]
-
-
-class Snippets(InTemporaryDirectory):
-    def run_all(self, file, only=lambda text: True):
-        """Those of one page share their names, as in a notebook, and a directory with the models that the page names."""
-        count = 0
-        before = os.getcwd()
-        os.chdir(self.directory)
-        self.addCleanup(os.chdir, before)
-        (self.directory / "model.yaml").write_text((ROOT / "examples/01_double_cantilever/model.yaml").read_text())
-        names = {"__name__": "snippet"}
-        for line, text in snippets_of(file):
-            if not only(text):
-                continue
-            count += 1
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                exec(compile("\n" * (line - 1) + text, str(file), "exec"), names)
-        return count
-
-    def test_manual(self):
-        self.assertGreaterEqual(self.run_all(ROOT / "docs" / "python.md"), 10)
-
-    def test_readme(self):
-        self.assertGreaterEqual(self.run_all(ROOT / "README.md", lambda text: "import scabo" in text), 1)
 
 
 class Tutorials(InTemporaryDirectory):

@@ -26,6 +26,7 @@ supports: [{on: beam.left, fix: [x, y]}]
 )";
 
 analysis::ModalResult run(const std::string& text, const std::vector<std::string>& settings = {}) {
+  test::record_model(text, settings);
   std::vector<input::Override> overrides;
   for (const std::string& setting : settings) overrides.push_back(input::parse_override(setting));
   return analysis::solve_modal(input::parse_model(text, "test.yaml", overrides));

@@ -8,10 +8,12 @@
 
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/read_model.hpp"
+#include "support/recorded_checks.hpp"
 
 namespace scabo::verification {
 
 inline analysis::StaticSolution run(const std::string& text, const std::vector<std::string>& settings = {}) {
+  test::record_model(text, settings);
   std::vector<input::Override> overrides;
   for (const std::string& setting : settings) overrides.push_back(input::parse_override(setting));
   return analysis::solve_static(input::parse_model(text, "test.yaml", overrides));
