@@ -5,7 +5,7 @@
     figure = scabo_plot.stress(results, component="principal_1")
     figure.savefig("stress.pdf")
 
-`stress`, `mesh`, `contact`, `convergence` and `history` each return a Matplotlib figure. What they draw comes from functions that
+`stress`, `mesh`, `contact`, `convergence`, `history` and, of a sweep's directory, `sweep` each return a Matplotlib figure. What they draw comes from functions that
 return arrays (geometry.py, contacts.py, curves.py); colours, marks and fonts from style.py. The folder is a program too:
 `python3 .../scabo/plot DIR` does what `scabo plot DIR` does.
 """
@@ -14,6 +14,7 @@ from .curves import convergence, history
 from .fields import stress
 from .meshes import mesh
 from .results import Results, ResultsError
+from .sweeps import sweep
 from .units import Units
 
-__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "history", "mesh", "stress"]
+__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "history", "mesh", "stress", "sweep"]
