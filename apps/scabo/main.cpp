@@ -76,7 +76,8 @@ constexpr const char* plot_example = R"(Example:
 
 `stress`: any component of stress or displacement on the deformed bodies; `contact`: pressure, shear, gap and slip along
 the contacts with the state of every pair; `history`: curves over the increments; `convergence` of the contact solver;
-`mesh`. It needs Python with NumPy and Matplotlib (apt install python3-matplotlib).)";
+`mesh`. Of the directory of a sweep: quantities over the varied values, --component names columns of its table.
+It needs Python with NumPy and Matplotlib (apt install python3-matplotlib).)";
 
 constexpr const char* report_example = R"(Example:
   scabo report model.results --units m,N

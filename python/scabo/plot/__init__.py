@@ -5,9 +5,9 @@
     figure = scabo_plot.stress(results, component="principal_1")
     figure.savefig("stress.pdf")
 
-`stress`, `mesh`, `contact`, `convergence` and `history` each return a Matplotlib figure. What they draw comes from functions that
-return arrays (geometry.py, contacts.py, curves.py); colours, marks and fonts from style.py. The folder is a program too:
-`python3 .../scabo/plot DIR` does what `scabo plot DIR` does. Matplotlib is imported with the first of these five functions:
+`stress`, `mesh`, `contact`, `convergence`, `history` and, of a sweep's directory, `sweep` each return a Matplotlib figure.
+What they draw comes from functions that return arrays (geometry.py, contacts.py, curves.py); colours, marks and fonts from style.py. The folder is a program too:
+`python3 .../scabo/plot DIR` does what `scabo plot DIR` does. Matplotlib is imported with the first of these functions:
 reports read the files with this package and need only NumPy.
 """
 import importlib
@@ -21,10 +21,12 @@ if TYPE_CHECKING:
     from .curves import convergence, history
     from .fields import stress
     from .meshes import mesh
+    from .sweeps import sweep
 
-__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "history", "mesh", "stress"]
+__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "history", "mesh", "stress", "sweep"]
 
-_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "history": "curves", "mesh": "meshes", "stress": "fields"}
+_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "history": "curves", "mesh": "meshes", "stress": "fields",
+             "sweep": "sweeps"}
 
 
 def __getattr__(name):

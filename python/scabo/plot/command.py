@@ -110,15 +110,18 @@ def figures(options, results, increment):
 
 def write(options):
     from .results import NothingToDraw, Results, ResultsError
+    from .sweeps import Sweep
     if options.output is not None and options.output.suffix.lower() not in FORMATS:
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
-    if options.what == "all" and options.component is not None:
+    if options.what == "all" and options.component is not None and not Sweep.is_in(options.directory):
         raise ResultsError(f"--component {options.component}: say of what, as in --what stress")
     if options.scale is not None and not 0 <= options.scale < math.inf:
         raise ResultsError(f"--scale {options.scale:g}: give a number that is not negative, 0 for the undeformed shape")
     for option, kinds in APPLIES.items():
         if getattr(options, option) not in (None, []) and options.what not in (*kinds, "all"):
             raise ResultsError(f"--{option}: has no meaning for --what {options.what}")
+    if Sweep.is_in(options.directory):
+        return write_sweep(options)
     results = Results(options.directory)
     increment = -1 if options.increment is None else options.increment
     results.number(increment)
@@ -137,6 +140,27 @@ def write(options):
     for figure in drawn.values():
         figure.draw_without_rendering()  # the layout follows from the labels, and these from the layout
     save(drawn, options)
+    return 0
+
+
+def write_sweep(options):
+    """The picture of a sweep, in which --component names columns of its table."""
+    from .results import ResultsError
+    from .sweeps import sweep
+    from .units import Units
+    for option in ("increment", "contact", "scale", "window"):
+        if getattr(options, option) not in (None, []):
+            raise ResultsError(f"--{option}: has no meaning for a sweep")
+    if options.what != "all":
+        raise ResultsError(f"--what {options.what}: {options.directory} is a sweep, of which there is one picture; draw one of its points, "
+                           f"such as {options.directory / 'point_001'}")
+    names = [name.strip() for name in (options.component or "").split(",") if name.strip()]
+    figure = sweep(options.directory, names, Units.parse(options.units) if options.units else Units())
+    figure.draw_without_rendering()
+    directory = options.directory.resolve()
+    path = options.output or options.directory.parent / f"{directory.name.removesuffix('.sweep')}.sweep.png"
+    figure.savefig(path)
+    print(path)
     return 0
 
 

@@ -1,0 +1,153 @@
+"""Examples 17 to 21 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+slide; the closed forms behind the hand calculations."""
+import importlib.util
+import json
+
+import support
+from support import ROOT, scabo
+
+PAGE = ROOT / "docs" / "practice.md"
+
+
+def hand_of(folder):
+    """The module hand.py of an example."""
+    specification = importlib.util.spec_from_file_location(f"hand_{folder}", ROOT / "examples" / folder / "hand.py")
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+class Practice(support.InTemporaryDirectory):
+    def history(self, folder, settings):
+        """Rows of history.csv as numbers."""
+        key = (folder, tuple(settings))
+        if key not in self.runs:
+            directory = self.directory / f"run_{len(self.runs)}"
+            run = self.run_scabo(folder, directory, settings)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            lines = (directory / "history.csv").read_text(encoding="utf-8").splitlines()
+            names = lines[0].split(",")
+            self.runs[key] = [dict(zip(names, (float(cell or "nan") for cell in line.split(",")))) for line in lines[1:]]
+        return self.runs[key]
+
+    def run_scabo(self, folder, directory, settings):
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        return scabo("run", ROOT / "examples" / folder / "model.yaml", "-o", directory, "--quiet", *arguments,
+                     "--set", "output.fields=[]")
+
+    def check(self, folder):
+        self.runs = {}
+        example = ROOT / "examples" / folder
+        self.assertLess(len((example / "model.yaml").read_text(encoding="utf-8").splitlines()), 60)
+        table, numbers = json.loads((example / "check.json").read_text(encoding="utf-8")), hand_of(folder).calculate()
+        written = []
+        for row in table["rows"]:
+            run, scale, digits = row["run"], row["scale"], row["digits"]
+            values = self.history(folder, run.get("settings", []))[run["row"]]
+            value = run.get("times", 1) * values[run["column"]] / (values[run["over"]] if "over" in run else 1) + run.get("plus", 0)
+            hand = numbers[row["hand"]]
+            if row["relative_tolerance"] is not None:
+                self.assertLess(abs(value / hand - 1), row["relative_tolerance"], row["quantity"])
+            cells = ([numbers[row["also"]]] if "also" in row else []) + [hand, value]
+            written.append(f"| {row['quantity']} | " + " | ".join(f"{scale * cell:.{digits}f}" for cell in cells) + " |")
+        for limit in table.get("limits", []):
+            hand, stands, slides = numbers[limit["hand"]], limit["stands"], limit["slides"]
+            self.assertTrue(min(stands, slides) < hand < max(stands, slides), limit["quantity"])
+            for value, status in ((stands, 0), (slides, 2)):
+                run = self.run_scabo(folder, self.directory / "limit", [f"{limit['parameter']}={value}"])
+                self.assertEqual(run.returncode, status, run.stderr)
+                self.assertEqual("mechanism" in run.stderr, status == 2, run.stderr)
+            written.append(f"| {limit['quantity']} | {hand:.{limit['digits']}f} | stands at {stands:g}, slides at {slides:g} |")
+        for page in (example / "README.md", PAGE):
+            lines = page.read_text(encoding="utf-8").splitlines()
+            for row in written:
+                self.assertIn(row, lines, page)
+
+    def test_dam(self):
+        self.check("17_dam_sliding")
+
+    def test_retaining_wall(self):
+        self.check("18_retaining_wall")
+        # What the hand calculation assumes is the height of the thrust: with that of the run, statics give the run's centre.
+        hand, last = hand_of("18_retaining_wall"), self.history("18_retaining_wall", [])[-1]
+        self.assertAlmostEqual(last["centre"] + 2.0, hand.centre(last["thrust"], last["height"]), delta=1e-9)
+
+    def test_press_fit(self):
+        self.check("19_press_fit")
+
+    def test_lap_joint(self):
+        self.check("20_lap_joint")
+
+    def test_tunnel_lining(self):
+        self.check("21_tunnel_lining")
+
+
+class ClosedFormOfTheLining(support.unittest.TestCase):
+    """The hand calculation of example 21, independently of Scabo."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.hand = hand_of("21_tunnel_lining")
+
+    def test_modes_are_in_equilibrium_and_follow_from_their_displacements(self):
+        """Hooke's law and equilibrium of Airy's modes, by differences."""
+        hand, step = self.hand, 1e-4
+        young, poisson = material = (70.0, 0.27)
+        lame, shear = young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
+        for mode in range(4):
+            of = lambda r: hand.second_term(material, r)[mode]
+            r = 1.3
+            low, here, high = of(r - step), of(r), of(r + step)
+            slope = [(b - a) / (2 * step) for a, b in zip(low, high)]
+            ur, ut, rr, rt, tt = here
+            strain_r, strain_t, gamma = slope[0], (ur + 2 * ut) / r, slope[1] - ut / r - 2 * ur / r
+            volume = lame * (strain_r + strain_t)
+            for value, stress in ((volume + 2 * shear * strain_r, rr), (volume + 2 * shear * strain_t, tt), (shear * gamma, rt)):
+                self.assertAlmostEqual(value, stress, delta=1e-5)
+            self.assertAlmostEqual(slope[2] + 2 * rt / r + (rr - tt) / r, 0, delta=1e-5)
+            self.assertAlmostEqual(slope[3] - 2 * tt / r + 2 * rt / r, 0, delta=1e-5)
+
+    def shell(self, slip, thickness):
+        """Mean thrust, thrust and moment of cos 2 theta in Fluegge's ring of the radius R, N = D (v' + w) / R + B (w + w'') / R^3
+        and M = -B (w + w'') / R^2, in the same ground; w = w0 + w2 cos 2 theta, v = v2 sin 2 theta."""
+        hand = self.hand
+        (young, nu), (young_lining, nu_lining), r = hand.GROUND, hand.CONCRETE, hand.R
+        membrane = young_lining * thickness / (1 - nu_lining**2)
+        bending = young_lining * thickness**3 / 12 / (1 - nu_lining**2)
+        far_mean, far_second = -hand.P * (1 + hand.K) / 2, hand.P * (1 - hand.K) / 2
+        w0 = far_mean / ((membrane + bending / r**2) / r**2 + young / (1 + nu) / r)
+        strain, curvature = (1 / r, 2 / r), (-3 / r**2, 0)
+        ring = [[membrane * strain[i] * strain[j] + bending * curvature[i] * curvature[j] for j in (0, 1)] for i in (0, 1)]
+        c, d = hand.second_term(hand.GROUND, r)[2:]
+        rows = [[1, 0, -c[0], -d[0]], [*ring[0], -c[2], -d[2]]]
+        if slip:
+            rows += [[*ring[1], 0, 0], [0, 0, c[3], d[3]]]
+            right = [0, far_second, 0, far_second]
+        else:
+            rows += [[*ring[1], -c[3], -d[3]], [0, 1, -c[1], -d[1]]]
+            right = [0, far_second, -far_second, 0]
+        w, v, _, _ = hand.solve(rows, right)
+        moment = -bending * curvature[0] * w
+        return (membrane + bending / r**2) * w0 / r, membrane * (strain[0] * w + strain[1] * v) - moment / r, moment
+
+    def test_formulas_of_einstein_and_schwartz_are_those_of_a_thin_ring(self):
+        for slip in (True, False):
+            for thickness in (0.05, 0.3, 0.6):
+                result = self.hand.thin_shell(slip, thickness)
+                mean, second = ((result["side"][0] + sign * result["crown"][0]) / 2 for sign in (1, -1))
+                for value, exact in zip(self.shell(slip, thickness), (mean, second, result["side"][1])):
+                    self.assertAlmostEqual(value / exact, 1, delta=1e-9)
+
+    def test_a_thick_ring_becomes_a_thin_one(self):
+        for slip in (True, False):
+            differences = []
+            for thickness in (0.3, 0.03, 0.003):
+                thick, thin = self.hand.elasticity(slip, thickness), self.hand.thin_shell(slip, thickness)
+                moments = [(result["side"][1] - result["crown"][1]) / 2 for result in (thick, thin)]
+                differences.append(max(abs(moments[0] / moments[1] - 1), *(abs(thick[place][0] / thin[place][0] - 1) for place in thick)))
+            for difference, bound in zip(differences, (0.083, 0.011, 0.0011)):
+                self.assertLess(difference, bound)
+
+
+if __name__ == "__main__":
+    support.main()
