@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "events.hpp"
 #include "exit_status.hpp"
 #include "scabo/model/model.hpp"
 
@@ -24,6 +25,7 @@ struct RunOptions {
   std::filesystem::path output;  ///< results directory; empty: `model.results` beside `model.yaml`
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< 1 or more
   bool quiet = false;                                                                 ///< only errors and warnings
+  bool json_lines = false;     ///< events on standard output (events.hpp)
   bool ignore_memory = false;  ///< starts even if the estimated memory is not available
   bool report = false;         ///< ends with a page for the browser
 };
@@ -44,6 +46,7 @@ struct ResumeOptions {
   std::string model;                ///< where the model file is now; empty: where it was
   int threads = 0;                  ///< 0: as before
   bool quiet = false;
+  bool json_lines = false;  ///< events on standard output (events.hpp)
 };
 
 struct ExponentsOptions {
@@ -75,7 +78,7 @@ ExitStatus run(const RunOptions& options);
 ExitStatus resume(const ResumeOptions& options);
 /// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
-                     double reading);
+                     double reading, Events& events);
 /// Runs a model with varied values, several at a time, and writes a table of the results.
 ExitStatus sweep(SweepOptions options);
 ExitStatus check(const CheckOptions& options);

@@ -31,23 +31,34 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
-// bash
+/// What a shell does for each kind of value; `{}` in `choice` are the words.
+struct ValueActions {
+  std::string model, directory, file, choice, other;
+};
 
-std::string bash_words(const OptionDescription& value) {
+std::string action_for(const OptionDescription& value, const ValueActions& actions) {
   switch (value.kind) {
     case ValueKind::model:
-      return "_scabo_files '@(yaml|yml|json)'";
+      return actions.model;
     case ValueKind::directory:
-      return "_scabo_directories";
+      return actions.directory;
     case ValueKind::file:
-      return "_scabo_files '*'";
+      return actions.file;
     case ValueKind::choice:
-      return fmt::format("_scabo_words '{}'", joined(value.choices, " "));
+      return replaced(actions.choice, "{}", joined(value.choices, " "));
     case ValueKind::none:
     case ValueKind::other:
-      return ":";
+      return actions.other;
   }
   throw BrokenInvariant("a kind of value without a completion");
+}
+
+// bash
+
+const ValueActions& in_bash() {
+  static const ValueActions actions = {"_scabo_files '@(yaml|yml|json)'", "_scabo_directories", "_scabo_files '*'",
+                                       "_scabo_words '{}'", ":"};
+  return actions;
 }
 
 std::string bash_script(const std::vector<CommandDescription>& commands) {
@@ -78,14 +89,14 @@ _scabo() {
     std::string cases;
     for (const OptionDescription& option : command.options)
       if (option.takes_value())
-        cases += fmt::format("        {}) {}; return ;;\n", joined(option.flags, "|"), bash_words(option));
+        cases += fmt::format("        {}) {}; return ;;\n", joined(option.flags, "|"), action_for(option, in_bash()));
     if (!cases.empty()) text += "      case $before in\n" + cases + "      esac\n";
     const std::string flags = joined(flags_of(command), " ");
     if (command.name.empty()) {
       text += fmt::format("      _scabo_words '{} {}' ;;\n", joined(names_of(commands), " "), flags);
     } else {
       text += fmt::format("      if [[ $word == -* ]]; then _scabo_words '{}'; else {}; fi ;;\n", flags,
-                          command.arguments.empty() ? ":" : bash_words(command.arguments.front()));
+                          command.arguments.empty() ? ":" : action_for(command.arguments.front(), in_bash()));
     }
   }
   return text + "  esac\n}\ncomplete -F _scabo scabo\n";
@@ -99,21 +110,9 @@ std::string zsh_quoted(std::string text) {
   return text;
 }
 
-std::string zsh_action(const OptionDescription& value) {
-  switch (value.kind) {
-    case ValueKind::model:
-      return R"x(_files -g "*.(yaml|yml|json)")x";
-    case ValueKind::directory:
-      return "_files -/";
-    case ValueKind::file:
-      return "_files";
-    case ValueKind::choice:
-      return fmt::format("({})", joined(value.choices, " "));
-    case ValueKind::none:
-    case ValueKind::other:
-      return " ";
-  }
-  throw BrokenInvariant("a kind of value without a completion");
+const ValueActions& in_zsh() {
+  static const ValueActions actions = {R"x(_files -g "*.(yaml|yml|json)")x", "_files -/", "_files", "({})", " "};
+  return actions;
 }
 
 std::string zsh_option(const OptionDescription& option) {
@@ -122,7 +121,7 @@ std::string zsh_option(const OptionDescription& option) {
                                                : "";
   spec += option.flags.size() > 1 ? fmt::format("{{{}}}", joined(option.flags, ",")) : option.flags.front();
   spec += fmt::format("'[{}]", zsh_quoted(option.text));
-  if (option.takes_value()) spec += fmt::format(":{}:{}", zsh_quoted(option.value), zsh_action(option));
+  if (option.takes_value()) spec += fmt::format(":{}:{}", zsh_quoted(option.value), action_for(option, in_zsh()));
   return spec + "'";
 }
 
@@ -145,7 +144,7 @@ _scabo() {
     text += fmt::format("        {}) _arguments", commands[i].name);
     for (const OptionDescription& option : commands[i].options) text += " \\\n          " + zsh_option(option);
     for (const OptionDescription& argument : commands[i].arguments)
-      text += fmt::format(" \\\n          '1:{}:{}'", zsh_quoted(argument.value), zsh_action(argument));
+      text += fmt::format(" \\\n          '1:{}:{}'", zsh_quoted(argument.value), action_for(argument, in_zsh()));
     text += " ;;\n";
   }
   return text +
@@ -159,27 +158,16 @@ std::string fish_quoted(std::string text) {
   return "'" + replaced(replaced(std::move(text), "\\", "\\\\"), "'", "\\'") + "'";
 }
 
-std::string fish_value(const OptionDescription& value) {
-  switch (value.kind) {
-    case ValueKind::model:
-    case ValueKind::file:
-      return " -F";
-    case ValueKind::directory:
-      return " -a '(__fish_complete_directories)'";
-    case ValueKind::choice:
-      return fmt::format(" -a '{}'", joined(value.choices, " "));
-    case ValueKind::none:
-    case ValueKind::other:
-      return "";
-  }
-  throw BrokenInvariant("a kind of value without a completion");
+const ValueActions& in_fish() {
+  static const ValueActions actions = {" -F", " -a '(__fish_complete_directories)'", " -F", " -a '{}'", ""};
+  return actions;
 }
 
 std::string fish_option(const OptionDescription& option) {
   std::string text;
   for (const std::string& flag : option.flags)
     text += flag.starts_with("--") ? " -l " + flag.substr(2) : " -s " + flag.substr(1);
-  if (option.takes_value()) text += " -x" + fish_value(option);
+  if (option.takes_value()) text += " -x" + action_for(option, in_fish());
   return text + " -d " + fish_quoted(option.text);
 }
 
@@ -194,7 +182,7 @@ std::string fish_script(const std::vector<CommandDescription>& commands) {
     const std::string here = fmt::format("complete -c scabo -n '__fish_seen_subcommand_from {}'", command.name);
     for (const OptionDescription& option : command.options) text += here + fish_option(option) + "\n";
     for (const OptionDescription& argument : command.arguments)
-      if (const std::string value = fish_value(argument); !value.empty()) text += here + value + "\n";
+      if (const std::string value = action_for(argument, in_fish()); !value.empty()) text += here + value + "\n";
   }
   return text;
 }

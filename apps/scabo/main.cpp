@@ -140,6 +140,8 @@ class CommandLine {
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
+    run_->add_flag("--json-lines", run_options_.json_lines,
+                  "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
     run_->add_flag("--ignore-memory", run_options_.ignore_memory,
                    "Starts even if less memory is available than the analysis is expected to need");
     run_->add_flag("--report", run_options_.report, "Ends with a page for the browser, as `scabo report` writes it");
@@ -153,6 +155,8 @@ class CommandLine {
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     resume_->add_flag("-q,--quiet", resume_options_.quiet, "Prints only errors and warnings");
+    resume_->add_flag("--json-lines", resume_options_.json_lines,
+                  "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
     resume_->footer(resume_example);
 
     sweep_->add_option("MODEL", sweep_options_.model, model_help)->required()->option_text(" ");

@@ -46,10 +46,21 @@ void Progress::stage(const std::string& name) {
     show(name);
     return;
   }
+  now_.clear();
+  show_increment();
+}
+
+void Progress::iteration(const contact::Iteration& iteration) {
+  if (style_ != Style::terminal || increments_ == 0) return;
+  now_ = fmt::format(", iteration {}, residual {:.1e}", iteration.iteration, iteration.residual);
+  show_increment();
+}
+
+void Progress::show_increment() {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_shown_ < shortest_between_lines) return;
   last_shown_ = now;
-  show(fmt::format("{}{}{}", increment_at_work(), time_left(), before_.empty() ? "" : "; before: " + before_));
+  show(fmt::format("{}{}{}{}", increment_at_work(), now_, time_left(), before_.empty() ? "" : "; before: " + before_));
 }
 
 void Progress::plan(const run::Plan& plan) {
@@ -67,7 +78,7 @@ void Progress::plan(const run::Plan& plan) {
 void Progress::meshed(const analysis::StaticSolution& solution) {
   increments_ = run::increments_of(solution.model);
   for (const model::Step& step : solution.model.steps) automatic_ = automatic_ || step.automatic.has_value();
-  began_ = std::chrono::steady_clock::now();
+  time_left_.begin();
   const run::Sizes sizes = run::sizes_of(solution.model, solution.mesh);
   if (style_ == Style::lines && sizes.dofs != planned_dofs_) show(run::describe_sizes(sizes));
 }
@@ -81,11 +92,7 @@ void Progress::increment(const analysis::StaticSolution& solution, const analysi
     if (automatic_) step = fmt::format(" (step {}, {:.4g} %)", result.step_name, 100.0 * result.reached);
     show(fmt::format("{}{}: {}", increment_at_work(), step, before_));
   }
-  const double part = run::part_done(solution.model, result);
-  if (solution.increments.size() == 1 || part_done_ == 0.0)
-    begun_at_ = solution.increments.size() == 1 ? 0.0 : part;  // the first one of a run that was resumed is not timed
-  if (begun_at_ == part) began_ = std::chrono::steady_clock::now();
-  part_done_ = part;
+  time_left_.increment(run::part_done(solution.model, result), solution.increments.size() == 1);
   ++done_;
 }
 
@@ -96,10 +103,9 @@ std::string Progress::increment_at_work() const {
 
 /// By the part of the steps that is done; the first seconds say little.
 std::string Progress::time_left() const {
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-  if (seconds < 3.0 || part_done_ <= begun_at_) return "";
-  const double left = seconds * (1.0 - part_done_) / (part_done_ - begun_at_);
-  return left < 5.0 ? "" : fmt::format("; about {} left", run::duration_text(left));
+  const std::optional<double> left = time_left_.seconds();
+  if (!left || time_left_.since() < 3.0 || *left < 5.0) return "";
+  return fmt::format("; about {} left", run::duration_text(*left));
 }
 
 void Progress::clear() {

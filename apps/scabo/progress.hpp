@@ -5,7 +5,9 @@
 #include <string>
 
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/contact/solution.hpp"
 #include "scabo/run/plan.hpp"
+#include "scabo/run/time_left.hpp"
 
 namespace scabo::app {
 
@@ -24,6 +26,7 @@ class Progress {
   void plan(const run::Plan& plan);
   void meshed(const analysis::StaticSolution& solution);
   void resumed(int increments);  ///< so many were finished in earlier sessions
+  void iteration(const contact::Iteration& iteration);
   void increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result);
   /// Clears the rewritten line, so that other messages can be printed.
   void clear();
@@ -32,16 +35,17 @@ class Progress {
   void show(const std::string& line);
   std::string increment_at_work() const;
   std::string time_left() const;
+  void show_increment();  ///< unless a line was shown just before
 
   Style style_;
   bool line_shown_ = false;
   int increments_ = 0;      ///< of all steps, where their number is known; 0 until the first begins
   bool automatic_ = false;  ///< it is not known
   int planned_dofs_ = 0;
-  double begun_at_ = 0.0, part_done_ = 0.0;  ///< of the whole analysis, when increments began and now, 0 to 1
-  std::chrono::steady_clock::time_point began_;
+  run::TimeLeft time_left_;
   int done_ = 0;
   std::string before_;  ///< result of the last finished increment
+  std::string now_;     ///< iteration of the increment at work; empty before the first that is shown
   std::chrono::steady_clock::time_point last_shown_;
 };
 

@@ -48,9 +48,8 @@ void check_files(const model::Model& model, const analysis::RunOrigin& origin) {
   if (!same) refuse(model.file, "names other files than when the run began: start anew with `scabo run`");
 }
 
-}  // namespace
-
-ExitStatus resume(const ResumeOptions& options) {
+ExitStatus resume(const ResumeOptions& options, Events& events) {
+  events.stage("reading");
   const auto start = std::chrono::steady_clock::now();
   const std::string name = options.directory.string();
   std::error_code error;
@@ -88,7 +87,14 @@ ExitStatus resume(const ResumeOptions& options) {
   run.reading = reading;
   run.start = start;
   run.threads = threads;
-  return solve_and_report(std::move(run), interrupt, options.quiet);
+  return solve_and_report(std::move(run), interrupt, events, options.quiet);
+}
+
+}  // namespace
+
+ExitStatus resume(const ResumeOptions& options) {
+  Events events(options.json_lines);
+  return events.around("resume", [&] { return resume(options, events); });
 }
 
 }  // namespace scabo::app

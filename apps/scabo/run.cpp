@@ -23,23 +23,26 @@ fs::path default_output(const std::string& model) {
   return path.replace_extension("results");
 }
 
-}  // namespace
-
-ExitStatus run(const RunOptions& options) {
+ExitStatus run(const RunOptions& options, Events& events) {
   const Clock::time_point start = Clock::now();
+  events.stage("reading");
   const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
   const double reading = std::chrono::duration<double>(Clock::now() - start).count();
   const auto output = options.output.empty() ? default_output(options.model) : options.output;
   std::optional<ReportAtEnd> report_at_end;
   if (options.report) report_at_end.emplace();
   const auto reported = [&](ExitStatus status) {  // after a signal the user wants an end, not another program
-    return report_at_end && status < ExitStatus::signalled ? report_at_end->write(output, status, options.quiet) : status;
+    if (!report_at_end || status >= ExitStatus::signalled) return status;
+    events.stage("report");
+    return report_at_end->write(output, status, options.quiet || options.json_lines);
   };
-  if (model.analysis.type == model::AnalysisType::modal) return reported(run_modal(model, output, options, reading));
+  if (model.analysis.type == model::AnalysisType::modal)
+    return reported(run_modal(model, output, options, reading, events));
 
   ignore_broken_pipes();
   // The model is checked before the directory is created or cleared, and the directory is created before the solve: a
   // mistake in either then costs seconds and no results. Meshing twice takes a hundredth of the time of a solve.
+  events.stage("checking");
   mesh::Mesh mesh = analysis::check(model);
   result::check_sections(model, mesh);
   const run::Plan plan = run::plan_of(model, mesh);
@@ -55,7 +58,14 @@ ExitStatus run(const RunOptions& options) {
     run.begun.origin = run::origin_of(model, options.settings, output, run.threads);
     run.begun.results = directory.written();
   }
-  return reported(solve_and_report(std::move(run), interrupt, options.quiet));
+  return reported(solve_and_report(std::move(run), interrupt, events, options.quiet));
+}
+
+}  // namespace
+
+ExitStatus run(const RunOptions& options) {
+  Events events(options.json_lines);
+  return events.around("run", [&] { return run(options, events); });
 }
 
 }  // namespace scabo::app

@@ -50,23 +50,51 @@ ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {
 
 }  // namespace
 
-ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, bool quiet) {
+ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Events& events, bool quiet) {
+  events.files(run.model.file, run.directory->path(), "static");
   Progress progress(quiet);
   progress.resumed(static_cast<int>(run.begun.from.increments.size()));
   run.stop = &interrupt.requested();
-  run.observer = {[&](const run::Plan& plan) { progress.plan(plan); },
-                  [&](const std::string& stage) { progress.stage(stage); },
-                  [&](const auto& solved) { progress.meshed(solved); },
-                  [&](const auto& solved, const auto& increment) { progress.increment(solved, increment); }};
+  run.observer.on_plan = [&](const run::Plan& plan) {
+    events.plan(plan);
+    progress.plan(plan);
+  };
+  run.observer.on_stage = [&](const std::string& stage) {
+    events.stage(stage);
+    progress.stage(stage);
+  };
+  run.observer.on_mesh = [&](const analysis::StaticSolution& solved) {
+    events.meshed();
+    progress.meshed(solved);
+  };
+  run.observer.on_increment_begin = [&](const analysis::IncrementBegin& begin) { events.increment_begin(begin); };
+  run.observer.on_iteration = [&](const contact::Iteration& iteration) {
+    events.iteration(iteration);
+    progress.iteration(iteration);
+  };
+  run.observer.on_increment = [&](const analysis::StaticSolution& solved, const analysis::IncrementResult& increment) {
+    events.increment_end(solved.model, increment, solved.increments.size() == 1);
+    progress.increment(solved, increment);
+  };
   const analysis::StaticSolution solution = run::solve(run);
   progress.clear();
 
   const ExitStatus status = status_of(solution, interrupt.signal());
-  for (const Warning& warning : solution.warnings) print_warning(warning.text);
-  for (const std::string& warning : run.directory->warnings()) print_warning(warning);
-  if (status != ExitStatus::solved)
-    print_error(run::why_not_solved(solution, status != ExitStatus::not_converged));
-  if (!quiet) print_summary(summary_text(solution, run.directory->path()));
+  for (const Warning& warning : solution.warnings) {
+    events.warning(warning);
+    print_warning(warning.text);
+  }
+  for (const std::string& warning : run.directory->warnings()) {
+    events.warning(warning);
+    print_warning(warning);
+  }
+  if (status != ExitStatus::solved) {
+    const std::string why = run::why_not_solved(solution, status != ExitStatus::not_converged);
+    events.outcome(solution.outcome);
+    events.error(why);
+    print_error(why);
+  }
+  if (!quiet) events.print_summary(summary_text(solution, run.directory->path()));
   return status;
 }
 

@@ -17,6 +17,7 @@
 #include "scabo/run/modal_run.hpp"
 #include "scabo/run/sizes.hpp"
 #include "scabo/run/static_run.hpp"
+#include "scabo/run/time_left.hpp"
 #include "solved.hpp"
 
 namespace scabo::python {
@@ -31,10 +32,14 @@ struct Progress {
   double fraction = 0.0;                 ///< of the analysis, by the factors of the loads, 0 to 1
   std::optional<int> newton_iterations;  ///< of the last finished increment
   std::optional<double> residual;
+  std::optional<int> iteration;  ///< of the contact solver in the increment at work
+  std::optional<double> iteration_residual;
+  std::optional<double> seconds_left;
 };
 
 /// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an
-/// exception of a signal handler, stop the run: at once if nothing is finished, or else after the current increment.
+/// exception of a signal handler, stop the run. It ends at the next of these occasions: the beginning of a stage or
+/// increment, an iteration of the contact solver. Finished increments are kept.
 class Watch {
  public:
   explicit Watch(py::object callback) : callback_(std::move(callback)) {}
@@ -52,7 +57,19 @@ class Watch {
   // Called by the run, without the lock.
   void stage(const std::string& name) {
     now_.stage = name;
+    now_.iteration.reset();
+    now_.iteration_residual.reset();
     tell();
+  }
+  void meshed() { time_left_.begin(); }
+  void iteration(const contact::Iteration& iteration) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < shortest_between_iterations) return;
+    now_.iteration = iteration.iteration;
+    now_.iteration_residual = iteration.residual;
+    now_.seconds_left = time_left_.seconds();
+    tell();
+    if (stopped_) throw analysis::EndAtOnce{};
   }
   void increment(const model::Model& model, const analysis::IncrementResult& result) {
     if (!result.converged) return;
@@ -60,6 +77,10 @@ class Watch {
     now_.fraction = run::part_done(model, result);
     now_.newton_iterations = result.newton_iterations;
     now_.residual = result.residual;
+    now_.iteration.reset();
+    now_.iteration_residual.reset();
+    time_left_.increment(now_.fraction, now_.increment == 1);
+    now_.seconds_left = time_left_.seconds();
     tell();
   }
 
@@ -76,13 +97,19 @@ class Watch {
         stopped_ = true;
       }
     }
+    told_ = std::chrono::steady_clock::now();
     if (stopped_ && now_.increment == 0) throw run::Stopped{};
   }
+
+  // A display shows a few a second, and each needs the interpreter lock.
+  static constexpr std::chrono::milliseconds shortest_between_iterations{50};
 
   py::object callback_;
   py::object error_ = py::none();
   Progress now_;
   std::atomic<bool> stopped_{false};
+  run::TimeLeft time_left_;
+  std::chrono::steady_clock::time_point told_;
 };
 
 std::string text_of_file(const std::filesystem::path& file) {
@@ -122,6 +149,8 @@ std::shared_ptr<StaticResult> solve_static(const CheckedModel& checked, const st
     run.keep_fields = keep_fields;
     if (!ignore_memory) run.anyway = "start it with ignore_memory=True";
     run.observer.on_stage = [&](const std::string& stage) { watch.stage(stage); };
+    run.observer.on_mesh = [&](const auto&) { watch.meshed(); };
+    run.observer.on_iteration = [&](const contact::Iteration& iteration) { watch.iteration(iteration); };
     run.observer.on_increment = [&](const auto&, const auto& increment) { watch.increment(checked.model, increment); };
     mesh::Mesh mesh = analysis::check(checked.model);
     if (checked.model.analysis.type == model::AnalysisType::static_) result::check_sections(checked.model, mesh);
@@ -186,6 +215,11 @@ void bind_runs(py::module_& module) {
       .def_readonly("newton_iterations", &Progress::newton_iterations,
                     "Of the last finished increment; None before it.")
       .def_readonly("residual", &Progress::residual, "Of the last finished increment; None before it.")
+      .def_readonly("iteration", &Progress::iteration,
+                    "Of the contact solver in the increment at work; None between increments.")
+      .def_readonly("iteration_residual", &Progress::iteration_residual, "Residual of that iteration.")
+      .def_readonly("seconds_left", &Progress::seconds_left,
+                    "Until the end, if the rest goes on as before; None before an increment is finished.")
       .def("__repr__", [](const Progress& progress) {
         return py::str("Progress(stage={!r}, increment={}, increments={}, fraction={})")
             .format(progress.stage, progress.increment, progress.increments, progress.fraction);

@@ -4,6 +4,7 @@ from __future__ import annotations
 import copy
 import json
 import os
+import sys
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from . import _core
 from .arguments import threads_of
 from .errors import Interrupted, Mechanism, ModelWarning, NotConverged
 from .modes import ModalResult
+from .progress import watching
 from .result import Result
 
 __all__ = ["Model", "Sizes", "read", "schema"]
@@ -86,16 +88,18 @@ class Model(dict[str, Any]):
         _warn(checked.warnings)
         return Sizes(**sizes)
 
-    def run(self, output: str | os.PathLike[str] | None = None, *, progress: Callback | None = None,
+    def run(self, output: str | os.PathLike[str] | None = None, *, progress: Callback | bool | None = None,
             threads: int | None = None, keep_fields: bool = True, ignore_memory: bool = False) -> Result | ModalResult:
         """Solves the model.
 
         output
             Directory for the files that ``scabo run`` writes (docs/results.md); None: nothing is written.
         progress
-            Called with a ``Progress`` at every stage and after every increment. If it returns False, the run ends after
-            the current increment and raises ``Interrupted``; if it raises, the run ends in the same way and the
-            exception is passed on, with the finished increments as its attribute ``result``. Ctrl-C does the same.
+            Called with a ``Progress`` at every stage, after every increment, and a few times a second within one. If it
+            returns False, the run ends and raises ``Interrupted``; if it raises, the run ends in the same way and the
+            exception is passed on, with the finished increments as its attribute ``result``. Ctrl-C does the same. A
+            single stage, such as a factorisation, is not broken off.
+            True: a bar with stage, residual and time left, in a notebook or a terminal, if tqdm is installed.
         threads
             Upper limit; small models use one. None: all processors.
         keep_fields
@@ -108,8 +112,11 @@ class Model(dict[str, Any]):
         Raises ``ModelError``; ``NotConverged`` or ``Mechanism``, with the finished increments in ``result``;
         ``WriteError``; ``MemoryError``. Warnings are issued as ``ModelWarning``.
         """
-        if progress is not None and not callable(progress):
-            raise TypeError(f"progress must be a function, not {type(progress).__name__}")
+        with watching(progress) as callback:
+            return self._run(output, callback, threads, keep_fields, ignore_memory)
+
+    def _run(self, output: str | os.PathLike[str] | None, progress: Callback | None, threads: int | None,
+             keep_fields: bool, ignore_memory: bool) -> Result | ModalResult:
         checked = self._checked()
         target = None if output is None else os.fsdecode(output)
         if target == "":
@@ -137,9 +144,17 @@ def _remade(data: dict[str, Any], file: str) -> Model:
     return Model(data, file=file)
 
 
+def _outside() -> int:
+    """Level of the caller outside of this package, for warnings."""
+    frame, level = sys._getframe(1), 1
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == __package__:
+        frame, level = frame.f_back, level + 1  # type: ignore[assignment]
+    return level - 1
+
+
 def _warn(texts: list[str]) -> None:
     for text in texts:
-        warnings.warn(text, ModelWarning, stacklevel=3)
+        warnings.warn(text, ModelWarning, stacklevel=_outside())
 
 
 def _setting(path: str, value: Any) -> str:

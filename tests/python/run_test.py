@@ -150,7 +150,7 @@ except MemoryError as error:
 class Progress(InTemporaryDirectory):
     def test_stages_and_increments(self):
         seen = []
-        in_steps(4).run(progress=seen.append)
+        in_steps(4).run(progress=lambda now: now.iteration is None and seen.append(now) or None)
         stages = [now.stage for now in seen]
         self.assertEqual(stages[:4], ["mesh", "super-elements", "factorisation", "condensation to the contact pairs"])
         self.assertEqual(stages[-1], "step press, increment 4 of 4")
@@ -163,7 +163,7 @@ class Progress(InTemporaryDirectory):
         self.assertGreater(seen[-1].newton_iterations, 0)
 
     def test_what_is_no_function(self):
-        with self.assertRaisesRegex(TypeError, "progress must be a function, not str"):
+        with self.assertRaisesRegex(TypeError, "progress must be a function or True, not str"):
             in_steps(2).run(progress="tqdm")
 
     def test_number_of_automatic_increments_is_not_known(self):
@@ -220,6 +220,60 @@ class Progress(InTemporaryDirectory):
             self.assertEqual(len(raised.result.increments), 3)
             names = [frame.name for frame in traceback.extract_tb(raised.__traceback__)]
             self.assertEqual((names[0], names[-1]), ("test_exceptions_of_the_callback", "callback"))
+
+    def long_increment(self):
+        """A model whose increments take more than the time between two calls."""
+        sizes = {f"bodies.{body}.mesh.size": 0.025 for body in ("lower", "upper")}
+        return scabo.read(BEAM, set={**sizes, "steps": [{"name": "press", "increments": 50}]})
+
+    def test_iterations_within_an_increment(self):
+        seen = []
+
+        def callback(now):
+            if now.iteration is not None:
+                seen.append(now)
+            return len(seen) < 3 and None
+
+        with self.assertRaises(scabo.Interrupted):
+            self.long_increment().run(progress=callback)
+        self.assertTrue(all(now.iteration >= 0 and now.iteration_residual > 0.0 for now in seen))
+        self.assertRegex(seen[0].stage, "step press, increment ")
+
+    def test_seconds_left(self):
+        seen = []
+        in_steps(3).run(progress=seen.append)
+        self.assertIsNone(seen[0].seconds_left)
+        self.assertEqual(seen[-1].seconds_left, 0.0)
+
+    def with_tqdm(self, text):
+        """Runs a model with `progress=True` and this as tqdm/auto.py; its output."""
+        (self.directory / "tqdm").mkdir()
+        (self.directory / "tqdm" / "__init__.py").write_text("")
+        (self.directory / "tqdm" / "auto.py").write_text(text)
+        script = "import scabo, sys; print(scabo.read(sys.argv[1]).run(progress=True).status)"
+        run = subprocess.run([sys.executable, "-c", script, str(BEAM)], capture_output=True, text=True, timeout=1200,
+                             env={**os.environ, "PYTHONPATH": f"{self.directory}:{os.environ['PYTHONPATH']}"})
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return run.stdout.splitlines()
+
+    def test_a_bar(self):
+        lines = self.with_tqdm("""
+class tqdm:
+    def __init__(self, total, bar_format, postfix):
+        self.n, self.total, self.postfix = 0.0, total, postfix
+    def update(self, part):
+        self.n += part
+    def refresh(self):
+        print(self.n / self.total, self.postfix[0])
+    def close(self):
+        print("closed")
+""")
+        self.assertEqual(lines[0], "0.0 mesh")
+        self.assertRegex(lines[-3], r"^1\.0 step press, increment 1 of 1; residual [0-9.e-]+$")
+        self.assertEqual(lines[-2:], ["closed", "solved"])
+
+    def test_no_bar_without_tqdm(self):
+        self.assertEqual(self.with_tqdm("raise ImportError"), ["solved"])
 
     def test_a_modal_analysis(self):
         model = scabo.read(BEAM.parent.parent / "02_natural_frequencies" / "model.yaml")

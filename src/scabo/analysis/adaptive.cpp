@@ -197,6 +197,7 @@ Options quiet(const Options& options, const std::string& what) {
   Options silent;
   silent.threads = options.threads;
   silent.stop = options.stop;
+  silent.on_iteration = options.on_iteration;
   if (options.on_stage)
     silent.on_stage = [&options, what](const std::string& stage) { options.on_stage(what + ": " + stage); };
   return silent;

@@ -383,6 +383,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
+  options.on_iteration = prepared.on_iteration;
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
   std::vector<Vector> free;  // without contact
   for (std::size_t p = 0; p < parts.size(); ++p) {

@@ -22,6 +22,7 @@ struct Prepared {
     Matrix N;  ///< 2 x n: displacement of the point by those of the nodes of the body
   };
   std::optional<Reference> reference;
+  std::function<void(const contact::Iteration&)> on_iteration = {};  ///< Options::on_iteration
 };
 
 /// Displacement of the reference point, which belongs to all bodies: results are relative to it, and so are the work of

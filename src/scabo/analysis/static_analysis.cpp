@@ -251,6 +251,9 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       interrupt(solution);
       return;
     }
+    if (options.on_increment_begin)
+      options.on_increment_begin({static_cast<int>(run.step) + 1, step.name, k,
+                                  step.automatic ? std::nullopt : std::optional(step.increments)});
     if (options.on_stage)
       options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, k)
                                       : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
@@ -264,8 +267,12 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
     };
     const std::optional<double> least =
         step.automatic ? std::optional(step.automatic->smallest / (end - begin)) : std::nullopt;
-    Reached reached =
-        timed(solution.timing.newton, [&] { return reach(prepared, run.state, factors_at, least, options); });
+    Reached reached;
+    try {
+      reached = timed(solution.timing.newton, [&] { return reach(prepared, run.state, factors_at, least, options); });
+    } catch (const EndAtOnce&) {
+      reached.stopped = true;
+    }
     if (reached.stopped) {
       interrupt(solution);
       return;
@@ -422,7 +429,7 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   solution.warnings = solution.model.warnings;
   for (Warning& warning : load_warnings(solution.model, structure)) solution.warnings.push_back(std::move(warning));
   run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure),
-             reference_of(solution.model, solution.mesh, solution.cells)},
+             reference_of(solution.model, solution.mesh, solution.cells), options.on_iteration},
             solution, options);
   for (Warning& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;

@@ -192,6 +192,18 @@ struct StaticSolution {
   Timing timing;
 };
 
+/// An increment that is about to be computed.
+struct IncrementBegin {
+  int step = 0;  ///< from 1
+  std::string step_name;
+  int increment = 0;              ///< from 1 within the step
+  std::optional<int> increments;  ///< of the step; empty if their size is automatic
+};
+
+/// Thrown by Options::on_iteration to end the analysis within an increment: it is then `interrupted`, and the finished
+/// increments are kept. `stop` must be set as well.
+struct EndAtOnce {};
+
 struct Prepared;  // increment.hpp
 struct State;
 struct Continuation;  // continuation.hpp
@@ -215,6 +227,11 @@ struct Options {
   const Continuation* from = nullptr;                      ///< continues from there; only for such analyses
   std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
+  /// Before each increment, and before `on_stage`. Not of analyses on several meshes, whose increments are reported together
+  /// at the end.
+  std::function<void(const IncrementBegin&)> on_increment_begin;
+  /// Every iteration of the contact solver, within an increment; may throw EndAtOnce.
+  std::function<void(const contact::Iteration&)> on_iteration;
 };
 
 /// Validates the model (model/validate.hpp), meshes it and checks, without solving anything, that every body is held

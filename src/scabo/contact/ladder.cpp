@@ -34,6 +34,14 @@ Ladder::Ladder(const Problem& scaled_problem, const SolverOptions& options, doub
                std::function<bool(const Vector& p, const Vector& motion)> content)
     : problem_(scaled_problem), options_(options), small_(small), content_(std::move(content)) {}
 
+std::function<void(const Iteration&)> Ladder::counted(const std::function<void(const Iteration&)>& tell) const {
+  if (!tell) return {};
+  return [tell, before = iterations_ + coarse_iterations_](Iteration iteration) {
+    iteration.iteration += before;
+    tell(iteration);
+  };
+}
+
 NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, const Run& how) {
   const BDifferentiableEquations equations(problem, options_.r_factor * how.r_factor);
   NewtonOptions options;
@@ -44,6 +52,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.patience = how.patience;
   options.stage = how.stage;
   options.deadline = options_.deadline;
+  options.on_iteration = counted(options_.on_iteration);
   if (&problem == &problem_) options.content = content_;
   options.ask_when_stuck = !judges_all();
   NewtonEnd end = newton(equations, p, a, options);
@@ -316,6 +325,7 @@ NewtonEnd Ladder::vanishing_proximal(Vector p) {
     options.iterations = options_.iterations;
     options.stage = "newton, forces held softly";
     options.deadline = options_.deadline;
+    options.on_iteration = counted(options_.on_iteration);
     NewtonEnd inner = newton(equations, p, Vector(), options);
     for (Iteration& iteration : inner.trace) {
       iteration.iteration += iterations_ + coarse_iterations_;

@@ -41,6 +41,8 @@ class Ladder {
     int iterations = 0;  ///< 0: those of the options
     int patience = 0;    ///< NewtonOptions::patience
   };
+  /// Tells iterations with their numbers over all attempts; empty if nobody listens.
+  std::function<void(const Iteration&)> counted(const std::function<void(const Iteration&)>& tell) const;
   NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, const Run& how);
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
   NewtonEnd climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,

@@ -128,6 +128,7 @@ class Newton {
     for (std::size_t i = 0; i < before_.size(); ++i) changed += !at_.branches[i].same_branch(before_[i]);
     before_ = at_.branches;
     end_.trace.push_back({end_.iterations, at_.largest(), at_.merit(), step_, changed, options_.stage});
+    if (options_.on_iteration) options_.on_iteration(end_.trace.back());
   }
 
   void take(double step) {

@@ -22,6 +22,7 @@ struct NewtonOptions {
   int patience = 0;             ///< ends when the smallest merit was not halved in so many iterations; 0: never
   std::string stage = "newton";
   Deadline deadline;  ///< no iteration begins after it
+  std::function<void(const Iteration&)> on_iteration;  ///< may be empty; what it throws ends the solve
   /// Converged as well when this says so of forces and motions; may be empty.
   std::function<bool(const Vector& p, const Vector& motion)> content;
   bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small and no longer falls

@@ -7,6 +7,8 @@
 // The result is solved, as confirmed by contact/judge, or its status and reason say why not.
 #pragma once
 
+#include <functional>
+
 #include "scabo/contact/deadline.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/solution.hpp"
@@ -20,6 +22,8 @@ struct SolverOptions {
   double r_factor = 1.0;             ///< r = r_factor / W_ii; the solution does not depend on it
   double force_scale = 0.0;          ///< largest applied force, >= 0: part of the scale of forces
   Deadline deadline;                 ///< end of the search, at which the best iterate is returned
+  /// Told every iteration of Newton's method, for display; may be empty. What it throws ends the solve.
+  std::function<void(const Iteration&)> on_iteration;
 };
 
 Solution solve(const Problem& problem, const Start& start = {}, const SolverOptions& options = {});

@@ -95,6 +95,8 @@ analysis::StaticSolution solve_and_write(const StaticRun& run) {
   if (!run.begun.from.increments.empty()) options.from = &run.begun.from;
   options.on_stage = run.observer.on_stage;
   options.on_mesh = run.observer.on_mesh;
+  options.on_increment_begin = run.observer.on_increment_begin;
+  options.on_iteration = run.observer.on_iteration;
   options.on_increment = [&](const auto& solved, const auto& increment) {
     if (run.directory) run.directory->add(solved, increment);
     if (run.observer.on_increment) run.observer.on_increment(solved, increment);

@@ -24,6 +24,8 @@ struct Observer {
   std::function<void(const std::string& stage)> on_stage;
   std::function<void(const analysis::StaticSolution&)> on_mesh;
   std::function<void(const analysis::StaticSolution&, const analysis::IncrementResult&)> on_increment;
+  std::function<void(const analysis::IncrementBegin&)> on_increment_begin;  ///< analysis::Options
+  std::function<void(const contact::Iteration&)> on_iteration;              ///< may also throw analysis::EndAtOnce
 };
 
 struct StaticRun {
