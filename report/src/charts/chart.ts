@@ -75,7 +75,7 @@ export class Chart {
         y: options.logarithmic ? { distr: 3, range: (_, low, high) => [10 ** Math.floor(Math.log10(low || 1e-17) - 0.2), 10 ** Math.ceil(Math.log10(high || 1) + 0.2)] }
           : { range: (_, low, high) => around(low, high, options.zero ?? false) },
       },
-      axes: [x, { ...axis(options.y, 3, 58), ...(options.logarithmic ? { splits: decades } : { space: 28 }) }],
+      axes: [x, { ...axis(options.y, 3, 58), ...(options.logarithmic ? { splits: decades, filter: (_: uPlot, splits: number[]) => splits } : { space: 28 }) }],
       series: [{ label: options.x, value: (_, value) => number(value, 5) }, ...this.curves.map((curve): uPlot.Series => ({
         label: curve.name, stroke: () => css(curve.colour), width: 1.6, dash: curve.dash, spanGaps: false,
         points: { show: curve.points ?? (single || this.data[0].length <= 40), size: 5, fill: () => css(curve.colour) },
