@@ -10,7 +10,7 @@ export function verdict({ content }: State): HTMLElement {
   if (content.modal) {
     tiles.push(["natural modes", String(content.modes.length)], ["lowest frequency", content.modes.length ? number(Math.min(...content.modes.map((mode) => mode.frequency)), 5) : "–"]);
   } else {
-    tiles.push([increments.length === 1 ? "increment" : "increments", String(increments.length)], ["worst figure of the certificate", number(worst, 2)]);
+    tiles.push([increments.length === 1 ? "increment" : "increments", String(increments.length)], ["worst figure of the certificate", increments.length ? number(worst, 2) : "–"]);
   }
   tiles.push(["degrees of freedom", model.dofs.toLocaleString("en")], ["super-elements", model.super_elements.toLocaleString("en")]);
   if (model.contact_pairs) tiles.push(["contact pairs", model.contact_pairs.toLocaleString("en")]);

@@ -75,8 +75,10 @@ export class FieldPanel {
       changed: () => this.draw(true), pick: (px, py) => this.pickPixel(px, py), hover: (px, py) => this.hover(px, py), leave: () => this.leave(),
       step: this.actions.step, play: this.actions.play, clear: () => this.state.set({ picked: null, pair: -1 }),
     });
-    this.canvas.addEventListener("focus", () => { this.keyboard = this.canvas.matches(":focus-visible"); this.draw(); });
-    this.canvas.addEventListener("blur", () => { this.keyboard = false; this.draw(); });
+    this.stage.addEventListener("pointerdown", () => this.showKeyboard(false));
+    this.canvas.addEventListener("keydown", () => this.showKeyboard(true));
+    this.canvas.addEventListener("focus", () => this.showKeyboard(!this.stage.matches(":active")));
+    this.canvas.addEventListener("blur", () => this.showKeyboard(false));
     const { state } = this;
     state.on(["increment", "quantity"], () => void this.load());
     state.on(["range", "bands", "units"], () => { this.colour(); this.draw(); this.readout.show(this.shape, this.current); });
@@ -122,6 +124,14 @@ export class FieldPanel {
     return element("div", { class: "controls" }, labelled("Show", quantities), labelled("Colours span", ranges),
       this.data.moves && element("div", { class: "control" }, element("span", { class: "label" }, "Deformation ×"), element("span", { class: "pair-of" }, scale, exact)),
       checks, zoom);
+  }
+
+  /** The frame and the middle of the picture, for those who read values with the Enter key. */
+  private showKeyboard(on: boolean): void {
+    if (on === this.keyboard) return;
+    this.keyboard = on;
+    this.stage.classList.toggle("keyboard", on);
+    this.draw();
   }
 
   private theme(): void {
