@@ -260,6 +260,19 @@ class Result:
         with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
             return draw(self._write(os.path.join(folder, "results")))
 
+    def report(self, output: str | os.PathLike[str] | None = None, *, units: str | None = None,
+               megabytes: float = 25.0) -> pathlib.Path:
+        """Writes one page for the browser, as ``scabo report`` does, and returns its path: by default
+        ``model.report.html`` beside the results directory, which a run with ``output`` has. ``units``: length and force
+        of the model, as in "m,N". Beyond ``megabytes``, fields of increments are left out, evenly."""
+        from . import report
+        if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
+            return report.write(self.directory, output, units, megabytes)
+        if output is None:
+            raise ValueError("these results are in no directory: name the page, as in report(\"model.html\")")
+        with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
+            return report.write(self._write(os.path.join(folder, pathlib.Path(output).stem)), output, units, megabytes)
+
     def _body(self, name: str) -> int:
         bodies = self._core.bodies
         if name not in bodies:

@@ -50,12 +50,13 @@ async function start(): Promise<void> {
   const side: (HTMLElement | null)[] = [content.convergence && count ? new ConvergencePanel(state).root : null, !content.modal && count ? new HistoryPanel(state).root : null];
   const outcome = verdict(state);
   let summary = model(state);
-  const rest = [warnings(content), content.modal ? modes(state) : count ? increments(state) : null, content.certificate.length ? certificate(content) : null, summary];
-  const parts = [field?.root, contacts?.root, ...side, ...rest].filter((part): part is HTMLElement => !!part);
-  page.append(header(state), navigation(parts), element("main", {}, outcome, bar?.root ?? "",
-    element("div", { class: contacts ? "wide-and-narrow" : "single" }, ...[field?.root, contacts?.root].filter((part): part is HTMLElement => !!part)),
+  const alerts = warnings(content);
+  const rest = [content.modal ? modes(state) : count ? increments(state) : null, content.certificate.length ? certificate(content) : null, summary];
+  const parts = [alerts, field?.root, contacts?.root, ...side, ...rest].filter((part): part is HTMLElement => !!part);
+  page.append(header(state), navigation(parts), element("main", {}, outcome, alerts ?? "", bar?.root ?? "",
+    field || contacts ? element("div", { class: field && contacts ? "wide-and-narrow" : "single" }, ...[field?.root, contacts?.root].filter((part): part is HTMLElement => !!part)) : "",
     !content.field && count ? element("p", { class: "card note" }, "The run wrote no fields (`output` in the model file), so that there is no picture of them.") : "",
-    element("div", { class: side.every((part) => part) ? "halves" : "single" }, ...side.filter((part): part is HTMLElement => !!part)), ...rest.filter((part): part is HTMLElement => !!part)),
+    side.some((part) => part) ? element("div", { class: side.every((part) => part) ? "halves" : "single" }, ...side.filter((part): part is HTMLElement => !!part)) : "", ...rest.filter((part): part is HTMLElement => !!part)),
     element("footer", {}, `Written by Scabo ${content.version} (scabo report). This file asks no network for anything. Values are those of the results directory, to seven digits; `
       + "between the points of the results the picture interpolates."));
   state.on(["units"], () => {

@@ -10,7 +10,7 @@ export function verdict({ content }: State): HTMLElement {
   if (content.modal) {
     tiles.push(["natural modes", String(content.modes.length)], ["lowest frequency", content.modes.length ? number(Math.min(...content.modes.map((mode) => mode.frequency)), 5) : "–"]);
   } else {
-    tiles.push(["increments", String(increments.length)], ["worst figure of the certificate", number(worst, 2)]);
+    tiles.push([increments.length === 1 ? "increment" : "increments", String(increments.length)], ["worst figure of the certificate", increments.length ? number(worst, 2) : "–"]);
   }
   tiles.push(["degrees of freedom", model.dofs.toLocaleString("en")], ["super-elements", model.super_elements.toLocaleString("en")]);
   if (model.contact_pairs) tiles.push(["contact pairs", model.contact_pairs.toLocaleString("en")]);
@@ -47,9 +47,8 @@ export function increments(state: State): HTMLElement {
   return section("increments", "Increments", made, ...failed, element("p", { class: "note" }, coarse + "Certificate: the worst of its figures, free of units."));
 }
 
-export function modes({ content, ...state }: State): HTMLElement {
-  void state;
-  const mass = content.total_mass ?? 0, part = (value: number) => (mass > 0 ? `${number((100 * value) / mass, 3)} %` : "–");
+export function modes({ content }: State): HTMLElement {
+  const mass = content.total_mass ?? 0, part = (value: number) => (mass > 0 ? `${number(value < 1e-12 * mass ? 0 : (100 * value) / mass, 3)} %` : "–");
   return section("modes", "Natural modes", table(["mode", "frequency (1 / time)", "body", "effective mass x", "effective mass y", "residual"],
     content.modes.map((mode) => [String(mode.mode), mode.rigid ? "0 (rigid)" : number(mode.frequency, 6), mode.body, part(mode.effective_mass[0]), part(mode.effective_mass[1]), number(mode.residual, 2)]),
     { class: "numbers", "aria-label": "Natural modes" }));
@@ -70,8 +69,9 @@ export function model(state: State): HTMLElement {
   const { content } = state, { model: m } = content, { units } = state.shown;
   const facts: [string, string][] = [];
   if (m.plane) facts.push(["plane", m.plane], ["thickness", units.text("length", m.thickness ?? null)]);
-  facts.push(["nodes", m.nodes.toLocaleString("en")], ["degrees of freedom", m.dofs.toLocaleString("en")], ["super-elements", m.super_elements.toLocaleString("en")], ["contact pairs", m.contact_pairs.toLocaleString("en")]);
-  if (m.steps?.length) facts.push(["steps", m.steps.slice(0, 20).join(", ") + (m.steps.length > 20 ? " ..." : "")]);
+  facts.push(["nodes", m.nodes.toLocaleString("en")], ["degrees of freedom", m.dofs.toLocaleString("en")], ["super-elements", m.super_elements.toLocaleString("en")]);
+  if (m.contact_pairs) facts.push(["contact pairs", m.contact_pairs.toLocaleString("en")]);
+  if (m.steps?.length && !content.modal) facts.push(["steps", m.steps.slice(0, 20).join(", ") + (m.steps.length > 20 ? " ..." : "")]);
   facts.push(["units", units.length && units.force ? `${units.length}, ${units.force}` : "those of the model file"]);
   if (content.memory) facts.push(["peak of memory", `${number(content.memory / 1e6, 3)} MB`]);
   const parts: (HTMLElement | null)[] = [element("dl", { class: "facts" }, ...facts.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))))];

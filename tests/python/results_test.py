@@ -288,5 +288,28 @@ class Plot(InTemporaryDirectory):
         self.assertIsNone(result.directory)
 
 
+class Report(InTemporaryDirectory):
+    """Where the page is built; what it contains has tests of its own."""
+
+    def setUp(self):
+        super().setUp()
+        if not pathlib.Path(scabo.__file__).with_name("report").joinpath("template.html").is_file():
+            self.skipTest("the page for reports was not built")
+
+    def test_with_and_without_a_directory(self):
+        model = scabo.Model(block())
+        model["title"] = "pressed"
+        result = model.run(output=self.directory / "block.results")
+        path = result.report()
+        self.assertEqual(path, self.directory / "block.report.html")
+        self.assertIn("<title>pressed</title>", path.read_text(encoding="utf-8"))
+        result = scabo.Model(block()).run()
+        self.assertEqual(result.report(self.directory / "other.html", units="m,N"), self.directory / "other.html")
+        self.assertIn('"directory":"other"', (self.directory / "other.html").read_text(encoding="utf-8"))
+        with self.assertRaisesRegex(ValueError, "these results are in no directory: name the page"):
+            result.report()
+        self.assertEqual(sorted(path.name for path in self.directory.iterdir()), ["block.report.html", "block.results", "other.html"])
+
+
 if __name__ == "__main__":
     unittest.main()

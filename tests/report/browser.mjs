@@ -122,6 +122,7 @@ await settled();
 await page.locator(".stage").screenshot({ path: join(folder, "dark.png") });
 await page.selectOption("#theme", "system");
 await page.emulateMedia({ colorScheme: "dark" });
+await page.waitForFunction(() => document.documentElement.dataset.theme === "dark");
 seen.backgrounds.push(await background());
 await page.click("#play");
 await page.waitForFunction(() => window.scaboReport.state.shown.increment === 1);

@@ -97,7 +97,7 @@ class Report(unittest.TestCase):
                 continue
             grid = self.results.fields(number)
             a, b, c = (grid.points[self.triangles[:, k]] for k in range(3))
-            weights = np.linalg.solve(np.stack([np.column_stack([p, np.ones(len(p))]) for p in (a, b, c)], axis=2), np.array([x, y, 1.0])[:, None])[..., 0]
+            weights = np.linalg.solve(np.stack([np.column_stack([p, np.ones(len(p))]) for p in (a, b, c)], axis=2), np.tile([[x], [y], [1.0]], (len(a), 1, 1)))[..., 0]
             inside, = np.flatnonzero((weights > 0).all(axis=1))
             for key, array in (("xx", "stress_xx"), ("von_mises", "von_mises")):
                 value = float(weights[inside] @ grid.point_data[array][self.triangles[inside]])

@@ -15,6 +15,8 @@ export interface ChartOptions {
   height: number;
   x: string;
   y: string;
+  above?: boolean; // the name of y stands above the curves, where it has room
+  part?: [number, number] | null; // of x that is shown at first
   logarithmic?: boolean;
   zero?: boolean; // zero is in the range of y
   whole?: boolean; // x has whole numbers only
@@ -28,6 +30,7 @@ export interface ChartOptions {
 
 export class Chart {
   readonly root = element("div", { class: "chart", role: "img" });
+  private readonly name = element("div", { class: "chart-name" });
   private plot: uPlot | null = null;
   private data: uPlot.AlignedData = [[]];
   private width = 0;
@@ -35,6 +38,7 @@ export class Chart {
 
   constructor(private options: ChartOptions) {
     this.root.setAttribute("aria-label", options.label);
+    if (options.above) this.root.append(this.name);
     new ResizeObserver(() => {
       const width = Math.floor(this.root.clientWidth);
       if (!width || width === this.width) return;
@@ -47,6 +51,7 @@ export class Chart {
   private curves: Curve[] = [];
 
   show(x: number[] | Float32Array, curves: Curve[], changes: Partial<ChartOptions> = {}): void {
+    this.name.textContent = changes.y ?? this.options.y;
     const same = this.plot && curves.length === this.curves.length && Object.keys(changes).length === 0
       && curves.every((curve, k) => curve.name === this.curves[k].name && curve.colour === this.curves[k].colour);
     this.options = { ...this.options, ...changes };
@@ -62,7 +67,7 @@ export class Chart {
     const { options } = this;
     this.plot?.destroy();
     const axis = (name: string, side: number, size: number): uPlot.Axis => ({
-      label: name, side, size, labelSize: 20, gap: 4, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", stroke: () => css("--soft"),
+      label: name || undefined, side, size, labelSize: 20, gap: 4, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", stroke: () => css("--soft"),
       grid: { stroke: () => css("--grid"), width: 1 }, ticks: { stroke: () => css("--grid"), width: 1, size: 5 },
       values: (_, splits) => splits.map((value) => (value === null ? "" : side === 3 && options.logarithmic ? power(value) : number(value, 5))),
     });
@@ -71,11 +76,11 @@ export class Chart {
     this.plot = new uPlot({
       width: this.width, height: options.height, legend: { show: options.legend ?? false }, padding: [10, 12, 0, 0],
       scales: {
-        x: { time: false, range: (_, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]) },
+        x: { time: false, range: (_, low, high) => this.spanned(low, high) },
         y: options.logarithmic ? { distr: 3, range: (_, low, high) => [10 ** Math.floor(Math.log10(low || 1e-17) - 0.2), 10 ** Math.ceil(Math.log10(high || 1) + 0.2)] }
           : { range: (_, low, high) => around(low, high, options.zero ?? false) },
       },
-      axes: [x, { ...axis(options.y, 3, 58), ...(options.logarithmic ? { splits: decades } : { space: 28 }) }],
+      axes: [x, { ...axis(options.above ? "" : options.y, 3, 58), ...(options.logarithmic ? { splits: decades, filter: (_: uPlot, splits: number[]) => splits } : { space: 28 }) }],
       series: [{ label: options.x, value: (_, value) => number(value, 5) }, ...this.curves.map((curve): uPlot.Series => ({
         label: curve.name, stroke: () => css(curve.colour), width: 1.6, dash: curve.dash, spanGaps: false,
         points: { show: curve.points ?? (single || this.data[0].length <= 40), size: 5, fill: () => css(curve.colour) },
@@ -94,6 +99,13 @@ export class Chart {
         draw: [(plot) => options.draw?.(plot)],
       },
     }, this.data, this.root);
+  }
+
+  /** The whole of x, the part that is shown at first in its place, or what was chosen with the mouse. */
+  private spanned(low: number, high: number): [number, number] {
+    const xs = this.data[0], { part } = this.options;
+    if (low === high) return [low - 0.5, high + 0.5];
+    return part && low === xs[0] && high === xs[xs.length - 1] ? part : [low, high];
   }
 
   redraw(): void {

@@ -1,7 +1,7 @@
 // Pressure, shear, gap and slip along a contact, with the state of every pair. A pair lights up here and in the field together.
 import type uPlot from "uplot";
 import { bytes, floats, whole } from "../arrays";
-import { css, element, labelled, section } from "../dom";
+import { checkbox, css, element, labelled, section } from "../dom";
 import type { Dimension } from "../content";
 import type { State } from "../state";
 import { counted } from "../units";
@@ -13,6 +13,7 @@ const CURVES: { key: string; name: string; dimension: Dimension }[] = [
 ];
 const STATES = ["open", "stick", "slip"];
 const MOST_MARKS = 70;
+const SMALL = 0.25; // part of a contact that touches, below which it is shown alone at first
 
 export class ContactPanel {
   readonly root: HTMLElement;
@@ -23,6 +24,7 @@ export class ContactPanel {
   private readonly legend = element("p", { class: "legend" });
   private readonly note = element("p", { class: "note" });
   private readonly chooser = element("select", { id: "contact" });
+  private readonly onlyPart = checkbox("Only the part in contact", true, () => void this.load(), "only-part");
   private states: Uint8Array = new Uint8Array();
   private numbers: Uint32Array = new Uint32Array();
   private arrays: Record<string, Float32Array> = {};
@@ -36,13 +38,13 @@ export class ContactPanel {
       at += size;
     }
     this.charts = CURVES.map((curve) => new Chart({
-      height: 148, x: "", y: curve.name, zero: true, sync: "pairs", label: `${curve.name} along the contact`,
+      height: 128, x: "", y: curve.name, above: true, zero: true, sync: "pairs", label: `${curve.name} along the contact`,
       hover: (index) => state.set({ pair: index === null ? -1 : this.start + index }), draw: (plot) => this.mark(plot),
     }));
     pairs.names.forEach((name, k) => this.chooser.append(element("option", { value: k, selected: k === state.shown.contact }, name)));
     this.chooser.addEventListener("change", () => state.set({ contact: Number(this.chooser.value), pair: -1 }));
     this.pairSlider.addEventListener("input", () => state.set({ pair: Number(this.pairSlider.value) === 0 ? -1 : this.start + Number(this.pairSlider.value) - 1 }));
-    this.root = section("contacts", "Contact", element("div", { class: "controls" }, pairs.names.length > 1 && labelled("Contact", this.chooser), labelled("Pair", this.pairSlider, "control grow")),
+    this.root = section("contacts", "Contact", element("div", { class: "controls" }, pairs.names.length > 1 && labelled("Contact", this.chooser), labelled("Pair", this.pairSlider, "control grow"), this.onlyPart),
       this.legend, element("div", { class: "stack" }, ...this.charts.map((chart) => chart.root)), this.values, this.note);
     state.on(["increment", "contact", "units"], () => void this.load());
     state.on(["pair"], () => this.light());
@@ -71,11 +73,12 @@ export class ContactPanel {
     const along = cut(distance), length = shown.units.scale("length", along[along.length - 1] ?? 0);
     this.chooser.value = String(shown.contact);
     this.pairSlider.max = String(this.size);
+    const touching = [...this.states.keys()].filter((i) => this.states[i] !== 0), part = this.partOf(along, touching, length.factor);
     CURVES.forEach((curve, k) => {
       const array = this.arrays[curve.key], scale = shown.units.scale(curve.dimension, array.reduce((most, value) => Math.max(most, Math.abs(value)), 0));
       const last = k === CURVES.length - 1;
       this.charts[k].show(along.map((x) => x * length.factor), [{ name: curve.name, colour: "--curve", values: array.map((y) => y * scale.factor), points: false }],
-        { x: last ? `distance along the contact${length.unit ? ` (${length.unit})` : ""}` : "", y: scale.unit ? `${curve.name} (${scale.unit})` : curve.name, height: last ? 168 : 148 });
+        { part, x: last ? `distance along the contact${length.unit ? ` (${length.unit})` : ""}` : "", y: scale.unit ? `${curve.name} (${scale.unit})` : curve.name, height: last ? 150 : 128 });
     });
     const counts = STATES.map((_, kind) => this.states.filter((state) => state === kind).length);
     this.legend.replaceChildren(...[1, 2, 0].filter((kind) => counts[kind]).map((kind) => element("span", { class: `state ${STATES[kind]}` }, `${STATES[kind]} (${counted(counts[kind], "pair")})`)),
@@ -84,6 +87,18 @@ export class ContactPanel {
     this.note.textContent = differs + content.pairs!.note;
     this.root.dataset.increment = String(increment);
     this.light();
+  }
+
+  /** The part of the contact that touches, with its surroundings; null where the whole is shown. */
+  private partOf(along: Float32Array, touching: number[], factor: number): [number, number] | null {
+    const whole = along[along.length - 1] ?? 0;
+    if (!touching.length || !(whole > 0)) return null;
+    const low = along[Math.max(touching[0] - 1, 0)], high = along[Math.min(touching[touching.length - 1] + 1, along.length - 1)];
+    const few = high - low < SMALL * whole;
+    this.onlyPart.hidden = !few;
+    if (!few || !this.onlyPart.querySelector("input")!.checked) return null;
+    const room = 0.35 * (high - low);
+    return [Math.max(0, low - room) * factor, Math.min(whole, high + room) * factor];
   }
 
   /** Marks of the states along the curve; of many pairs some, the ends of each run of equal states among them. */

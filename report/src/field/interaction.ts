@@ -13,20 +13,23 @@ export interface Actions {
 
 const PAN = 60, CLICK = 5; // pixels
 
-export function interact(canvas: HTMLCanvasElement, camera: Camera, actions: Actions): void {
+/** `stage` receives mouse and touch, because the canvas in it may be moved for a moment; the canvas has the keyboard. */
+export function interact(stage: HTMLElement, canvas: HTMLCanvasElement, camera: Camera, actions: Actions): void {
   const pointers = new Map<number, [number, number]>();
   let moved = 0;
   const at = (event: PointerEvent | WheelEvent): [number, number] => {
-    const box = canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
+    const box = stage.getBoundingClientRect();
+    return [event.clientX - box.left - stage.clientLeft, event.clientY - box.top - stage.clientTop];
   };
-  canvas.addEventListener("pointerdown", (event) => {
+  stage.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
-    canvas.setPointerCapture(event.pointerId);
+    stage.setPointerCapture(event.pointerId);
+    canvas.focus({ preventScroll: true });
+    event.preventDefault();
     pointers.set(event.pointerId, at(event));
     moved = 0;
   });
-  canvas.addEventListener("pointermove", (event) => {
+  stage.addEventListener("pointermove", (event) => {
     const now = at(event), before = pointers.get(event.pointerId);
     if (!before) return actions.hover(...now);
     if (pointers.size === 2) {
@@ -43,15 +46,15 @@ export function interact(canvas: HTMLCanvasElement, camera: Camera, actions: Act
   const end = (event: PointerEvent) => {
     if (pointers.delete(event.pointerId) && event.type === "pointerup" && moved < CLICK && pointers.size === 0) actions.pick(...at(event));
   };
-  canvas.addEventListener("pointerup", end);
-  canvas.addEventListener("pointercancel", end);
-  canvas.addEventListener("pointerleave", () => actions.leave());
-  canvas.addEventListener("dblclick", (event) => {
+  stage.addEventListener("pointerup", end);
+  stage.addEventListener("pointercancel", end);
+  stage.addEventListener("pointerleave", () => actions.leave());
+  stage.addEventListener("dblclick", (event) => {
     event.preventDefault();
     camera.reset();
     actions.changed();
   });
-  canvas.addEventListener("wheel", (event) => {
+  stage.addEventListener("wheel", (event) => {
     event.preventDefault();
     const pixels = event.deltaMode === 1 ? 16 * event.deltaY : event.deltaMode === 2 ? 400 * event.deltaY : event.deltaY;
     camera.zoom(Math.exp(-0.0016 * Math.max(-300, Math.min(300, pixels))), ...at(event));

@@ -13,6 +13,7 @@ import { Readout } from "./readout";
 import { FieldScene, type Geometry } from "./scene";
 
 const NEAR = 14; // pixels from the mouse to a pair
+const SLOW = 25; // milliseconds of a drawing
 
 interface PairPlaces {
   x: Float32Array;
@@ -43,6 +44,10 @@ export class FieldPanel {
   private current = 0; // increment whose displacements are in the picture
   private values: Float32Array = new Float32Array();
   private waiting = false;
+  private changed = true; // more than the camera, since the picture was drawn
+  private drawn = { x: 0, y: 0, scale: 1 }; // the camera then
+  private drawnAt = 0;
+  private timer = 0;
   private keyboard = false;
   private request = 0;
   private swing = 1; // of a mode that is played
@@ -66,12 +71,14 @@ export class FieldPanel {
       this.pairs = { x, y, a, b };
       this.scene.setPairs(x, y);
     }
-    interact(this.canvas, this.camera, {
-      changed: () => this.draw(), pick: (px, py) => this.pickPixel(px, py), hover: (px, py) => this.hover(px, py), leave: () => this.leave(),
+    interact(this.stage, this.canvas, this.camera, {
+      changed: () => this.draw(true), pick: (px, py) => this.pickPixel(px, py), hover: (px, py) => this.hover(px, py), leave: () => this.leave(),
       step: this.actions.step, play: this.actions.play, clear: () => this.state.set({ picked: null, pair: -1 }),
     });
-    this.canvas.addEventListener("focus", () => { this.keyboard = this.canvas.matches(":focus-visible"); this.draw(); });
-    this.canvas.addEventListener("blur", () => { this.keyboard = false; this.draw(); });
+    this.stage.addEventListener("pointerdown", () => this.showKeyboard(false));
+    this.canvas.addEventListener("keydown", () => this.showKeyboard(true));
+    this.canvas.addEventListener("focus", () => this.showKeyboard(!this.stage.matches(":active")));
+    this.canvas.addEventListener("blur", () => this.showKeyboard(false));
     const { state } = this;
     state.on(["increment", "quantity"], () => void this.load());
     state.on(["range", "bands", "units"], () => { this.colour(); this.draw(); this.readout.show(this.shape, this.current); });
@@ -111,12 +118,20 @@ export class FieldPanel {
       content.pairs && checkbox("Contact states", shown.states, (states) => set({ states }), "show-states"),
       checkbox("Bands", shown.bands, (bands) => set({ bands }), "show-bands"));
     const zoom = element("div", { class: "buttons", role: "group", "aria-label": "Zoom" },
-      button("−", () => { this.camera.zoom(0.7); this.draw(); }, { "aria-label": "Zoom out", title: "Zoom out (−)" }),
-      button("+", () => { this.camera.zoom(1 / 0.7); this.draw(); }, { "aria-label": "Zoom in", title: "Zoom in (+)" }),
+      button("−", () => { this.camera.zoom(0.7); this.draw(true); }, { "aria-label": "Zoom out", title: "Zoom out (−)" }),
+      button("+", () => { this.camera.zoom(1 / 0.7); this.draw(true); }, { "aria-label": "Zoom in", title: "Zoom in (+)" }),
       button("Show all", () => { this.camera.reset(); this.draw(); }, { id: "show-all", title: "Show all (0)" }));
     return element("div", { class: "controls" }, labelled("Show", quantities), labelled("Colours span", ranges),
       this.data.moves && element("div", { class: "control" }, element("span", { class: "label" }, "Deformation ×"), element("span", { class: "pair-of" }, scale, exact)),
       checks, zoom);
+  }
+
+  /** The frame and the middle of the picture, for those who read values with the Enter key. */
+  private showKeyboard(on: boolean): void {
+    if (on === this.keyboard) return;
+    this.keyboard = on;
+    this.stage.classList.toggle("keyboard", on);
+    this.draw();
   }
 
   private theme(): void {
@@ -206,7 +221,7 @@ export class FieldPanel {
     const picked = this.shape.pick(...this.camera.toPlane(px, py));
     const quantity = this.data.quantity(this.state.shown.quantity);
     this.overlay.hint.textContent = picked ? `${quantity.name} ${this.state.shown.units.text(quantity.dimension, this.shape.value(picked, this.values))}` : "";
-    this.canvas.classList.toggle("over", picked !== null);
+    this.stage.classList.toggle("over", picked !== null);
   }
 
   private hovered = false;
@@ -235,23 +250,51 @@ export class FieldPanel {
     return best;
   }
 
-  /** Draws once before the next frame, however often it is called. */
-  draw(): void {
-    if (this.waiting || !this.scene) return;
+  /** Draws once before the next frame, however often it is called. `moved`: only the camera has changed. */
+  draw(moved = false): void {
+    if (!this.scene) return;
+    this.changed ||= !moved;
+    if (this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      this.drawNow();
+      if (this.changed || !this.mayWait()) this.drawNow();
+      else this.moveDrawn();
     });
   }
 
+  /** Whether drawing takes so long that a moved picture is better than a late one. */
+  private mayWait(): boolean {
+    return this.scene.cost > SLOW && performance.now() - this.drawnAt < 6 * this.scene.cost;
+  }
+
+  /** Moves the picture as it is, and draws it anew when the camera rests. */
+  private moveDrawn(): void {
+    const { camera, drawn } = this, scale = camera.scale / drawn.scale;
+    const [left, top] = camera.toPixel(drawn.x - (0.5 * camera.width) / drawn.scale, drawn.y + (0.5 * camera.height) / drawn.scale);
+    this.canvas.style.transform = `translate(${left}px, ${top}px) scale(${scale})`;
+    this.showOverlay();
+    window.clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => this.draw(), 120);
+    ++this.frames;
+  }
+
   drawNow(): void {
-    const { shown } = this.state;
+    window.clearTimeout(this.timer);
+    this.changed = false;
+    this.canvas.style.transform = "";
     this.scene.draw(this.camera);
+    this.drawn = { x: this.camera.x, y: this.camera.y, scale: this.camera.scale };
+    this.drawnAt = performance.now();
+    this.showOverlay();
+    ++this.frames;
+  }
+
+  private showOverlay(): void {
+    const { shown } = this.state;
     const picked = shown.picked ? this.shape.place(shown.picked).deformed : null;
     this.overlay.show(this.camera, picked, shown.pair >= 0 && this.pairs ? this.placesOf(shown.pair) : [], this.keyboard);
     this.overlay.showScale(this.camera, shown.units.scale("length", this.camera.width / this.camera.scale));
-    ++this.frames;
   }
 
   /** For tests: the pixel of a place of the undeformed model. */

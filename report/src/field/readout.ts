@@ -41,7 +41,9 @@ export class Readout {
     const [cx, cy] = this.state.content.field!.centre, [x, y] = shape.place(picked).undeformed;
     this.x.value = String(Number((x + cx).toPrecision(7)));
     this.y.value = String(Number((y + cy).toPrecision(7)));
-    this.where.textContent = `${this.data.bodyName(shape.corner(picked))}, at (${units.text("length", x + cx, 5)}, ${units.text("length", y + cy, 5)}) `
+    const { low, high } = this.state.content.field!, length = units.scale("length", Math.max(...[...low, ...high].map(Math.abs)));
+    const place = [x + cx, y + cy].map((value) => number(Math.abs(value) < 1e-7 * Math.abs(high[0] - low[0]) ? 0 : value * length.factor, 5)).join(", ");
+    this.where.textContent = `${this.data.bodyName(shape.corner(picked))}, at (${place})${length.unit ? ` ${length.unit}` : ""} `
       + "of the undeformed shape. Values are interpolated linearly between the three nearest points of the results.";
     this.values.replaceChildren(...quantities.map(({ key, name, dimension }, k) => {
       const value = shape.value(picked, arrays[k]);

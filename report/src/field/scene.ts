@@ -29,7 +29,8 @@ export interface Theme {
   slip: string;
 }
 
-const MOST_NODES = 4000;
+const NODES_APART = 26; // pixels from node to node, at least, where nodes are marked
+const MOST_UNMEASURED = 1e5; // corners of triangles
 
 /** Whether a processor without graphics draws: then without smoothing of edges, which costs it most. */
 export function drawsSlowly(): boolean {
@@ -57,9 +58,13 @@ export class FieldScene {
   private readonly parts: { mesh: LineSegments; elements: LineSegments; nodes: Points; undeformed: LineSegments };
   private readonly still: BufferGeometry; // the same points without displacements
   private readonly ratio: number;
+  private readonly measures: boolean;
+  private nodesWanted = true;
+  cost = 0; // milliseconds of the last drawing, where a processor without graphics draws many triangles; 0 elsewhere
 
   constructor(canvas: HTMLCanvasElement, private readonly geometry: Geometry) {
     const slow = drawsSlowly();
+    this.measures = slow && geometry.triangles.length > MOST_UNMEASURED;
     this.renderer = new WebGLRenderer({ canvas, antialias: !slow, alpha: true, powerPreference: "high-performance", preserveDrawingBuffer: false });
     this.ratio = slow ? 1 : Math.min(window.devicePixelRatio, 2);
     this.renderer.setPixelRatio(this.ratio);
@@ -199,7 +204,7 @@ export class FieldScene {
   show(what: { mesh: boolean; elements: boolean; undeformed: boolean; states: boolean }): void {
     this.parts.mesh.visible = what.mesh;
     this.parts.elements.visible = what.elements;
-    this.parts.nodes.visible = what.elements && this.geometry.nodes.length <= MOST_NODES;
+    this.nodesWanted = what.elements;
     this.parts.undeformed.visible = what.undeformed;
     if (this.marks) this.marks.points.visible = what.states;
   }
@@ -219,7 +224,13 @@ export class FieldScene {
   draw(camera: Camera): void {
     this.place.centre.value.set(camera.x, camera.y);
     this.place.zoom.value.set((2 * camera.scale) / camera.width, (2 * camera.scale) / camera.height);
+    this.parts.nodes.visible = this.nodesWanted && camera.size * camera.scale > NODES_APART * Math.sqrt(this.geometry.nodes.length);
+    const start = performance.now();
     this.renderer.render(this.scene, NO_CAMERA);
+    if (!this.measures) return;
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until all is drawn
+    this.cost = performance.now() - start;
   }
 }
 
