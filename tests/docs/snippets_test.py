@@ -88,8 +88,6 @@ class Page:
         value = load(block.text)
         if isinstance(value, dict) and "scabo" in value and "bodies" in value:
             name = re.sub(r"^file=", "", block.mark) if block.mark.startswith("file=") else f"line_{block.line}.yaml"
-            if self.file.name == "README.md" and not block.mark:
-                name = "block.yaml"
             (self.directory / name).write_text(block.text, encoding="utf-8")
             self.call(["scabo", "check", name], 0)
         else:
