@@ -17,7 +17,7 @@ myst_dmath_double_inline = True
 myst_update_mathjax = False  # it is for version 3; what it would set stands in tex2jax below
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_CHTML-full"
 mathjax2_config = {"showMathMenu": False, "messageStyle": "none",
-                   "tex2jax": {"processClass": "tex2jax_process|mathjax_process|math"}, "CommonHTML": {"linebreaks": {"automatic": False}},
+                   "tex2jax": {"processClass": "tex2jax_process|mathjax_process|math"}, "CommonHTML": {"linebreaks": {"automatic": True}},
                    "TeX": {"equationNumbers": {"autoNumber": "none"}}}
 
 autodoc_member_order = "bysource"
@@ -52,7 +52,9 @@ def laid_out(app, what, name, object_, options, lines):
     paragraphs = [part.split("\n") for part in re.split(r"\n\s*\n", "\n".join(lines))]
     out = []
     for paragraph in paragraphs:
-        columns = [line for line in paragraph if re.match(r"^\s{2,}\S|^\S+( \S+)* {2,}\S", line)]
+        columns = [line for line in paragraph if re.match(r"^\s{8,}\S|^\S+( \S+)* {2,}\S", line)]
+        if paragraph[0].startswith("    "):
+            columns = paragraph
         if paragraph[0].startswith(">>>"):
             out += [*paragraph, ""]
         elif 2 * len(columns) >= len(paragraph) and any(line.strip() for line in paragraph):

@@ -45,3 +45,4 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${consumer} -G ${g
     -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=${build_type})
 run(${CMAKE_COMMAND} --build ${consumer})
 run(${consumer}/consumer)
+include(${CMAKE_CURRENT_LIST_DIR}/readme.cmake)

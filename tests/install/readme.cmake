@@ -1,0 +1,21 @@
+# The snippets of the README for the library, built against the installation in ${prefix} and run on its block.yaml.
+# Included by run.cmake.
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../README.md page)
+foreach(language yaml cmake cpp)
+  string(REGEX MATCH "\n```${language}\n([^`]*)\n```\n" found "${page}")
+  if(NOT found)
+    message(FATAL_ERROR "README.md has no block of ${language}")
+  endif()
+  set(${language} "${CMAKE_MATCH_1}")
+endforeach()
+set(folder ${scratch}/readme)
+file(WRITE ${folder}/block.yaml "${yaml}\n")
+file(WRITE ${folder}/main.cpp "${cpp}\n")
+file(WRITE ${folder}/CMakeLists.txt "cmake_minimum_required(VERSION 3.22)\nproject(readme LANGUAGES CXX)\nadd_executable(my_program main.cpp)\n${cmake}\n")
+run(${CMAKE_COMMAND} -S ${folder} -B ${folder}/build -G ${generator}
+    -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=Debug)
+run(${CMAKE_COMMAND} --build ${folder}/build)
+execute_process(COMMAND ${folder}/build/my_program WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE printed RESULT_VARIABLE status)
+if(NOT status EQUAL 0 OR NOT printed MATCHES "base: 2e\\+07 N, -2e\\+06 N")
+  message(FATAL_ERROR "the program of the README ended with ${status} and printed: ${printed}")
+endif()
