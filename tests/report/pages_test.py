@@ -83,6 +83,12 @@ class Pages(unittest.TestCase):
         self.assertEqual(content["verdict"]["level"], "bad")
         self.assertEqual(content["verdict"]["heading"], "Did not converge")
         self.assertEqual(len(content["failed"]), 1)
+        self.assertEqual(content["totals"]["contacts"][0]["normal_force"], [100.0, 200.0])
+        self.assertEqual(content["totals"]["contacts"][1]["tangential_force"], [-12.0, -24.0])
+        self.assertEqual(content["reactions"]["supports"], [{"name": "ground", "x": [3.0, 6.0], "y": [-8.0, -8.0]}])
+        self.assertEqual([row["open"] for row in content["increments"]], [6, 6])
+        self.assertEqual([row["time"] for row in content["increments"]], [1, 2])
+        self.assertEqual((content["convergence"]["attempt"][5], content["convergence"]["residual"][5]), (2, 0.5))
         self.assertEqual([row["iterations"] for row in content["increments"]], [3, 3])
 
     def test_sides_of_cells(self):

@@ -13,7 +13,7 @@ const CURVES: { key: string; name: string; dimension: Dimension }[] = [
 ];
 const STATES = ["open", "stick", "slip"];
 const MOST_MARKS = 70;
-const SMALL = 0.25; // part of a contact that touches, below which it is shown alone at first
+const SMALL = 0.1; // part of a contact that touches, below which it is shown alone at first
 
 export class ContactPanel {
   readonly root: HTMLElement;

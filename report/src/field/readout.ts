@@ -39,10 +39,13 @@ export class Readout {
     const arrays = await Promise.all(quantities.map(({ key }) => this.data.values(key, increment)));
     if (request !== this.request) return;
     const [cx, cy] = this.state.content.field!.centre, [x, y] = shape.place(picked).undeformed;
-    this.x.value = String(Number((x + cx).toPrecision(7)));
-    this.y.value = String(Number((y + cy).toPrecision(7)));
-    const { low, high } = this.state.content.field!, length = units.scale("length", Math.max(...[...low, ...high].map(Math.abs)));
-    const place = [x + cx, y + cy].map((value) => number(Math.abs(value) < 1e-7 * Math.abs(high[0] - low[0]) ? 0 : value * length.factor, 5)).join(", ");
+    const { low, high } = this.state.content.field!;
+    const size = Math.hypot(high[0] - low[0], high[1] - low[1]), decimals = Math.max(0, Math.min(100, 6 - Math.floor(Math.log10(size))));
+    this.x.value = String(Number((x + cx).toFixed(decimals))); // to 1e-6 of the model's size or so, however far from the origin it is
+    this.y.value = String(Number((y + cy).toFixed(decimals)));
+    const farthest = Math.max(...[...low, ...high].map(Math.abs)), length = units.scale("length", farthest);
+    const digits = Math.min(15, 5 + Math.max(0, Math.floor(Math.log10(farthest / size))));
+    const place = [x + cx, y + cy].map((value) => number(Math.abs(value) < 1e-7 * Math.abs(high[0] - low[0]) ? 0 : value * length.factor, digits)).join(", ");
     this.where.textContent = `${this.data.bodyName(shape.corner(picked))}, at (${place})${length.unit ? ` ${length.unit}` : ""} `
       + "of the undeformed shape. Values are interpolated linearly between the three nearest points of the results.";
     this.values.replaceChildren(...quantities.map(({ key, name, dimension }, k) => {
