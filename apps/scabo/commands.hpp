@@ -67,6 +67,13 @@ struct ContactOptions {
   std::string save;   ///< file for problem and solution; empty: none
 };
 
+struct ConvertOptions {
+  std::string deck;              ///< of Abaqus or CalculiX
+  std::filesystem::path output;  ///< model file; empty: `part.yaml` beside `part.inp`
+  bool incomplete = false;       ///< writes the model even if something essential is lost
+  bool force = false;            ///< replaces files
+};
+
 struct NewOptions {
   std::string kind;              ///< name of a StarterModel
   std::filesystem::path output;  ///< empty: `kind.yaml`
@@ -86,6 +93,8 @@ ExitStatus solve_contact(const ContactOptions& options);
 ExitStatus print_schema();
 /// Pictures by the program for them, with the words after `scabo plot`; returns only by an exception.
 ExitStatus plot(const std::vector<std::string>& arguments);
+/// `scabo convert`: model and mesh, and what could not be taken.
+ExitStatus convert_deck(const ConvertOptions& options);
 /// `scabo new`. Throws InputError if the file exists.
 ExitStatus write_new_model(const NewOptions& options);
 
