@@ -17,4 +17,5 @@ string(JOIN "\n" CPACK_PACKAGE_DESCRIPTION
        "Scabo computes where joints between elastic bodies in the plane open,"
        "stick and slip, and which forces they transmit. Every increment is"
        "certified. With headers and a static library for C++ programs.")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake)
 include(CPack)
