@@ -12,9 +12,14 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-numpy")
+if(SCABO_PYTHON_MODULE_FOUND)  # the extension module is for one version of Python
+  math(EXPR next "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next})")
+endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview")
 string(JOIN "\n" CPACK_PACKAGE_DESCRIPTION
        "Scabo computes where joints between elastic bodies in the plane open,"
        "stick and slip, and which forces they transmit. Every increment is"
        "certified. With headers and a static library for C++ programs.")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake)
 include(CPack)

@@ -18,6 +18,7 @@ ALLOWED = {
     "geometry": ["base"],
     "files": ["base"],
     "model": ["base", "geometry", "files"],
+    "convert": ["base", "geometry", "files", "model"],
     "input": ["base", "geometry", "files", "model"],
     "mesh": ["base", "geometry", "files", "model"],
     "element": ["base", "linalg", "geometry", "files", "model", "mesh"],

@@ -22,7 +22,7 @@ std::vector<std::string> choices_in(const std::string& type) {
 ValueKind kind_of(const std::string& value) {
   if (value == "MODEL") return ValueKind::model;
   if (value == "DIR") return ValueKind::directory;
-  if (value == "FILE" || value == "NEW") return ValueKind::file;
+  if (value == "FILE" || value == "NEW" || value == "DECK") return ValueKind::file;
   return ValueKind::other;
 }
 

@@ -68,6 +68,13 @@ struct ContactOptions {
   std::string save;   ///< file for problem and solution; empty: none
 };
 
+struct ConvertOptions {
+  std::string deck;              ///< of Abaqus or CalculiX
+  std::filesystem::path output;  ///< model file; empty: `part.yaml` beside `part.inp`
+  bool incomplete = false;       ///< writes the model even if something essential is lost
+  bool force = false;            ///< replaces files
+};
+
 struct NewOptions {
   std::string kind;              ///< name of a StarterModel
   std::filesystem::path output;  ///< empty: `kind.yaml`
@@ -89,6 +96,8 @@ ExitStatus print_schema();
 ExitStatus plot(const std::vector<std::string>& arguments);
 /// A page for the browser in the same way, with the words after `scabo report`.
 ExitStatus report(const std::vector<std::string>& arguments);
+/// `scabo convert`: model and mesh, and what could not be taken.
+ExitStatus convert_deck(const ConvertOptions& options);
 /// `scabo new`. Throws InputError if the file exists.
 ExitStatus write_new_model(const NewOptions& options);
 

@@ -62,7 +62,8 @@ Events::Events(bool on) : wanted_(on), on_(on), begun_(start_) {
 
 ExitStatus Events::around(const std::string& command, const std::function<ExitStatus()>& run) {
   if (!on_) return run();
-  write(line_of("start", 0.0, {{"schema", 1}, {"version", result::version()}, {"command", command}, {"pid", getpid()}}));
+  write(
+      line_of("start", 0.0, {{"schema", 1}, {"version", result::version()}, {"command", command}, {"pid", getpid()}}));
   try {
     const ExitStatus status = run();
     finished(status);

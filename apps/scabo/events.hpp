@@ -1,7 +1,8 @@
-// What a run does, for programs that watch it: one JSON object a line on standard output (`--json-lines`, docs/events.md).
+// What a run does, for programs that watch it: one JSON object a line on standard output (`--json-lines`,
+// docs/events.md).
 //
-// Every line is written whole by one call of the system, so that the lines are valid whatever ends the process. A reader
-// that has gone away does not end the run.
+// Every line is written whole by one call of the system, so that the lines are valid whatever ends the process. A
+// reader that has gone away does not end the run.
 #pragma once
 
 #include <chrono>
@@ -23,8 +24,8 @@ class Events {
   /// Writes nothing if `on` is false.
   explicit Events(bool on);
 
-  /// `start`, then what `run` tells, then `finished` with the exit status. What it throws becomes events of kind `error`
-  /// and is passed on.
+  /// `start`, then what `run` tells, then `finished` with the exit status. What it throws becomes events of kind
+  /// `error` and is passed on.
   ExitStatus around(const std::string& command, const std::function<ExitStatus()>& run);
 
   void files(const std::string& model, const std::filesystem::path& directory, const char* analysis);

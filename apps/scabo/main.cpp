@@ -88,6 +88,12 @@ with them, increments, convergence, certificate and warnings. It needs Python wi
 constexpr const char* new_example = R"(Example:
   scabo new beam && scabo run beam.yaml && scabo plot beam.results)";
 
+constexpr const char* convert_example = R"(Example:
+  scabo convert part.inp && scabo run part.yaml
+
+DECK is an input file of Abaqus or CalculiX with plane elements. The mesh goes into a file beside the model. What is
+not taken is named with its line. Exit status 0: the model is that of the deck; 1: it would not be, and is not written.)";
+
 constexpr const char* completion_example = R"(Example:
   source <(scabo completion bash)
 
@@ -229,6 +235,13 @@ class CommandLine {
     new_->add_option("-o,--output", new_options_.output, "Name of the file; default: KIND.yaml")->option_text("FILE");
     new_->footer(new_example);
 
+    convert_->add_option("DECK", convert_options_.deck, "Input file (.inp)")->required()->option_text(" ");
+    convert_->add_option("-o,--output", convert_options_.output, "Name of the model file; default: part.yaml, beside part.inp")
+        ->option_text("FILE");
+    convert_->add_flag("--incomplete", convert_options_.incomplete, "Writes a model even if something essential is missing in it");
+    convert_->add_flag("--force", convert_options_.force, "Replaces the files that there are");
+    convert_->footer(convert_example);
+
     completion_->add_option("SHELL", shell_, "Shell")
         ->required()
         ->option_text(" ")
@@ -260,6 +273,7 @@ class CommandLine {
     if (*plot_) return plot({words_.begin() + 1, words_.end()});
     if (*report_) return report({words_.begin() + 1, words_.end()});
     if (*new_) return write_new_model(new_options_);
+    if (*convert_) return convert_deck(convert_options_);
     if (*completion_) return print(completion_script(describe_commands(app_), shell_));
     if (*manual_) return print(manual_page(describe_commands(app_)));
     return print_schema();
@@ -369,6 +383,7 @@ class CommandLine {
   CLI::App* plot_ = app_.add_subcommand("plot", "Draws pictures of results");
   CLI::App* report_ = app_.add_subcommand("report", "Writes results as one page for the browser");
   CLI::App* new_ = app_.add_subcommand("new", "Writes a commented model to begin with");
+  CLI::App* convert_ = app_.add_subcommand("convert", "Makes a model from an Abaqus or CalculiX deck");
   CLI::App* completion_ = app_.add_subcommand("completion", "Prints completion of commands and options for a shell");
   CLI::App* manual_ = app_.add_subcommand("manual", "Prints the manual page");
   /// Values of the options of `plot` that are only checked.
@@ -385,6 +400,7 @@ class CommandLine {
     bool quiet = false;
   } report_options_;
   NewOptions new_options_;
+  ConvertOptions convert_options_;
   std::string shell_;
   std::vector<std::string> words_;  ///< the command line as given
   RunOptions run_options_;

@@ -1,6 +1,7 @@
 // Discrete contact problems, as `scabo contact` solves them.
 #include <pybind11/stl.h>
 
+#include <docstrings.hpp>  // made by make_docstrings.py
 #include <memory>
 
 #include "arrays.hpp"
@@ -88,24 +89,26 @@ py::array vector_view(const py::object& self) {
 
 void bind_contact(py::module_& module) {
   py::class_<Solution, std::shared_ptr<Solution>>(module, "DiscreteSolution")
-      .def_property_readonly("status", [](const Solution& of) { return contact::name_of(of.status); })
-      .def_property_readonly("forces", &vector_view<&Solution::p>)
-      .def_property_readonly("rigid_motions", &vector_view<&Solution::a>)
-      .def_property_readonly("gap", &vector_view<&Solution::gap>)
-      .def_property_readonly("slip", &vector_view<&Solution::slip_increment>)
-      .def_property_readonly("unrestrained_motion", &vector_view<&Solution::motion>)
-      .def_property_readonly("proof", &vector_view<&Solution::proof>)
+      .def_property_readonly("status", [](const Solution& of) { return contact::name_of(of.status); },
+                             doc::Solution_status)
+      .def_property_readonly("forces", &vector_view<&Solution::p>, doc::Solution_p)
+      .def_property_readonly("rigid_motions", &vector_view<&Solution::a>, doc::Solution_a)
+      .def_property_readonly("gap", &vector_view<&Solution::gap>, doc::Solution_gap)
+      .def_property_readonly("slip", &vector_view<&Solution::slip_increment>, doc::Solution_slip_increment)
+      .def_property_readonly("unrestrained_motion", &vector_view<&Solution::motion>, doc::Solution_motion)
+      .def_property_readonly("proof", &vector_view<&Solution::proof>, doc::Solution_proof)
       .def_property_readonly("states",
                              [](const py::object& self) {
                                const auto& states = self.cast<const Solution&>().states;
                                return view(reinterpret_cast<const int*>(states.data()),
                                            {static_cast<py::ssize_t>(states.size())},
                                            {static_cast<py::ssize_t>(sizeof(int))}, self);
-                             })
-      .def_readonly("iterations", &Solution::iterations)
-      .def_readonly("natural_map_residual", &Solution::natural_map_residual)
-      .def_readonly("rounding", &Solution::rounding)
-      .def_readonly("reason", &Solution::reason)
+                             },
+                             doc::Solution_states)
+      .def_readonly("iterations", &Solution::iterations, doc::Solution_iterations)
+      .def_readonly("natural_map_residual", &Solution::natural_map_residual, doc::Solution_natural_map_residual)
+      .def_readonly("rounding", &Solution::rounding, doc::Solution_rounding)
+      .def_readonly("reason", &Solution::reason, doc::Solution_reason)
       .def_property_readonly("certificate", &certificate_of);
   module.def("solve_contact", &solve, py::arg("dense"), py::arg("columns"), py::arg("q"), py::arg("mu"),
              py::arg("dimension"), py::arg("cohesion"), py::arg("tension"), py::arg("G"), py::arg("f"),

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <docstrings.hpp>  // made by make_docstrings.py
 #include <memory>
 
 #include "bindings.hpp"
@@ -26,15 +27,15 @@ namespace {
 
 /// What a callback is told.
 struct Progress {
-  std::string stage;
-  int increment = 0;                     ///< finished increments
-  std::optional<int> increments;         ///< of the whole analysis; nothing if their size is automatic
-  double fraction = 0.0;                 ///< of the analysis, by the factors of the loads, 0 to 1
-  std::optional<int> newton_iterations;  ///< of the last finished increment
-  std::optional<double> residual;
-  std::optional<int> iteration;  ///< of the contact solver in the increment at work
-  std::optional<double> iteration_residual;
-  std::optional<double> seconds_left;
+  std::string stage;                     ///< what is being done, as 'factorisation' or 'step press, increment 2 of 10'
+  int increment = 0;                     ///< number of finished increments
+  std::optional<int> increments;         ///< number of increments of all steps; None if their size is automatic
+  double fraction = 0.0;                 ///< part of the steps that is done, 0 to 1
+  std::optional<int> newton_iterations;  ///< of the last finished increment; None before it
+  std::optional<double> residual;        ///< of the last finished increment; None before it
+  std::optional<int> iteration;  ///< of the contact solver in the increment at work; None between increments
+  std::optional<double> iteration_residual;  ///< residual of that iteration
+  std::optional<double> seconds_left;  ///< until the end, if the rest goes on as before; None before an increment is done
 };
 
 /// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an
@@ -206,30 +207,25 @@ void write_results(const StaticResult& solved, const std::string& output) {
 
 void bind_runs(py::module_& module) {
   py::class_<Progress>(module, "Progress", "How far a run is, for its callback.")
-      .def_readonly("stage", &Progress::stage,
-                    "What is being done, as 'factorisation' or 'step press, increment 2 of 10'.")
-      .def_readonly("increment", &Progress::increment, "Number of finished increments.")
-      .def_readonly("increments", &Progress::increments,
-                    "Number of increments of all steps; None if their size is automatic.")
-      .def_readonly("fraction", &Progress::fraction, "Part of the steps that is done, 0 to 1.")
-      .def_readonly("newton_iterations", &Progress::newton_iterations,
-                    "Of the last finished increment; None before it.")
-      .def_readonly("residual", &Progress::residual, "Of the last finished increment; None before it.")
-      .def_readonly("iteration", &Progress::iteration,
-                    "Of the contact solver in the increment at work; None between increments.")
-      .def_readonly("iteration_residual", &Progress::iteration_residual, "Residual of that iteration.")
-      .def_readonly("seconds_left", &Progress::seconds_left,
-                    "Until the end, if the rest goes on as before; None before an increment is finished.")
+      .def_readonly("stage", &Progress::stage, doc::Progress_stage)
+      .def_readonly("increment", &Progress::increment, doc::Progress_increment)
+      .def_readonly("increments", &Progress::increments, doc::Progress_increments)
+      .def_readonly("fraction", &Progress::fraction, doc::Progress_fraction)
+      .def_readonly("newton_iterations", &Progress::newton_iterations, doc::Progress_newton_iterations)
+      .def_readonly("residual", &Progress::residual, doc::Progress_residual)
+      .def_readonly("iteration", &Progress::iteration, doc::Progress_iteration)
+      .def_readonly("iteration_residual", &Progress::iteration_residual, doc::Progress_iteration_residual)
+      .def_readonly("seconds_left", &Progress::seconds_left, doc::Progress_seconds_left)
       .def("__repr__", [](const Progress& progress) {
         return py::str("Progress(stage={!r}, increment={}, increments={}, fraction={})")
             .format(progress.stage, progress.increment, progress.increments, progress.fraction);
       });
   py::class_<RunRecord>(module, "RunRecord")
-      .def_readonly("summary", &RunRecord::summary)
-      .def_readonly("directory", &RunRecord::directory)
-      .def_readonly("warnings", &RunRecord::warnings)
-      .def_readonly("error", &RunRecord::error)
-      .def_readonly("why_not_solved", &RunRecord::why_not_solved);
+      .def_readonly("summary", &RunRecord::summary, doc::RunRecord_summary)
+      .def_readonly("directory", &RunRecord::directory, doc::RunRecord_directory)
+      .def_readonly("warnings", &RunRecord::warnings, doc::RunRecord_warnings)
+      .def_readonly("error", &RunRecord::error, doc::RunRecord_error)
+      .def_readonly("why_not_solved", &RunRecord::why_not_solved, doc::RunRecord_why_not_solved);
   module.def("solve_static", &solve_static, py::arg("model"), py::arg("output"), py::arg("threads"),
              py::arg("keep_fields"), py::arg("ignore_memory"), py::arg("progress"));
   module.def("solve_modal", &solve_modal, py::arg("model"), py::arg("output"), py::arg("threads"), py::arg("progress"));

@@ -15,7 +15,7 @@ namespace scabo::python {
 struct [[gnu::visibility("hidden")]] RunRecord {
   std::string summary;                   ///< content of summary.json
   std::optional<std::string> directory;  ///< where the results are written
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;     ///< one sentence each
   py::object error = py::none();  ///< an exception of the callback, or KeyboardInterrupt
   std::string why_not_solved;     ///< empty if solved
 };

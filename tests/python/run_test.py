@@ -17,7 +17,7 @@ import numpy as np
 
 import scabo
 from scabo import _core
-from support import BEAM, InTemporaryDirectory, block, program, summary_of
+from support import BEAM, ROOT, InTemporaryDirectory, block, program, summary_of
 
 TIMES = ("timing", "peak_memory_bytes")
 
@@ -281,6 +281,22 @@ class tqdm:
             model.run(progress=lambda now: not now.stage.startswith("mass"))
         with self.assertRaises(ZeroDivisionError):
             model.run(progress=lambda now: 1 / 0)
+
+
+class Docstrings(unittest.TestCase):
+    def test_they_are_the_comments_of_the_members(self):
+        """As the build makes them, without a second copy: python/make_docstrings.py."""
+        for kind, name, source in ((_core.Progress, "Progress", "python/bindings/runs.cpp"),
+                                   (_core.DiscreteSolution, "Solution", "src/scabo/contact/solution.hpp")):
+            text = (ROOT / source).read_text(encoding="utf-8")
+            struct = text[text.index(f"struct {name} {{"):].split("\n};")[0]
+            properties = {key: value.__doc__ for key, value in vars(kind).items() if isinstance(value, property)}
+            self.assertGreater(len(properties), 5)
+            for key, doc in properties.items():
+                if key == "certificate":  # a dictionary that is made here
+                    continue
+                self.assertTrue(doc, key)
+                self.assertIn(doc[1:-1].replace("'", "`"), struct.replace("'", "`"))
 
 
 class Threads(InTemporaryDirectory):

@@ -22,20 +22,20 @@ struct Iteration {
 };
 
 struct Solution {
-  Status status = Status::not_converged;
-  Vector p;                          // dN, forces on B
-  Vector a;                          // m, rigid motions
-  Vector gap;                        // N
-  Vector slip_increment;             // (d - 1) N
-  std::vector<ContactState> states;  // N
+  Status status = Status::not_converged;  ///< what the solver ended with
+  Vector p;                          ///< forces on B, d N numbers
+  Vector a;                          ///< rigid motions, m numbers
+  Vector gap;                        ///< normal gaps, N numbers
+  Vector slip_increment;             ///< slip in this increment, (d - 1) N numbers
+  std::vector<ContactState> states;  ///< of the pairs, N
   int iterations = 0;                ///< Newton iterations, all attempts together
   int coarse_iterations = 0;         ///< on problems of fewer pairs for the start; not counted above
   double residual = 0.0;             ///< |H| / force scale
   Certificate certificate;
-  double natural_map_residual = 0.0;  ///< contact/judge.hpp
-  double rounding = 0.0;              ///< of the motions, relative: contact/judge.hpp
-  Vector motion;                      ///< m: with `mechanism`, the motion that is not restrained
-  Vector proof;                       ///< dN: with `infeasible`, forces in equilibrium with themselves
+  double natural_map_residual = 0.0;  ///< residual of the natural map (contact/judge.hpp)
+  double rounding = 0.0;              ///< estimated rounding of the motions, relative (contact/judge.hpp)
+  Vector motion;                      ///< with `mechanism`, the motion that is not restrained, m numbers
+  Vector proof;                       ///< with `infeasible`, forces in equilibrium with themselves, d N numbers
   Matrix undetermined;           ///< m x k: rigid motions not determined by contact and loads (solved nevertheless)
   std::vector<Iteration> trace;  ///< every iteration of every stage
   std::string reason;            ///< why the problem was not solved, as a sentence

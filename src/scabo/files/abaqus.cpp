@@ -93,6 +93,7 @@ class AbaqusReader {
         most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())) {}
 
   ImportedMesh read();
+  AbaqusDeck read_deck();
 
  private:
   /// Numbers of nodes or elements.
@@ -137,6 +138,8 @@ class AbaqusReader {
   void surface(const AbaqusKeyword& key);
   void section(const AbaqusKeyword& key);
   void instance(const AbaqusKeyword& key);
+  void block(const AbaqusKeyword& key);
+  DeckPlace place_of(const FilePlace& at) const { return {builder_.file(at), at.line}; }
 
   std::int64_t integer(std::string_view field, const char* what) const;
   double real(std::string_view field, const char* what) const;
@@ -165,6 +168,8 @@ class AbaqusReader {
   std::vector<Section> sections_;
   Vec2 shift_ = Vec2::Zero();
   int parts_ = 0, instances_ = 0;
+  AbaqusDeck deck_;
+  bool whole_ = false;  // what is not part of the mesh is kept
 };
 
 std::int64_t AbaqusReader::integer(std::string_view field, const char* what) const {
@@ -240,6 +245,7 @@ void AbaqusReader::elements(const AbaqusKeyword& key) {
   if (key.has("ELSET")) set_named(element_sets_, name).of_element_line = true;
   if (key.has("INPUT")) lines_.insert(key);
   const std::optional<AbaqusElement> element = abaqus_element(type);
+  if (whole_) deck_.elements.push_back({type, place_of(key.at)});
   std::vector<std::string_view> fields;
   std::vector<std::int64_t> numbers, nodes;
   while (lines_.next_data(fields)) {
@@ -282,6 +288,7 @@ void AbaqusReader::elements(const AbaqusKeyword& key) {
       if (wanted == 9) nodes.pop_back();
       builder_.add_cell(kind_of_cell(element->nodes), number, nodes, 0, at);
       cell_numbers_.push_back(number);
+      if (whole_) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
       shell_.push_back(element->family == ElementFamily::shell);
     }
   }
@@ -387,6 +394,7 @@ void AbaqusReader::surface(const AbaqusKeyword& key) {
 void AbaqusReader::section(const AbaqusKeyword& key) {
   if (!key.has("ELSET")) builder_.fail(key.at, fmt::format("*{} has no ELSET; name the elements it is for", key.name));
   sections_.push_back({key.name, key.value("ELSET"), key.value("MATERIAL"), key.at});
+  block(key);
 }
 
 void AbaqusReader::instance(const AbaqusKeyword& key) {
@@ -410,6 +418,22 @@ void AbaqusReader::instance(const AbaqusKeyword& key) {
   }
 }
 
+void AbaqusReader::block(const AbaqusKeyword& key) {
+  if (!whole_) return;
+  DeckBlock read{key.name, key.parameters, place_of(key.at), {}};
+  std::vector<std::string_view> fields;
+  while (lines_.next_data(fields)) {
+    DeckLine line{{fields.begin(), fields.end()}, place_of(lines_.at()), {}};
+    const std::string label = fields.size() > 1 ? upper(fields[1]) : "";
+    if (key.name == "DLOAD" && label.size() == 2 && label[0] == 'P' && label[1] >= '1' && label[1] <= '4') {
+      line.sides = fmt::format("*DLOAD {}", surfaces_.size());
+      surfaces_.push_back({line.sides, {{line.fields[0], "S" + label.substr(1), lines_.at()}}});
+    }
+    read.lines.push_back(std::move(line));
+  }
+  deck_.blocks.push_back(std::move(read));
+}
+
 void AbaqusReader::keyword(const AbaqusKeyword& key) {
   if (key.name == "NODE") return nodes(key);
   if (key.name == "ELEMENT") return elements(key);
@@ -430,6 +454,7 @@ void AbaqusReader::keyword(const AbaqusKeyword& key) {
       builder_.fail(key.at, fmt::format("*{} makes nodes or elements and is not read; write them out", key.name));
     }
   }
+  block(key);
 }
 
 void AbaqusReader::resolve_regions(const NumberIndex& elements) {
@@ -572,7 +597,18 @@ ImportedMesh AbaqusReader::read() {
   return builder_.finish();
 }
 
+AbaqusDeck AbaqusReader::read_deck() {
+  whole_ = true;
+  deck_.mesh = read();
+  deck_.node_numbers = builder_.take_node_numbers();
+  return std::move(deck_);
+}
+
 }  // namespace
+
+AbaqusDeck parse_abaqus_deck(std::string_view text, const std::string& file, const ReadInclude& read_include) {
+  return AbaqusReader(text, file, read_include).read_deck();
+}
 
 ImportedMesh parse_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include) {
   return AbaqusReader(text, file, read_include).read();

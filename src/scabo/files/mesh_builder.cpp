@@ -378,6 +378,7 @@ ImportedMesh MeshBuilder::finish() {
   const std::vector<int> joined = join_repeated_cells();
   find_nodes(mesh);
   const std::vector<int> original = drop_unused_nodes(mesh);
+  for (const int at : original) kept_numbers_.push_back(numbers_[index(at)]);
   check_plane(original);
   check_shapes(mesh, original);
   make_sets(mesh, original, joined);

@@ -30,6 +30,8 @@ class MeshBuilder {
   /// A further file that the first includes.
   int add_file(const std::string& file);
 
+  const std::string& file(const FilePlace& at) const { return files_[static_cast<std::size_t>(at.file)]; }
+
   /// Throws InputError with the place.
   [[noreturn]] void fail(const FilePlace& at, const std::string& message) const;
 
@@ -74,6 +76,8 @@ class MeshBuilder {
 
   /// Throws InputError for what the header of ImportedMesh excludes.
   ImportedMesh finish();
+  /// After `finish`: number in the file of each node of the mesh.
+  std::vector<std::int64_t> take_node_numbers() { return std::move(kept_numbers_); }
 
  private:
   struct RawCell {
@@ -122,7 +126,7 @@ class MeshBuilder {
 
   std::vector<std::string> files_;
   bool from_zero_;
-  std::vector<std::int64_t> numbers_;
+  std::vector<std::int64_t> numbers_, kept_numbers_;
   std::vector<double> coordinates_;  // three per node
   std::vector<FilePlace> node_places_;
   std::vector<RawCell> cells_;

@@ -11,6 +11,7 @@
 #include "scabo/files/abaqus.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/gmsh.hpp"
+#include "scabo/files/read_deck_file.hpp"
 #include "scabo/files/text_cursor.hpp"
 #include "scabo/files/vtu.hpp"
 
@@ -71,6 +72,14 @@ ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
       fmt::format("the file is {}; Scabo reads meshes of Gmsh (.msh 2.2 and 4.1), Abaqus and CalculiX (.inp) and "
                   "VTK (.vtu)",
                   other_format(start)));
+}
+
+AbaqusDeck read_deck_file(const std::string& path) {
+  const std::optional<std::string> bytes = bytes_of_file(path);
+  if (!bytes) fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
+  std::string_view text = *bytes;
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  return parse_abaqus_deck(text, path, read_beside);
 }
 
 ImportedMesh read_mesh_file(const std::string& path) {

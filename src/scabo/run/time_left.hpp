@@ -10,8 +10,8 @@ class TimeLeft {
  public:
   /// The increments begin now.
   void begin() { began_ = Clock::now(); }
-  /// An increment has ended at `part` of the whole analysis, 0 to 1 (part_done). The first one of a run that was resumed
-  /// is not timed, as it began elsewhere: `is_first` says that no increment was before it.
+  /// An increment has ended at `part` of the whole analysis, 0 to 1 (part_done). The first one of a run that was
+  /// resumed is not timed, as it began elsewhere: `is_first` says that no increment was before it.
   void increment(double part, bool is_first) {
     if (is_first || part_done_ == 0.0) begun_at_ = is_first ? 0.0 : part;
     if (begun_at_ == part) began_ = Clock::now();

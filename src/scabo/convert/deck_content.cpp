@@ -1,0 +1,561 @@
+#include "scabo/convert/deck_content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "scabo/convert/deck_contacts.hpp"
+#include "scabo/convert/deck_fields.hpp"
+#include "scabo/convert/deck_materials.hpp"
+#include "scabo/convert/keywords.hpp"
+#include "scabo/files/abaqus_lines.hpp"
+
+namespace scabo::convert {
+
+namespace {
+
+using files::DeckBlock;
+using files::DeckLine;
+using files::DeckPlace;
+using files::upper;
+
+struct Amplitude {
+  std::vector<std::pair<double, double>> points;  // time, value
+  bool total_time = false, absolute = false;
+  DeckPlace at;
+
+  double value(double time) const {
+    if (time <= points.front().first) return points.front().second;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      if (time <= points[i].first) {
+        const auto& [t0, v0] = points[i - 1];
+        const auto& [t1, v1] = points[i];
+        return t1 > t0 ? v0 + (v1 - v0) * (time - t0) / (t1 - t0) : v1;
+      }
+    return points.back().second;
+  }
+};
+
+/// One load or prescribed displacement while the deck is read.
+struct Growing {
+  Given given;
+  double value = 0.0;     // as the deck gives it last
+  std::string amplitude;  // of this value, upper case
+  bool touched = false;   // in this step
+  bool fresh = true;      // new in this step
+};
+using Table = std::map<std::pair<int, int>, Growing>;
+
+class ContentReader {
+ public:
+  ContentReader(const files::AbaqusDeck& deck, Remarks& remarks) : deck_(deck), mesh_(deck.mesh), remarks_(remarks) {
+    for (std::size_t i = 0; i < deck.node_numbers.size(); ++i)
+      node_of_.emplace(deck.node_numbers[i], static_cast<int>(i));
+    for (const files::NodeSet& set : mesh_.node_sets) node_sets_.emplace(upper(set.name), &set);
+    for (const files::FacetSet& set : mesh_.facet_sets) facet_sets_.emplace(set.name, &set);
+  }
+
+  DeckContent read() {
+    read_amplitudes();
+    for (const DeckBlock& block : deck_.blocks) keyword(block);
+    if (in_step_) end_step();
+    for (auto* table : {&displacements_, &forces_, &pressures_}) {
+      auto& to = table == &displacements_ ? content_.displacements
+                 : table == &forces_      ? content_.forces
+                                          : content_.pressures;
+      for (auto& [key, growing] : *table)
+        if (table == &displacements_ || !is_zero(growing.given.course)) to.emplace(key, std::move(growing.given));
+    }
+    for (auto& load : body_loads_) {
+      if (is_zero(load.x.given.course) && is_zero(load.y.given.course)) continue;
+      content_.body_loads.push_back({load.set, load.gravity, std::move(load.x.given), std::move(load.y.given)});
+    }
+    tell_left_out();
+    return std::move(content_);
+  }
+
+ private:
+  struct GrowingBodyLoad {
+    std::string set;
+    bool gravity;
+    Growing x, y;
+  };
+
+  // ---- numbers and sets
+
+  /// Nodes of a number or set; a node of no element is lost.
+  std::vector<int> nodes_of(const DeckLine& line, const char* what) {
+    if (line.fields.empty()) return {};
+    const std::string& name = line.fields[0];
+    std::int64_t number = 0;
+    if (files::parse_number(std::string_view(name), number)) {
+      const auto found = node_of_.find(number);
+      if (found != node_of_.end()) return {found->second};
+      remarks_.essential(line.at,
+                         fmt::format("{} at node {}, which belongs to no plane element, is lost; give it at a node "
+                                     "of a body",
+                                     what, number));
+      return {};
+    }
+    auto found = node_sets_.find(upper(name));
+    const auto dot = name.rfind('.');  // Instance-1.Set-1
+    if (found == node_sets_.end() && dot != std::string::npos) found = node_sets_.find(upper(name.substr(dot + 1)));
+    if (found != node_sets_.end()) return found->second->nodes;
+    remarks_.essential(line.at, fmt::format("there is no node set '{}' with nodes of elements, and {} at it is lost; "
+                                            "correct its name",
+                                            files::printable(name), what));
+    return {};
+  }
+
+  // ---- steps
+
+  void begin_step(const DeckBlock& block) {
+    if (in_step_) end_step();
+    in_step_ = true;
+    has_procedure_ = false;
+    new_displacements_ = new_forces_ = new_pressures_ = false;
+    DeckStep step;
+    step.name = parameter(block, "NAME");
+    step.at = block.at;
+    content_.steps.push_back(step);
+    if (is_on(block, "NLGEOM"))
+      remarks_.note(block.at, "NLGEOM asks for large displacements, which are left out; Scabo's are small");
+    if (is_on(block, "PERTURBATION"))
+      remarks_.essential(block.at, "PERTURBATION is a step about the state before it, which Scabo does not have");
+    if (upper(parameter(block, "AMPLITUDE")) == "STEP")
+      remarks_.note(block.at, "AMPLITUDE=STEP applies loads at once; in the model they grow linearly over the step");
+  }
+
+  void static_step(const DeckBlock& block) {
+    if (!in_step_) return remarks_.essential(block.at, "*STATIC stands outside of a step; put *STEP before it");
+    DeckStep& step = content_.steps.back();
+    has_procedure_ = true;
+    step.equal = is_on(block, "DIRECT");
+    if (is_on(block, "RIKS"))
+      remarks_.essential(block.at, "RIKS follows a path of unknown loads, which Scabo does not have");
+    if (is_on(block, "STABILIZE"))
+      remarks_.note(block.at, "STABILIZE adds damping, which is left out; Scabo holds bodies by contact alone");
+    if (block.lines.empty()) return;
+    const DeckLine& line = block.lines.front();
+    step.first = number(remarks_, line, 0, "the first increment of *STATIC", 1.0).value_or(1.0);
+    step.period = number(remarks_, line, 1, "the period of *STATIC", 1.0).value_or(1.0);
+    step.smallest = number(remarks_, line, 2, "the smallest increment of *STATIC", 0.0).value_or(0.0);
+    step.largest = number(remarks_, line, 3, "the largest increment of *STATIC", 0.0).value_or(0.0);
+    if (!(step.period > 0.0)) step.period = 1.0;
+    if (!(step.first > 0.0) || step.first > step.period) step.first = step.period;
+  }
+
+  Leg leg_of(const Growing& growing, double before) {
+    if (growing.amplitude.empty()) return {growing.value, {}};
+    const Amplitude& amplitude = amplitudes_.at(growing.amplitude);
+    const double period = content_.steps.back().period, start = amplitude.total_time ? total_time_ : 0.0;
+    const double factor = amplitude.absolute ? 1.0 : growing.value;
+    Leg leg;
+    leg.table.emplace_back(0.0, factor * amplitude.value(start));
+    for (const auto& [time, value] : amplitude.points) {
+      const double part = (time - start) / period;
+      if (part > 1e-12 && part < 1.0 - 1e-12 && part > leg.table.back().first)
+        leg.table.emplace_back(part, factor * value);
+    }
+    leg.end = factor * amplitude.value(start + period);
+    leg.table.emplace_back(1.0, leg.end);
+    const double first = leg.table.front().second;
+    if (std::abs(first - before) > 1e-9 * std::max({std::abs(first), std::abs(before), std::abs(factor)}))
+      remarks_.essential(
+          growing.given.at,
+          fmt::format(
+              "by its amplitude the value jumps from {:g} to {:g} at the begin of the step, which loads of Scabo "
+              "do not; let it begin where it was",
+              before, first));
+    if (leg.table.size() == 2) leg.table.clear();
+    return leg;
+  }
+
+  void finish(Growing& growing, bool taken_back) {
+    Course& course = growing.given.course;
+    const std::size_t steps = content_.steps.size();
+    course.resize(steps - 1);
+    const double before = steps > 1 ? course.back().end : 0.0;
+    if (growing.touched)
+      course.push_back(leg_of(growing, before));
+    else
+      course.push_back({taken_back ? 0.0 : before, {}});
+    growing.touched = growing.fresh = false;
+  }
+
+  void end_step() {
+    const DeckStep& step = content_.steps.back();
+    if (!has_procedure_)
+      remarks_.essential(step.at, "the step has no *STATIC, and Scabo converts static steps; add it");
+    for (auto& [key, growing] : displacements_) {
+      if (new_displacements_ && !growing.touched)
+        remarks_.essential(growing.given.at,
+                           fmt::format("the displacement of '{}' is released in step {} by OP=NEW, which "
+                                       "supports of Scabo cannot be",
+                                       files::printable(growing.given.label), content_.steps.size()));
+      finish(growing, false);
+    }
+    for (auto& [key, growing] : forces_) finish(growing, new_forces_);
+    for (auto& [key, growing] : pressures_) finish(growing, new_pressures_);
+    for (GrowingBodyLoad& load : body_loads_) {
+      finish(load.x, new_pressures_);
+      finish(load.y, new_pressures_);
+    }
+    total_time_ += step.period;
+    in_step_ = false;
+  }
+
+  // ---- loads and supports
+
+  /// Amplitude of a block in upper case, empty if there is none; nothing if it is not known.
+  std::optional<std::string> amplitude_of(const DeckBlock& block) {
+    const std::string name = upper(parameter(block, "AMPLITUDE"));
+    if (name.empty() || amplitudes_.contains(name)) return name;
+    remarks_.essential(
+        block.at, fmt::format("there is no usable *AMPLITUDE '{}', and the values of this keyword are lost; correct it",
+                              files::printable(name)));
+    return std::nullopt;
+  }
+
+  bool is_new(const DeckBlock& block) { return upper(parameter(block, "OP", "MOD")) == "NEW"; }
+
+  void grow(Table& table, const std::pair<int, int>& key, double value, const std::string& amplitude,
+            const DeckLine& line, bool adds) {
+    Growing& growing = table[key];
+    if (growing.touched && adds && growing.amplitude != amplitude)
+      remarks_.note(
+          line.at,
+          "two values with different amplitudes act on the same place in one step; the last amplitude holds for both");
+    growing.value = growing.touched && adds ? growing.value + value : value;
+    growing.amplitude = amplitude;
+    growing.touched = true;
+    growing.given.label = line.fields[0];
+    growing.given.at = line.at;
+  }
+
+  void boundary(const DeckBlock& block) {
+    const auto amplitude = amplitude_of(block);
+    if (!amplitude) return;
+    for (const char* unread : {"USER", "FIXED", "SUBMODEL", "LOADCASE", "TYPE"})
+      if (block.parameters.contains(unread))
+        return remarks_.essential(
+            block.at, fmt::format("*BOUNDARY with {} is not taken; write displacements as numbers", unread));
+    if (in_step_ && is_new(block)) new_displacements_ = true;
+    for (const DeckLine& line : block.lines) {
+      if (line.fields.empty()) continue;
+      if (line.fields.size() < 2) {
+        remarks_.essential(line.at, "the degree of freedom is missing on this line; add it");
+        continue;
+      }
+      static const std::map<std::string, std::vector<int>> kinds = {
+          {"XSYMM", {0}},  {"YSYMM", {1}},     {"ZSYMM", {}},        {"XASYMM", {1}},
+          {"YASYMM", {0}}, {"ZASYMM", {0, 1}}, {"ENCASTRE", {0, 1}}, {"PINNED", {0, 1}}};
+      std::vector<int> components;
+      double value = 0.0;
+      if (const auto kind = kinds.find(upper(line.fields[1])); kind != kinds.end()) {
+        components = kind->second;
+      } else {
+        const auto first = number(remarks_, line, 1, "the first degree of freedom");
+        const auto last = number(remarks_, line, 2, "the last degree of freedom", first);
+        const auto given = number(remarks_, line, 3, "the displacement", 0.0);
+        if (!first || !last || !given) continue;
+        if (*first < 1.0 || *last < *first || *last > 11.0 || *first != std::floor(*first) ||
+            *last != std::floor(*last)) {
+          remarks_.essential(
+              line.at, "degrees of freedom are whole numbers from 1, the last not before the first; correct them");
+          continue;
+        }
+        value = *given;
+        for (int dof = static_cast<int>(*first); dof <= static_cast<int>(*last); ++dof) {
+          if (dof <= 2) components.push_back(dof - 1);
+          if (dof > 2 && value != 0.0)
+            remarks_.essential(
+                line.at,
+                fmt::format("degree of freedom {} is not one of a plane body, and its displacement {:g} is lost", dof,
+                            value));
+        }
+      }
+      if (!in_step_ && value != 0.0) {
+        remarks_.essential(line.at, "a displacement that is not 0 stands outside of a step; give it within *STEP");
+        continue;
+      }
+      for (const int node : nodes_of(line, "the support"))
+        for (const int component : components) {
+          const bool known = displacements_.contains({node, component});
+          grow(displacements_, {node, component}, value, *amplitude, line, false);
+          if (in_step_ && !known && content_.steps.size() > 1)
+            remarks_.essential(
+                line.at, fmt::format("the support begins in step {}, but supports of Scabo act from the start; give it "
+                                     "before the first step",
+                                     content_.steps.size()));
+          if (!in_step_) displacements_[{node, component}].touched = false;
+        }
+    }
+  }
+
+  void cload(const DeckBlock& block) {
+    const auto amplitude = amplitude_of(block);
+    if (!amplitude || !needs_step(block)) return;
+    for (const char* unread : {"USER", "SECTOR", "SUBMODEL", "LOADCASE", "FOLLOWER", "OMEGA0"})
+      if (block.parameters.contains(unread))
+        return remarks_.essential(block.at,
+                                  fmt::format("*CLOAD with {} is not taken; write forces along x and y", unread));
+    if (is_new(block)) new_forces_ = true;
+    for (const DeckLine& line : block.lines) {
+      if (line.fields.empty()) continue;
+      const auto dof = number(remarks_, line, 1, "the degree of freedom"),
+                 value = number(remarks_, line, 2, "the force");
+      if (!dof || !value) continue;
+      if (*dof != 1.0 && *dof != 2.0) {
+        if (*value != 0.0)
+          remarks_.essential(
+              line.at,
+              fmt::format("a load along degree of freedom {:g} does not act on a plane body and is lost", *dof));
+        continue;
+      }
+      for (const int node : nodes_of(line, "the force"))
+        grow(forces_, {node, *dof == 1.0 ? 0 : 1}, *value, *amplitude, line, true);
+    }
+  }
+
+  std::optional<std::vector<files::Facet>> sides_of_line(const DeckLine& line) const {
+    const auto found = facet_sets_.find(line.sides);
+    return found == facet_sets_.end() ? std::nullopt : std::optional(found->second->facets);
+  }
+
+  void press(const std::vector<files::Facet>& sides, double value, const std::string& amplitude, const DeckLine& line) {
+    for (const files::Facet& side : sides) grow(pressures_, key_of(side), value, amplitude, line, true);
+  }
+
+  void body_load(const DeckLine& line, bool gravity, const Vec2& value, const std::string& amplitude) {
+    auto found = std::find_if(body_loads_.begin(), body_loads_.end(), [&](const GrowingBodyLoad& load) {
+      return load.gravity == gravity && upper(load.set) == upper(line.fields[0]);
+    });
+    if (found == body_loads_.end()) found = body_loads_.insert(found, {line.fields[0], gravity, {}, {}});
+    for (int k = 0; k < 2; ++k) {
+      Growing& growing = k == 0 ? found->x : found->y;
+      growing.value = growing.touched ? growing.value + value[k] : value[k];
+      growing.amplitude = amplitude;
+      growing.touched = true;
+      growing.given.label = line.fields[0];
+      growing.given.at = line.at;
+    }
+  }
+
+  void dload(const DeckBlock& block) {
+    const auto amplitude = amplitude_of(block);
+    if (!amplitude || !needs_step(block)) return;
+    if (is_new(block)) new_pressures_ = true;
+    const bool of_surface = block.name == "DSLOAD";
+    for (const DeckLine& line : block.lines) {
+      if (line.fields.empty()) continue;
+      const std::string label = line.fields.size() > 1 ? upper(line.fields[1]) : "";
+      if (!line.sides.empty() || (of_surface && label == "P")) {
+        const auto value = number(remarks_, line, 2, "the pressure");
+        const auto sides = line.sides.empty() ? sides_named(mesh_, line.fields[0]) : sides_of_line(line);
+        if (!sides)
+          remarks_.essential(
+              line.at, fmt::format("the pressure acts on no side of a plane element ('{}') and is lost; correct it",
+                                   files::printable(line.fields[0])));
+        else if (value)
+          press(*sides, *value, *amplitude, line);
+      } else if (label == "GRAV") {
+        const auto g = number(remarks_, line, 2, "the acceleration");
+        const auto x = number(remarks_, line, 3, "the direction of gravity", 0.0),
+                   y = number(remarks_, line, 4, "the direction of gravity", 0.0),
+                   z = number(remarks_, line, 5, "the direction of gravity", 0.0);
+        if (!g || !x || !y || !z) continue;
+        const double length = std::hypot(*x, *y, *z);
+        if (*g != 0.0 && (!(length > 0.0) || std::abs(*z) > 1e-9 * length)) {
+          remarks_.essential(line.at, "gravity needs a direction in the plane; correct the last three numbers");
+          continue;
+        }
+        body_load(line, true, length > 0.0 ? Vec2(*g * *x / length, *g * *y / length) : Vec2(0.0, 0.0), *amplitude);
+      } else if (label == "BX" || label == "BY") {
+        const auto value = number(remarks_, line, 2, "the force per volume");
+        if (value) body_load(line, false, label == "BX" ? Vec2(*value, 0.0) : Vec2(0.0, *value), *amplitude);
+      } else {
+        remarks_.essential(
+            line.at, fmt::format("a distributed load of type '{}' is not taken; there are {}", files::printable(label),
+                                 of_surface ? "P" : "P1 to P4, GRAV, BX and BY"));
+      }
+    }
+  }
+
+  bool needs_step(const DeckBlock& block) {
+    if (!in_step_)
+      remarks_.essential(
+          block.at, fmt::format("{} stands outside of a step and is lost; give it within *STEP", shown(block.name)));
+    return in_step_;
+  }
+
+  // ---- amplitudes and keywords
+
+  void read_amplitudes() {
+    for (const DeckBlock& block : deck_.blocks) {
+      if (block.name != "AMPLITUDE") continue;
+      Amplitude amplitude;
+      amplitude.at = block.at;
+      amplitude.total_time = upper(parameter(block, "TIME")).starts_with("TOTAL");
+      amplitude.absolute = upper(parameter(block, "VALUE")).starts_with("ABS");
+      const std::string definition = upper(parameter(block, "DEFINITION", "TABULAR"));
+      const std::string name = upper(parameter(block, "NAME"));
+      bool usable = definition == "TABULAR" && !name.empty();
+      for (const char* unread : {"SHIFTX", "SHIFTY", "USER", "SMOOTH"})
+        usable = usable && !block.parameters.contains(unread);
+      if (!usable) {
+        remarks_.essential(block.at,
+                           "only an *AMPLITUDE with a name and a table of times and values is taken; write one");
+        continue;
+      }
+      std::vector<double> numbers;
+      for (const DeckLine& line : block.lines)
+        for (std::size_t k = 0; usable && k < line.fields.size(); ++k) {
+          const auto value = number(remarks_, line, k, "a number of *AMPLITUDE");
+          usable = value.has_value();
+          numbers.push_back(value.value_or(0.0));
+        }
+      for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) amplitude.points.emplace_back(numbers[k], numbers[k + 1]);
+      const bool ascending = std::is_sorted(amplitude.points.begin(), amplitude.points.end(),
+                                            [](const auto& x, const auto& y) { return x.first <= y.first; });
+      if (usable && (amplitude.points.empty() || numbers.size() % 2 == 1 || !ascending)) {
+        remarks_.essential(block.at, "an *AMPLITUDE needs pairs of time and value, the times ascending; correct it");
+        usable = false;
+      }
+      if (usable) amplitudes_[name] = std::move(amplitude);
+    }
+  }
+
+  void keyword(const DeckBlock& block) {
+    const std::string& name = block.name;
+    if (name == "HEADING") {
+      if (!block.lines.empty() && content_.title.empty())
+        for (const std::string& field : block.lines[0].fields)
+          content_.title += (content_.title.empty() ? "" : ", ") + field;
+    } else if (name == "STEP") {
+      begin_step(block);
+    } else if (name == "STATIC") {
+      static_step(block);
+    } else if (name == "ENDSTEP") {
+      if (in_step_) end_step();
+    } else if (name == "BOUNDARY") {
+      boundary(block);
+    } else if (name == "CLOAD") {
+      cload(block);
+    } else if (name == "DLOAD" || name == "DSLOAD") {
+      dload(block);
+    } else if (name == "INITIALCONDITIONS" && upper(parameter(block, "TYPE")) == "TEMPERATURE") {
+      remarks_.note(block.at, "*INITIAL CONDITIONS of temperature are left out; they act by their changes only");
+    } else if (name != "AMPLITUDE" && !read_material_block(block, content_, remarks_) &&
+               !contacts_.read(block, in_step_)) {
+      other(block);
+    }
+  }
+
+  void other(const DeckBlock& block) {
+    const KeywordText text = text_of_keyword(block.name);
+    if (text.text.find("static analysis; Scabo converts") != std::string::npos) has_procedure_ = true;
+    if (text.loss == KeywordLoss::note) left_out_[block.name].push_back(&block);
+    if (text.loss != KeywordLoss::essential) return;
+    const bool of_material = is_of_material(block.name) && !content_.materials.empty();
+    remarks_.essential(block.at, of_material ? fmt::format("{} of material '{}' {}", shown(block.name),
+                                                           files::printable(content_.materials.back().name), text.text)
+                                             : fmt::format("{} {}", shown(block.name), text.text));
+  }
+
+  /// One sentence for each keyword that nothing depends on, however often it stands in the deck.
+  void tell_left_out() {
+    for (const auto& [name, blocks] : left_out_) {
+      const std::string more = blocks.size() > 1 ? fmt::format(" (and {} more)", blocks.size() - 1) : "";
+      remarks_.note(blocks.front()->at, fmt::format("{}{} {}", shown(name), more, text_of_keyword(name).text));
+    }
+  }
+
+  const files::AbaqusDeck& deck_;
+  const files::ImportedMesh& mesh_;
+  Remarks& remarks_;
+  std::unordered_map<std::int64_t, int> node_of_;
+  std::unordered_map<std::string, const files::NodeSet*> node_sets_;
+  std::unordered_map<std::string, const files::FacetSet*> facet_sets_;
+  std::map<std::string, Amplitude> amplitudes_;
+  std::map<std::string, std::vector<const DeckBlock*>> left_out_;
+  DeckContent content_;
+  Table displacements_, forces_, pressures_;
+  std::vector<GrowingBodyLoad> body_loads_;
+  ContactReader contacts_{content_, remarks_};
+  bool in_step_ = false, has_procedure_ = false;
+  bool new_displacements_ = false, new_forces_ = false, new_pressures_ = false;  // OP=NEW in this step
+  double total_time_ = 0.0;
+};
+
+std::string after_dot(const std::string& name) {
+  const auto dot = name.rfind('.');
+  return dot == std::string::npos ? name : name.substr(dot + 1);
+}
+
+template <class Set>
+const Set* set_named(const std::vector<Set>& sets, const std::string& name) {
+  for (const std::string& wanted : {upper(name), upper(after_dot(name))})
+    for (const Set& set : sets)
+      if (upper(set.name) == wanted) return &set;
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_zero(const Course& course) {
+  for (const Leg& leg : course) {
+    if (leg.end != 0.0) return false;
+    for (const auto& [part, value] : leg.table)
+      if (value != 0.0) return false;
+  }
+  return true;
+}
+
+double scale_of(const Course& course) {
+  for (const Leg& leg : course)
+    if (leg.end != 0.0) return leg.end;
+  for (const Leg& leg : course)
+    for (const auto& [part, value] : leg.table)
+      if (value != 0.0) return value;
+  return 1.0;
+}
+
+Course scaled(Course course, double factor) {
+  for (Leg& leg : course) {
+    leg.end *= factor;
+    for (auto& [part, value] : leg.table) value *= factor;
+  }
+  return course;
+}
+
+DeckContent read_content(const files::AbaqusDeck& deck, Remarks& remarks) {
+  return ContentReader(deck, remarks).read();
+}
+
+std::optional<std::vector<files::Facet>> sides_named(const files::ImportedMesh& mesh, const std::string& name) {
+  if (const files::FacetSet* set = set_named(mesh.facet_sets, name)) return set->facets;
+  const files::NodeSet* set = set_named(mesh.node_sets, name);
+  if (set == nullptr) return std::nullopt;
+  const std::unordered_set<int> nodes(set->nodes.begin(), set->nodes.end());
+  std::vector<files::Facet> sides;
+  for (const files::BoundaryLoop& loop : files::boundary_facets(mesh))
+    for (const files::Facet& side : loop.facets)
+      if (nodes.contains(side.start) && nodes.contains(side.end)) sides.push_back(side);
+  return sides;
+}
+
+std::optional<std::vector<int>> cells_named(const files::ImportedMesh& mesh, const std::string& name) {
+  if (const files::CellSet* set = set_named(mesh.cell_sets, name)) return set->cells;
+  std::int64_t number = 0;
+  if (files::parse_number(std::string_view(name), number))
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.cells[c].number == number) return std::vector<int>{static_cast<int>(c)};
+  return std::nullopt;
+}
+
+}  // namespace scabo::convert

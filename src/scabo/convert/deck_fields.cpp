@@ -1,0 +1,90 @@
+#include "scabo/convert/deck_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "scabo/files/abaqus_lines.hpp"
+
+namespace scabo::convert {
+
+using files::DeckBlock;
+using files::DeckLine;
+using files::upper;
+
+std::string shown(const std::string& name) {
+  static const std::map<std::string, std::string> spaced = {{"CONTACTPAIR", "CONTACT PAIR"},
+                                                            {"SURFACEINTERACTION", "SURFACE INTERACTION"},
+                                                            {"SURFACEBEHAVIOR", "SURFACE BEHAVIOR"},
+                                                            {"SOLIDSECTION", "SOLID SECTION"},
+                                                            {"NODEFILE", "NODE FILE"},
+                                                            {"ELFILE", "EL FILE"},
+                                                            {"NODEPRINT", "NODE PRINT"},
+                                                            {"ELPRINT", "EL PRINT"},
+                                                            {"NODEOUTPUT", "NODE OUTPUT"},
+                                                            {"ELEMENTOUTPUT", "ELEMENT OUTPUT"},
+                                                            {"CONTACTFILE", "CONTACT FILE"},
+                                                            {"CONTACTPRINT", "CONTACT PRINT"},
+                                                            {"CONTACTOUTPUT", "CONTACT OUTPUT"},
+                                                            {"CONTACTCONTROLS", "CONTACT CONTROLS"},
+                                                            {"RIGIDBODY", "RIGID BODY"},
+                                                            {"MODELCHANGE", "MODEL CHANGE"},
+                                                            {"INITIALCONDITIONS", "INITIAL CONDITIONS"},
+                                                            {"SHELLSECTION", "SHELL SECTION"},
+                                                            {"MEMBRANESECTION", "MEMBRANE SECTION"},
+                                                            {"CHANGEFRICTION", "CHANGE FRICTION"},
+                                                            {"HEATTRANSFER", "HEAT TRANSFER"},
+                                                            {"USERMATERIAL", "USER MATERIAL"},
+                                                            {"SPECIFICHEAT", "SPECIFIC HEAT"},
+                                                            {"CONTACTDAMPING", "CONTACT DAMPING"}};
+  const auto found = spaced.find(name);
+  return "*" + (found == spaced.end() ? files::printable(name) : found->second);
+}
+
+bool is_on(const DeckBlock& block, const std::string& parameter) {
+  const auto found = block.parameters.find(parameter);
+  return found != block.parameters.end() && upper(found->second) != "NO";
+}
+
+std::string parameter(const DeckBlock& block, const std::string& name, const std::string& otherwise) {
+  const auto found = block.parameters.find(name);
+  return found == block.parameters.end() ? otherwise : found->second;
+}
+
+std::optional<double> number(Remarks& remarks, const DeckLine& line, std::size_t field, const char* what,
+                             std::optional<double> otherwise) {
+  if (field >= line.fields.size() || line.fields[field].empty()) {
+    if (!otherwise) remarks.essential(line.at, fmt::format("{} is missing on this line; add it", what));
+    return otherwise;
+  }
+  double value = 0.0;
+  if (files::parse_number(std::string_view(line.fields[field]), value) && std::isfinite(value)) return value;
+  remarks.essential(line.at, fmt::format("'{}' is not a number, but {} stands here; correct it",
+                                         files::printable(line.fields[field]), what));
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> numbers_of(Remarks& remarks, const DeckBlock& block, std::size_t count,
+                                              const char* what) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < block.lines.size(); ++i) {
+    if (block.lines[i].fields.empty()) continue;
+    if (numbers.size() >= count) {
+      remarks.essential(block.lines[i].at,
+                        fmt::format("{} that depends on temperature is not taken; give one value", what));
+      return std::nullopt;
+    }
+    for (std::size_t k = 0; k < block.lines[i].fields.size() && numbers.size() < count; ++k) {
+      const auto value = number(remarks, block.lines[i], k, what);
+      if (!value) return std::nullopt;
+      numbers.push_back(*value);
+    }
+  }
+  if (numbers.size() == count) return numbers;
+  remarks.essential(block.at,
+                    fmt::format("{} needs {} numbers, and {} are here; add the others", what, count, numbers.size()));
+  return std::nullopt;
+}
+
+}  // namespace scabo::convert

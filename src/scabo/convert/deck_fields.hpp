@@ -1,0 +1,29 @@
+// Parameters and numbers of the blocks of a deck, with remarks about those that are missing or wrong.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scabo/convert/remark.hpp"
+#include "scabo/files/abaqus.hpp"
+
+namespace scabo::convert {
+
+/// A keyword as the manuals write it, `*NODE FILE`, from its name without spaces; of names that are not known, as it
+/// is.
+std::string shown(const std::string& name);
+
+/// Value of a parameter as written.
+std::string parameter(const files::DeckBlock& block, const std::string& name, const std::string& otherwise = "");
+/// Whether a parameter is there and not NO.
+bool is_on(const files::DeckBlock& block, const std::string& parameter);
+
+/// `what` in a field of a line, `otherwise` if it is empty. Nothing, with a remark, if it is missing or no number.
+std::optional<double> number(Remarks& remarks, const files::DeckLine& line, std::size_t field, const char* what,
+                             std::optional<double> otherwise = std::nullopt);
+/// All numbers of a block. Nothing, with a remark, if they are not as many as those of one temperature.
+std::optional<std::vector<double>> numbers_of(Remarks& remarks, const files::DeckBlock& block, std::size_t count,
+                                              const char* what);
+
+}  // namespace scabo::convert

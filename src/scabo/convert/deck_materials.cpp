@@ -1,0 +1,151 @@
+#include "scabo/convert/deck_materials.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scabo/convert/deck_fields.hpp"
+#include "scabo/convert/keywords.hpp"
+#include "scabo/files/abaqus_lines.hpp"
+
+namespace scabo::convert {
+
+namespace {
+
+using files::DeckBlock;
+using files::upper;
+
+class MaterialReader {
+ public:
+  MaterialReader(DeckContent& content, Remarks& remarks) : content_(content), remarks_(remarks) {}
+
+  bool read(const DeckBlock& block) {
+    const std::string& name = block.name;
+    if (name == "MATERIAL") {
+      material(block);
+    } else if (name == "ELASTIC") {
+      elastic(block);
+    } else if (name == "DENSITY") {
+      if (DeckMaterial* material = material_of(block))
+        if (const auto n = numbers_of(remarks_, block, 1, "*DENSITY")) material->density = (*n)[0];
+    } else if (name == "EXPANSION") {
+      expansion(block);
+    } else if (name == "ORIENTATION") {
+      orientation(block);
+    } else if (name == "SOLIDSECTION" || name == "SHELLSECTION" || name == "MEMBRANESECTION" ||
+               is_unknown_section(name)) {
+      section(block);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+ private:
+  static bool is_unknown_section(const std::string& name) {
+    return name.ends_with("SECTION") && text_of_keyword(name).text.find("known to") != std::string::npos;
+  }
+
+  void expansion(const DeckBlock& block) {
+    if (upper(parameter(block, "TYPE", "ISO")) != "ISO")
+      remarks_.note(block.at, "thermal expansion by axes is left out; temperatures are not taken either");
+    else if (DeckMaterial* material = material_of(block))
+      if (const auto n = numbers_of(remarks_, block, 1, "*EXPANSION")) material->expansion = (*n)[0];
+  }
+
+  void material(const DeckBlock& block) {
+    DeckMaterial read;
+    read.name = parameter(block, "NAME");
+    read.at = block.at;
+    if (read.name.empty()) remarks_.essential(block.at, "*MATERIAL has no name; write *MATERIAL, NAME=name");
+    content_.materials.push_back(read);
+  }
+
+  DeckMaterial* material_of(const DeckBlock& block) {
+    if (!content_.materials.empty()) return &content_.materials.back();
+    remarks_.essential(block.at,
+                       fmt::format("{} stands before any *MATERIAL and is lost; name the material", shown(block.name)));
+    return nullptr;
+  }
+
+  void elastic(const DeckBlock& block) {
+    DeckMaterial* material = material_of(block);
+    if (!material) return;
+    const std::string type = upper(parameter(block, "TYPE", "ISO"));
+    if (type == "ISO" || type == "ISOTROPIC") {
+      if (const auto n = numbers_of(remarks_, block, 2, "*ELASTIC")) material->isotropic = {(*n)[0], (*n)[1]};
+    } else if (type == "ENGINEERINGCONSTANTS" || type == "ENGINEERING CONSTANTS") {
+      if (const auto n = numbers_of(remarks_, block, 9, "*ELASTIC"))
+        material->orthotropic = {(*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4], (*n)[5], (*n)[6]};
+    } else if (type == "ORTHO" || type == "ORTHOTROPIC") {
+      if (const auto n = numbers_of(remarks_, block, 9, "*ELASTIC"))
+        material->orthotropic = engineering_constants(block, *n);
+    } else {
+      remarks_.essential(block.at,
+                         fmt::format("*ELASTIC of TYPE={} is not taken; there are ISO, ORTHO and ENGINEERING CONSTANTS",
+                                     files::printable(type)));
+    }
+  }
+
+  /// From D1111, D1122, D2222, D1133, D2233, D3333, D1212, ... by the inverse of the normal part.
+  std::optional<std::vector<double>> engineering_constants(const DeckBlock& block, const std::vector<double>& D) {
+    const double a = D[0], b = D[1], c = D[3], d = D[2], e = D[4], f = D[5];
+    const double determinant = a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d);
+    const double S11 = (d * f - e * e) / determinant, S22 = (a * f - c * c) / determinant,
+                 S33 = (a * d - b * b) / determinant, S12 = (c * e - b * f) / determinant,
+                 S13 = (b * e - c * d) / determinant, S23 = (b * c - a * e) / determinant;
+    if (!(S11 > 0.0 && S22 > 0.0 && S33 > 0.0 && std::isfinite(S11 + S22 + S33))) {
+      remarks_.essential(block.at,
+                         "the stiffness of *ELASTIC, TYPE=ORTHO is not positive definite; correct its numbers");
+      return std::nullopt;
+    }
+    return std::vector<double>{1.0 / S11, 1.0 / S22, 1.0 / S33, -S12 / S11, -S13 / S11, -S23 / S22, D[6]};
+  }
+
+  void orientation(const DeckBlock& block) {
+    const std::string name = upper(parameter(block, "NAME")), system = upper(parameter(block, "SYSTEM", "RECTANGULAR"));
+    if ((system != "RECTANGULAR" && system != "R") || block.lines.empty() || block.lines.size() > 1)
+      return remarks_.essential(block.at, "only a rectangular *ORIENTATION by two points is taken; write one");
+    Vec2 a = Vec2::Zero();
+    double out = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto value = number(remarks_, block.lines[0], k, "a point of *ORIENTATION");
+      if (!value) return;
+      k < 2 ? a[static_cast<Eigen::Index>(k)] = *value : out = *value;
+    }
+    for (std::size_t k = 3; k < 6; ++k) {
+      const auto value = number(remarks_, block.lines[0], k, "a point of *ORIENTATION");
+      if (!value) return;
+      if (k == 5 && *value != 0.0) out = *value;
+    }
+    if (out != 0.0 || !(a.norm() > 0.0))
+      return remarks_.essential(block.at, "the axes of *ORIENTATION do not lie in the plane; turn them");
+    content_.orientations[name] = std::atan2(a.y(), a.x()) * 180.0 / std::numbers::pi;
+  }
+
+  void section(const DeckBlock& block) {
+    if (block.name != "SOLIDSECTION")
+      return remarks_.essential(
+          block.at,
+          fmt::format("{} is not taken; use plane elements (CPS, CPE) with *SOLID SECTION", shown(block.name)));
+    if (block.parameters.contains("COMPOSITE"))
+      return remarks_.essential(block.at, "a composite section is not taken; give one material");
+    DeckSection read{parameter(block, "ELSET"), parameter(block, "MATERIAL"), upper(parameter(block, "ORIENTATION")),
+                     1.0, block.at};
+    if (read.material.empty()) remarks_.essential(block.at, "*SOLID SECTION names no material; add MATERIAL=name");
+    if (!block.lines.empty()) read.thickness = number(remarks_, block.lines[0], 0, "the thickness", 1.0).value_or(1.0);
+    content_.sections.push_back(std::move(read));
+  }
+
+  DeckContent& content_;
+  Remarks& remarks_;
+};
+
+}  // namespace
+
+bool read_material_block(const DeckBlock& block, DeckContent& content, Remarks& remarks) {
+  return MaterialReader(content, remarks).read(block);
+}
+
+}  // namespace scabo::convert

@@ -1,0 +1,350 @@
+"""`scabo convert`: decks of Abaqus and CalculiX as models. Numbers are compared with closed forms, messages with docs/convert.md."""
+import random
+import re
+
+import support
+from support import scabo, summary_of
+
+MATERIAL = "*MATERIAL, NAME=steel\n*ELASTIC\n210e9, 0.3\n*DENSITY\n7850.\n"
+STATIC = "*STEP\n*STATIC\n"
+END = "*END STEP\n"
+
+
+def grid(nx, ny, width, height, first=1, corner=(0.0, 0.0), kind="CPS8", elset="BODY"):
+    """A rectangle of quadrilaterals with 8 or 4 nodes, with its sides as node sets and surfaces `ELSET_LEFT` and so on."""
+    step = 2 if kind[3] == "8" else 1
+    columns, rows = nx * step + 1, ny * step + 1
+    number = lambda i, j: first + j * columns + i
+    nodes = [f"{number(i, j)}, {corner[0] + width * i / (columns - 1)!r}, {corner[1] + height * j / (rows - 1)!r}\n"
+             for j in range(rows) for i in range(columns) if step == 1 or not (i % 2 and j % 2)]
+    elements, of_side = [], {"BOTTOM": [], "RIGHT": [], "TOP": [], "LEFT": []}
+    for y in range(ny):
+        for x in range(nx):
+            i, j, element = step * x, step * y, first + y * nx + x
+            corners = [number(i, j), number(i + step, j), number(i + step, j + step), number(i, j + step)]
+            if step == 2:
+                corners += [number(i + 1, j), number(i + 2, j + 1), number(i + 1, j + 2), number(i, j + 1)]
+            elements.append(f"{element}, {', '.join(map(str, corners))}\n")
+            for side, at, which in (("BOTTOM", y == 0, 1), ("RIGHT", x == nx - 1, 2), ("TOP", y == ny - 1, 3), ("LEFT", x == 0, 4)):
+                if at:
+                    of_side[side].append(f"{element}, S{which}\n")
+    text = "*NODE\n" + "".join(nodes) + f"*ELEMENT, TYPE={kind}, ELSET={elset}\n" + "".join(elements)
+    last = number(columns - 1, rows - 1)
+    for side, (start, end, by) in {"BOTTOM": (first, number(columns - 1, 0), 1), "TOP": (number(0, rows - 1), last, 1),
+                                   "LEFT": (first, number(0, rows - 1), columns), "RIGHT": (number(columns - 1, 0), last, columns)}.items():
+        text += f"*NSET, NSET=N_{elset}_{side}, GENERATE\n{start}, {end}, {by}\n"
+        text += f"*SURFACE, NAME={elset}_{side}, TYPE=ELEMENT\n" + "".join(of_side[side])
+    return text
+
+
+class Converting(support.InTemporaryDirectory):
+    def convert(self, deck, *words, name="part.inp"):
+        path = self.directory / name
+        path.write_bytes(deck if isinstance(deck, bytes) else deck.encode("utf-8"))
+        return scabo("convert", name, "--force", *words, cwd=self.directory)
+
+    def converted(self, deck, *words):
+        run = self.convert(deck, *words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return (self.directory / "part.yaml").read_text(encoding="utf-8")
+
+    def solved(self, deck, *words):
+        """Summary of the run of a deck that is taken whole, but for notes."""
+        self.converted(deck)
+        run = scabo("run", "part.yaml", "--quiet", *words, cwd=self.directory)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return summary_of(self.directory / "part.results")
+
+    def displacement(self, deck, x, y, component=1):
+        summary = self.solved(deck, "--set", f"output.history={{u: point.{'u' + 'xy'[component]}}}", "--set",
+                              f"output.points=[{{at: [{x}, {y}], name: point}}]")
+        with open(self.directory / "part.results" / "history.csv", encoding="utf-8") as file:
+            rows = [line.rstrip().split(",") for line in file]
+        return float(rows[-1][rows[0].index("u")]), summary
+
+
+class Numbers(Converting):
+    def test_patch(self):
+        """Uniform tension: u = s x / E and v = -nu s y / E, whatever the elements."""
+        for kind in ("CPS4", "CPS8R", "CPE4", "CPE8"):
+            with self.subTest(kind=kind):
+                deck = (grid(3, 2, 3.0, 2.0, kind=kind) + MATERIAL + f"*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n0.5\n"
+                        "*BOUNDARY\nN_BODY_LEFT, 1\nN_BODY_BOTTOM, 2\n" + STATIC + "*DSLOAD\nBODY_RIGHT, P, -1e6\n" + END)
+                e, nu = (210e9, 0.3) if kind.startswith("CPS") else (210e9 / (1 - 0.09), 0.3 / 0.7)
+                u, summary = self.displacement(deck, 3.0, 2.0, 0)
+                v, _ = self.displacement(deck, 3.0, 2.0, 1)
+                self.assertAlmostEqual(u / (1e6 * 3.0 / e), 1.0, delta=1e-10)
+                self.assertAlmostEqual(v / (-nu * 1e6 * 2.0 / e), 1.0, delta=1e-10)
+                reaction = summary["increments"][-1]["reactions"]["N_BODY_LEFT"]
+                self.assertAlmostEqual(reaction[0], -1e6 * 2.0 * 0.5, delta=1e-3)
+
+    def test_cantilever(self):
+        """The exact field of a beam with shear: all of its parts are in the deflection P l^3 / 3 E I (1 + ...) to 1 %."""
+        length, height, force = 10.0, 1.0, 1e4
+        deck = (grid(20, 2, length, height) + MATERIAL + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n1.0\n*BOUNDARY\nN_BODY_LEFT, 1, 2\n" + STATIC
+                + f"*CLOAD\n{2 * 41 + 41}, 2, {-force}\n" + END)
+        v, _ = self.displacement(deck, length, height / 2)
+        inertia, shear = height**3 / 12, 210e9 / 2.6
+        expected = -force * length**3 / (3 * 210e9 * inertia) - 1.2 * force * length / (shear * height)
+        self.assertAlmostEqual(v / expected, 1.0, delta=5e-3)
+
+    def test_gravity(self):
+        """A column under its weight: v(h) = -rho g h^2 / 2 E with nu = 0."""
+        material = MATERIAL.replace("0.3", "0.0")
+        deck = (grid(1, 4, 1.0, 8.0) + material + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n*BOUNDARY\nN_BODY_BOTTOM, 1, 2\n" + STATIC
+                + "*DLOAD\nBODY, GRAV, 9.81, 0., -1., 0.\n" + END)
+        v, _ = self.displacement(deck, 0.5, 8.0)
+        self.assertAlmostEqual(v / (-7850 * 9.81 * 64 / 2 / 210e9), 1.0, delta=1e-9)
+
+    def test_prescribed_displacement_over_steps(self):
+        deck = (grid(2, 2, 2.0, 2.0) + MATERIAL.replace("0.3", "0.0") + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n*BOUNDARY\nN_BODY_LEFT, 1\n"
+                "N_BODY_BOTTOM, 2\n" + STATIC + "*BOUNDARY\nN_BODY_RIGHT, 1, 1, 1e-3\n" + END
+                + STATIC + "*BOUNDARY\nN_BODY_RIGHT, 1, 1, -5e-4\n" + END)
+        u, summary = self.displacement(deck, 2.0, 1.0, 0)
+        self.assertAlmostEqual(u, -5e-4, delta=1e-15)
+        self.assertEqual([increment["step"] for increment in summary["increments"]], [1, 2])
+
+    def test_amplitude(self):
+        """A load that goes to three times its end and back, in equal increments."""
+        deck = (grid(2, 2, 2.0, 2.0) + MATERIAL.replace("0.3", "0.0") + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n*BOUNDARY\nN_BODY_LEFT, 1\n"
+                "N_BODY_BOTTOM, 2\n*AMPLITUDE, NAME=Path\n0., 0., 1., 3., 2., 1.\n*STEP\n*STATIC, DIRECT\n0.5, 2.\n"
+                "*DSLOAD, AMPLITUDE=PATH\nBODY_RIGHT, P, -210e6\n" + END)
+        u, _ = self.displacement(deck, 2.0, 1.0, 0)
+        with open(self.directory / "part.results" / "history.csv", encoding="utf-8") as file:
+            rows = [line.rstrip().split(",") for line in file]
+        values = [float(row[rows[0].index("u")]) for row in rows[1:]]
+        for value, expected in zip(values, (1.5, 3.0, 2.0, 1.0), strict=True):
+            self.assertAlmostEqual(value / 2e-3, expected, delta=1e-10)
+
+    def test_orthotropic_at_an_angle(self):
+        """Axis 1 at 90 degrees: tension along x meets E2."""
+        material = ("*MATERIAL, NAME=ply\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n140e9, 10e9, 10e9, 0.3, 0.3, 0.4, 5e9, 5e9\n3.5e9\n"
+                    "*ORIENTATION, NAME=turned\n0., 1., 0., -1., 0., 0.\n")
+        deck = (grid(2, 2, 2.0, 2.0) + material + "*SOLID SECTION, ELSET=BODY, MATERIAL=ply, ORIENTATION=turned\n*BOUNDARY\nN_BODY_LEFT, 1\n"
+                "N_BODY_BOTTOM, 2\n" + STATIC + "*DSLOAD\nBODY_RIGHT, P, -1e6\n" + END)
+        u, _ = self.displacement(deck, 2.0, 1.0, 0)
+        self.assertAlmostEqual(u / (2.0 * 1e6 / 10e9), 1.0, delta=1e-10)
+
+    def test_stiffness_as_numbers(self):
+        """TYPE=ORTHO of an isotropic material is that material."""
+        young, nu = 210e9, 0.3
+        lame, shear = young * nu / (1 + nu) / (1 - 2 * nu), young / 2 / (1 + nu)
+        normal = lame + 2 * shear
+        material = (f"*MATERIAL, NAME=steel\n*ELASTIC, TYPE=ORTHO\n{normal}, {lame}, {normal}, {lame}, {lame}, {normal}, {shear}, {shear},\n{shear}\n")
+        deck = (grid(2, 2, 2.0, 2.0, kind="CPE8") + material + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n*BOUNDARY\nN_BODY_LEFT, 1\n"
+                "N_BODY_BOTTOM, 2\n" + STATIC + "*DSLOAD\nBODY_RIGHT, P, -1e6\n" + END)
+        u, _ = self.displacement(deck, 2.0, 1.0, 0)
+        self.assertAlmostEqual(u / (2.0 * 1e6 * (1 - nu**2) / young), 1.0, delta=1e-10)
+
+    def blocks(self, contact, shear="", kind="CPE8"):
+        """Two blocks on each other, the lower one held, the upper one pressed by 10 MPa."""
+        return (grid(4, 2, 2.0, 1.0, elset="LOWER", kind=kind)
+                + grid(4, 2, 2.0, 1.0, first=1001, corner=(0.0, 1.0), elset="UPPER", kind=kind) + MATERIAL
+                + "*SOLID SECTION, ELSET=LOWER, MATERIAL=steel\n*SOLID SECTION, ELSET=UPPER, MATERIAL=steel\n" + contact
+                + "*BOUNDARY\nN_LOWER_BOTTOM, 1, 2\nN_UPPER_LEFT, 1\nN_LOWER_LEFT, 1\n" + STATIC + "*DSLOAD\nUPPER_TOP, P, 10e6\n" + shear + END)
+
+    CONTACT = ("*CONTACT PAIR, INTERACTION=rough, TYPE=SURFACE TO SURFACE\nUPPER_BOTTOM, LOWER_TOP\n*SURFACE INTERACTION, NAME=rough\n"
+               "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n*FRICTION\n0.4\n")
+
+    def test_contact(self):
+        summary = self.solved(self.blocks(self.CONTACT))
+        contact = summary["increments"][-1]["contacts"]["rough"]
+        self.assertAlmostEqual(contact["normal_force"], 2e7, delta=1.0)
+
+    def test_tie_and_tied_contact(self):
+        tied, pull = "*TIE, NAME=t\nUPPER_BOTTOM, LOWER_TOP\n", "UPPER_RIGHT, P, -20e6\n"
+        whole, _ = self.displacement(self.blocks(tied, pull), 2.0, 2.0, 0)
+        self.assertIn("ties:", (self.directory / "part.yaml").read_text())
+        other, _ = self.displacement(self.blocks(self.CONTACT.replace("HARD", "TIED"), pull), 2.0, 2.0, 0)
+        self.assertEqual(whole, other)
+        slipping, _ = self.displacement(self.blocks(self.CONTACT, pull), 2.0, 2.0, 0)
+        self.assertNotAlmostEqual(slipping / whole, 1.0, delta=5e-4)
+
+    def test_two_materials_in_one_body(self):
+        """Half of a bar is half as stiff: elongations add up."""
+        deck = (grid(4, 1, 4.0, 1.0) + MATERIAL.replace("0.3", "0.0") + "*MATERIAL, NAME=soft\n*ELASTIC\n105e9, 0.0\n"
+                "*ELSET, ELSET=HALF, GENERATE\n3, 4\n*ELSET, ELSET=OTHER\n1, 2\n*SOLID SECTION, ELSET=OTHER, MATERIAL=STEEL\n"
+                "*SOLID SECTION, ELSET=HALF, MATERIAL=SOFT\n*BOUNDARY\nN_BODY_LEFT, 1\nN_BODY_BOTTOM, 2\n" + STATIC + "*DLOAD\n4, P2, -1e6\n" + END)
+        u, _ = self.displacement(deck, 4.0, 0.5, 0)
+        self.assertAlmostEqual(u / (1e6 * (2.0 / 210e9 + 2.0 / 105e9)), 1.0, delta=1e-10)
+
+
+SQUARE = grid(2, 2, 2.0, 2.0) + MATERIAL + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n"
+HELD = "*BOUNDARY\nN_BODY_LEFT, 1, 2\n"
+PRESSED = STATIC + "*DSLOAD\nBODY_RIGHT, P, 1e6\n" + END
+
+
+class Writing(Converting):
+    """The same deck in other clothes."""
+
+    def test_spelling(self):
+        expected = self.converted(SQUARE + HELD + PRESSED)
+        deck = SQUARE + HELD + PRESSED
+        self.assertEqual(self.converted(deck.replace("\n", "\r\n")), expected)
+        self.assertEqual(self.converted(deck.replace("\n", "\n** a comment, with commas\n")), expected)
+        self.assertEqual(self.converted("\ufeff" + deck), expected)
+        lower = self.converted(re.sub(r"(?m)^\*[A-Z ]+", lambda match: match[0].lower(), deck))
+        self.assertEqual(lower, expected)
+        parted = deck.replace("*SOLID SECTION, ELSET=BODY, MATERIAL=steel", "*SOLID SECTION,\nELSET=BODY,\nMATERIAL=steel")
+        self.assertEqual(self.converted(parted), expected)
+        self.assertEqual(self.converted(deck.replace(", ", " ,   ")), expected)
+
+    def test_include(self):
+        (self.directory / "mesh.inc").write_text(SQUARE)
+        included = self.converted("*INCLUDE, INPUT=mesh.inc\n" + HELD + PRESSED)
+        self.assertEqual(included, self.converted(SQUARE + HELD + PRESSED))
+
+    def test_files(self):
+        run = self.convert(SQUARE + HELD + PRESSED)
+        self.assertIn("part.yaml: 1 body, 1 support, 1 load, 1 step", run.stdout)
+        self.assertEqual(sorted(path.name for path in self.directory.iterdir()), ["part.inp", "part.yaml", "part_mesh.inp"])
+        again = scabo("convert", "part.inp", cwd=self.directory)
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("part.yaml: exists: remove it, replace it with --force, or name another file with -o", again.stderr)
+        other = scabo("convert", "part.inp", "-o", "other.yaml", cwd=self.directory)
+        self.assertEqual(other.returncode, 0)
+        self.assertIn('file: "other_mesh.inp"', (self.directory / "other.yaml").read_text())
+        itself = scabo("convert", "part.inp", "-o", "part.inp", "--force", cwd=self.directory)
+        self.assertEqual(itself.returncode, 1)
+        self.assertIn("is the deck itself", itself.stderr)
+
+    def test_names_and_title(self):
+        deck = ("*HEADING\nA \"plate\": 100 % loaded, twice\n" + SQUARE.replace("BODY", "On").replace("steel", "alloy 7/5") + HELD.replace("BODY", "On")
+                + PRESSED.replace("BODY", "On"))
+        text = self.converted(deck)
+        self.assertIn('title: "A \\"plate\\": 100 % loaded, twice"', text)
+        self.assertIn("alloy_7_5:", text)
+
+
+NOTES = {  # deck after the mesh: message
+    "*NODE FILE\nU\n*EL FILE\nS\n": "requests output and is left out",
+    "*CONTROLS, PARAMETERS=FIELD\n": "controls a solver and is left out",
+    "*MATERIAL, NAME=other\n*ELASTIC\n1e9, 0.3\n": "material 'other' is used by no section and is left out",
+    "*CONDUCTIVITY\n50.\n": "has no effect in a static analysis",
+    "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN_BODY_LEFT, 20.\n": "of temperature are left out",
+}
+
+LOST = {
+    "*PLASTIC\n235e6, 0.\n": "*PLASTIC of material 'steel' is plasticity, which Scabo does not have: the body would stay elastic",
+    "*HYPERELASTIC, NEO HOOKE\n1., 0.\n": "is a law that Scabo does not have",
+    "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n": "*EQUATION joins degrees of freedom",
+    "*RIGID BODY, NSET=N_BODY_TOP, REF NODE=1\n": "*RIGID BODY joins degrees of freedom",
+    "*TRANSFORM, NSET=N_BODY_TOP\n1., 1., 0., -1., 1., 0.\n": "gives local axes of nodes",
+    "*FREQUENCY\n10\n": "is no static analysis; Scabo converts *STATIC steps",
+    "*TEMPERATURE\nN_BODY_TOP, 20.\n": "a `temperature` load of a model may replace it",
+    "*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nBODY\n": "changes the contact or the elements within the analysis",
+    "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n": "is general contact, which is not taken",
+    "*CONTACT PAIR, INTERACTION=i\nBODY_TOP, BODY_TOP\n": "there is no *SURFACE INTERACTION 'I'",
+    "*CONTACT PAIR\nBODY_TOP, BODY_LEFT\n": "both surfaces are of one body",
+    "*CONTACT PAIR\nBODY_TOP, NOWHERE\n": "there is no surface 'NOWHERE'",
+    "*SURFACE INTERACTION, NAME=i\n*FRICTION, ROUGH\n": "*FRICTION with ROUGH is not taken",
+    "*BOUNDARY\nN_BODY_RIGHT, 1, 1, 1e-3\n": "a displacement that is not 0 stands outside of a step",
+    "*BOUNDARY\nNOWHERE, 1\n": "there is no node set 'NOWHERE'",
+    "*BOUNDARY\n999, 1\n": "at node 999, which belongs to no plane element, is lost",
+    "*BOUNDARY\n8, 1\n": "acts inside of a body",
+    "*BOUNDARY\n1, one\n": "'one' is not a number",
+    "*CLOAD\n1, 1, 5.\n": "stands outside of a step and is lost",
+    "*SPRING, ELSET=BODY\n1, 1\n5.\n": "makes elements without area",
+    "*WONDER\n": "*WONDER is not known to the converter",
+    "*AMPLITUDE, NAME=a, DEFINITION=PERIODIC\n1, 2\n": "only an *AMPLITUDE with a name and a table",
+    "*SOLID SECTION, ELSET=BODY, MATERIAL=brass\n": "there is no material 'brass'",
+    "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n1.\n*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n2.\n": "a model has one thickness",
+}
+
+LOST_IN_STEP = {
+    "*CLOAD\n1, 3, 5.\n": "along degree of freedom 3 does not act on a plane body",
+    "*CLOAD\n8, 1, 5.\n": "a force at node 8 acts inside of a body",
+    "*CLOAD, AMPLITUDE=none\n5, 1, 5.\n": "there is no usable *AMPLITUDE 'NONE'",
+    "*DLOAD\nBODY, CENTRIF, 1., 0., 0., 0., 0., 0., 1.\n": "a distributed load of type 'CENTRIF' is not taken",
+    "*DLOAD\n1, P2, 5.\n": "a pressure acts between two elements",
+    "*DLOAD\nBODY, GRAV, 9.81, 0., 0., -1.\n": "gravity needs a direction in the plane",
+    "*DLOAD\nHALF, GRAV, 9.81, 0., -1., 0.\n": "acts on a part of body 'BODY' only",
+    "*BOUNDARY\nN_BODY_TOP, 3, 3, 0.1\n": "degree of freedom 3 is not one of a plane body",
+}
+
+REFUSED_MESHES = {
+    "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n": "is three-dimensional",
+    "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=CAX3, ELSET=E\n1, 1, 2, 3\n": "is axisymmetric",
+    "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=S3, ELSET=E\n1, 1, 2, 3\n": "elements of type S3 are not taken",
+    "": "the mesh is empty",
+}
+
+
+class Messages(Converting):
+    def line_of(self, deck, text):
+        return deck[:deck.index(text)].count("\n") + 1
+
+    def test_notes(self):
+        for part, message in NOTES.items():
+            with self.subTest(part=part):
+                deck = SQUARE + part + HELD + PRESSED
+                run = self.convert(deck)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertRegex(run.stderr, rf"part\.inp:\d+: warning: .*{re.escape(message)}")
+
+    def test_what_is_lost(self):
+        decks = {SQUARE + part + HELD + PRESSED: (part, message) for part, message in LOST.items()}
+        halves = SQUARE + "*ELSET, ELSET=HALF\n1, 2\n" + HELD
+        decks |= {halves + PRESSED.replace(END, part + END): (part, message) for part, message in LOST_IN_STEP.items()}
+        for deck, (part, message) in decks.items():
+            with self.subTest(part=part):
+                (self.directory / "part.yaml").unlink(missing_ok=True)
+                run = self.convert(deck)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertRegex(run.stderr, rf"(?m)^part\.inp:\d+: (?!warning).*{re.escape(message)}")
+                first = int(re.search(r"^part\.inp:(\d+): (?!warning)", run.stderr, re.MULTILINE).group(1))
+                begin = self.line_of(deck, part)
+                self.assertTrue(begin <= first < begin + part.count("\n") + 1, run.stderr)
+                self.assertFalse((self.directory / "part.yaml").exists())
+
+    def test_meshes_that_are_not_taken(self):
+        for mesh, message in REFUSED_MESHES.items():
+            with self.subTest(message=message):
+                run = self.convert(mesh + MATERIAL + "*SOLID SECTION, ELSET=E, MATERIAL=steel\n" * bool(mesh) + STATIC + END)
+                self.assertEqual(run.returncode, 1)
+                self.assertIn(message, run.stderr)
+
+    def test_an_incomplete_model(self):
+        run = self.convert(SQUARE + "*PLASTIC\n235e6, 0.\n" + HELD + PRESSED, "--incomplete")
+        self.assertEqual(run.returncode, 1)
+        text = (self.directory / "part.yaml").read_text()
+        self.assertRegex(text, r"(?m)^# Missing \(\d+\): \*PLASTIC of material 'steel'")
+        self.assertEqual(scabo("run", "part.yaml", cwd=self.directory).returncode, 0)
+
+    def test_steps_that_supports_cannot_follow(self):
+        run = self.convert(SQUARE + HELD + PRESSED + STATIC + "*BOUNDARY, OP=NEW\nN_BODY_BOTTOM, 2\n" + END)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("is released in step 2 by OP=NEW", run.stderr)
+        self.assertIn("the support begins in step 2", run.stderr)
+
+    def test_nothing_to_analyse(self):
+        run = self.convert(SQUARE + HELD)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("the deck has no *STEP", run.stderr)
+
+    def test_missing_file(self):
+        run = scabo("convert", "none.inp", cwd=self.directory)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("none.inp: there is no such file", run.stderr)
+
+
+class Broken(Converting):
+    def test_truncated_and_changed_decks_end_with_a_message(self):
+        whole = (grid(1, 1, 2.0, 1.0, elset="LOWER") + grid(1, 1, 2.0, 1.0, first=101, corner=(0.0, 1.0), elset="UPPER") + MATERIAL
+                 + "*SOLID SECTION, ELSET=LOWER, MATERIAL=steel\n*SOLID SECTION, ELSET=UPPER, MATERIAL=steel\n" + Numbers.CONTACT
+                 + "*AMPLITUDE, NAME=a\n0., 0., 1., 1.\n*BOUNDARY\nN_LOWER_BOTTOM, 1, 2\nN_UPPER_LEFT, 1\n" + STATIC
+                 + "*DLOAD, AMPLITUDE=a\n101, P3, 1e6\nUPPER, GRAV, 9.81, 0., -1., 0.\n*CLOAD\n101, 2, -5.\n" + END).encode()
+        choose = random.Random(1)
+        for _ in range(60):
+            deck = bytearray(whole[:choose.randrange(len(whole))] if choose.random() < 0.4 else whole)
+            for _ in range(choose.randrange(1, 4)):
+                at = choose.randrange(len(deck) or 1)
+                deck[at:at + choose.randrange(3)] = choose.choice([b"", b"-", b"e9", b"999999999999", b",", b"*", b"\0", b"\xff", b"nan", b"\n"])
+            run = self.convert(bytes(deck))
+            self.assertIn(run.returncode, (0, 1), (bytes(deck), run.stderr))
+            if run.returncode == 1:
+                self.assertTrue(run.stderr.strip())
+
+
+if __name__ == "__main__":
+    support.main()
