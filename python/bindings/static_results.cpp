@@ -124,7 +124,7 @@ py::dict values(const StaticResult& solved, std::size_t increment, const Numbers
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = static_cast<py::ssize_t>(i);
     const result::PointResult& value = results[i];
-    const bool inside = bodies[i] >= 0, stressed = inside && value.has_stress;
+    const bool inside = bodies[i] >= 0 && !value.absent, stressed = inside && value.has_stress;
     const result::StressMeasures measures =
         stressed ? result::stress_measures(value.values.stress, value.stress_zz) : result::StressMeasures();
     body.mutable_at(row) = bodies[i];

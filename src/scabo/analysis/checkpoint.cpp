@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "scabo/analysis/increment_record.hpp"
-#include "scabo/contact/files/hdf5_file.hpp"
+#include "scabo/analysis/sealed_file.hpp"
 
 namespace scabo::analysis {
 
@@ -25,111 +25,11 @@ constexpr const char* records_name = "checkpoint.increments";
 constexpr std::string_view records_mark = "scabo checkpoint\n";
 constexpr const char* group = "scabo_checkpoint/";
 
-std::string hexadecimal(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
-
 std::string content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string content((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file.is_open() || file.bad()) throw InputError(path, {{{}, "cannot be read"}});
   return content;
-}
-
-/// Writes the values of a checkpoint and their digest.
-class Sealing {
- public:
-  explicit Sealing(const std::string& file) : file_(file) {}
-  static constexpr bool reads = false;
-
-  void text(const std::string& path, std::string& value) {
-    add(path, value);
-    file_.text(group + path, value);
-  }
-  void numbers(const std::string& path, std::vector<double>& values) {
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
-    file_.numbers(group + path, values.data(), values.size());
-  }
-  void integers(const std::string& path, std::vector<int>& values) {
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(int)});
-    file_.integers(group + path, values);
-  }
-  void finish() {
-    file_.text(std::string(group) + "digest", hexadecimal(digest_));
-    file_.finish();
-  }
-
- private:
-  void add(const std::string& path, std::string_view bytes) { digest_ = digest(bytes, digest(path, digest_)); }
-  contact::Hdf5Writer file_;
-  std::uint64_t digest_ = digest_start;
-};
-
-/// Reads them back; finish() fails if anything differs from what was written.
-class Unsealing {
- public:
-  explicit Unsealing(const std::string& file) : file_(file) {}
-  static constexpr bool reads = true;
-
-  std::string version() const { return file_.text(std::string(group) + "version"); }
-  void text(const std::string& path, std::string& value) {
-    value = file_.text(group + path);
-    add(path, value);
-  }
-  void numbers(const std::string& path, std::vector<double>& values) {
-    const Vector read = file_.numbers(group + path);
-    values.assign(read.begin(), read.end());
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
-  }
-  void integers(const std::string& path, std::vector<int>& values) {
-    values.clear();
-    for (const std::int64_t value : file_.integers(group + path)) values.push_back(static_cast<int>(value));
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(int)});
-  }
-  void finish() const {
-    if (file_.text(std::string(group) + "digest") != hexadecimal(digest_))
-      file_.fail("digest", "does not belong to the values");
-  }
-
- private:
-  void add(const std::string& path, std::string_view bytes) { digest_ = digest(bytes, digest(path, digest_)); }
-  contact::Hdf5Reader file_;
-  std::uint64_t digest_ = digest_start;
-};
-
-template <typename Io, typename T>
-void exchange_integer(Io& io, const std::string& path, T& value) {
-  std::vector<int> list{static_cast<int>(value)};
-  io.integers(path, list);
-  value = static_cast<T>(list.at(0));
-}
-
-/// Number of texts or files.
-template <typename Io>
-std::size_t exchange_count(Io& io, const std::string& path, std::size_t count) {
-  constexpr std::size_t most = 1'000'000;  // only of a damaged file
-  exchange_integer(io, path, count);
-  if (count > most) throw std::out_of_range("a number of values is out of range");
-  return count;
-}
-
-template <typename Io>
-void exchange_texts(Io& io, const std::string& path, std::vector<std::string>& texts) {
-  texts.resize(exchange_count(io, path + "/count", texts.size()));
-  for (std::size_t i = 0; i < texts.size(); ++i) io.text(fmt::format("{}/{}", path, i), texts[i]);
-}
-
-template <typename Io>
-void exchange_vector(Io& io, const std::string& path, Vector& values) {
-  std::vector<double> list(values.begin(), values.end());
-  io.numbers(path, list);
-  if constexpr (Io::reads) values = Eigen::Map<const Vector>(list.data(), static_cast<Eigen::Index>(list.size()));
-}
-
-template <typename Io>
-void exchange_scalars(Io& io, const std::string& path, const std::vector<double*>& values) {
-  std::vector<double> list;
-  for (const double* value : values) list.push_back(*value);
-  io.numbers(path, list);
-  for (std::size_t i = 0; i < values.size(); ++i) *values[i] = list.at(i);
 }
 
 template <typename Io>
@@ -172,6 +72,14 @@ void exchange_state(Io& io, RunState& run) {
   io.numbers("state/load_factors", state.factors.loads);
   io.numbers("state/support_factors", state.factors.supports);
   io.numbers("state/coefficients_of_friction", state.factors.friction);
+  io.numbers("state/presence", state.factors.presence);
+  exchange_scalars(io, "state/release", {&state.factors.release});
+  io.numbers("state/fits", state.factors.fits);
+  exchange_vector(io, "state/offset", state.offset);
+  exchange_vector(io, "state/held_offset", state.held_offset);
+  state.released.resize(exchange_count(io, "state/released/count", state.released.size()));
+  for (std::size_t part = 0; part < state.released.size(); ++part)
+    exchange_vector(io, fmt::format("state/released/{}", part), state.released[part]);
   exchange_vector(io, "state/p", state.p);
   exchange_vector(io, "state/a", state.a);
   exchange_vector(io, "state/gap", state.gap);
@@ -320,8 +228,8 @@ Checkpoint read_checkpoint(const fs::path& directory, const std::string& version
            "model again with `scabo run`");
   constexpr const char* damaged = "the checkpoint is damaged: run the model again with `scabo run`";
   try {
-    Unsealing io(file.string());
-    if (const std::string written_by = io.version(); !written_by.empty() && written_by != version)
+    Unsealing io(file.string(), group);
+    if (const std::string written_by = io.text_of("version"); !written_by.empty() && written_by != version)
       throw OtherVersion(
           fmt::format("the checkpoint was written by Scabo {}, and this is {}: resume with that version, or "
                       "run the model again with `scabo run`",
@@ -378,16 +286,15 @@ void CheckpointWriter::write(const RunState& run, const StaticSolution& solution
   at.step = run.step;
   at.progress = run.progress;
   const State& state = run.state;  // without displacements
-  at.state = {state.factors, state.p, state.a, state.gap, state.slip, state.history,
-              state.states,  {},      {},      {},        {},         state.largest_force,
-              state.energy};
+  at.state = state;
+  for (std::vector<Vector>* of : {&at.state.u, &at.state.forces, &at.state.reactions, &at.state.prescribed}) of->clear();
   replace();
 }
 
 void CheckpointWriter::replace() {
   const fs::path written = directory_ / (std::string(state_name) + ".new"), file = directory_ / state_name;
   int count = static_cast<int>(recorded_);
-  Sealing io(written.string());
+  Sealing io(written.string(), group);
   exchange_checkpoint(io, checkpoint_, count);
   io.finish();
   synchronise(written);

@@ -144,6 +144,7 @@ std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
 std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment) {
   std::vector<CrackResult> results;
   for (std::size_t b = 0; b < solution.cells.size(); ++b) {
+    if (increment.is_absent(static_cast<int>(b))) continue;
     const std::map<std::size_t, int> touching = tips_in_contact(solution, b);
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
       const auto& super_element = solution.cells[b][c];

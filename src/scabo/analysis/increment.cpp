@@ -22,26 +22,41 @@ const system::BodySystem& part_of(const Prepared& prepared, int body) {
   return *prepared.structure.parts[prepared.structure.dofs.part_of(body)];
 }
 
-std::vector<Vector> applied_forces(const Prepared& prepared, const std::vector<double>& factors) {
+/// Part of its loads that acts on part `p`, 0 to 1.
+double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p) {
+  if (prepared.is_absent(p)) return 0.0;
+  if (factors.presence.empty()) return 1.0;
+  return factors.presence[static_cast<std::size_t>(prepared.structure.dofs.bodies_of(p).front())];
+}
+
+/// Loads, and what removed bodies still exert of the forces that they exerted.
+std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& factors,
+                                   const std::vector<Vector>& released) {
   std::vector<Vector> forces;
   for (const auto& part : prepared.structure.parts) forces.push_back(Vector::Zero(part->size()));
-  for (std::size_t load = 0; load < factors.size(); ++load)
-    for (std::size_t p = 0; p < forces.size(); ++p)
-      if (prepared.structure.loads[load][p].size() > 0) forces[p] += factors[load] * prepared.structure.loads[load][p];
+  for (std::size_t p = 0; p < forces.size(); ++p) {
+    const double presence = presence_of(prepared, factors, p);
+    if (presence == 0.0) continue;
+    for (std::size_t load = 0; load < factors.loads.size(); ++load)
+      if (prepared.structure.loads[load][p].size() > 0)
+        forces[p] += presence * factors.loads[load] * prepared.structure.loads[load][p];
+    if (!released.empty() && released[p].size() > 0 && factors.release != 0.0)
+      forces[p] += factors.release * released[p];
+  }
   return forces;
 }
 
 /// Resultants of the loads on part `p` along its free rigid motions. Loads in equilibrium, as two equal opposite forces
 /// or the forces of a temperature, leave rounding of their sum, which nothing could balance where neither supports nor
 /// friction hold it: it is zero, whatever the unit of length makes of the last digits.
-Vector loads_on_motions(const Prepared& prepared, std::size_t p, const Vector& forces,
-                        const std::vector<double>& factors) {
+Vector loads_on_motions(const Prepared& prepared, std::size_t p, const State& state) {
   constexpr double rounding_of_sums = 1e-12;  // far below the tolerance of the certificate, 1e-10
   double acting = 0.0;
-  for (std::size_t load = 0; load < factors.size(); ++load)
+  for (std::size_t load = 0; load < state.factors.loads.size(); ++load)
     if (prepared.structure.loads[load][p].size() > 0)
-      acting += std::abs(factors[load]) * prepared.structure.loads[load][p].lpNorm<1>();
-  Vector f = prepared.structure.parts[p]->rigid_motions().transpose() * forces;
+      acting += std::abs(state.factors.loads[load]) * prepared.structure.loads[load][p].lpNorm<1>();
+  if (!state.released.empty()) acting += state.released[p].lpNorm<1>();
+  Vector f = prepared.structure.parts[p]->rigid_motions().transpose() * state.forces[p];
   for (double& resultant : f)
     if (std::abs(resultant) <= rounding_of_sums * acting) resultant = 0.0;
   return f;
@@ -49,9 +64,10 @@ Vector loads_on_motions(const Prepared& prepared, std::size_t p, const Vector& f
 
 std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vector<double>& factors) {
   std::vector<Vector> values;
-  for (const auto& part : prepared.structure.parts) {
-    Vector value(static_cast<Eigen::Index>(part->constraints().size()));
-    for (std::size_t c = 0; c < part->constraints().size(); ++c) {
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
+    const auto& part = prepared.structure.parts[p];
+    Vector value = Vector::Zero(static_cast<Eigen::Index>(part->constraints().size()));
+    for (std::size_t c = 0; c < part->constraints().size() && !prepared.is_absent(p); ++c) {
       const system::Constraint& constraint = part->constraints()[c];
       value[static_cast<Eigen::Index>(c)] = constraint.value * factors[static_cast<std::size_t>(constraint.support)];
     }
@@ -61,11 +77,12 @@ std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vecto
 }
 
 /// Supports on both sides may hold a pair; they must not press its points into each other.
-void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u) {
+void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, const Vector& offset) {
   const system::ContactSystem& contact = prepared.contact;
   if (contact.held.empty()) return;
   Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
   for (std::size_t p = 0; p < u.size(); ++p) motion.noalias() += contact.held_motion[p] * u[p];
+  if (offset.size() > 0) motion += offset;
   for (std::size_t i = 0; i < contact.held.size(); ++i) {
     const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
     const double gap = pair.gap + motion[static_cast<Eigen::Index>(2 * i)];
@@ -125,6 +142,11 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
 void add_displacements(const Prepared& prepared, const std::vector<Vector>* free, State& to) {
   const auto& parts = prepared.structure.parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (prepared.is_absent(p)) {
+      to.u.push_back(Vector::Zero(parts[p]->size()));
+      to.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(parts[p]->constraints().size())));
+      continue;
+    }
     const Vector forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
     Vector u = free ? (*free)[p] : parts[p]->displacement(forces, to.prescribed[p]);
     const Matrix& rigid = parts[p]->rigid_motions();
@@ -182,6 +204,7 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
       certificate.equilibrium = HUGE_VAL;
       return;
     }
+    if (prepared.is_absent(p)) continue;
     const system::BodySystem& part = *prepared.structure.parts[p];
     Vector forces = state.forces[p] + prepared.contact.motion[p].transpose() * state.p;
     certificate.equilibrium = std::max(certificate.equilibrium, part.imbalance(state.u[p], forces) / scale);
@@ -306,6 +329,11 @@ Factors between(const Factors& from, const Factors& to, double part) {
     factors.supports[i] = from.supports[i] + part * (to.supports[i] - from.supports[i]);
   for (std::size_t i = 0; i < to.friction.size(); ++i)
     factors.friction[i] = from.friction[i] + part * (to.friction[i] - from.friction[i]);
+  for (std::size_t b = 0; b < to.presence.size(); ++b)
+    factors.presence[b] = from.presence[b] + part * (to.presence[b] - from.presence[b]);
+  for (std::size_t c = 0; c < to.fits.size(); ++c)
+    factors.fits[c] = from.fits[c] + part * (to.fits[c] - from.fits[c]);
+  factors.release = from.release + part * (to.release - from.release);
   return factors;
 }
 
@@ -332,19 +360,36 @@ std::vector<double> coefficients_at_start(const model::Model& model) {
   return coefficients;
 }
 
+double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i) {
+  const double gap = prepared.contact.gap[i];
+  if (gap >= 0.0 || factors.fits.empty()) return gap;
+  const int contact = prepared.contact.pairs[static_cast<std::size_t>(i)].contact;
+  return gap * factors.fits[static_cast<std::size_t>(contact)];
+}
+
+std::vector<double> fits_at(const model::Model& model, int step) {
+  std::vector<double> fits;
+  for (const model::Contact& contact : model.contacts) fits.push_back(contact.fit_in <= step ? 1.0 : 0.0);
+  const bool any = std::any_of(model.contacts.begin(), model.contacts.end(),
+                               [](const model::Contact& contact) { return contact.fit_in >= 0; });
+  return any ? fits : std::vector<double>();
+}
+
 State initial_state(const Prepared& prepared) {
   State state;
   state.factors = {std::vector<double>(prepared.model.loads.size(), 0.0),
                    std::vector<double>(prepared.model.supports.size(), 0.0),
                    coefficients_at_start(prepared.model)};
+  state.factors.fits = fits_at(prepared.model, -1);
   const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
   state.p = Vector::Zero(2 * N);
   state.a = Vector::Zero(prepared.contact.rigid_motions());
   state.gap = prepared.contact.gap;
+  for (Eigen::Index i = 0; i < N; ++i) state.gap[i] = gap_at(prepared, state.factors, i);
   state.slip = Vector::Zero(N);
   state.history.assign(prepared.contact.pairs.size(), {});
   state.states.assign(prepared.contact.pairs.size(), contact::ContactState::open);
-  state.forces = applied_forces(prepared, state.factors.loads);
+  state.forces = applied_forces(prepared, state.factors, state.released);
   state.prescribed = prescribed_values(prepared, state.factors.supports);
   for (const auto& part : prepared.structure.parts) {
     state.u.push_back(Vector::Zero(part->size()));
@@ -354,7 +399,7 @@ State initial_state(const Prepared& prepared) {
 }
 
 void complete(const Prepared& prepared, State& state) {
-  state.forces = applied_forces(prepared, state.factors.loads);
+  state.forces = applied_forces(prepared, state.factors, state.released);
   state.prescribed = prescribed_values(prepared, state.factors.supports);
   state.u.clear();
   state.reactions.clear();
@@ -368,7 +413,10 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   Attempt result;
   State& to = result.state;
   to.factors = factors;
-  to.forces = applied_forces(prepared, factors.loads);
+  to.offset = from.offset;
+  to.held_offset = from.held_offset;
+  to.released = from.released;
+  to.forces = applied_forces(prepared, factors, to.released);
   to.prescribed = prescribed_values(prepared, factors.supports);
 
   contact::Problem problem;
@@ -377,9 +425,10 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   problem.G = system.G;
   problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < N; ++i) {
-    problem.q[2 * i] = system.gap[i];
+    problem.q[2 * i] = gap_at(prepared, factors, i);
     problem.q[2 * i + 1] = -from.slip[i];
   }
+  if (from.offset.size() > 0) problem.q += from.offset;
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
@@ -387,12 +436,16 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
   std::vector<Vector> free;  // without contact
   for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (prepared.is_absent(p)) {
+      free.push_back(Vector::Zero(parts[p]->size()));
+      continue;
+    }
     free.push_back(parts[p]->displacement(to.forces[p], to.prescribed[p]));
     problem.q.noalias() += system.motion[p] * free[p];
     problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) =
-        loads_on_motions(prepared, p, to.forces[p], factors.loads);
+        loads_on_motions(prepared, p, to);
   }
-  check_held_pairs(prepared, free);
+  check_held_pairs(prepared, free, from.held_offset);
 
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
@@ -442,6 +495,8 @@ const element::InitialStress& FieldState::initial_of(std::size_t body) const {
   return initial.empty() ? none : initial[body];
 }
 
+bool IncrementResult::is_absent(int body) const { return std::binary_search(absent.begin(), absent.end(), body); }
+
 IncrementResult describe(const Prepared& prepared, const State& state) {
   IncrementResult result;
   for (std::size_t i = 0; i < prepared.model.loads.size(); ++i)
@@ -480,10 +535,12 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
     const auto body = static_cast<int>(b);
     result.fields.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
     if (prepared.model.bodies[b].rigid) result.fields.displacements[b][2] /= part_of(prepared, body).lever();
+    const double presence = presence_of(prepared, state.factors, dofs.part_of(body));
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load) {
-      add(result.fields.interior[b], prepared.structure.interior[load][b], state.factors.loads[load]);
-      result.fields.initial[b].add(prepared.structure.initial[load][b], state.factors.loads[load]);
+      add(result.fields.interior[b], prepared.structure.interior[load][b], presence * state.factors.loads[load]);
+      result.fields.initial[b].add(prepared.structure.initial[load][b], presence * state.factors.loads[load]);
     }
+    if (prepared.is_absent(dofs.part_of(body))) result.absent.push_back(body);
   }
   return result;
 }
@@ -513,7 +570,7 @@ std::string describe_motions(const Prepared& prepared, const Vector& a) {
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];
     const Eigen::Index m = part.rigid_motions().cols();
-    if (m == 0) continue;
+    if (m == 0 || prepared.is_absent(p)) continue;
     const Eigen::Vector3d motion = part.rigid_coordinates() * a.segment(prepared.contact.first_rigid[p], m);
     if (motion.norm() >= 1e-6 * a.norm()) moving.push_back({p, motion});
   }

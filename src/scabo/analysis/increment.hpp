@@ -23,6 +23,9 @@ struct Prepared {
   };
   std::optional<Reference> reference;
   std::function<void(const contact::Iteration&)> on_iteration = {};  ///< Options::on_iteration
+  std::vector<char> absent;  ///< per part: not there at this stage of construction (stages.hpp); empty: all are there
+
+  bool is_absent(std::size_t part) const { return !absent.empty() && absent[part] != 0; }
 };
 
 /// Displacement of the reference point, which belongs to all bodies: results are relative to it, and so are the work of
@@ -33,8 +36,16 @@ Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>&
 struct Factors {
   std::vector<double> loads, supports;
   std::vector<double> friction;  ///< of every contact; empty if no step changes one
+  // Staged construction (stages.hpp):
+  std::vector<double> presence = {};  ///< per body, part of its loads that acts, 0 to 1; empty: all of all
+  double release = 0.0;               ///< part of State::released that acts
+  std::vector<double> fits = {};      ///< per contact, part of its interferences that is there; empty: all of all
 };
 Factors between(const Factors& from, const Factors& to, double part);
+/// Initial gap of pair `i`, of which an interference is there in part.
+double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i);
+/// Factors::fits at the end of a step; step -1: before the first.
+std::vector<double> fits_at(const model::Model& model, int step);
 /// Coefficients of friction before the first step; empty if no step changes one.
 std::vector<double> coefficients_at_start(const model::Model& model);
 
@@ -51,6 +62,10 @@ struct State {
   std::vector<Vector> forces;      // per part: applied forces without contact
   std::vector<Vector> reactions;   // per part, one for each constraint
   std::vector<Vector> prescribed;  // per part, one for each constraint
+  // Staged construction (stages.hpp); empty without stages:
+  Vector offset;                 // 2N, [n, t]: added to the motion of a pair, which counts from its placing
+  Vector held_offset;            // the same of held pairs
+  std::vector<Vector> released;  // per part, what removed bodies exerted on it; empty where nothing did
   double largest_force = 0.0;  ///< largest force so far, against which forces are judged after failure and unloading
   Energy energy;
 };

@@ -168,6 +168,7 @@ void exchange(Io& io, IncrementResult& of) {
   exchange(io, of.reactions);
   exchange(io, of.moments);
   exchange(io, of.springs);
+  exchange(io, of.absent);
   io(of.largest_force);
   exchange(io, of.certificate);
   io(of.lost_to_rounding), io(of.energy.external), io(of.energy.elastic), io(of.energy.friction);

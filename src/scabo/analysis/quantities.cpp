@@ -56,6 +56,7 @@ std::optional<double> displacement_of_point(const StaticSolution& solution, cons
                                             const model::Quantity& quantity) {
   const auto b = static_cast<std::size_t>(bodies_of(solution.model, quantity).front());
   const model::Body& body = solution.model.bodies[b];
+  if (increment.is_absent(static_cast<int>(b))) return std::nullopt;
   const Vector& u = increment.fields.displacements[b];
   Vec2 at = Vec2::Zero();
   if (body.rigid) {

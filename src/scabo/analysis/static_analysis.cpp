@@ -11,6 +11,8 @@
 #include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
+#include "scabo/analysis/restart.hpp"
+#include "scabo/analysis/stages.hpp"
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/worthwhile_threads.hpp"
 #include "scabo/base/stopwatch.hpp"
@@ -192,17 +194,27 @@ void drop_fields(IncrementResult& increment) {
 
 /// Factors at the start of a step.
 Factors start_of(const model::Model& model, std::size_t step) {
+  const std::vector<double> presence = presence_at(model, static_cast<int>(step) - 1);
+  const double release = takes_away(model, step) ? 1.0 : 0.0;
+  if (step == 0 && model.restart)
+    return {model.restart->load_factors, model.restart->support_factors, coefficients_at_start(model), presence, release,
+            fits_at(model, -1)};
   if (step == 0)
     return {std::vector<double>(model.loads.size(), 0.0), std::vector<double>(model.supports.size(), 0.0),
-            coefficients_at_start(model)};
+            coefficients_at_start(model), presence, release, fits_at(model, -1)};
   const model::Step& before = model.steps[step - 1];
-  return {before.load_factors, before.support_factors, before.friction};
+  return {before.load_factors, before.support_factors, before.friction, presence, release,
+          fits_at(model, static_cast<int>(step) - 1)};
 }
 
 /// Factors at part `s` of a step.
 Factors factors_in(const model::Model& model, std::size_t index, double s) {
   const model::Step& step = model.steps[index];
-  Factors factors = between(start_of(model, index), {step.load_factors, step.support_factors, step.friction}, s);
+  Factors factors = between(start_of(model, index),
+                            {step.load_factors, step.support_factors, step.friction,
+                             presence_at(model, static_cast<int>(index)), 0.0,
+                             fits_at(model, static_cast<int>(index))},
+                            s);
   if (s == 1.0) return factors;  // those of the curves
   const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {
     for (std::size_t i = 0; i < curves.size(); ++i)
@@ -214,6 +226,7 @@ Factors factors_in(const model::Model& model, std::size_t index, double s) {
 }
 
 RunState start_of_run(const Prepared& prepared, StaticSolution& solution, const Options& options) {
+  if (!options.from && prepared.model.restart) return {0, {}, state_of_restart(prepared)};
   if (!options.from) return {0, {}, initial_state(prepared)};
   RunState run = options.from->at;
   ensure(run.state.states.size() == prepared.contact.pairs.size() &&
@@ -236,14 +249,20 @@ void interrupt(StaticSolution& solution) {
   solution.reason = "interrupted: the increments finished so far are kept";
 }
 
-void run_steps(const Prepared& prepared, StaticSolution& solution, const Options& options) {
-  RunState run = start_of_run(prepared, solution, options);
+void run_steps(const Prepared& whole, StaticSolution& solution, const Options& options) {
+  Stages stages(whole, options.from ? options.from->at.step : 0);
+  RunState run = start_of_run(stages.now(), solution, options);
   for (;;) {
     if (run.progress.reached == 1.0) {
       ++run.step;
       run.progress = {};
     }
-    if (run.step == solution.model.steps.size()) return;
+    if (run.step == solution.model.steps.size()) {
+      if (options.on_end) options.on_end(end_state(stages.now(), run.state));
+      return;
+    }
+    if (run.progress.increment == 0) stages.enter(run.step, run.state);
+    const Prepared& prepared = stages.now();
     const model::Step& step = solution.model.steps[run.step];
     StepProgress& progress = run.progress;
     const int k = progress.increment + 1;
@@ -429,7 +448,7 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   solution.warnings = solution.model.warnings;
   for (Warning& warning : load_warnings(solution.model, structure)) solution.warnings.push_back(std::move(warning));
   run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure),
-             reference_of(solution.model, solution.mesh, solution.cells), options.on_iteration},
+             reference_of(solution.model, solution.mesh, solution.cells), options.on_iteration, {}},
             solution, options);
   for (Warning& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;

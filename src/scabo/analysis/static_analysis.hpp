@@ -134,9 +134,11 @@ struct IncrementResult {
   double residual = 0.0;
   std::vector<ContactResult> contacts;
   std::vector<Vec2> reactions;  ///< one for each support of the model, in its order: force on the body
+  bool is_absent(int body) const;
   /// One for each support of the model: moment on the body about the point of a support that prescribes a rotation.
   std::vector<std::optional<double>> moments;
   std::vector<Vec2> springs;  ///< one for each of the model, in its order: force on the body
+  std::vector<int> absent;    ///< bodies that are not there: not yet added, or removed; ascending
   /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces.
   double largest_force = 0.0;
   contact::Certificate certificate;
@@ -207,6 +209,7 @@ struct EndAtOnce {};
 struct Prepared;  // increment.hpp
 struct State;
 struct Continuation;  // continuation.hpp
+struct EndState;      // restart.hpp
 struct RunState;
 
 struct Options {
@@ -224,6 +227,9 @@ struct Options {
   /// those with an estimated error, whose increments are reported together at the end): all that the next increment
   /// starts from.
   std::function<void(const RunState&, const StaticSolution&)> on_accepted;
+  /// After the last increment of an analysis that was solved, of the same ones as on_accepted: what another run may
+  /// start from.
+  std::function<void(const EndState&)> on_end;
   const Continuation* from = nullptr;                      ///< continues from there; only for such analyses
   std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress

@@ -188,9 +188,14 @@ Body moved(Body body, const Vec2& by) {
   return body;
 }
 
+struct Copies {
+  std::vector<Body> bodies;  ///< row by row
+  std::size_t rows = 0;      ///< 0 with one count
+};
+
 /// `repeat: {count: 3, step: [1, 0]}` gives `block_1`, `block_2`, `block_3`; `{count: [2, 3], step: [[1, 0], [0, 1]]}`
 /// gives `block_1_1` to `block_2_3`. Nothing if it is broken.
-std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& body) {
+Copies copies_of(Reading& reading, const Value& value, const Body& body) {
   Report& report = reading.report;
   const std::size_t before = report.count();
   const MapReader map(report, value, {"count", "step"}, "{count: 3, step: [1, 0]}");
@@ -218,18 +223,19 @@ std::vector<Body> copies_of(Reading& reading, const Value& value, const Body& bo
   if (report.count() == before && counts.size() == 2 && counts[0] * counts[1] > limits::copies.most)
     report.error(*count_value,
                  fmt::format("gives {} bodies, more than the {} allowed", counts[0] * counts[1], limits::copies.most));
-  std::vector<Body> copies;
+  Copies copies;
   if (report.count() > before) {
     reading.bodies_known = false;
     return copies;
   }
   const bool plane = counts.size() == 2;
+  if (plane) copies.rows = static_cast<std::size_t>(counts[1]);
   for (long j = 0; j < (plane ? counts[1] : 1); ++j)
     for (long i = 0; i < counts[0]; ++i) {
       Body copy =
           moved(body, static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0)));
       copy.name += plane ? fmt::format("_{}_{}", i + 1, j + 1) : fmt::format("_{}", i + 1);
-      copies.push_back(std::move(copy));
+      copies.bodies.push_back(std::move(copy));
     }
   return copies;
 }
@@ -238,7 +244,7 @@ void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(report, entry.value,
                       {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors",
-                       "outside", "reference", "repeat", "file"},
+                       "outside", "reference", "repeat", "added", "removed", "file"},
                       body_example);
   Body body;
   BodyState state;
@@ -304,10 +310,14 @@ void read_body(Reading& reading, const Entry& entry) {
     if (body.outside && !body.outline.edges.empty() && body.outline.holes.empty()) turn_outside(body);
   }
   if (const auto repeat = map.get("repeat")) {
-    for (Body& copy : copies_of(reading, *repeat, body)) add_body(reading, std::move(copy), state);
+    Copies copies = copies_of(reading, *repeat, body);
+    const auto states = read_stages(reading, map, state, copies.bodies.size(), copies.rows);
+    for (std::size_t i = 0; i < copies.bodies.size(); ++i)
+      add_body(reading, std::move(copies.bodies[i]), states ? (*states)[i] : state);
     return;
   }
-  add_body(reading, std::move(body), state);
+  const auto states = read_stages(reading, map, state, 0, 0);
+  add_body(reading, std::move(body), states ? states->front() : state);
 }
 
 }  // namespace

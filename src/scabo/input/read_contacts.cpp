@@ -262,7 +262,8 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
   const std::size_t before = report.count();
   const MapReader map(
       report, entry.value,
-      {"between", "reach", "property", "friction", "gap", "cohesion", "tension", "bond", "shear_strength", "about"},
+      {"between", "reach", "property", "friction", "gap", "fit_in", "cohesion", "tension", "bond", "shear_strength",
+       "about"},
       contact_example,
       {{"kind", "leave it out; every contact is node-to-node"},
        {"penalty", "leave it out; the contact conditions are met without a penalty"}});
@@ -282,6 +283,12 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
   if (const auto about = map.get("about")) contact.about = read_vector(report, *about).value_or(Vec2::Zero());
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
   if (contact.bond && map.has("gap")) map.refuse("gap", no_gap_beside_bond);
+  if (const auto fit = map.get("fit_in")) {
+    if (contact.bond)
+      map.refuse("fit_in", "a bonded contact keeps its initial position: leave 'fit_in' out, or 'bond'");
+    else
+      reading.fits_of_contacts.emplace_back(entry.key, *fit);
+  }
   if (report.count() > before || !between) return {};
   between_of = *between;
   if (between->many) return contact;

@@ -21,7 +21,7 @@ void read_analysis(Reading& reading, const Value& value) {
     const std::string remedy = "write static";
     const auto choice =
         read_choice(reading.report, *type, {"static", "modal"},
-                    {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}});
+                    {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}, {"axisymmetric", "write static, and see 'plane'"}});
     if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
     type_known = choice.has_value();
   }
@@ -34,7 +34,9 @@ void read_analysis(Reading& reading, const Value& value) {
   }
   if (const auto plane = map.get("plane")) {
     const auto choice =
-        read_choice(reading.report, *plane, {"stress", "strain"}, {{"axisymmetric", "use stress or strain"}});
+        read_choice(reading.report, *plane, {"stress", "strain"}, {{"axisymmetric", "model the section at right angles to the axis by stress or strain where load and shape do "
+                                              "not change along the axis; the section along the axis has no plane "
+                                              "equivalent (docs/model_file.md, Bodies of revolution)"}});
     if (choice && *choice == "strain") reading.model.analysis.plane = Plane::strain;
   }
   if (const auto thickness = map.get("thickness")) {
@@ -83,7 +85,8 @@ void check_version(Reading& reading, const MapReader& map) {
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
                       {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
-                       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance"},
+                       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance",
+                       "restart"},
                       "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
@@ -111,9 +114,11 @@ void read_sections(Reading& reading, const Value& root) {
   find_contacts_of_loads(reading);
   tell_of_pieces(reading);
   const std::size_t before_steps = reading.report.count();
+  if (const auto restart = map.get("restart")) read_restart(reading, *restart);
   if (const auto curves = map.get("curves")) read_curves(reading, *curves);
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
+  find_named_steps(reading);
   if (const auto output = map.get("output")) read_output(reading, *output);
   if (const auto tolerance = map.get("tolerance")) read_tolerance(reading, *tolerance);
   // A misspelt section may be the missing one.
@@ -126,12 +131,13 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
   std::vector<std::string> parts;
-  for (const char* section : {"loads", "contact_properties", "contacts", "curves", "steps", "solver", "output", "tolerance"}) {
+  for (const char* section : {"loads", "contact_properties", "contacts", "curves", "restart", "steps", "solver", "output", "tolerance"}) {
     const MapEntry* entry = root.node->find(section);
     if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
   }
   if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.rigid; }))
     parts.emplace_back("rigid bodies");
+  if (has_stages(model.bodies)) parts.emplace_back("stages of construction");
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.mesh.tolerance.has_value(); }))
     parts.emplace_back("tolerances of the mesh");

@@ -29,6 +29,10 @@ Step start(const Reading& reading) {
   Step step;
   step.load_factors.assign(reading.model.loads.size(), 0.0);
   step.support_factors.assign(reading.model.supports.size(), 0.0);
+  if (const auto& restart = reading.model.restart) {
+    step.load_factors = restart->load_factors;
+    step.support_factors = restart->support_factors;
+  }
   return step;
 }
 

@@ -20,6 +20,13 @@ using Displacement = std::array<std::optional<double>, 2>;
 
 constexpr const char* support_example = "{on: lower.left, fix: [x, y]}";
 
+}  // namespace
+
+/// `{symmetry: {x: 0}}` (read_symmetry.cpp): a support for every edge on the line; none if it is broken.
+std::vector<Support> read_symmetry(Reading& reading, const Value& item);
+
+namespace {
+
 /// Component names of other programs: a remedy for `fix`, or nothing.
 std::string meant_components(std::string_view text) {
   std::string plain;
@@ -208,6 +215,15 @@ void read_supports(Reading& reading, const Value& value) {
   const auto items = read_list(reading.report, value, "[{on: lower.left, fix: [x, y]}]");
   if (!items) reading.places_known = reading.conditions_known = false;
   for (const Value& item : items.value_or(std::vector<Value>{})) {
+    if (item.node->kind == Node::Kind::map && item.node->find("symmetry")) {
+      const std::size_t before = reading.report.count();
+      for (Support& support : read_symmetry(reading, item)) {
+        reading.support_is_named.push_back(false);
+        reading.model.supports.push_back(std::move(support));
+      }
+      if (reading.report.count() > before) reading.conditions_known = reading.places_known = false;
+      continue;
+    }
     if (auto support = read_support(reading, item)) {
       reading.support_is_named.push_back(!support->name.empty());
       reading.model.supports.push_back(std::move(*support));

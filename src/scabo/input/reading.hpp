@@ -35,6 +35,7 @@ struct BodyState {
   std::set<int> edges_used;
   std::map<std::string, Vec2> lost_points;  ///< named nodes that are no corners
   LinesOfFile lines;                        ///< that a crack may follow
+  std::optional<Value> added, removed;      ///< names of steps, which are read after the bodies
 };
 
 /// Position of a name in a list; models may have thousands of bodies.
@@ -64,6 +65,8 @@ struct Reading {
   bool curves_known = true;                 ///< false: a curve is broken
 
   bool steps_known = false;  ///< true: all steps have been read
+  /// `fit_in` of contacts, by their entry: the names of steps, which are read after contacts.
+  std::vector<std::pair<std::string, Value>> fits_of_contacts;
 
   /// Mesh files by their paths; null for a broken one, which has been reported.
   std::map<std::string, std::shared_ptr<const files::ImportedMesh>> mesh_files;
@@ -121,6 +124,14 @@ MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outli
 bool is_from_file(const std::optional<Value>& mesh);
 /// Shape, mesh and materials of an elastic body from a mesh file. `of_body`: the map of the body; `value`: its `mesh`.
 void read_imported_body(Reading& reading, const MapReader& of_body, const Value& value, Body& body, BodyState& state);
+/// `added` and `removed` of a body and its `copies` (0: none; with rows and columns `rows`, else 0): the names of steps.
+/// One state for each copy; nothing if they are broken.
+std::optional<std::vector<BodyState>> read_stages(Reading& reading, const MapReader& map, const BodyState& state,
+                                                  std::size_t copies, std::size_t rows);
+/// The steps in which bodies are added and removed, and over which interferences grow, by their names; after the steps.
+void find_named_steps(Reading& reading);
+/// `restart`: results of another run, whose end is the start of this one; before the steps.
+void read_restart(Reading& reading, const Value& value);
 /// `cracks` of a body with an outline. What could not be read is `unread`.
 /// Of a body from a mesh file a path may be the name of one of the `lines` of the file.
 std::vector<Crack> read_cracks(Reading& reading, const Value& value, const Body& body,

@@ -78,8 +78,15 @@ void check_curves(Checking& checking) {
 }
 
 /// Factors that follow curves begin where they are at the end of the step before.
-void check_beginnings(Checking& checking, const std::string& path, const Step& step, const Step* before) {
+void check_beginnings(Checking& checking, const std::string& path, const Step& step, const Step* step_before) {
   const Model& model = checking.model;
+  std::optional<Step> restarted;
+  if (step_before == nullptr && model.restart) {
+    restarted.emplace();
+    restarted->load_factors = model.restart->load_factors;
+    restarted->support_factors = model.restart->support_factors;
+  }
+  const Step* before = restarted ? &*restarted : step_before;
   const auto check = [&](const std::vector<int>& curves, const std::vector<double> Step::*factors, bool support) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       if (curves[i] < 0) continue;
@@ -162,6 +169,12 @@ int expected_increments(const Step& step) {
 void check_steps(Checking& checking) {
   const Model& model = checking.model;
   check_curves(checking);
+  if (model.restart && (model.restart->load_factors.size() != model.loads.size() ||
+                        model.restart->support_factors.size() != model.supports.size())) {
+    checking.enter(model.restart->source);
+    checking.error("restart", "", "must have a factor for every load and support");
+    checking.gaps.steps = true;
+  }
   if (checking.gaps.steps) return;
   if (model.steps.empty() && model.analysis.type != AnalysisType::modal) {
     checking.enter({});
@@ -207,7 +220,8 @@ void check_never_applied(Checking& checking) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     if (std::any_of(model.steps.begin(), model.steps.end(),
-                    [&](const Step& s) { return s.load_factors[i] != 0.0 || load_curve(s, i) >= 0; }))
+                    [&](const Step& s) { return s.load_factors[i] != 0.0 || load_curve(s, i) >= 0; }) ||
+        (model.restart && model.restart->load_factors.at(i) != 0.0))
       continue;
     checking.enter(load.source);
     checking.error_of_key(path_of("loads", load.name, i), "",
@@ -217,7 +231,8 @@ void check_never_applied(Checking& checking) {
     const Support& support = model.supports[i];
     if (!checking.support[i]) continue;
     if (std::any_of(model.steps.begin(), model.steps.end(),
-                    [&](const Step& s) { return s.support_factors[i] != 0.0 || support_curve(s, i) >= 0; }))
+                    [&](const Step& s) { return s.support_factors[i] != 0.0 || support_curve(s, i) >= 0; }) ||
+        (model.restart && model.restart->support_factors.at(i) != 0.0))
       continue;
     checking.enter(support.source);
     checking.error(path_of("supports", support.source, i), "",

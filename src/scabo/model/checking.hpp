@@ -83,6 +83,10 @@ void check_bodies_held(Checking& checking);
 void check_something_loads(Checking& checking);
 void check_never_applied(Checking& checking);
 void check_conflicting_supports(Checking& checking);
+/// Steps over which interferences grow.
+void check_fits(Checking& checking);
+/// Bodies that are added or removed in steps.
+void check_stages(Checking& checking);
 
 /// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes
 /// inside.

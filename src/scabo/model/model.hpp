@@ -144,11 +144,21 @@ struct Body {
   std::optional<ImageShape> image;    ///< divided by a quadtree; the outline is its rectangle
   bool outside = false;               ///< unbounded: the material lies outside the shape; the outline runs clockwise
   std::optional<Vec2> reference;      ///< outside body: displacements are relative to this point
+  /// Staged construction: index into Model::steps of the step in which the body is put in place (0: it is there from
+  /// the start), and of the step in which it is taken away (-1: it stays).
+  int added = 0, removed = -1;
   Source source;
+
+  /// Whether it is there at the end of a step; step -1 is the start of the analysis.
+  bool is_there(int step) const { return (added == 0 || step >= added) && (removed < 0 || step < removed); }
+  bool is_staged() const { return added > 0 || removed >= 0; }
 
   /// Whether two side faces meet at the scaling centre.
   bool open() const { return (!cracks.empty() && cracks.front().path.empty()) || mesh.centre_corner >= 0; }
 };
+
+/// Whether bodies are added or removed in steps.
+bool has_stages(const std::vector<Body>& bodies);
 
 /// Whether the body is divided over its whole area, by its outline and regions: not one super-element, and not the grid
 /// of finite elements in a rectangle.
@@ -312,6 +322,9 @@ struct Contact {
   bool bond = false;                          ///< neither opens nor slips
   std::optional<double> shear_strength;       ///< prescribed friction bound (Tresca), force / length^2
   double gap = 0.0;                           ///< length, added to the geometric gap; negative: an interference fit
+  /// Index into Model::steps of the step over which interferences, negative gaps, grow from 0 to their values; -1: they
+  /// are there from the start.
+  int fit_in = -1;
   Vec2 about = Vec2::Zero();                  ///< point to which the moment of the contact forces refers
   Source source;
 };
@@ -442,6 +455,15 @@ struct Output {
   OutputFields fields;
 };
 
+/// Results of another run, whose end is the start of this one (analysis/restart.hpp).
+struct Restart {
+  std::string directory;
+  /// At its end, for the loads and supports of this model; 0 for one that it does not have. The first step starts from
+  /// them.
+  std::vector<double> load_factors, support_factors;
+  Source source;
+};
+
 struct Model {
   std::string file;                ///< as given to the reader, for messages
   std::vector<std::string> files;  ///< paths of mesh files and images that were read for it
@@ -456,6 +478,7 @@ struct Model {
   std::vector<Tie> ties;
   std::vector<Curve> curves;
   std::vector<Step> steps;
+  std::optional<Restart> restart;
   SolverOptions solver;
   std::vector<Warning> warnings;  ///< about input that has no effect in this analysis, or is named otherwise
   Output output;

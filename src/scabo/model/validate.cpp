@@ -152,6 +152,23 @@ bool may_interfere(const Checking& checking, const Contact& contact) {
 
 }  // namespace
 
+void check_fits(Checking& checking) {
+  if (checking.gaps.conditions) return;
+  for (std::size_t c = 0; c < checking.model.contacts.size(); ++c) {
+    const Contact& contact = checking.model.contacts[c];
+    if (contact.fit_in < 0) continue;
+    const std::string path = path_of("contacts", contact.name, c);
+    checking.enter(contact.source);
+    if (contact.fit_in >= static_cast<int>(checking.model.steps.size()))
+      checking.error(path, "fit_in", "is not a step of the model");
+    else if (contact.bond)
+      checking.error(path, "fit_in", "a bonded contact has no interference: leave 'fit_in' or 'bond' out");
+    else if (!may_interfere(checking, contact))
+      checking.error(path, "fit_in",
+                     "this contact has no interference that could grow: give a negative 'gap', or bodies that overlap");
+  }
+}
+
 void check_something_loads(Checking& checking) {
   const Model& model = checking.model;
   if (checking.gaps.conditions || !model.loads.empty() || model.bodies.empty()) return;
@@ -162,6 +179,7 @@ void check_something_loads(Checking& checking) {
   }
   for (const Contact& contact : model.contacts)
     if (may_interfere(checking, contact)) return;
+  if (model.restart) return;
   checking.enter({});
   checking.error_of_key("loads", "",
                         "the model has no loading: give a load, a prescribed displacement or an interference fit");
@@ -212,6 +230,8 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   }
   if (!checking.gaps.steps) {
     if (!modal) check_never_applied(checking);
+    if (!modal) check_fits(checking);
+    if (!modal) check_stages(checking);
     check_conflicting_supports(checking);
   }
   return std::move(checking.found);

@@ -1,5 +1,7 @@
 #include "scabo/result/grid.hpp"
 
+#include <algorithm>
+
 #include "scabo/result/stress.hpp"
 
 namespace scabo::result {
@@ -40,6 +42,51 @@ void Fields::set(std::size_t point, const Vec2& u, const element::Vec3& in_plane
   principal_3[point] = single(measures.principal[2]);
   principal_angle[point] = single(measures.angle);
   von_mises[point] = single(measures.von_mises);
+}
+
+namespace {
+
+/// Values of the points that are kept, `components` each.
+template <typename Value>
+std::vector<Value> kept(const std::vector<Value>& values, std::size_t components,
+                        const std::vector<std::size_t>& points) {
+  std::vector<Value> rest;
+  rest.reserve(components * points.size());
+  for (const std::size_t point : points)
+    rest.insert(rest.end(), values.begin() + static_cast<std::ptrdiff_t>(components * point),
+                values.begin() + static_cast<std::ptrdiff_t>(components * (point + 1)));
+  return rest;
+}
+
+}  // namespace
+
+GridFields without_bodies(const Grid& grid, const Fields& fields, const std::vector<int>& absent) {
+  const auto is_there = [&](std::int32_t body) { return !std::binary_search(absent.begin(), absent.end(), body - 1); };
+  std::vector<std::size_t> points;
+  std::vector<std::int32_t> place(grid.point_count(), -1);
+  for (std::size_t i = 0; i < grid.point_count(); ++i) {
+    if (!is_there(grid.point_body[i])) continue;
+    place[i] = static_cast<std::int32_t>(points.size());
+    points.push_back(i);
+  }
+  GridFields rest;
+  rest.grid.points = kept(grid.points, 3, points);
+  rest.grid.point_body = kept(grid.point_body, 1, points);
+  std::vector<std::int32_t> of_cell;
+  for (std::size_t c = 0; c < grid.cell_count(); ++c) {
+    if (!is_there(grid.cell_body[c])) continue;
+    of_cell.clear();
+    for (std::int32_t k = c == 0 ? 0 : grid.offsets[c - 1]; k < grid.offsets[c]; ++k)
+      of_cell.push_back(place[static_cast<std::size_t>(grid.connectivity[static_cast<std::size_t>(k)])]);
+    rest.grid.add_cell(static_cast<CellType>(grid.types[c]), of_cell, grid.cell_body[c]);
+  }
+  rest.fields.displacement = kept(fields.displacement, 3, points);
+  rest.fields.stress = kept(fields.stress, 6, points);
+  for (const auto member : {&Fields::stress_xx, &Fields::stress_yy, &Fields::stress_xy, &Fields::stress_zz,
+                            &Fields::principal_1, &Fields::principal_2, &Fields::principal_3, &Fields::principal_angle,
+                            &Fields::von_mises})
+    rest.fields.*member = kept(fields.*member, 1, points);
+  return rest;
 }
 
 }  // namespace scabo::result

@@ -50,4 +50,11 @@ struct Fields {
   void set(std::size_t point, const Vec2& u, const element::Vec3& in_plane, double zz);
 };
 
+/// A grid and its fields without the bodies that are absent, by their index in the model, ascending.
+struct GridFields {
+  Grid grid;
+  Fields fields;
+};
+GridFields without_bodies(const Grid& grid, const Fields& fields, const std::vector<int>& absent);
+
 }  // namespace scabo::result

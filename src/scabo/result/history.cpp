@@ -106,7 +106,8 @@ std::string History::row(const analysis::StaticSolution& solution, const analysi
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (const auto* quantity = std::get_if<model::Quantity>(&items_[i].of)) {
       if (quantity->kind == model::Quantity::Kind::displacement)
-        add(values[place_[i]].values.displacement[quantity->component]);
+        add(values[place_[i]].absent ? std::nullopt
+                                     : std::optional(values[place_[i]].values.displacement[quantity->component]));
       else
         add(analysis::value_of(solution, increment, *quantity));
       continue;

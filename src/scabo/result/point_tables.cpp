@@ -115,6 +115,10 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
   for (const Group& group : groups_) {
     const auto b = static_cast<std::size_t>(group.body);
     const model::Body& named = solution.model.bodies[b];
+    if (increment.is_absent(group.body)) {
+      for (const std::size_t row : group.rows) results[row].absent = true;
+      continue;
+    }
     const element::SolvedSuperElement* super_element =
         group.infinite.empty() ? nullptr : solution.cells[b][group.cell].get();
     const element::InteriorLoads& interior = element::loads_in(increment.fields.interior[b], group.cell);
@@ -200,6 +204,7 @@ std::string point_table_rows(PointTable table, const PointEvaluation& evaluation
   for (std::size_t i = 0; i < results.size(); ++i) {
     const mesh::OutputPoint& point = evaluation.points()[i];
     const PointResult& result = results[i];
+    if (result.absent) continue;
     fmt::format_to(std::back_inserter(rows), "{},{},{},{}", increment.step, increment.increment, point.name,
                    solution.model.bodies[static_cast<std::size_t>(point.body)].name);
     for (const double value :

@@ -28,6 +28,7 @@ struct PointResult {
   double stress_zz = 0.0;
   double energy_density = 0.0;  ///< strain energy per volume, force / length^2
   bool has_stress = true;       ///< false in rigid bodies and where stress is infinite
+  bool absent = false;          ///< the body is not there; the values are 0
 };
 
 /// Evaluation of results at given points, for every increment of the analysis.

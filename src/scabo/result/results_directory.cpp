@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/model/restart_files.hpp"
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/convergence.hpp"
 #include "scabo/result/report.hpp"
@@ -46,6 +47,9 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   if (name == "convergence.svg" || name == "convergence.svg.part") return convergence_plot_mark;
   if (name == "log.txt") return "Scabo ";
   if (name == "checkpoint.hdf5" || name == "checkpoint.hdf5.new") return "scabo_checkpoint";
+  if (name == model::state_at_end_file) return "scabo_end";
+  if (name == model::factors_at_end_file) return "# Scabo: factors";
+  if (name == "end.hdf5.part") return "";
   if (name == "checkpoint.hdf5.new.part") return "";  // may have been killed at any place
   if (name == "checkpoint.increments") return "scabo checkpoint";
   for (const PointTable table : point_tables)
@@ -195,6 +199,12 @@ void remove_later_fields(const fs::path& path, int last) {
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mesh::Mesh mesh)
     : path_(std::move(path)), steps_(static_cast<int>(model.steps.size())), history_(model), output_(model.output) {
   const Stopwatch writing(write_seconds_);
+  std::error_code error;
+  if (model.restart && fs::equivalent(model.restart->directory, path_, error))
+    throw InputError(model.file, {{model.restart->source,
+                                   fmt::format("{} is also the directory that this run writes to: choose another one by "
+                                               "-o",
+                                               path_.string())}});
   lock_.emplace(prepare_directory(path_));
   analysis::StaticSolution start;
   start.model = model;
@@ -316,7 +326,12 @@ void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
     }
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("fields_{:04d}.vtu", finished_);
-    write_file(path_ / file, vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads));
+    if (increment.absent.empty()) {
+      write_file(path_ / file, vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads));
+    } else {
+      const GridFields there = without_bodies(recovery_->grid(), *fields, increment.absent);
+      write_file(path_ / file, vtu_content(there.grid, there.fields, output_.fields, solution.threads));
+    }
     not_synchronised_.push_back(path_ / file);
     fields_collection_->add(pseudo_time(increment), file);
   }

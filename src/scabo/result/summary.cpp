@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -159,6 +160,9 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   for (std::size_t i = 0; i < increment.springs.size(); ++i)
     json["springs"][model.springs[i].name] = {number_or_null(increment.springs[i].x()),
                                               number_or_null(increment.springs[i].y())};
+  if (model::has_stages(model.bodies)) json["absent"] = Json::array();
+  for (const int body : increment.absent)
+    json["absent"].push_back(model.bodies[static_cast<std::size_t>(body)].name);
   for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
@@ -235,8 +239,16 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution) {
   }
   // Only an increment shows which pairs can move; of all but the last one, the totals remain.
   if (!solution.increments.empty() && solution.increments.front().converged) {
-    for (const analysis::ContactResult& contact : solution.increments.front().contacts)
-      sizes.contact_pairs += contact.open + contact.stick + contact.slip;
+    for (std::size_t c = 0; c < solution.increments.front().contacts.size(); ++c) {
+      int most = 0;  // a contact of an absent body has none
+      for (const analysis::IncrementResult& increment : solution.increments)
+        if (increment.converged) {
+          const analysis::ContactResult& contact = increment.contacts[c];
+          most = std::max(most, contact.open + contact.stick + contact.slip);
+          if (most > 0) break;
+        }
+      sizes.contact_pairs += most;
+    }
   } else {
     for (const mesh::Interface& interface : solution.mesh.interfaces)
       sizes.contact_pairs += static_cast<int>(interface.pairs.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scabo/analysis/restart.hpp"
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/version.hpp"
@@ -101,6 +102,8 @@ analysis::StaticSolution solve_and_write(const StaticRun& run) {
     if (run.directory) run.directory->add(solved, increment);
     if (run.observer.on_increment) run.observer.on_increment(solved, increment);
   };
+  if (run.directory)
+    options.on_end = [&](const analysis::EndState& end) { analysis::write_end_state(run.directory->path(), end); };
   options.on_accepted = [&](const auto& state, const auto& solved) { checkpoints.add(state, solved); };
   if (run.directory && run.model.output.discrete_problems)
     options.on_problems = [&](const auto& increment, const auto& problems) {

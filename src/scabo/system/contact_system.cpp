@@ -122,7 +122,69 @@ std::vector<T> selected(const std::vector<T>& all, const std::vector<int>& which
   return some;
 }
 
+/// Rows and columns of a sparse matrix; row_place and column_place: the new number of each, -1: left out.
+Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& row_place,
+                                     const std::vector<int>& column_place, Eigen::Index rows, Eigen::Index columns) {
+  Triplets entries;
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    const int to = column_place.empty() ? static_cast<int>(column) : column_place[static_cast<std::size_t>(column)];
+    if (to < 0) continue;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
+      if (const int row = row_place[static_cast<std::size_t>(it.row())]; row >= 0)
+        entries.emplace_back(row, to, it.value());
+  }
+  Eigen::SparseMatrix<double> block(rows, columns);
+  block.setFromTriplets(entries.begin(), entries.end());
+  return block;
+}
+
+/// Which pairs have both parts, and the new number of each of their two rows, -1 of the others.
+std::vector<int> pairs_there(const std::vector<ContactSystem::Pair>& pairs, const Structure& structure,
+                             const model::Model& model, const std::vector<char>& absent, std::vector<int>& row_place) {
+  std::vector<int> there;
+  row_place.assign(2 * pairs.size(), -1);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const model::Contact& contact = model.contacts[static_cast<std::size_t>(pairs[i].contact)];
+    if (absent[structure.dofs.part_of(contact.a.body)] || absent[structure.dofs.part_of(contact.b.body)]) continue;
+    for (std::size_t k = 0; k < 2; ++k) row_place[2 * i + k] = static_cast<int>(2 * there.size() + k);
+    there.push_back(static_cast<int>(i));
+  }
+  return there;
+}
+
 }  // namespace
+
+ContactSystem without_parts(const ContactSystem& whole, const Structure& structure, const model::Model& model,
+                            const std::vector<char>& absent) {
+  ContactSystem system;
+  std::vector<int> place, held_place, rigid_place(static_cast<std::size_t>(whole.rigid_motions()), -1), rows;
+  const std::vector<int> there = pairs_there(whole.pairs, structure, model, absent, place),
+                         held = pairs_there(whole.held, structure, model, absent, held_place);
+  system.pairs = selected(whole.pairs, there);
+  system.held = selected(whole.held, held);
+  const auto kept = static_cast<Eigen::Index>(2 * there.size());
+  int columns = 0;
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+    system.motion.push_back(block_of(whole.motion[p], place, {}, kept, whole.motion[p].cols()));
+    if (!whole.held_motion.empty())
+      system.held_motion.push_back(block_of(whole.held_motion[p], held_place, {},
+                                            static_cast<Eigen::Index>(2 * held.size()), whole.held_motion[p].cols()));
+    system.first_rigid.push_back(columns);
+    for (Eigen::Index k = 0; !absent[p] && k < structure.parts[p]->rigid_motions().cols(); ++k)
+      rigid_place[static_cast<std::size_t>(whole.first_rigid[p] + k)] = columns++;
+  }
+  for (std::size_t row = 0; row < place.size(); ++row)
+    if (place[row] >= 0) rows.push_back(static_cast<int>(row));
+  if (!there.empty())
+    system.W = whole.W.is_sparse() ? contact::Delassus(block_of(whole.W.sparse(), place, place, kept, kept))
+                                   : contact::Delassus(Matrix(whole.W.dense()(rows, rows)));
+  system.G = contact::RigidMap(block_of(whole.G.sparse(), place, rigid_place, kept, columns));
+  system.gap.resize(static_cast<Eigen::Index>(there.size()));
+  system.laws.of_pair = selected(whole.laws.of_pair, there);
+  system.laws.area = Vector(whole.laws.area(there));
+  for (std::size_t i = 0; i < there.size(); ++i) system.gap[static_cast<Eigen::Index>(i)] = whole.gap[there[i]];
+  return system;
+}
 
 ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads) {
   std::vector<ContactSystem::Pair> all;

@@ -1,0 +1,79 @@
+// `restart`: a directory with the results of another run. Its file of factors tells where the loads of the first step
+// start; its state is read by the analysis (analysis/restart.hpp).
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "scabo/input/reading.hpp"
+#include "scabo/input/suggestions.hpp"
+#include "scabo/input/yaml_document.hpp"
+#include "scabo/model/restart_files.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Factors by the names in `section` of the file; `index_of`: the place of a name, -1 if this model has none.
+template <typename IndexOf>
+void take_factors(const Node& root, const char* section, const IndexOf& index_of, std::vector<double>& factors) {
+  const MapEntry* entry = root.find(section);
+  if (entry == nullptr || entry->value->kind != Node::Kind::map) return;
+  for (const MapEntry& factor : entry->value->entries) {
+    const int i = index_of(factor.key);
+    if (i >= 0) factors[static_cast<std::size_t>(i)] = std::strtod(factor.value->text.c_str(), nullptr);
+  }
+}
+
+}  // namespace
+
+void read_restart(Reading& reading, const Value& value) {
+  const auto name = read_text(reading.report, value);
+  if (!name) return;
+  const fs::path directory = fs::path(reading.model.file).parent_path() / *name, file = directory / factors_at_end_file;
+  std::error_code error;
+  if (!fs::is_directory(directory, error)) {
+    reading.report.error(
+        value,
+        fmt::format(
+            "there is no directory {} in the folder of the model: name the results of a run that was solved, as in "
+            "restart: first.results",
+            quoted_name(*name)));
+    return;
+  }
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::vector<Diagnostic> mistakes;
+  const NodePtr root =
+      stream.is_open() && fs::exists(directory / state_at_end_file, error) ? parse_yaml(text, mistakes) : NodePtr();
+  if (!root || root->kind != Node::Kind::map || !mistakes.empty()) {
+    reading.report.error(value, fmt::format("{} has no state at its end to start from: only a static run that was "
+                                            "solved, without error bars and tolerances, leaves one; run it again",
+                                            quoted_name(*name)));
+    return;
+  }
+  Restart restart;
+  restart.directory = directory.string();
+  restart.source = value.source();
+  restart.load_factors.assign(reading.model.loads.size(), 0.0);
+  restart.support_factors.assign(reading.model.supports.size(), 0.0);
+  Index supports;
+  for (std::size_t i = 0; i < reading.model.supports.size(); ++i)
+    supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
+  const auto in = [](const Index& index) {
+    return [&index](const std::string& key) {
+      const auto found = index.find(key);
+      return found == index.end() ? -1 : found->second;
+    };
+  };
+  take_factors(*root, "loads", in(reading.index_of_load), restart.load_factors);
+  take_factors(*root, "supports", in(supports), restart.support_factors);
+  reading.model.files.push_back(file.string());
+  reading.model.files.push_back((directory / state_at_end_file).string());
+  reading.model.restart = std::move(restart);
+}
+
+}  // namespace scabo::input

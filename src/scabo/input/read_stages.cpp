@@ -1,0 +1,70 @@
+// Steps that are referred to by their names: `added` and `removed` of bodies, in which they are put in place and taken
+// away, and `fit_in` of contacts, over which an interference grows.
+#include <fmt/format.h>
+
+#include "scabo/input/reading.hpp"
+#include "scabo/input/suggestions.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+/// The step that a value names; nothing if there is none.
+std::optional<int> step_named(Reading& reading, const Value& value) {
+  const auto name = read_text(reading.report, value);
+  if (!name || !reading.steps_known) return {};
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < reading.model.steps.size(); ++i) {
+    if (reading.model.steps[i].name == *name) return static_cast<int>(i);
+    if (known.size() < 1000) known.push_back(reading.model.steps[i].name);
+  }
+  reading.report.error(value, fmt::format("there is no step named {}{}", quoted_name(*name), suggestion(*name, known)));
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::vector<BodyState>> read_stages(Reading& reading, const MapReader& map, const BodyState& state,
+                                                  std::size_t copies, std::size_t rows) {
+  std::vector<BodyState> states(std::max<std::size_t>(copies, 1), state);
+  for (const char* key : {"added", "removed"}) {
+    const auto value = map.get(key);
+    if (!value) continue;
+    const auto member = key == std::string_view("added") ? &BodyState::added : &BodyState::removed;
+    if (value->node->kind != Node::Kind::sequence) {
+      for (BodyState& of : states) of.*member = value;
+      continue;
+    }
+    const std::size_t expected = rows > 0 ? rows : copies;
+    const auto items = read_list(reading.report, *value, "[lift_1, lift_2]");
+    if (!items) return {};
+    if (expected == 0 || items->size() != expected) {
+      reading.report.error(*value, expected == 0 ? std::string("must be the name of a step: only a body with 'repeat' "
+                                                               "has a list, one step for each copy")
+                                                 : fmt::format("gives {} steps for {} {}: one for each is needed",
+                                                               items->size(), expected, rows > 0 ? "rows" : "copies"));
+      return {};
+    }
+    const std::size_t of_each = states.size() / expected;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Value& item = (*items)[i / of_each];
+      if (item.node->kind != Node::Kind::null) states[i].*member = item;
+    }
+  }
+  return states;
+}
+
+void find_named_steps(Reading& reading) {
+  for (std::size_t b = 0; b < reading.model.bodies.size(); ++b) {
+    Body& body = reading.model.bodies[b];
+    if (const auto& added = reading.bodies[b].added) body.added = step_named(reading, *added).value_or(0);
+    if (const auto& removed = reading.bodies[b].removed) body.removed = step_named(reading, *removed).value_or(-1);
+  }
+  for (const auto& [entry, name] : reading.fits_of_contacts) {
+    const int step = step_named(reading, name).value_or(-1);
+    for (const int contact : reading.contacts_of_entry[entry])
+      reading.model.contacts[static_cast<std::size_t>(contact)].fit_in = step;
+  }
+}
+
+}  // namespace scabo::input

@@ -1,0 +1,157 @@
+// Validation of staged construction: bodies that are added or removed in steps.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/model/checking.hpp"
+
+namespace scabo::model {
+
+namespace {
+
+void check_steps_of(Checking& checking, std::size_t index) {
+  const Body& body = checking.model.bodies[index];
+  const std::string path = path_of("bodies", body.name, index);
+  const auto steps = static_cast<int>(checking.model.steps.size());
+  checking.enter(body.source);
+  if (body.added < 0 || body.added >= steps) checking.error(path, "added", "is not a step of the model");
+  if (body.removed < -1 || body.removed >= steps) checking.error(path, "removed", "is not a step of the model");
+  if (body.removed >= 0 && body.removed <= body.added)
+    checking.error(path, "removed",
+                   body.removed == 0 ? std::string("is the first step, so that the body is never there: name a later "
+                                                   "step, or leave the body out")
+                                     : fmt::format("must be a step after '{}', in which the body is added",
+                                                   checking.model.steps[static_cast<std::size_t>(body.added)].name));
+  if (body.outside && body.is_staged())
+    checking.error(path, body.added > 0 ? "added" : "removed",
+                   "an unbounded body is always there: give the part that is added or removed a body of its own");
+}
+
+bool same_stages(const Body& a, const Body& b) { return a.added == b.added && a.removed == b.removed; }
+
+/// Whether a load, with this factor or curve of a step, acts in it at some time.
+bool acts_in(const Model& model, std::size_t load, std::size_t step) {
+  const Step& of = model.steps[step];
+  const bool before = step > 0 ? model.steps[step - 1].load_factors[load] != 0.0
+                               : model.restart && model.restart->load_factors[load] != 0.0;
+  return before || of.load_factors[load] != 0.0 || load_curve(of, load) >= 0;
+}
+
+/// Whether a body is there from the start of a step to its end.
+bool stays(const Body& body, std::size_t step) {
+  const auto k = static_cast<int>(step);
+  return body.is_there(k - 1) && body.is_there(k);
+}
+
+void check_loads_on_stages(Checking& checking) {
+  const Model& model = checking.model;
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    if (!checking.load[i]) continue;
+    const std::string path = path_of("loads", load.name, i);
+    checking.enter(load.source);
+    if (load.on) {
+      const Body& body = checking.body(load.on->body);
+      bool acts = !body.is_staged();
+      for (std::size_t s = 0; s < model.steps.size() && !acts; ++s)
+        acts = body.is_there(static_cast<int>(s)) && acts_in(model, i, s);
+      if (!acts)
+        checking.error_of_key(
+            path, "", fmt::format("load '{}' never acts: body '{}' is not there when it does", load.name, body.name));
+      continue;
+    }
+    const auto* pores = std::get_if<PorePressure>(&load.kind);
+    if (pores == nullptr) continue;
+    for (const int c : pores->contacts)
+      for (const Place Contact::*side : {&Contact::a, &Contact::b}) {
+        const Contact& contact = model.contacts[static_cast<std::size_t>(c)];
+        const Body& body = checking.body((contact.*side).body);
+        for (std::size_t s = 0; s < model.steps.size(); ++s) {
+          if (stays(body, s) || !acts_in(model, i, s)) continue;
+          checking.error_of_key(path, "",
+                                fmt::format("the pressure in contact '{}' acts in step '{}', in which body '{}' is not "
+                                            "there from beginning to end: let its factor be 0 until the next step, or "
+                                            "act on the edges by loads of their own",
+                                            contact.name, model.steps[s].name, body.name));
+          return;
+        }
+      }
+  }
+}
+
+/// A displacement counts from where a body is placed.
+void check_supports_of_stages(Checking& checking) {
+  const Model& model = checking.model;
+  for (std::size_t i = 0; i < model.supports.size(); ++i) {
+    const Support& support = model.supports[i];
+    if (!checking.support[i]) continue;
+    const Body& body = checking.body(support.on.body);
+    const bool moves = support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0 ||
+                       support.rotation.value_or(0.0) != 0.0;
+    if (!moves || body.added <= 0 || body.added >= static_cast<int>(model.steps.size())) continue;
+    const auto before = static_cast<std::size_t>(body.added - 1);
+    if (model.steps[before].support_factors[i] == 0.0) continue;
+    checking.enter(support.source);
+    checking.error(path_of("supports", support.source, i), "",
+                   fmt::format("the displacement of support '{}' is applied before step '{}', in which body '{}' is "
+                               "added: give the support a name, and its factor a value in that step or a later one",
+                               support.name, model.steps[before + 1].name, body.name));
+  }
+}
+
+/// Error bars and tolerances solve a model on several meshes, which `with` does not allow.
+void refuse_several_meshes(Checking& checking, const char* with) {
+  const Model& model = checking.model;
+  const auto refuse = [&](bool given, const std::string& section, const char* key) {
+    if (!given) return;
+    checking.enter({});
+    checking.error_of_key(section, key,
+                          fmt::format("cannot be combined with {}: compare runs with smaller elements instead", with));
+  };
+  refuse(model.tolerance.has_value(), "tolerance", "");
+  refuse(model.output.error, "output", "error");
+  refuse(!model.output.error_of.empty(), "output", "error_of");
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    refuse(model.bodies[b].mesh.tolerance.has_value(), path_of("bodies", model.bodies[b].name, b) + ".mesh",
+           "tolerance");
+}
+
+}  // namespace
+
+bool has_stages(const std::vector<Body>& bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.is_staged(); });
+}
+
+void check_stages(Checking& checking) {
+  const Model& model = checking.model;
+  if (model.restart) refuse_several_meshes(checking, "a restart");
+  if (!has_stages(model.bodies)) return;
+  const std::size_t before = checking.found.size();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) check_steps_of(checking, b);
+  if (checking.gaps.bodies || checking.gaps.places || checking.gaps.conditions || checking.found.size() > before)
+    return;
+  for (std::size_t i = 0; i < model.ties.size(); ++i) {
+    const Tie& tie = model.ties[i];
+    const Body &a = checking.body(tie.a.body), &b = checking.body(tie.b.body);
+    if (same_stages(a, b)) continue;
+    checking.enter(tie.source);
+    checking.error_of_key(path_of("ties", tie.name, i), "",
+                          fmt::format("bodies '{}' and '{}' are tied, but are not added and removed in the same steps: "
+                                      "use a contact with bond: true instead of the tie",
+                                      a.name, b.name));
+  }
+  for (std::size_t s = 0; s < model.steps.size(); ++s) {
+    const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                 [&](const Body& body) { return !body.rigid && body.is_there(static_cast<int>(s)); });
+    if (any) continue;
+    checking.enter(model.steps[s].source);
+    checking.error(path_of("steps", model.steps[s].source, s), "",
+                   fmt::format("no elastic body is there in step '{}': at least one is needed", model.steps[s].name));
+    break;
+  }
+  refuse_several_meshes(checking, "bodies that are added or removed in steps");
+  check_loads_on_stages(checking);
+  check_supports_of_stages(checking);
+}
+
+}  // namespace scabo::model

@@ -1,0 +1,9 @@
+// Files of a results directory that another run may start from (analysis/restart.hpp writes and reads them).
+#pragma once
+
+namespace scabo::model {
+
+constexpr const char* state_at_end_file = "end.hdf5";  ///< displacements and contact, of every body and contact by name
+constexpr const char* factors_at_end_file = "end.yaml";  ///< factors of loads and supports, which steps start from
+
+}  // namespace scabo::model

@@ -1,0 +1,133 @@
+"""Staged construction, resumed bit by bit, and runs that start where another one ended."""
+import signal
+import subprocess
+import time
+
+import support
+from support import rows_of, scabo, summary_of
+
+COLUMN = """
+scabo: 1
+materials: {stone: {young: 1e9, poisson: 0.2, density: 2000}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [3, 1]}}}
+  block:
+    material: stone
+    shape: {rectangle: {corner: [0, 0], size: [1, 1]}}
+    mesh: {size: 0.25}
+    repeat: {count: 3, step: [0, 1]}
+    added: [null, second, third]
+    removed: [null, null, away]
+supports: [{on: floor, fix: [x, y]}]
+loads: {weight: {gravity: [0, -10]}, push: {on: block_1.left, traction: [3e3, 0]}}
+contacts: {joint: {between: all, friction: 0.3}}
+steps:
+  - {name: first, increments: 4, loads: {weight: 1}}
+  - {name: second, increments: 20}
+  - {name: third, increments: auto, loads: {push: 0.5}}
+  - {name: away, increments: 20}
+output:
+  points: [{at: [0.5, 2.5], name: high}, {at: [0.5, 0.5], name: low}]
+  history: {top: block_3.top_left.uy, seat: joint_1.normal_force}
+"""
+
+
+def content(directory):
+    return {path.name: path.read_bytes() for path in sorted(directory.iterdir())
+            if path.name not in ("summary.json", "log.txt")}
+
+
+class Stages(support.InTemporaryDirectory):
+    def setUp(self):
+        super().setUp()
+        self.model = self.directory / "column.yaml"
+        self.model.write_text(COLUMN, encoding="utf-8")
+
+    def test_absent_bodies_are_neither_in_fields_nor_in_tables(self):
+        whole = self.directory / "whole"
+        run = scabo("run", self.model, "-o", whole, "--quiet")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        increments = summary_of(whole)["increments"]
+        self.assertEqual(increments[0]["absent"], ["block_2", "block_3"])
+        self.assertEqual(increments[4]["absent"], ["block_3"])
+        self.assertEqual(increments[-1]["absent"], ["block_3"])
+        rows = [row for row in rows_of(whole) if row["step"] == "1"]
+        self.assertEqual({row["contact"] for row in rows}, {increments_contact(increments[0])})
+        with open(whole / "points.csv", encoding="utf-8") as file:
+            lines = file.read().splitlines()[1:]
+        high = {line.split(",")[0] for line in lines if ",high," in line}
+        self.assertEqual(high, {"3"})
+        with open(whole / "history.csv", encoding="utf-8") as file:
+            history = [line.split(",") for line in file.read().splitlines()[1:]]
+        for row in history:
+            self.assertEqual(row[3] == "", row[0] != "3", row)
+        self.assertNotIn(b"nan", (whole / "history.csv").read_bytes())
+        self.assertIn(b'NumberOfPoints="', (whole / "fields_0001.vtu").read_bytes())
+        self.assertLess((whole / "fields_0001.vtu").stat().st_size, (whole / "fields_0030.vtu").stat().st_size)
+
+    def test_a_run_that_is_interrupted_and_resumed_is_the_unbroken_one(self):
+        whole, broken = self.directory / "whole", self.directory / "broken"
+        self.assertEqual(scabo("run", self.model, "-o", whole, "--quiet").returncode, 0)
+        for after in (2, 10, 30):
+            process = subprocess.Popen([support.SCABO, "run", self.model, "-o", broken, "--quiet"],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            while process.poll() is None:
+                if (broken / f"fields_{after:04d}.vtu").exists():
+                    process.send_signal(signal.SIGINT)
+                    break
+                time.sleep(0.001)
+            process.wait(timeout=support.PATIENCE)
+            if summary_of(broken)["status"] == "interrupted":
+                self.assertEqual(scabo("resume", broken, "--quiet").returncode, 0)
+            self.assertEqual(content(broken), content(whole))
+
+
+def increments_contact(increment):
+    """The only contact with pairs."""
+    return next(name for name, contact in increment["contacts"].items() if contact["stick"] + contact["slip"] > 0)
+
+
+class Restart(support.InTemporaryDirectory):
+    FIRST = COLUMN.split("steps:")[0].split("    repeat")[0] + COLUMN.split("away]\n")[1].split("steps:")[0].replace(
+        "block_1", "block")
+
+    def write(self, name, steps, more=""):
+        path = self.directory / name
+        path.write_text(self.FIRST + "steps: " + steps + "\n" + more, encoding="utf-8")
+        return path
+
+    def test_two_halves_are_one_run(self):
+        first, then = "{name: a, loads: {weight: 1, push: 0.2}}", "{name: b, increments: 3, loads: {push: 1}}"
+        whole = self.write("whole.yaml", f"[{first}, {then}]")
+        self.assertEqual(scabo("run", whole, "--quiet").returncode, 0)
+        run = scabo("run", self.write("one.yaml", f"[{first}]"), "--quiet")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        run = scabo("run", self.write("two.yaml", f"[{then}]", "restart: one.results"), "--quiet")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        in_whole = [row for row in rows_of(self.directory / "whole.results") if row["step"] == "2"]
+        alone = rows_of(self.directory / "two.results")
+        for one, other in zip(in_whole, alone, strict=True):
+            for key in set(one) - {"step"}:
+                self.assertEqual(one[key], other[key])
+        # The end of the second run is the start of a third.
+        run = scabo("run", self.write("three.yaml", "[{name: c, loads: {push: 0}}]", "restart: two.results"), "--quiet")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(summary_of(self.directory / "three.results")["increments"][0]["factors"],
+                         {"push": 0.0, "weight": 1.0})
+
+    def test_its_own_directory_and_runs_without_an_end_are_refused(self):
+        one = self.write("one.yaml", "[{name: a, loads: {weight: 1, push: 0.2}}]")
+        self.assertEqual(scabo("run", one, "--quiet").returncode, 0)
+        two = self.write("two.yaml", "[{name: b, loads: {push: 1}}]", "restart: one.results")
+        run = scabo("run", two, "-o", self.directory / "one.results")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("is also the directory that this run writes to", run.stderr)
+        self.assertTrue((self.directory / "one.results" / "end.hdf5").exists())
+        (self.directory / "one.results" / "end.hdf5").unlink()
+        run = scabo("check", two)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("has no state at its end to start from", run.stderr)
+
+
+if __name__ == "__main__":
+    support.main()
