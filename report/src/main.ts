@@ -70,7 +70,8 @@ async function start(): Promise<void> {
     await Promise.all([field?.start(), contacts?.load()]);
   } catch (error) {
     const webgl = /WebGL/i.test(String(error));
-    field?.root.querySelector(".stage")?.replaceChildren(element("p", { class: "failed", role: "alert" }, webgl
+    field?.root.querySelectorAll<HTMLElement>(".controls, .bar, .readout").forEach((part) => (part.hidden = true)); // they would change nothing
+    field?.root.querySelector(".stage")?.replaceWith(element("p", { class: "failed", role: "alert" }, webgl
       ? "This browser draws no WebGL 2, which the picture needs. Everything else on this page works without it." : `The picture could not be drawn: ${String(error)}`));
     if (!webgl) throw error;
   }

@@ -116,11 +116,20 @@ class Results:
         if table is None or len(table["contact"]) == 0:
             return {}
         entry = self.increments[number - 1]
-        chosen = np.flatnonzero((table["step"] == entry["step"]) & (table["increment"] == entry["increment"]))
+        chosen = self._rows_of_increments.get((entry["step"], entry["increment"]), np.zeros(0, dtype=int))
         names = table["contact"][chosen]
         borders = np.flatnonzero(names[1:] != names[:-1]) + 1  # the pairs of a contact stand together
         return {table["contact"][rows[0]]: {key: column[rows] for key, column in table.items()}
                 for rows in np.split(chosen, borders) if len(rows)}
+
+    @functools.cached_property
+    def _rows_of_increments(self):
+        """Numbers of the rows of contact.csv, by step and increment: found once, however many increments are asked for."""
+        table = self.table("contact.csv")
+        keys = np.column_stack([table["step"], table["increment"]])
+        order = np.lexsort(keys.T[::-1])  # rows of one increment stay in their order
+        borders = np.flatnonzero((keys[order][1:] != keys[order][:-1]).any(axis=1)) + 1
+        return {tuple(map(int, keys[rows[0]])): rows for rows in np.split(order, borders) if len(rows)}
 
     def field_numbers(self):
         """Numbers of the increments, or modes, that have a file of fields."""
