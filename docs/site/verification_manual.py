@@ -150,7 +150,7 @@ def draw_errors(case: dict, file: pathlib.Path) -> None:
     places = range(len(checks))
     axis.plot([check["bound"] for check in checks], places, "|", markersize=14, color="black", label="bound")
     axis.plot(errors, places, "o", color="#1f5f8b", label="error, or the value that has the bound")
-    axis.set(xscale="log", yticks=list(places), ylim=(len(checks) - 0.5, -0.5))
+    axis.set(xscale="log", yticks=list(places), ylim=(max(1, len(checks)) - 0.5, -0.5))
     axis.set_yticklabels([name.replace("$", r"\$") for name in names], fontsize=7, family="monospace")
     axis.legend(fontsize=7, loc="best")
     axis.grid(True, axis="x", alpha=0.4)
