@@ -150,7 +150,7 @@ def draw_errors(case: dict, file: pathlib.Path) -> None:
     places = range(len(checks))
     axis.plot([check["bound"] for check in checks], places, "|", markersize=14, color="black", label="bound")
     axis.plot(errors, places, "o", color="#1f5f8b", label="error, or the value that has the bound")
-    axis.set(xscale="log", yticks=list(places), ylim=(len(checks) - 0.5, -0.5))
+    axis.set(xscale="log", yticks=list(places), ylim=(max(1, len(checks)) - 0.5, -0.5))
     axis.set_yticklabels([name.replace("$", r"\$") for name in names], fontsize=7, family="monospace")
     axis.legend(fontsize=7, loc="best")
     axis.grid(True, axis="x", alpha=0.4)
@@ -219,7 +219,7 @@ def page_of(file: str, entries: list[tuple[dict, str]]) -> str:
                 lines.append(f"| {of} | {exact}{number(check['reference'])} | {number(check['value'])} | {number(error_of(check), 2)} |"
                              f" {number(check['bound'], 2)} | {check['times']} |")
             else:
-                lines.append(f"| {of} | | | {number(check['value'], 2)} | {number(check['bound'], 2)} | {check['times']} |")
+                lines.append(f"| {of} | | {number(check['value'], 4)} | | at most {number(check['bound'], 2)} | {check['times']} |")
         lines += ["", f"![{title}](pictures/{picture})", ""]
     return "\n".join(lines)
 
@@ -235,7 +235,7 @@ def summary(by_file: dict[str, list[tuple[dict, str]]]) -> str:
              "In the tables, the first column is the expression that the test compares, and the reference is what it is compared with:"
              " a closed form, a published number, or another way to compute the same. Where a test makes a comparison many times (pairs of"
              " a contact, several meshes), the row has the one that is nearest to its bound, and the last column how many there are. In"
-             " rows without a reference the test computes the error itself, or the value has an upper bound only. The picture shows"
+             " rows without a reference the value has an upper bound only; often it is an error that the test computes itself. The picture shows"
              " the von Mises stress of the first model of the case, or, where the test has no model of its own that runs alone, the errors"
              " beside their bounds.", "",
              "| cases | tests | comparisons | largest error over its bound |", "|---|---|---|---|"]

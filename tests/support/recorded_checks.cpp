@@ -48,9 +48,12 @@ class Record {
     if (!test) return;
     const std::pair<std::string, std::string> texts(value_text, reference_text);
     const auto [place, is_new] = test->checks.try_emplace(texts, check);
-    if (is_new) test->order.push_back(texts);
+    if (is_new) {
+      test->order.push_back(texts);
+      return;
+    }
     check.times = place->second.times + 1;
-    if (is_new || !(check.share() <= place->second.share()))
+    if (check.share() > place->second.share())
       place->second = check;
     else
       place->second.times = check.times;

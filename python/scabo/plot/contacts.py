@@ -95,7 +95,8 @@ def contact_curves(results, number, lines, units, curves):
                 axis.set_ylabel(scales[key].label(name, "\n"), fontsize=8.5 if single else 8)
             style.few_ticks(axis, 6 if columns < 3 else 4, 5)
         for axis in grid[-2:, column] if single else grid[-1:, column]:
-            start = ", ".join(f"{along.factor * value:.4g}" for value in (line.x[0], line.y[0]))
+            nothing = 1e-9 * line.distance[-1]  # rounding of a coordinate that is 0
+            start = ", ".join(f"{along.factor * (value if abs(value) > nothing else 0.0):.4g}" for value in (line.x[0], line.y[0]))
             axis.set_xlabel(along.label(f"distance from ({start})"))
         if len(lines) > 1:
             grid[0, column].set_title(line.name)
