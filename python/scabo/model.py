@@ -149,7 +149,7 @@ def _outside() -> int:
     frame, level = sys._getframe(1), 1
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == __package__:
         frame, level = frame.f_back, level + 1  # type: ignore[assignment]
-    return level - 1
+    return level
 
 
 def _warn(texts: list[str]) -> None:
