@@ -312,6 +312,7 @@ struct Contact {
   bool bond = false;                          ///< neither opens nor slips
   std::optional<double> shear_strength;       ///< prescribed friction bound (Tresca), force / length^2
   double gap = 0.0;                           ///< length, added to the geometric gap; negative: an interference fit
+  bool large_slip = false;                    ///< its pairs are found anew as its sides pass each other
   Vec2 about = Vec2::Zero();                  ///< point to which the moment of the contact forces refers
   Source source;
 };
