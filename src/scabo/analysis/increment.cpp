@@ -286,13 +286,11 @@ void add(element::CellLoads& to, const element::CellLoads& loads, double factor)
   }
 }
 
-/// Whether the part has a contact with large slip, so that it may translate.
-bool slides_far(const Prepared& prepared, std::size_t part) {
-  const system::Dofs& dofs = prepared.structure.dofs;
+/// Whether parts may slide, and others push them, as far as they like.
+bool parts_may_translate(const Prepared& prepared) {
   const auto& contacts = prepared.model.contacts;
-  return std::any_of(contacts.begin(), contacts.end(), [&](const model::Contact& contact) {
-    return contact.large_slip && (dofs.part_of(contact.a.body) == part || dofs.part_of(contact.b.body) == part);
-  });
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const model::Contact& contact) { return contact.large_slip; });
 }
 
 /// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
@@ -551,7 +549,7 @@ std::string too_large(const Prepared& prepared, const State& state) {
     if (dofs.is_rigid(p)) continue;
     const double size = 2.0 * prepared.structure.parts[p]->lever();
     Vector u = state.u[p];
-    if (slides_far(prepared, p)) {
+    if (parts_may_translate(prepared)) {
       const Vec2 mean = u.reshaped(2, u.size() / 2).rowwise().mean();
       u.reshaped(2, u.size() / 2).colwise() -= mean;
     }

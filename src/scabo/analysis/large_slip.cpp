@@ -17,7 +17,7 @@ namespace {
 
 /// The sides pass each other by this part of an element until their pairs are found anew, and by no more in one attempt.
 constexpr double part_of_element = 0.5;
-constexpr double rounding_of_part = 1e-9;
+constexpr double near_to_part = 0.01;  // elastic slip makes parts of increments that end there a little shorter
 
 const model::Edge& edge_of(const model::Model& model, const model::Place& place) {
   return model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)];
@@ -152,6 +152,33 @@ std::vector<bool> on_large_slip(const Prepared& prepared) {
   return large;
 }
 
+/// Relative motion, B less A, that the translations of the parts give a pair: the displacements do not contain it.
+Vec2 motion_of_parts(const Prepared& prepared, const Replacing& replaced, int contact) {
+  const std::array<Vec2, 2>& by = replaced.placement[static_cast<std::size_t>(contact)];
+  return unplaced_motion(prepared, replaced, contact) + by[1] - by[0];
+}
+
+/// Largest mean, of all contacts with large slip, of the slip of closed pairs from the motion that is carried over to
+/// `motion`.
+double largest_mean_slip(const Prepared& prepared, const std::vector<CarriedPair>& carried, const State& state,
+                         const Vector& motion) {
+  std::vector<double> sum(prepared.model.contacts.size(), 0.0);
+  std::vector<int> count(sum.size(), 0);
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
+    const auto c = static_cast<std::size_t>(at.contact);
+    if (!carried[i].closed || !prepared.model.contacts[c].large_slip) continue;
+    const Vec2 t = tangent_of(prepared.mesh.interfaces[c].pairs[static_cast<std::size_t>(at.index)].normal);
+    sum[c] += motion[static_cast<Eigen::Index>(2 * i + 1)] -
+              (carried[i].motion - motion_of_parts(prepared, state.replaced, at.contact)).dot(t);
+    ++count[c];
+  }
+  double largest = 0.0;
+  for (std::size_t c = 0; c < sum.size(); ++c)
+    if (count[c] > 0) largest = std::max(largest, std::abs(sum[c]) / count[c]);
+  return largest;
+}
+
 /// Rigid motions that close the pairs that were closed and that let those of large slip be where they were, in the mean;
 /// `motion`: of the pairs without rigid motions.
 Vector fitting_motions(const Prepared& prepared, const std::vector<CarriedPair>& carried, const State& state,
@@ -165,12 +192,10 @@ Vector fitting_motions(const Prepared& prepared, const std::vector<CarriedPair>&
     const mesh::ContactPair& pair =
         prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
     const auto n = static_cast<Eigen::Index>(2 * i);
-    const Vec2 unplaced = unplaced_motion(prepared, state.replaced, at.contact) +
-                          (state.replaced.placement[static_cast<std::size_t>(at.contact)][1] -
-                           state.replaced.placement[static_cast<std::size_t>(at.contact)][0]);
+    const Vec2 of_parts = motion_of_parts(prepared, state.replaced, at.contact);
     weight[n] = weight[n + 1] = 1.0;
     target[n] = -(prepared.contact.gap[n / 2] + state.replaced.offset[n] + motion[n]);
-    target[n + 1] = (carried[i].motion - unplaced).dot(tangent_of(pair.normal)) - motion[n + 1];
+    target[n + 1] = (carried[i].motion - of_parts).dot(tangent_of(pair.normal)) - motion[n + 1];
   }
   const Eigen::SparseMatrix<double> weighted = weight.asDiagonal() * G.sparse();
   Matrix normal = Matrix(weighted.transpose() * weighted);
@@ -178,9 +203,33 @@ Vector fitting_motions(const Prepared& prepared, const std::vector<CarriedPair>&
   return normal.ldlt().solve(weighted.transpose() * target);
 }
 
-/// The state on new pairs from which contact is solved again.
+/// Changes the forces of the pairs so that their sums on every contact are those that are carried over.
+void keep_sums(const Prepared& prepared, const std::vector<Vec2>& sums, Vector& p) {
+  std::vector<Vec2> now(sums.size(), Vec2::Zero());
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i)
+    now[static_cast<std::size_t>(prepared.contact.pairs[i].contact)] += p.segment<2>(static_cast<Eigen::Index>(2 * i));
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const auto c = static_cast<std::size_t>(prepared.contact.pairs[i].contact);
+    if (!(now[c][0] > 0.0) || !(sums[c][0] > 0.0)) continue;
+    double &normal = p[static_cast<Eigen::Index>(2 * i)], &tangential = p[static_cast<Eigen::Index>(2 * i + 1)];
+    tangential += (sums[c][1] - now[c][1]) * normal / now[c][0];
+    normal *= sums[c][0] / now[c][0];
+  }
+}
+
+/// Sums of the normal and tangential forces of every contact.
+std::vector<Vec2> sums_of(const Prepared& prepared, const State& state) {
+  std::vector<Vec2> sums(prepared.model.contacts.size(), Vec2::Zero());
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i)
+    sums[static_cast<std::size_t>(prepared.contact.pairs[i].contact)] +=
+        state.p.segment<2>(static_cast<Eigen::Index>(2 * i));
+  return sums;
+}
+
+/// The state on new pairs from which contact is solved again; `sums`: of the forces of every contact. `astray`: by how
+/// much pairs slip at most, in the mean of a contact, from where they were to where the forces carried over put them.
 State start_on(const Prepared& prepared, const std::vector<CarriedPair>& carried, const State& before,
-               Replacing replaced) {
+               const std::vector<Vec2>& sums, Replacing replaced, double& astray) {
   const auto N = static_cast<Eigen::Index>(carried.size());
   const std::vector<bool> large = on_large_slip(prepared);
   State state;
@@ -210,6 +259,7 @@ State start_on(const Prepared& prepared, const std::vector<CarriedPair>& carried
     state.history.push_back(carried[k].history);
     state.states.push_back(contact::ContactState::open);
   }
+  keep_sums(prepared, sums, state.p);
   Vector motion = Vector::Zero(2 * N);
   const std::vector<Vector> u = displacements_without_motions(prepared, state);
   for (std::size_t p = 0; p < u.size(); ++p) motion.noalias() += prepared.contact.motion[p] * u[p];
@@ -217,6 +267,7 @@ State start_on(const Prepared& prepared, const std::vector<CarriedPair>& carried
   if (state.a.size() > 0) prepared.contact.G.add_motion(state.a, motion);
   for (Eigen::Index i = 0; i < N; ++i)
     if (large[static_cast<std::size_t>(i)]) state.replaced.offset[2 * i + 1] = -motion[2 * i + 1];
+  astray = largest_mean_slip(prepared, carried, state, motion);
   complete(prepared, state);
   return state;
 }
@@ -259,7 +310,7 @@ double LargeSlip::lag(const Prepared& prepared, const State& state, const Of& of
 
 bool LargeSlip::is_due(const Prepared& prepared, const State& state) const {
   return std::any_of(contacts_.begin(), contacts_.end(), [&](const Of& of) {
-    return std::abs(lag(prepared, state, of)) >= part_of_element * (1.0 - rounding_of_part) * of.element;
+    return std::abs(lag(prepared, state, of)) >= part_of_element * (1.0 - near_to_part) * of.element;
   });
 }
 
@@ -267,7 +318,7 @@ double LargeSlip::passed(const Prepared& prepared, const State& from, const Stat
   double most = 0.0;
   for (const Of& of : contacts_)
     most = std::max(most, std::abs(lag(prepared, to, of) - lag(prepared, from, of)) / (part_of_element * of.element));
-  return most <= 1.0 + 1e-3 ? std::min(most, 1.0) : most;
+  return most <= 1.0 + near_to_part ? std::min(most, 1.0) : most;
 }
 
 mesh::Placement LargeSlip::placement_of(const Prepared& prepared, const State& state) const {
@@ -305,7 +356,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
   replaced.placement = large.placement_of(assembly->prepared, state);
   replaced.moved = translations(assembly->prepared, state, replaced.placement);
   const CarriedPairs before = pairs_to_carry(assembly->prepared, state);
-  const std::vector<Vec2> forces = resultants(assembly->prepared, state);
+  const std::vector<Vec2> forces = resultants(assembly->prepared, state), sums = sums_of(assembly->prepared, state);
 
   auto divided = timed(solution.timing.mesh, [&] { return large.mesh_in(solution.model, replaced.placement); });
   if (const auto* wrong = std::get_if<std::vector<Diagnostic>>(&divided)) {
@@ -321,11 +372,12 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
   const Prepared& prepared = made->prepared;
 
   const std::vector<CarriedPair> carried = carried_to(prepared, before);
-  const State start = start_on(prepared, carried, state, std::move(replaced));
+  double astray = 0.0;
+  const State start = start_on(prepared, carried, state, sums, std::move(replaced), astray);
   const std::vector<bool> slides = on_large_slip(prepared);
   double element = 0.0;
   for (const std::array<Vec2, 2>& by : start.replaced.placement) element = std::max(element, (by[1] - by[0]).norm());
-  const double bias = beyond_elastic_motion(slides, start.replaced, element);
+  const double bias = beyond_elastic_motion(slides, start.replaced, element) + 2.0 * astray;
   Attempt tried;
   for (const bool keep_directions : {true, false}) {
     State from = start;

@@ -85,7 +85,7 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
     if (large && tried.accepted) {
       const double passed = large->passed(prepared, reached.state, tried.state);
       if (passed > 1.0 && part > smallest_part_of_slip) {
-        part = (next - reached.part) / std::min(std::ceil(passed), 64.0);
+        part = (next - reached.part) / std::min(std::ceil(passed - 0.01), 64.0);
         reached.attempts.push_back({tried.solution.trace, false});
         if (options.on_problems) {
           tried.accepted = false;
