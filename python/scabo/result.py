@@ -295,7 +295,8 @@ class Result:
         number = self._number(increment)
         if not self._core.keeps_fields(number):
             raise LookupError(f"the fields of increment {number} were not kept: run with keep_fields=True, or read the "
-                              "files of a run with output=...")
+                              "files of a run with output=... (with slip: large only those since the last time that "
+                              "pairs were found anew are kept)")
         return number
 
     def _last(self) -> Increment:

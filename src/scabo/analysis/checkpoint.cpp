@@ -63,6 +63,26 @@ void exchange_results(Io& io, WrittenResults& results) {
   }
 }
 
+/// The mesh is divided again as it was: it follows from the placement.
+template <typename Io>
+void exchange_replacing(Io& io, Replacing& replaced) {
+  std::vector<double> placement, moved;
+  for (const std::array<Vec2, 2>& sides : replaced.placement)
+    for (const Vec2& by : sides) placement.insert(placement.end(), by.begin(), by.end());
+  for (const Vec2& by : replaced.moved) moved.insert(moved.end(), by.begin(), by.end());
+  io.numbers("state/placement", placement);
+  io.numbers("state/moved", moved);
+  exchange_vector(io, "state/offset", replaced.offset);
+  exchange_vector(io, "state/slip_before", replaced.slip_before);
+  if constexpr (Io::reads) {
+    replaced.placement.clear();
+    replaced.moved.clear();
+    for (std::size_t k = 0; k < placement.size(); k += 4)
+      replaced.placement.push_back({Vec2(placement.at(k), placement.at(k + 1)), Vec2(placement.at(k + 2), placement.at(k + 3))});
+    for (std::size_t k = 0; k < moved.size(); k += 2) replaced.moved.emplace_back(moved.at(k), moved.at(k + 1));
+  }
+}
+
 template <typename Io>
 void exchange_state(Io& io, RunState& run) {
   exchange_integer(io, "state/step", run.step);
@@ -86,6 +106,7 @@ void exchange_state(Io& io, RunState& run) {
   exchange_vector(io, "state/slip", state.slip);
   exchange_scalars(io, "state/energy", {&state.energy.external, &state.energy.elastic, &state.energy.friction});
   exchange_scalars(io, "state/largest_force", {&state.largest_force});
+  exchange_replacing(io, state.replaced);
   std::vector<int> states, broken, slipped;
   std::vector<double> accumulated;
   for (const contact::ContactState of_pair : state.states) states.push_back(static_cast<int>(of_pair));

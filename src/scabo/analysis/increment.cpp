@@ -62,14 +62,18 @@ Vector loads_on_motions(const Prepared& prepared, std::size_t p, const State& st
   return f;
 }
 
-std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vector<double>& factors) {
+/// Of the displacements `u`: without the translations of the parts.
+std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vector<double>& factors,
+                                      const std::vector<Vec2>& moved) {
   std::vector<Vector> values;
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     const auto& part = prepared.structure.parts[p];
     Vector value = Vector::Zero(static_cast<Eigen::Index>(part->constraints().size()));
     for (std::size_t c = 0; c < part->constraints().size() && !prepared.is_absent(p); ++c) {
       const system::Constraint& constraint = part->constraints()[c];
-      value[static_cast<Eigen::Index>(c)] = constraint.value * factors[static_cast<std::size_t>(constraint.support)];
+      double& of = value[static_cast<Eigen::Index>(c)];
+      of = constraint.value * factors[static_cast<std::size_t>(constraint.support)];
+      if (!moved.empty() && !constraint.rotation) of -= constraint.direction().dot(moved[values.size()]);
     }
     values.push_back(std::move(value));
   }
@@ -77,7 +81,8 @@ std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vecto
 }
 
 /// Supports on both sides may hold a pair; they must not press its points into each other.
-void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, const Vector& offset) {
+void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, const Vector& offset,
+                      const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
   if (contact.held.empty()) return;
   Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
@@ -85,7 +90,8 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, co
   if (offset.size() > 0) motion += offset;
   for (std::size_t i = 0; i < contact.held.size(); ++i) {
     const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
-    const double gap = pair.gap + motion[static_cast<Eigen::Index>(2 * i)];
+    const double gap = pair.gap + motion[static_cast<Eigen::Index>(2 * i)] +
+                       unplaced_motion(prepared, replaced, contact.held[i].contact).dot(pair.normal);
     double size = 0.0;
     for (const Vec2& x : {pair.point_a, pair.point_b}) size = std::max(size, x.norm());
     if (gap >= -1e-12 * std::max(size, std::abs(pair.gap))) continue;
@@ -218,15 +224,13 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
   }
 }
 
-/// Displacement along [n, t] of the point of a pair that belongs to body `b`.
-Vec2 displacement_at(const Prepared& prepared, const State& state, int body, int node, const Vec2& point,
-                     const Vec2& normal) {
-  const system::Dofs& dofs = prepared.structure.dofs;
-  const system::BodySystem& part = part_of(prepared, body);
-  const Vector& of_part = state.u[dofs.part_of(body)];
-  const Vec2 u = node >= 0 ? Vec2(of_part.segment<2>(dofs.of(body, node, 0)))
-                           : Vec2(system::rigid_point(point, part.reference(), part.lever()) * of_part);
-  return {u.dot(normal), u.dot(tangent_of(normal))};
+/// Displacement along [n, t] of the point of a pair on side 0 (A) or 1 (B), from where the pair was found.
+Vec2 displacement_at(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
+                     int side) {
+  Vec2 u = displacement_of(prepared, state, contact, pair, side);
+  if (const mesh::Placement& placement = prepared.mesh.placement; !placement.empty())
+    u -= placement[static_cast<std::size_t>(contact)][static_cast<std::size_t>(side)];
+  return {u.dot(pair.normal), u.dot(tangent_of(pair.normal))};
 }
 
 void add_totals(const Vec2& about, ContactResult& result) {
@@ -273,13 +277,14 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     row.normal = pair.normal;
     row.gap = state.gap[k];
     row.slip = state.slip[k];
+    if (state.replaced.slip_before.size() > 0) row.slip += state.replaced.slip_before[k];
     row.normal_force = state.p[2 * k];
     row.tangential_force = state.p[2 * k + 1];
     row.pressure = row.normal_force / prepared.contact.laws.area[k];
     row.shear = row.tangential_force / prepared.contact.laws.area[k];
     row.state = state.states[i];
-    row.displacement_a = displacement_at(prepared, state, contact.a.body, pair.node_a, pair.point_a, pair.normal);
-    row.displacement_b = displacement_at(prepared, state, contact.b.body, pair.node_b, pair.point_b, pair.normal);
+    row.displacement_a = displacement_at(prepared, state, at.contact, pair, 0);
+    row.displacement_b = displacement_at(prepared, state, at.contact, pair, 1);
     ContactResult& result = results[static_cast<std::size_t>(at.contact)];
     result.pairs.push_back(row);
     if (contact.cohesion > 0.0 || contact.tension > 0.0)
@@ -303,6 +308,13 @@ void add(element::CellLoads& to, const element::CellLoads& loads, double factor)
     to[c].temperature.per_x += factor * loads[c].temperature.per_x;
     to[c].temperature.per_y += factor * loads[c].temperature.per_y;
   }
+}
+
+/// Whether parts may slide, and others push them, as far as they like.
+bool parts_may_translate(const Prepared& prepared) {
+  const auto& contacts = prepared.model.contacts;
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const model::Contact& contact) { return contact.large_slip; });
 }
 
 /// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
@@ -390,7 +402,7 @@ State initial_state(const Prepared& prepared) {
   state.history.assign(prepared.contact.pairs.size(), {});
   state.states.assign(prepared.contact.pairs.size(), contact::ContactState::open);
   state.forces = applied_forces(prepared, state.factors, state.released);
-  state.prescribed = prescribed_values(prepared, state.factors.supports);
+  state.prescribed = prescribed_values(prepared, state.factors.supports, {});
   for (const auto& part : prepared.structure.parts) {
     state.u.push_back(Vector::Zero(part->size()));
     state.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(part->constraints().size())));
@@ -400,7 +412,7 @@ State initial_state(const Prepared& prepared) {
 
 void complete(const Prepared& prepared, State& state) {
   state.forces = applied_forces(prepared, state.factors, state.released);
-  state.prescribed = prescribed_values(prepared, state.factors.supports);
+  state.prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
   state.u.clear();
   state.reactions.clear();
   add_displacements(prepared, nullptr, state);
@@ -413,11 +425,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   Attempt result;
   State& to = result.state;
   to.factors = factors;
+  to.replaced = from.replaced;
   to.offset = from.offset;
   to.held_offset = from.held_offset;
   to.released = from.released;
   to.forces = applied_forces(prepared, factors, to.released);
-  to.prescribed = prescribed_values(prepared, factors.supports);
+  to.prescribed = prescribed_values(prepared, factors.supports, to.replaced.moved);
 
   contact::Problem problem;
   problem.W = system.W;
@@ -429,6 +442,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     problem.q[2 * i + 1] = -from.slip[i];
   }
   if (from.offset.size() > 0) problem.q += from.offset;
+  if (from.replaced.offset.size() > 0) problem.q += from.replaced.offset;
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
@@ -445,7 +459,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) =
         loads_on_motions(prepared, p, to);
   }
-  check_held_pairs(prepared, free, from.held_offset);
+  check_held_pairs(prepared, free, from.held_offset, from.replaced);
 
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
@@ -471,6 +485,41 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;
+}
+
+Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
+                     int side) {
+  const model::Contact& named = prepared.model.contacts[static_cast<std::size_t>(contact)];
+  const int body = side == 0 ? named.a.body : named.b.body, node = side == 0 ? pair.node_a : pair.node_b;
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const system::BodySystem& part = part_of(prepared, body);
+  const Vector& of_part = state.u[dofs.part_of(body)];
+  Vec2 u = node >= 0 ? Vec2(of_part.segment<2>(dofs.of(body, node, 0)))
+                     : Vec2(system::rigid_point(prepared.mesh.point_of(contact, pair, side), part.reference(),
+                                                part.lever()) *
+                            of_part);
+  if (!state.replaced.moved.empty()) u += state.replaced.moved[dofs.part_of(body)];
+  return u;
+}
+
+Vec2 unplaced_motion(const Prepared& prepared, const Replacing& replaced, int contact) {
+  Vec2 motion = Vec2::Zero();
+  if (replaced.moved.empty()) return motion;
+  const auto c = static_cast<std::size_t>(contact);
+  const model::Contact& named = prepared.model.contacts[c];
+  motion += replaced.moved[prepared.structure.dofs.part_of(named.b.body)];
+  motion -= replaced.moved[prepared.structure.dofs.part_of(named.a.body)];
+  return motion - (replaced.placement[c][1] - replaced.placement[c][0]);
+}
+
+std::vector<Vector> displacements_without_motions(const Prepared& prepared, const State& state) {
+  const std::vector<Vector> forces = applied_forces(prepared, state.factors.loads),
+                            prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
+  std::vector<Vector> u;
+  for (std::size_t p = 0; p < forces.size(); ++p)
+    u.push_back(prepared.structure.parts[p]->displacement(
+        forces[p] + prepared.contact.motion[p].transpose() * state.p, prescribed[p]));
+  return u;
 }
 
 DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt) {
@@ -534,6 +583,14 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
     const auto body = static_cast<int>(b);
     result.fields.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
+    if (!state.replaced.moved.empty()) {
+      Vector& u = result.fields.displacements[b];
+      const Vec2& moved = state.replaced.moved[dofs.part_of(body)];
+      if (prepared.model.bodies[b].rigid)
+        u.head<2>() += moved;
+      else
+        u.reshaped(2, u.size() / 2).colwise() += moved;
+    }
     if (prepared.model.bodies[b].rigid) result.fields.displacements[b][2] /= part_of(prepared, body).lever();
     const double presence = presence_of(prepared, state.factors, dofs.part_of(body));
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load) {
@@ -550,7 +607,12 @@ std::string too_large(const Prepared& prepared, const State& state) {
   for (std::size_t p = 0; p < state.u.size(); ++p) {
     if (dofs.is_rigid(p)) continue;
     const double size = 2.0 * prepared.structure.parts[p]->lever();
-    const double largest = state.u[p].lpNorm<Eigen::Infinity>();
+    Vector u = state.u[p];
+    if (parts_may_translate(prepared)) {
+      const Vec2 mean = u.reshaped(2, u.size() / 2).rowwise().mean();
+      u.reshaped(2, u.size() / 2).colwise() -= mean;
+    }
+    const double largest = u.lpNorm<Eigen::Infinity>();
     if (largest > 0.1 * size)
       return fmt::format(
           "displacements of {} reach {:.3g}, more than a tenth of its size: the theory is valid for small ones "

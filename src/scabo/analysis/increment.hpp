@@ -49,6 +49,14 @@ std::vector<double> fits_at(const model::Model& model, int step);
 /// Coefficients of friction before the first step; empty if no step changes one.
 std::vector<double> coefficients_at_start(const model::Model& model);
 
+/// How the motions of pairs are counted since they were found anew (large_slip.hpp). All empty before that.
+struct Replacing {
+  mesh::Placement placement;  ///< in which they were found
+  std::vector<Vec2> moved;    ///< per part: translation that State::u does not contain; zero on springs and unbounded
+  Vector offset;              ///< 2N, [n, t]: part of the relative motions that is not in State::u
+  Vector slip_before;         ///< N: slip up to then, not in State::slip
+};
+
 /// An accepted state, which is the history from which the next increment starts. It is a value: an increment that fails
 /// does not change it.
 struct State {
@@ -68,6 +76,7 @@ struct State {
   std::vector<Vector> released;  // per part, what removed bodies exerted on it; empty where nothing did
   double largest_force = 0.0;  ///< largest force so far, against which forces are judged after failure and unloading
   Energy energy;
+  Replacing replaced;
 };
 State initial_state(const Prepared& prepared);
 
@@ -78,6 +87,15 @@ contact::JointLaws laws_at(const Prepared& prepared, const Factors& factors);
 /// energy): displacements, applied forces, reactions and prescribed values follow from it, bit by bit as when the state
 /// was reached.
 void complete(const Prepared& prepared, State& state);
+
+/// Displacement since the start, along x and y, of the point of a pair that belongs to side 0 (A) or 1 (B).
+Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair, int side);
+/// Relative motion, B less A, along x and y, that a pair gets from the translations of its parts, less that of the
+/// placement in which it was found.
+Vec2 unplaced_motion(const Prepared& prepared, const Replacing& replaced, int contact);
+/// Displacements of all parts under the loads, prescribed displacements and contact forces of a state, without rigid
+/// motions.
+std::vector<Vector> displacements_without_motions(const Prepared& prepared, const State& state);
 
 /// Pairs whose points lie on each other, or overlap, as the bodies are drawn.
 std::vector<bool> touching_pairs(const Prepared& prepared);

@@ -158,12 +158,17 @@ void exchange(Io& io, UniquenessResult& of) {
   io(of.others), io(of.complete), io(of.bound), io(of.index);
 }
 template <typename Io>
+void exchange(Io& io, PairsFound& of) {
+  io(of.times), io(of.jump);
+}
+template <typename Io>
 void exchange(Io& io, IncrementResult& of) {
   io(of.step);
   exchange(io, of.step_name);
   io(of.increment), io(of.reached);
   exchange(io, of.factors);
   io(of.converged), io(of.newton_iterations), io(of.coarse_iterations), io(of.halvings), io(of.residual);
+  exchange(io, of.pairs_found);
   exchange(io, of.contacts);
   exchange(io, of.reactions);
   exchange(io, of.moments);

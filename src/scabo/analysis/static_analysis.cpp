@@ -10,6 +10,7 @@
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/increment.hpp"
+#include "scabo/analysis/large_slip.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/restart.hpp"
 #include "scabo/analysis/stages.hpp"
@@ -26,6 +27,9 @@ namespace scabo::analysis {
 
 namespace {
 
+/// Part of an increment that is no longer divided because its sides pass each other too far.
+constexpr double smallest_part_of_slip = 1e-5;
+
 /// Result of an attempt to reach the end of an increment.
 struct Reached {
   State state;
@@ -39,6 +43,7 @@ struct Reached {
   std::optional<UniquenessResult> uniqueness;
   bool mechanism = false, stopped = false;
   std::string reason;  ///< empty if the end was reached
+  bool pairs_are_due = false;  ///< the end was not reached: before going on, pairs are to be found anew
   std::vector<AttemptResult> attempts;
   std::vector<DiscreteProblem> problems;  ///< of the attempts, if requested
 };
@@ -65,18 +70,32 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
 /// Proceeds from `from` along `factors_at` (0: its factors, 1: the end of the increment), halving the step if an
 /// attempt is not accepted; every part starts from the last accepted state. With `least`, that of an automatic
 /// increment, it ends with the first attempt that is accepted, and is halved as long as its part is not less than that.
-Reached reach(const Prepared& prepared, const State& from, const std::function<Factors(double)>& factors_at,
-              std::optional<double> least, const Options& options) {
+/// With large slip it also ends where pairs are to be found anew, and goes on from what it then `reached`; an attempt
+/// whose sides pass each other too far is made again in equal smaller parts.
+Reached reach(const Prepared& prepared, Reached reached, const std::function<Factors(double)>& factors_at,
+              std::optional<double> least, const LargeSlip* large, const Options& options) {
   const IncrementRule rule;
-  Reached reached;
-  reached.state = from;
-  double part = 1.0;
+  const State from = reached.state;
+  double part = 1.0 - reached.part;
   int repeats = 0;
+  reached.pairs_are_due = false;
   while (reached.part < 1.0) {
     const double next = std::min(1.0, reached.part + part);
     Attempt tried = attempt(prepared, reached.state, factors_at(next));
     reached.iterations += tried.solution.iterations;
     reached.coarse_iterations += tried.solution.coarse_iterations;
+    if (large && tried.accepted) {
+      const double passed = large->passed(prepared, reached.state, tried.state);
+      if (passed > 1.0 && part > smallest_part_of_slip) {
+        part = (next - reached.part) / std::min(std::ceil(passed - 0.01), 64.0);
+        reached.attempts.push_back({tried.solution.trace, false});
+        if (options.on_problems) {
+          tried.accepted = false;
+          reached.problems.push_back(discrete_problem(prepared, tried));
+        }
+        continue;
+      }
+    }
     const bool may_halve = least ? 0.5 * part >= *least : reached.halvings < prepared.model.solver.halvings;
     if (tried.accepted && least) {
       reached.changes = changes_between(prepared, from, tried.state);
@@ -96,6 +115,8 @@ Reached reach(const Prepared& prepared, const State& from, const std::function<F
       reached.part = next;
       reached.last_iterations = tried.solution.iterations;
       if (least) break;
+      reached.pairs_are_due = large && reached.part < 1.0 && large->is_due(prepared, reached.state);
+      if (reached.pairs_are_due) break;
       continue;
     }
     const bool mechanism = tried.solution.status == contact::Status::mechanism;  // a smaller step does not help
@@ -225,6 +246,51 @@ Factors factors_in(const model::Model& model, std::size_t index, double s) {
   return factors;
 }
 
+/// Finds pairs anew where they are due; false, with the reason, if that fails.
+bool find_pairs_where_due(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
+                          State& state, PairsFound& found, Reached& reached) {
+  if (!large.is_due(assembly->prepared, state)) return true;
+  const FoundAnew anew = timed(solution.timing.newton, [&] { return find_pairs_anew(large, solution, assembly, state); });
+  reached.iterations += anew.iterations;
+  reached.reason = anew.reason;
+  if (!reached.reason.empty()) return false;
+  ++found.times;
+  found.jump = std::max(found.jump, anew.jump);
+  for (IncrementResult& increment : solution.increments) increment.fields = {};  // of another mesh
+  return true;
+}
+
+/// reach() from a state, on pairs that are found anew wherever they are due, and then on another assembly.
+Reached reach_with_pairs(StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
+                         const std::function<const Prepared&()>& now, const State& from,
+                         const std::function<Factors(double)>& factors_at, std::optional<double> least,
+                         const LargeSlip* large, const Options& options, std::optional<PairsFound>& found) {
+  Reached reached;
+  reached.state = from;
+  do {
+    if (large && !find_pairs_where_due(*large, solution, assembly, reached.state, found ? *found : found.emplace(),
+                                       reached))
+      return reached;
+    reached = timed(solution.timing.newton, [&] {
+      return reach(now(), std::move(reached), factors_at, least, large, options);
+    });
+  } while (reached.pairs_are_due);
+  return reached;
+}
+
+void add_slid_off(const LargeSlip& large, const State& state, const IncrementResult& at, StaticSolution& solution) {
+  if (state.replaced.placement.empty()) return;
+  for (const auto& [contact, sentence] : large.slid_off(solution.model, state.replaced.placement)) {
+    const std::string& name = solution.model.contacts[contact].name;
+    const bool told = std::any_of(solution.warnings.begin(), solution.warnings.end(), [&](const Warning& warning) {
+      return warning.kind == WarningKind::slides_off && warning.subject == name;
+    });
+    if (!told)
+      solution.warnings.push_back(
+          {WarningKind::slides_off, name, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
+  }
+}
+
 RunState start_of_run(const Prepared& prepared, StaticSolution& solution, const Options& options) {
   if (!options.from && prepared.model.restart) return {0, {}, state_of_restart(prepared)};
   if (!options.from) return {0, {}, initial_state(prepared)};
@@ -249,20 +315,22 @@ void interrupt(StaticSolution& solution) {
   solution.reason = "interrupted: the increments finished so far are kept";
 }
 
-void run_steps(const Prepared& whole, StaticSolution& solution, const Options& options) {
-  Stages stages(whole, options.from ? options.from->at.step : 0);
-  RunState run = start_of_run(stages.now(), solution, options);
+void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large, StaticSolution& solution,
+               const Options& options) {
+  // Bodies come and go, or pairs are found anew (which replaces the assembly): not both in one model.
+  Stages stages(assembly->prepared, options.from ? options.from->at.step : 0);
+  const auto now = [&]() -> const Prepared& { return large ? assembly->prepared : stages.now(); };
+  RunState run = start_of_run(now(), solution, options);
   for (;;) {
     if (run.progress.reached == 1.0) {
       ++run.step;
       run.progress = {};
     }
     if (run.step == solution.model.steps.size()) {
-      if (options.on_end) options.on_end(end_state(stages.now(), run.state));
+      if (options.on_end && !large) options.on_end(end_state(now(), run.state));  // pairs that stay
       return;
     }
-    if (run.progress.increment == 0) stages.enter(run.step, run.state);
-    const Prepared& prepared = stages.now();
+    if (run.progress.increment == 0 && !large) stages.enter(run.step, run.state);
     const model::Step& step = solution.model.steps[run.step];
     StepProgress& progress = run.progress;
     const int k = progress.increment + 1;
@@ -286,12 +354,14 @@ void run_steps(const Prepared& whole, StaticSolution& solution, const Options& o
     };
     const std::optional<double> least =
         step.automatic ? std::optional(step.automatic->smallest / (end - begin)) : std::nullopt;
+    std::optional<PairsFound> found;
     Reached reached;
     try {
-      reached = timed(solution.timing.newton, [&] { return reach(prepared, run.state, factors_at, least, options); });
+      reached = reach_with_pairs(solution, assembly, now, run.state, factors_at, least, large, options, found);
     } catch (const EndAtOnce&) {
       reached.stopped = true;
     }
+    const Prepared& prepared = now();
     if (reached.stopped) {
       interrupt(solution);
       return;
@@ -318,12 +388,14 @@ void run_steps(const Prepared& whole, StaticSolution& solution, const Options& o
     result.newton_iterations = reached.iterations;
     result.coarse_iterations = reached.coarse_iterations;
     result.halvings = reached.halvings;
+    result.pairs_found = found;
     result.residual = reached.residual;
     result.certificate = reached.certificate;
     result.reason = reached.reason;
     result.attempts = std::move(reached.attempts);
     result.uniqueness = reached.uniqueness;
     if (there) add_warnings(prepared, reached, result, solution.warnings);
+    if (there && large) add_slid_off(*large, reached.state, result, solution);
     solution.increments.push_back(std::move(result));
     if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
     if (!there) {
@@ -344,14 +416,6 @@ void run_steps(const Prepared& whole, StaticSolution& solution, const Options& o
     if (!options.keep_fields && solution.increments.size() > 1)
       drop_fields(solution.increments[solution.increments.size() - 2]);
   }
-}
-
-double force_scale(const system::Structure& structure) {
-  double largest = 0.0;
-  for (const std::vector<Vector>& load : structure.loads)
-    for (const Vector& forces : load)
-      if (forces.size() > 0) largest = std::max(largest, forces.lpNorm<Eigen::Infinity>());
-  return largest;
 }
 
 }  // namespace
@@ -432,24 +496,22 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   Timing& timing = solution.timing;
   if (options.from) timing = options.from->timing;
 
+  std::optional<LargeSlip> large;
+  if (has_large_slip(solution.model)) {
+    large.emplace(solution.model);
+    if (options.from && !options.from->at.state.replaced.placement.empty())
+      solution.mesh = std::get<mesh::Mesh>(
+          large->mesh_in(solution.model, options.from->at.state.replaced.placement));  // it was found before
+  }
   stage("super-elements");
   solution.cells =
       timed(timing.super_elements, [&] { return element::solve_cells(solution.model, solution.mesh, threads); });
-  stage("factorisation");
-  system::Structure structure = timed(
-      timing.factorise, [&] { return system::make_structure(solution.model, solution.mesh, solution.cells, threads); });
-  timing.factorise -= structure.assembly_seconds;
-  timing.assemble += structure.assembly_seconds;
-  timed(timing.assemble, [&] { system::add_loads(structure, solution.model, solution.mesh, solution.cells); });
-  stage("condensation to the contact pairs");
-  const system::ContactSystem contact =
-      timed(timing.condense, [&] { return system::condense(structure, solution.model, solution.mesh, threads); });
+  std::unique_ptr<const Assembly> assembly = assemble(solution, options.on_stage, options.on_iteration);
   if (options.on_mesh) options.on_mesh(solution);
   solution.warnings = solution.model.warnings;
-  for (Warning& warning : load_warnings(solution.model, structure)) solution.warnings.push_back(std::move(warning));
-  run_steps({solution.model, solution.mesh, structure, contact, force_scale(structure),
-             reference_of(solution.model, solution.mesh, solution.cells), options.on_iteration, {}},
-            solution, options);
+  for (Warning& warning : load_warnings(solution.model, assembly->structure))
+    solution.warnings.push_back(std::move(warning));
+  run_steps(std::move(assembly), large ? &*large : nullptr, solution, options);
   for (Warning& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;
 }

@@ -22,7 +22,7 @@ namespace scabo::analysis {
 /// Results of a contact pair after an increment. Pairs are numbered from 1 along their contact.
 struct PairResult {
   int pair = 0;
-  Vec2 position = Vec2::Zero();   ///< undeformed position, on A
+  Vec2 position = Vec2::Zero();   ///< on A, undeformed; with large slip where A has moved when the pair was found
   Vec2 normal = Vec2::Zero();     ///< n, unit, out of A
   double gap = 0.0;               ///< length, > 0 if open
   double slip = 0.0;              ///< length: motion of B relative to A along t since the start
@@ -31,8 +31,8 @@ struct PairResult {
   double pressure = 0.0;          ///< force / length^2: normal force over tributary length and thickness
   double shear = 0.0;             ///< force / length^2, on B along t
   contact::ContactState state = contact::ContactState::open;
-  Vec2 displacement_a = Vec2::Zero();  ///< of the point on A, in [n, t]
-  Vec2 displacement_b = Vec2::Zero();  ///< of the point on B, in [n, t]
+  Vec2 displacement_a = Vec2::Zero();  ///< of the point on A, in [n, t]; from where the pair was found
+  Vec2 displacement_b = Vec2::Zero();  ///< of the point on B, in [n, t]; from where the pair was found
 };
 
 struct ContactResult {
@@ -120,6 +120,12 @@ struct QuantityResult {
   bool reached() const { return !wanted || relative() <= *wanted; }
 };
 
+/// Pairs that were found anew within an increment (large_slip.hpp).
+struct PairsFound {
+  int times = 0;
+  double jump = 0.0;  ///< largest change of the force of a contact by it, relative to the force before
+};
+
 struct IncrementResult {
   int step = 0;  ///< from 1
   std::string step_name;
@@ -131,6 +137,7 @@ struct IncrementResult {
   /// On the problems of fewer pairs from which the start was computed (contact/cold_start.hpp); not counted above.
   int coarse_iterations = 0;
   int halvings = 0;  ///< number of times that the increment was halved
+  std::optional<PairsFound> pairs_found;  ///< of a model with large slip
   double residual = 0.0;
   std::vector<ContactResult> contacts;
   std::vector<Vec2> reactions;  ///< one for each support of the model, in its order: force on the body
@@ -185,6 +192,9 @@ struct StaticSolution {
   model::Model model;
   mesh::Mesh mesh;
   std::vector<element::SolvedCells> cells;  ///< [body][cell]; null for finite elements
+  /// Number of times that mesh and cells were replaced because pairs were found anew. Fields of increments before the
+  /// last time are not kept.
+  int pairings = 0;
   std::vector<IncrementResult> increments;  ///< converged increments, then at most one that is not
   std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
   std::vector<Warning> warnings;

@@ -16,6 +16,8 @@ const char* name_of(WarningKind kind) {
       return "open_contact";
     case WarningKind::few_pairs:
       return "few_pairs";
+    case WarningKind::slides_off:
+      return "slides_off";
     case WarningKind::open_shear:
       return "open_shear";
     case WarningKind::undetermined_motion:

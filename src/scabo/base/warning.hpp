@@ -13,6 +13,7 @@ enum class WarningKind {
   pressure,      ///< a pressure beyond small strains
   open_contact,  ///< never closes
   few_pairs,     ///< too few pairs in contact for a reliable pressure
+  slides_off,    ///< the sides of a contact with large slip leave each other
   open_shear,    ///< open pairs carry a prescribed shear strength
   undetermined_motion,
   several_solutions,

@@ -44,6 +44,25 @@ std::pair<int, int> chain_of(const Outline& outline, int edge) {
 
 }  // namespace
 
+bool runs_straight(const Edge& edge) {
+  if (edge.arc) return false;
+  const Vec2 along = edge.end - edge.start;
+  const double length = along.norm();
+  return edge.points.empty() || (length > 0.0 && std::all_of(edge.points.begin(), edge.points.end(), [&](const Vec2& x) {
+                                   return std::abs(cross(along, Vec2(x - edge.start))) <= 1e-9 * length * length;
+                                 }));
+}
+
+Edge translated(const Edge& edge, const Vec2& by) {
+  Edge moved = edge;
+  if (by.isZero(0.0)) return moved;  // bit by bit, the signs of zeros included
+  moved.start += by;
+  moved.end += by;
+  if (moved.arc) moved.arc->centre += by;
+  for (Vec2& point : moved.points) point += by;
+  return moved;
+}
+
 int Outline::next(int edge) const {
   const auto [first, end] = chain_of(*this, edge);
   return edge + 1 == end ? first : edge + 1;

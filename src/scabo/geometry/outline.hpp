@@ -41,6 +41,13 @@ struct Edge {
   }
 };
 
+/// Whether it is a straight line, or a chain of which no point is farther from the line between its ends than 1e-9 of
+/// its length.
+bool runs_straight(const Edge& edge);
+
+/// The same edge, moved by a translation.
+Edge translated(const Edge& edge, const Vec2& by);
+
 /// A corner is the start of the edge with the same index.
 struct Corner {
   std::vector<std::string> names;

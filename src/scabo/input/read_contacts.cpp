@@ -262,7 +262,7 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
   const std::size_t before = report.count();
   const MapReader map(
       report, entry.value,
-      {"between", "reach", "property", "friction", "gap", "fit_in", "cohesion", "tension", "bond", "shear_strength",
+      {"between", "reach", "property", "friction", "gap", "fit_in", "cohesion", "tension", "bond", "shear_strength", "slip",
        "about"},
       contact_example,
       {{"kind", "leave it out; every contact is node-to-node"},
@@ -280,6 +280,12 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
       map.refuse("reach", "applies to between: all or to two bodies: two edges are in contact at any distance");
   }
   read_law_or_property(reading, map, properties, contact);
+  if (const auto slip = map.get("slip"))
+    if (const auto kind = read_text(report, *slip)) {
+      contact.large_slip = *kind == "large";
+      if (*kind != "large" && *kind != "small")
+        report.error(*slip, fmt::format("must be small or large, not '{}'{}", *kind, suggestion(*kind, {"small", "large"})));
+    }
   if (const auto about = map.get("about")) contact.about = read_vector(report, *about).value_or(Vec2::Zero());
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
   if (contact.bond && map.has("gap")) map.refuse("gap", no_gap_beside_bond);

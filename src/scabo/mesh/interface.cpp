@@ -43,16 +43,17 @@ class Matching {
       : contact_(joint),
         body_a_(model.bodies[contact_.a.body]),
         body_b_(model.bodies[contact_.b.body]),
-        edge_a_(body_a_.outline.edges[contact_.a.index]),
-        edge_b_(body_b_.outline.edges[contact_.b.index]) {
-    if (!body_a_.rigid) side_a_ = side_of(contact_.a, edge_a_, bodies);
-    if (!body_b_.rigid) side_b_ = side_of(contact_.b, edge_b_, bodies);
+        edge_a_(geometry::translated(body_a_.outline.edges[contact_.a.index], contact_.moved[0])),
+        edge_b_(geometry::translated(body_b_.outline.edges[contact_.b.index], contact_.moved[1])) {
+    if (!body_a_.rigid) side_a_ = side_of(contact_.a, edge_a_, bodies, contact_.moved[0]);
+    if (!body_b_.rigid) side_b_ = side_of(contact_.b, edge_b_, bodies, contact_.moved[1]);
   }
 
   std::variant<Interface, Diagnostic> run() {
     if (!side_a_ && !side_b_) return mistake("both bodies are rigid: one must be elastic");
     const std::optional<Diagnostic> wrong = side_a_ && side_b_ ? pair_nodes() : pair_with_rigid();
     if (wrong) return *wrong;
+    if (interface_.pairs.empty()) return std::move(interface_);  // the sides have left each other
     if (const std::optional<Diagnostic> back = back_to_back()) return *back;
     order_pairs();
     finish_gaps();
@@ -64,9 +65,13 @@ class Matching {
     return geometry::encloses(body.outline, point) != body.outside;
   }
 
-  static ContactSide side_of(const model::Place& place, const model::Edge& edge, const std::vector<BodyMesh>& bodies) {
+  static ContactSide side_of(const model::Place& place, const model::Edge& edge, const std::vector<BodyMesh>& bodies,
+                             const Vec2& moved) {
     const BodyMesh& mesh = bodies[place.body];
-    return {edge, mesh.edges[place.index], mesh.nodes};
+    if (moved.isZero(0.0)) return {edge, mesh.edges[place.index], mesh.nodes};
+    std::vector<Vec2> nodes = mesh.nodes;
+    for (Vec2& node : nodes) node += moved;
+    return {edge, mesh.edges[place.index], nodes};
   }
 
   Diagnostic mistake(std::string message) const { return {contact_.source, std::move(message)}; }
@@ -93,6 +98,7 @@ class Matching {
     if (matching.lone) return not_matching(*matching.lone);
     // Bodies with one linear element per edge meet only at the ends of their edges; two single corners are not an edge.
     const bool overlap = matching.partners.size() > 1 || (some(Lie::face_to_face) && !matching.partners.empty());
+    if (!overlap && contact_.has_moved()) return std::nullopt;
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
     partners_ = std::move(matching.partners);
@@ -164,6 +170,7 @@ class Matching {
       facing |= cosine <= facing_cosine;
       if (cosine <= pairing_cosine) feet[i] = foot;
     }
+    if (!over && contact_.has_moved()) return std::nullopt;
     if (!over) {
       const auto& [elastic, rigid] = a_is_rigid ? std::tie(contact_.b, contact_.a) : std::tie(contact_.a, contact_.b);
       return mistake(fmt::format(
@@ -214,7 +221,7 @@ class Matching {
     if (!deepest) return std::nullopt;
     for (const double s : {0.25, 0.75}) {
       const Vec2 point = deepest->point_a + s * (deepest->point_b - deepest->point_a);
-      if (holds(body_a_, point) && holds(body_b_, point)) return std::nullopt;
+      if (holds(body_a_, point - contact_.moved[0]) && holds(body_b_, point - contact_.moved[1])) return std::nullopt;
     }
     return mistake(
         fmt::format("{} and {} face away from each other at a distance of {:.3g}: name the two edges that touch",
@@ -259,8 +266,8 @@ class Matching {
   Joint contact_;
   const model::Body& body_a_;
   const model::Body& body_b_;
-  const model::Edge& edge_a_;
-  const model::Edge& edge_b_;
+  const model::Edge edge_a_;  // where they have moved
+  const model::Edge edge_b_;
   std::optional<ContactSide> side_a_;  // nothing when A is rigid
   std::optional<ContactSide> side_b_;
   Partners partners_;  // of interface_.pairs
@@ -269,9 +276,12 @@ class Matching {
 
 }  // namespace
 
-std::vector<Joint> joints_of(const model::Model& model) {
+std::vector<Joint> joints_of(const model::Model& model, const Placement& placement) {
   std::vector<Joint> joints;
-  for (const model::Contact& contact : model.contacts) joints.push_back(joint_of(contact));
+  for (const model::Contact& contact : model.contacts) {
+    joints.push_back(joint_of(contact));
+    if (!placement.empty()) joints.back().moved = placement[joints.size() - 1];
+  }
   for (const model::Tie& tie : model.ties) joints.push_back(joint_of(tie));
   return joints;
 }
@@ -282,10 +292,12 @@ std::variant<Interface, Diagnostic> match_interface(const model::Model& model, c
 }
 
 std::variant<Interface, Diagnostic> match_interface(const model::Model& model, int contact,
-                                                    const std::vector<BodyMesh>& bodies) {
-  if (model.contacts[static_cast<std::size_t>(contact)].a.kind == model::Place::Kind::face)
-    return crack_interface(model, contact, bodies);
-  auto matched = match_interface(model, joint_of(model.contacts[static_cast<std::size_t>(contact)]), bodies);
+                                                    const std::vector<BodyMesh>& bodies, const Placement& placement) {
+  const auto c = static_cast<std::size_t>(contact);
+  if (model.contacts[c].a.kind == model::Place::Kind::face) return crack_interface(model, contact, bodies);
+  Joint joint = joint_of(model.contacts[c]);
+  if (!placement.empty()) joint.moved = placement[c];
+  auto matched = match_interface(model, joint, bodies);
   if (Interface* interface = std::get_if<Interface>(&matched)) interface->contact = contact;
   return matched;
 }
@@ -329,7 +341,7 @@ std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
     const auto is = [&](model::Place::Kind kind) { return contact.a.kind == kind && contact.b.kind == kind; };
     ensure(is(model::Place::Kind::edge) || is(model::Place::Kind::face), "a contact is between two edges or two faces");
     if (!has_mesh(contact.a) || !has_mesh(contact.b)) continue;
-    auto matched = match_interface(model, static_cast<int>(c), mesh.bodies);
+    auto matched = match_interface(model, static_cast<int>(c), mesh.bodies, mesh.placement);
     if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched))
       mistakes.push_back(*wrong);
     else

@@ -25,19 +25,24 @@
 // The two faces of a crack have the same points (crack_faces.hpp).
 #pragma once
 
+#include <array>
 #include <variant>
 
 #include "scabo/mesh/mesh.hpp"
 
 namespace scabo::mesh {
 
-/// Two edges whose nodes are to be matched: those of a contact or of a tie. Refers to the model.
+/// Two edges whose nodes are to be matched: those of a contact or of a tie. Refers to the model. With large slip the
+/// edges face each other where they have moved (Placement).
 struct Joint {
   const model::Place& a;
   const model::Place& b;
   double gap = 0.0;  ///< added to the geometric gap
   const Source& source;
   bool slides = false;  ///< freely: without friction and everything else that holds it along the interface
+  std::array<Vec2, 2> moved{Vec2::Zero(), Vec2::Zero()};  ///< translations of A and B
+
+  bool has_moved() const { return !moved[0].isZero(0.0) || !moved[1].isZero(0.0); }
 };
 inline Joint joint_of(const model::Contact& contact) {
   const bool slides = contact.friction == 0.0 && contact.friction_along.empty() && contact.cohesion == 0.0 &&
@@ -46,17 +51,18 @@ inline Joint joint_of(const model::Contact& contact) {
 }
 inline Joint joint_of(const model::Tie& tie) { return {tie.a, tie.b, 0.0, tie.source, false}; }
 /// All contacts, then all ties.
-std::vector<Joint> joints_of(const model::Model& model);
+std::vector<Joint> joints_of(const model::Model& model, const Placement& placement = {});
 
 /// The pairs of a joint, or what is wrong with them. `bodies` are those of the Mesh.
 std::variant<Interface, Diagnostic> match_interface(const model::Model& model, const Joint& joint,
                                                     const std::vector<BodyMesh>& bodies);
 /// The interface of contact number `contact`.
 std::variant<Interface, Diagnostic> match_interface(const model::Model& model, int contact,
-                                                    const std::vector<BodyMesh>& bodies);
+                                                    const std::vector<BodyMesh>& bodies,
+                                                    const Placement& placement = {});
 
-/// The interfaces of all contacts and ties, added to a mesh whose bodies are complete; what is wrong with those that
-/// are not added. The sides of a tie must lie on each other.
+/// The interfaces of all contacts and ties, added to a mesh whose bodies are complete, in its placement; what is wrong
+/// with those that are not added. The sides of a tie must lie on each other.
 std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh);
 
 }  // namespace scabo::mesh

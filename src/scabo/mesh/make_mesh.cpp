@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "scabo/mesh/approximate_nodes.hpp"
 #include "scabo/mesh/crack_faces.hpp"
@@ -108,9 +109,12 @@ std::vector<Diagnostic> without_repetitions(std::vector<Diagnostic> mistakes) {
 
 Mesh make_mesh(const model::Model& model) { return make_mesh(model, Division(model.bodies.size())); }
 
-Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes) {
+namespace {
+
+/// Divides every body by itself, and adds what is wrong with them to `mistakes`.
+Mesh divide_bodies(const model::Model& model, const Division& division, const Sizes& sizes,
+                   std::vector<Diagnostic>& mistakes) {
   Mesh mesh;
-  std::vector<Diagnostic> mistakes;
   const auto add = [&](std::vector<Diagnostic> more) {
     std::move(more.begin(), more.end(), std::back_inserter(mistakes));
     return !more.empty();
@@ -151,17 +155,47 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
     if (!fem) add(unseen_edges(body, mesh.bodies[b]));
     nodes += static_cast<double>(mesh.bodies[b].nodes.size());
   }
+  return mesh;
+}
 
+/// Divides the sides of contacts and ties alike, in the placement of the mesh, and adds their pairs.
+std::vector<Diagnostic> match_and_pair(const model::Model& model, Mesh& mesh) {
+  auto wrong = add_interfaces(model, mesh);
+  if (wrong.empty()) return wrong;
+  auto matched = match_sides(model, mesh.bodies, mesh.placement);
+  if (!matched) return wrong;
+  mesh.bodies = *std::move(matched);
+  return add_interfaces(model, mesh);
+}
+
+}  // namespace
+
+Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes) {
+  std::vector<Diagnostic> mistakes;
+  Mesh mesh = divide_bodies(model, division, sizes, mistakes);
+  const auto add = [&](std::vector<Diagnostic> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(mistakes));
+  };
   add(close_mouths(model, mesh.bodies));
-  if (auto wrong = add_interfaces(model, mesh); !wrong.empty()) {
-    if (auto matched = match_sides(model, mesh.bodies)) {
-      mesh.bodies = *std::move(matched);
-      wrong = add_interfaces(model, mesh);
-    }
-    add(std::move(wrong));
-  }
+  add(match_and_pair(model, mesh));
   add(ambiguous_points(model, mesh));
   if (!mistakes.empty()) throw InputError(model.file, without_repetitions(std::move(mistakes)));
+  return mesh;
+}
+
+std::vector<BodyMesh> divided_bodies(const model::Model& model) {
+  std::vector<Diagnostic> mistakes;
+  Mesh mesh = divide_bodies(model, Division(model.bodies.size()), {}, mistakes);
+  if (!mistakes.empty()) throw InputError(model.file, without_repetitions(std::move(mistakes)));
+  return std::move(mesh.bodies);
+}
+
+std::variant<Mesh, std::vector<Diagnostic>> pair_in(const model::Model& model, std::vector<BodyMesh> bodies,
+                                                    Placement placement) {
+  Mesh mesh;
+  mesh.bodies = std::move(bodies);
+  mesh.placement = std::move(placement);
+  if (auto wrong = match_and_pair(model, mesh); !wrong.empty()) return wrong;
   return mesh;
 }
 
@@ -176,6 +210,12 @@ std::vector<int> Cell::nodes() const {
 int BodyMesh::count(CellKind kind) const {
   return static_cast<int>(
       std::count_if(cells.begin(), cells.end(), [kind](const Cell& cell) { return cell.kind == kind; }));
+}
+
+Vec2 Mesh::point_of(int contact, const ContactPair& pair, int side) const {
+  const Vec2& point = side == 0 ? pair.point_a : pair.point_b;
+  if (placement.empty()) return point;
+  return point - placement[static_cast<std::size_t>(contact)][static_cast<std::size_t>(side)];
 }
 
 int Mesh::nodes() const {

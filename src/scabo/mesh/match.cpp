@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "scabo/geometry/foot_points.hpp"
@@ -51,7 +52,8 @@ struct Break {
 
 /// One side of a contact: the elements of an edge, and its break points, one more than elements.
 struct Side {
-  const model::Edge* edge = nullptr;
+  std::shared_ptr<const model::Edge> edge;  // where it has moved, as all points of the side
+  Vec2 moved = Vec2::Zero();
   int body = -1, index = -1;
   bool closed = false;
   double length = 0.0;
@@ -75,11 +77,13 @@ struct Side {
 };
 
 Side side_of(const model::Model& model, const model::Place& place, const std::vector<BodyMesh>& bodies,
-             const FixedNodes& fixed) {
+             const FixedNodes& fixed, const Vec2& moved) {
   const BodyMesh& mesh = bodies[static_cast<std::size_t>(place.body)];
   const std::vector<LineElement>& elements = mesh.edges[static_cast<std::size_t>(place.index)];
   Side side;
-  side.edge = &model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)];
+  side.edge = std::make_shared<const model::Edge>(geometry::translated(
+      model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)], moved));
+  side.moved = moved;
   side.body = place.body;
   side.index = place.index;
   side.length = side.edge->length();
@@ -91,6 +95,7 @@ Side side_of(const model::Model& model, const model::Place& place, const std::ve
     at.before = k > 0 ? elements[k - 1].nodes.back() : -1;
     at.after = k < elements.size() ? elements[k].nodes.front() : -1;
     at.point = mesh.nodes[static_cast<std::size_t>(k > 0 ? at.before : at.after)];
+    if (!moved.isZero(0.0)) at.point += moved;
     const bool end = k == 0 || k == elements.size();
     at.fixed = end || at.before != at.after || stay.contains(at.before) || side.edge->is_chain();  // at its points
     const std::optional<geometry::Foot> foot = geometry::foot_on(*side.edge, at.point);
@@ -330,9 +335,9 @@ class Union {
     for (Break& at : side.breaks) {
       if (at.added) {
         at.before = at.after = static_cast<int>(mesh.nodes.size());
-        mesh.nodes.push_back(at.point);
+        mesh.nodes.push_back(at.point - side.moved);
       } else if (at.moved) {
-        moved[at.before] = at.point;
+        moved[at.before] = at.point - side.moved;
       }
     }
     const std::vector<LineElement>& elements = mesh.edges[static_cast<std::size_t>(side.index)];
@@ -351,7 +356,7 @@ class Union {
       made.nodes.push_back(side.breaks[k].after);
       for (const Vec2& point : inner) {
         made.nodes.push_back(static_cast<int>(mesh.nodes.size()));
-        mesh.nodes.push_back(point);
+        mesh.nodes.push_back(point - side.moved);
       }
       made.nodes.push_back(side.breaks[k + 1].before);
       replacements[old.nodes].push_back(std::move(made));
@@ -370,7 +375,8 @@ class Union {
     if (!piece.faces) return true;
     const double tolerance = in_place * (to.t - from.t) * sides_[s].length;
     for (std::size_t i = 0; i < inner.size(); ++i)
-      if ((mesh.nodes[static_cast<std::size_t>(old.nodes[i + 1])] - inner[i]).norm() > tolerance) return false;
+      if ((mesh.nodes[static_cast<std::size_t>(old.nodes[i + 1])] + sides_[s].moved - inner[i]).norm() > tolerance)
+        return false;
     return true;
   }
 
@@ -436,6 +442,7 @@ FixedNodes fixed_nodes(const model::Model& model, const std::vector<BodyMesh>& b
 /// The two sides of a contact between elastic bodies, always in the same order, however the contact names them.
 struct Sides {
   model::Place first, second;
+  std::array<Vec2, 2> moved;
 };
 
 std::optional<Sides> sides_to_match(const model::Model& model, const Joint& joint,
@@ -448,18 +455,30 @@ std::optional<Sides> sides_to_match(const model::Model& model, const Joint& join
     if (edges.empty() || edges[static_cast<std::size_t>(place.index)].empty()) return std::nullopt;
   }
   const auto key = [](const model::Place& place) { return std::pair(place.body, place.index); };
-  return key(joint.b) < key(joint.a) ? Sides{joint.b, joint.a} : Sides{joint.a, joint.b};
+  return key(joint.b) < key(joint.a) ? Sides{joint.b, joint.a, {joint.moved[1], joint.moved[0]}}
+                                     : Sides{joint.a, joint.b, joint.moved};
 }
 
-ContactSide contact_side(const model::Model& model, const model::Place& place, const std::vector<BodyMesh>& bodies) {
+/// `edge`: that of the place, where it has moved.
+ContactSide contact_side(const model::Place& place, const model::Edge& edge, const std::vector<BodyMesh>& bodies,
+                         const Vec2& moved) {
   const BodyMesh& mesh = bodies[static_cast<std::size_t>(place.body)];
   const auto e = static_cast<std::size_t>(place.index);
-  return {model.bodies[static_cast<std::size_t>(place.body)].outline.edges[e], mesh.edges[e], mesh.nodes};
+  if (moved.isZero(0.0)) return {edge, mesh.edges[e], mesh.nodes};
+  std::vector<Vec2> nodes = mesh.nodes;
+  for (Vec2& node : nodes) node += moved;
+  return {edge, mesh.edges[e], nodes};
 }
 
 /// Fixes the nodes of a contact that match, or returns false if some do not.
 bool matches(const model::Model& model, const Sides& sides, const std::vector<BodyMesh>& bodies, FixedNodes& fixed) {
-  const ContactSide a = contact_side(model, sides.first, bodies), b = contact_side(model, sides.second, bodies);
+  const auto edge_of = [&](const model::Place& place, const Vec2& moved) {
+    return geometry::translated(
+        model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)], moved);
+  };
+  const model::Edge edge_a = edge_of(sides.first, sides.moved[0]), edge_b = edge_of(sides.second, sides.moved[1]);
+  const ContactSide a = contact_side(sides.first, edge_a, bodies, sides.moved[0]),
+                    b = contact_side(sides.second, edge_b, bodies, sides.moved[1]);
   const NodeMatching matching = match_nodes(a, b);
   if (matching.lone) return false;
   for (const auto& [i, j] : matching.partners) {
@@ -517,7 +536,8 @@ std::vector<Diagnostic> close_mouths(const model::Model& model, const std::vecto
   for (const Joint& joint : joints_of(model)) {
     if (!has_cracks(joint.a) && !has_cracks(joint.b)) continue;
     if (!sides_to_match(model, joint, bodies)) continue;
-    const Side a = side_of(model, joint.a, bodies, none), b = side_of(model, joint.b, bodies, none);
+    const Side a = side_of(model, joint.a, bodies, none, Vec2::Zero()),
+               b = side_of(model, joint.b, bodies, none, Vec2::Zero());
     auto wrong = close_mouth(a, joint.a.text, b, joint.b.text, joint.source);
     if (!wrong) wrong = close_mouth(b, joint.b.text, a, joint.a.text, joint.source);
     if (wrong) mistakes.push_back(*std::move(wrong));
@@ -534,10 +554,11 @@ bool is_refined_alike(const model::Model& model, const Joint& joint) {
   return is_refined(joint.a) && is_refined(joint.b);
 }
 
-std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies) {
+std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies,
+                                                 const Placement& placement) {
   std::vector<BodyMesh> matched = bodies;
   FixedNodes fixed = fixed_nodes(model, bodies);
-  const std::vector<Joint> joints = joints_of(model);
+  const std::vector<Joint> joints = joints_of(model, placement);
   std::set<int> changed;
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Sides> apart;
@@ -545,8 +566,8 @@ std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, cons
       if (const auto sides = sides_to_match(model, joint, matched); sides && !matches(model, *sides, matched, fixed))
         apart.push_back(*sides);
     bool any = false;
-    for (const auto& [first, second] : apart) {
-      Union sides(side_of(model, first, matched, fixed), side_of(model, second, matched, fixed));
+    for (const auto& [first, second, moved] : apart) {
+      Union sides(side_of(model, first, matched, fixed, moved[0]), side_of(model, second, matched, fixed, moved[1]));
       if (!sides.apply(matched)) continue;
       sides.fix(fixed);
       changed.insert({first.body, second.body});

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "scabo/base/types.hpp"
@@ -75,16 +76,32 @@ struct PlaceNodes {
   std::vector<LineElement> elements;  ///< of an edge or the face of a crack; empty otherwise
 };
 
+/// How far the two sides of every contact with large slip have moved along it when its pairs are found, since the start:
+/// [contact][0: A, 1: B], zero for all other contacts. Empty: nothing has moved. Nodes of bodies are where the bodies are
+/// at the start; points of pairs are moved by these translations.
+using Placement = std::vector<std::array<Vec2, 2>>;
+
 struct Mesh {
   std::vector<BodyMesh> bodies;       ///< one for each body of the model
   std::vector<Interface> interfaces;  ///< one for each contact of the model
   std::vector<Interface> ties;        ///< one for each tie: nodes that are one; gaps are rounding, `contact` is -1
+  Placement placement;
   int nodes() const;                  ///< number of nodes of all bodies
+  /// Where the point of a pair on side 0 (A) or 1 (B) is in its body at the start.
+  Vec2 point_of(int contact, const ContactPair& pair, int side) const;
 };
 
 /// Divides every body and matches the two sides of every contact and tie. Throws InputError, with file and lines of the
 /// model, for contacts and ties whose nodes do not match and for meshes that are too large.
 Mesh make_mesh(const model::Model& model);
+
+/// The bodies of a valid model, each divided by itself: before the sides of contacts are matched.
+std::vector<BodyMesh> divided_bodies(const model::Model& model);
+
+/// Divides the sides of divided bodies anew, as they face each other in a placement, or says what is wrong with it. A
+/// contact with large slip whose sides have left each other has no pairs.
+std::variant<Mesh, std::vector<Diagnostic>> pair_in(const model::Model& model, std::vector<BodyMesh> bodies,
+                                                    Placement placement);
 
 /// The nodes of `place`.
 PlaceNodes nodes_of(const model::Place& place, const Mesh& mesh);

@@ -1,6 +1,7 @@
 // Validation of contacts and ties: their two edges or faces, and the laws of contacts.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -93,6 +94,38 @@ bool check_one_elastic(Checking& checking, const std::string& path, const Contac
   checking.error(path, "between",
                  fmt::format("'{}' and '{}' are both rigid: one of them must be elastic", a.name, b.name));
   return false;
+}
+
+/// What cannot be combined with large slip, whose pairs do not stay.
+void check_large_slip(Checking& checking, const std::string& path, const Contact& contact) {
+  if (!contact.large_slip) return;
+  const Model& model = checking.model;
+  const auto refuse = [&](bool given, const char* why) {
+    if (given) checking.error_of_key(path, "slip", fmt::format("cannot be 'large' {}", why));
+  };
+  refuse(contact.bond, "beside 'bond: true', which prevents slip: leave out one of the two");
+  refuse(contact.cohesion > 0.0 || contact.tension > 0.0,
+         "beside a strength that is lost, because the pairs change: leave out 'cohesion' and 'tension'");
+  refuse(contact.dynamic_friction.has_value(),
+         "beside a coefficient of friction that falls with slip, because the pairs change: give one coefficient");
+  refuse(!contact.friction_along.empty(),
+         "beside a coefficient of friction that varies along the contact, because its sides move: give one "
+         "coefficient, or divide the edge");
+  refuse(contact.fit_in >= 0, "beside 'fit_in', because the pairs change: leave 'fit_in' out");
+  refuse(has_stages(model.bodies), "in a model whose bodies are added or removed in steps: leave 'added' and 'removed' out");
+  refuse(model.restart.has_value(), "in a model that starts from the end of another run: make one model of both");
+  if (contact.a.kind != Place::Kind::edge || contact.b.kind != Place::Kind::edge)
+    return refuse(true, "between the faces of a crack, which do not pass each other");
+  const bool sound = checking.sound_shape(contact.a.body) && checking.sound_shape(contact.b.body);
+  const auto straight = [&](const Place& place) {
+    return geometry::runs_straight(checking.body(place.body).outline.edges[static_cast<std::size_t>(place.index)]);
+  };
+  refuse(sound && !straight(contact.a) && !straight(contact.b),
+         "where both edges are curved: one of them must be straight, and the other one is moved along it");
+  const auto has_tolerance = [](const Body& body) { return !body.rigid && body.mesh.tolerance.has_value(); };
+  refuse(model.output.error || !model.output.error_of.empty() || model.tolerance ||
+             std::any_of(model.bodies.begin(), model.bodies.end(), has_tolerance),
+         "in an analysis with a tolerance or an estimated error, which needs meshes that stay: leave these out");
 }
 
 /// The bodies of a tie are elastic.
@@ -216,6 +249,7 @@ void check_contacts_and_ties(Checking& checking) {
       checking.gaps.conditions = true;
       continue;
     }
+    check_large_slip(checking, path, contact);
     joined.add(checking, path, contact.a, contact.b, fmt::format("contact '{}'", contact.name));
   }
   for (std::size_t i = 0; i < model.ties.size(); ++i) {

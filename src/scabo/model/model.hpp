@@ -325,6 +325,7 @@ struct Contact {
   /// Index into Model::steps of the step over which interferences, negative gaps, grow from 0 to their values; -1: they
   /// are there from the start.
   int fit_in = -1;
+  bool large_slip = false;                    ///< its pairs are found anew as its sides pass each other
   Vec2 about = Vec2::Zero();                  ///< point to which the moment of the contact forces refers
   Source source;
 };

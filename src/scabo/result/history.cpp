@@ -58,6 +58,7 @@ std::string History::header() const {
 }
 
 void History::prepare(const analysis::StaticSolution& solution) {
+  pairings_ = solution.pairings;
   std::vector<mesh::OutputPoint> points;
   place_.assign(items_.size(), 0);
   sections_.assign(items_.size(), {});
@@ -86,7 +87,7 @@ void History::take(std::size_t column, double value, int step, int increment) {
 }
 
 std::string History::row(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
-  if (!evaluation_) prepare(solution);
+  if (!evaluation_ || pairings_ != solution.pairings) prepare(solution);
   const std::vector<PointResult> values =
       evaluation_->points().empty() ? std::vector<PointResult>() : evaluation_->at(solution, increment);
   fmt::memory_buffer line;

@@ -51,6 +51,7 @@ class History {
   std::vector<model::HistoryItem> items_;
   std::vector<HistoryExtremes> columns_;
   std::optional<PointEvaluation> evaluation_;  // of all places and sections; empty before the first increment
+  int pairings_ = 0;                           // StaticSolution::pairings of the mesh of the evaluation
   std::vector<std::size_t> place_;             // [item]: its point in the evaluation, of a displacement
   std::vector<SectionPoints> sections_;        // [item]; empty for numbers
 };

@@ -121,6 +121,9 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
   text += count(increment.newton_iterations, "iteration");
   if (increment.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", increment.coarse_iterations);
   if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));
+  if (increment.pairs_found && increment.pairs_found->times > 0)
+    text += fmt::format(", pairs found anew {} (jump {:.2g})", count(increment.pairs_found->times, "time"),
+                        increment.pairs_found->jump);
   text += fmt::format(", residual {:.2g}", increment.residual);
   if (increment.error) text += fmt::format(", estimated error {:.2g}", increment.error->relative);
   if (increment.converged) {

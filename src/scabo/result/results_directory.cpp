@@ -299,7 +299,16 @@ void ResultsDirectory::add(const analysis::StaticSolution& solution, const analy
   throw;
 }
 
+/// What was prepared for another mesh is prepared again.
+void ResultsDirectory::follow_mesh(const analysis::StaticSolution& solution) {
+  if (solution.pairings == pairings_) return;
+  pairings_ = solution.pairings;
+  recovery_.reset();
+  for (PointFile& of : point_files_) of.evaluation.reset();
+}
+
 void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
+  follow_mesh(solution);
   if (increment.converged) {
     ++finished_;
     if (finished_ % output_.every == 0 || is_last(increment)) add_fields(solution, increment);
@@ -371,7 +380,7 @@ void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
                    : of.table == PointTable::lines ? points.lines
                                                    : points.grid;
       of.evaluation.emplace(solution, std::move(list), increments);
-      if (written_before_ == 0)
+      if (written_before_ == 0 && pairings_ == 0)
         warnings_.insert(warnings_.end(), of.evaluation->warnings().begin(), of.evaluation->warnings().end());
     }
     of.file->append(point_table_rows(of.table, *of.evaluation, solution, increment));
@@ -388,9 +397,11 @@ bool has_many_cells(const mesh::Mesh& mesh) {
 }  // namespace
 
 void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
-  // If the run ended early, the last converged increment was not known to be the last.
-  const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
-                                 [](const auto& increment) { return increment.converged; });
+  // If the run ended early, the last converged increment was not known to be the last. If it ended after pairs had been
+  // found anew, the mesh of that increment is no longer there.
+  const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(), [](const auto& increment) {
+    return increment.converged && !increment.fields.displacements.empty();
+  });
   if (fields_written_ < finished_ && last != solution.increments.rend()) add_fields(solution, *last);
   if (fields_collection_ && last != solution.increments.rend() && has_many_cells(solution.mesh)) {
     const Stopwatch writing(write_seconds_);

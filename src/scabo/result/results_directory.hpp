@@ -103,6 +103,8 @@ class ResultsDirectory {
   model::Output output_;
   std::optional<FieldCollection> fields_collection_, contact_collection_;
   std::optional<Recovery> recovery_;
+  int pairings_ = 0;  // StaticSolution::pairings of the mesh of the evaluations and the recovery
+  void follow_mesh(const analysis::StaticSolution& solution);
 };
 
 }  // namespace scabo::result

@@ -142,6 +142,9 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   json["converged"] = increment.converged;
   json["newton_iterations"] = increment.newton_iterations;
   json["coarse_iterations"] = increment.coarse_iterations;
+  if (increment.pairs_found)
+    json["pairs_found_anew"] = {{"times", increment.pairs_found->times},
+                                {"jump", number_or_null(increment.pairs_found->jump)}};
   json["residual"] = number_or_null(increment.residual);
   json["contacts"] = Json::object();
   json["reactions"] = Json::object();
