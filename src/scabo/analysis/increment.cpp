@@ -513,7 +513,7 @@ Vec2 unplaced_motion(const Prepared& prepared, const Replacing& replaced, int co
 }
 
 std::vector<Vector> displacements_without_motions(const Prepared& prepared, const State& state) {
-  const std::vector<Vector> forces = applied_forces(prepared, state.factors.loads),
+  const std::vector<Vector> forces = applied_forces(prepared, state.factors, state.released),
                             prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
   std::vector<Vector> u;
   for (std::size_t p = 0; p < forces.size(); ++p)
