@@ -3,6 +3,7 @@
 #   make test        every test: release, sanitizers, fuzzers; all of them run, then those that failed are named
 #   make build       the program, build/bin/scabo; the Python package too if what it needs is installed
 #   make python      the Python package, build/python
+#   make report      the page that `scabo report` fills; brings Node.js and npm if there are none
 #   make wheel       the same as a wheel, build/wheel
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
@@ -28,7 +29,7 @@ configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 report = $(shell command -v npm >/dev/null 2>&1 || echo report)
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build python wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python docs format packages install package clean
+.PHONY: help demo build python report wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python docs format packages install package clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -47,6 +48,11 @@ python:
 	@cmake/install_packages.sh build python $(report)
 	@$(configure) release -DSCABO_PYTHON_MODULE=ON
 	@cmake --build --preset release --target python_package --parallel $(JOBS)
+
+report:
+	@cmake/install_packages.sh build $(report)
+	@$(configure) release -DSCABO_REPORT=ON
+	@cmake --build --preset release --target scabo_program report_page --parallel $(JOBS)
 
 wheel: python
 	@cmake --build --preset release --target wheel

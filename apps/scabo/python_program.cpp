@@ -1,4 +1,6 @@
 // Programs in Python beside this one: where they are, which interpreter runs them, and how they are started.
+#include "python_program.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -9,8 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
-
-#include "python_program.hpp"
 
 namespace scabo::app {
 

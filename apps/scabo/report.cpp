@@ -20,8 +20,8 @@ ReportAtEnd::ReportAtEnd() : command_(command_of(reports())) {
   std::error_code error;
   if (!std::filesystem::exists(page, error))
     throw std::runtime_error(
-        fmt::format("the page for reports is not at {}: it is built where Node.js 18 or newer and npm are (make build "
-                    "on Debian: apt install nodejs npm); without --report the run needs none",
+        fmt::format("the page for reports is not at {}: `make report` in the sources of Scabo builds it, then `make "
+                    "install` (it needs Node.js 18 or newer and npm: apt install nodejs npm); or run without --report",
                     page.string()));
 }
 

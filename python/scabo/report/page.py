@@ -28,8 +28,8 @@ def template():
         if all(text.count(mark) == 1 for mark in (TITLE, CONTENT, ARRAYS)):
             return text
         raise ResultsError(f"{place}: is not the page for reports: build Scabo again (make build)")
-    raise ResultsError(f"the page for reports is not at {places[1] if folder.name == 'scabo_report' else places[0]}: it is built where "
-                       "Node.js 18 or newer and npm are. On Debian: apt install nodejs npm, then make build (or make install)")
+    raise ResultsError(f"the page for reports is not at {places[1] if folder.name == 'scabo_report' else places[0]}: `make report` in "
+                       "the sources of Scabo builds it, then `make install` (it needs Node.js 18 or newer and npm: apt install nodejs npm)")
 
 
 def page_of(directory, units=None, megabytes=MEGABYTES):
