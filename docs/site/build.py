@@ -174,7 +174,7 @@ def copy_named_files(source: pathlib.Path) -> None:
 def render(source: pathlib.Path, options: argparse.Namespace) -> None:
     environment = {**os.environ, "SCABO_ROOT": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1",
                    "PYTHONPATH": str(options.build / "python"), "LC_ALL": "C.UTF-8"}
-    done = subprocess.run(["/usr/bin/python3", "-m", "sphinx", "-b", "html", "-W", "--keep-going", "-q", "-j", str(options.jobs), "-c", str(SITE),
+    done = subprocess.run(["/usr/bin/python3", "-m", "sphinx", "-b", "html", "-W", "--keep-going", "-q", "-c", str(SITE),
                            "-d", str(options.output / "doctrees"), str(source), str(options.output / "html")], env=environment)
     if done.returncode:
         sys.exit("make docs: Sphinx has complaints (above)")

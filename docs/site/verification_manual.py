@@ -230,7 +230,7 @@ def summary(by_file: dict[str, list[tuple[dict, str]]]) -> str:
     lines = ["# Verification manual", "",
              f"{cases} cases with {comparisons:,} comparisons. This page and those below it are made by running the tests of"
              " `tests/verification` when the manual is built: every reference, value and error comes from that run, and the manual is"
-             " not built if a test fails. [Verification](docs/verification.md) groups the same cases by subject, with the sources of"
+             " not built if a test fails. [Verification](docs/verification.md) groups the main cases by subject, with the sources of"
              " the references.", "",
              "In the tables, the first column is the expression that the test compares, and the reference is what it is compared with:"
              " a closed form, a published number, or another way to compute the same. Where a test makes a comparison many times (pairs of"
