@@ -69,6 +69,7 @@ class Converter {
     pieces_ = pieces_of(mesh_, bodies_, uses_of_, uses_);
     write_supports();
     write_forces();
+    tell_inside();
     write_pressures();
     write_body_loads();
     write_contacts();
@@ -319,9 +320,8 @@ class Converter {
     const int body = bodies_.body_of_node[static_cast<std::size_t>(node)];
     const Vec2& x = mesh_.nodes[static_cast<std::size_t>(node)];
     if (!bodies_.boundary_nodes.contains(node)) {
-      remarks_.essential(
-          given.at,
-          fmt::format("{} at node {} acts inside of a body; Scabo takes it at the boundary only", what, number));
+      auto& inside = inside_[{given.at.file, given.at.line}];
+      if (inside.count++ == 0) inside.text = fmt::format("{} at node {}", what, number);
       return std::nullopt;
     }
     if (places_.empty())
@@ -337,6 +337,14 @@ class Converter {
       return std::nullopt;
     }
     return fmt::format("{{body: {}, near: {}}}", word(bodies_.bodies[static_cast<std::size_t>(body)].name), point(x));
+  }
+
+  /// One sentence for each line of the deck, whose set may have thousands of such nodes.
+  void tell_inside() {
+    for (const auto& [at, inside] : inside_)
+      remarks_.essential({at.first, at.second},
+                         fmt::format("{}{} acts inside of a body; Scabo takes it at the boundary only", inside.text,
+                                     inside.count > 1 ? fmt::format(" (and {} more)", inside.count - 1) : ""));
   }
 
   // ---- sections of the model
@@ -622,6 +630,11 @@ class Converter {
   std::map<std::string, std::optional<int>> surfaces_;           // by name in upper case: its use
   std::vector<std::optional<std::array<int, 2>>> contact_uses_;  // master and slave
   std::map<std::tuple<int, double, double>, int> places_;        // how many boundary nodes of a body are there
+  struct Inside {
+    std::string text;  // about the first
+    int count = 0;
+  };
+  std::map<std::pair<std::string, int>, Inside> inside_;  // by file and line: what acts inside of bodies
   std::vector<DeckPiece> pieces_;
   UniqueNames names_;  // of loads and supports
   std::vector<Driven> driven_;
