@@ -31,6 +31,8 @@ class Ironing(support.OfExample):
             half = math.sqrt(mean_x - mean_p / slope)
             hertz = math.sqrt(4 * force * check["radius"] / (math.pi * check["modulus"]))
             self.assertAlmostEqual(half / hertz, 1, delta=check["relative_tolerance_of_half_width"])
+            self.assertAlmostEqual(max(p for _, p in pairs) * math.pi * hertz / (2 * force), 1,
+                                   delta=check["relative_tolerance_of_pressure"])
 
     def test_figures_are_drawn(self):
         self.draw()

@@ -93,8 +93,8 @@ CarriedPairs pairs_to_carry(const Prepared& prepared, const State& state) {
     value.shear = state.p[2 * k + 1] / prepared.contact.laws.area[k];
     value.slip = state.slip[k];
     if (state.replaced.slip_before.size() > 0) value.slip += state.replaced.slip_before[k];
-    value.motion = displacement_of(prepared, state, at.contact, pair, 1) -
-                   displacement_of(prepared, state, at.contact, pair, 0);
+    value.motion =
+        displacement_of(prepared, state, at.contact, pair, 1) - displacement_of(prepared, state, at.contact, pair, 0);
     value.closed = state.states[i] != contact::ContactState::open;
     if (state.states[i] == contact::ContactState::slip) value.direction = value.shear > 0.0 ? -1 : 1;
     value.history = state.history[i];

@@ -15,7 +15,8 @@ namespace scabo::analysis {
 
 namespace {
 
-/// The sides pass each other by this part of an element until their pairs are found anew, and by no more in one attempt.
+/// The sides pass each other by this part of an element until their pairs are found anew, and by no more in one
+/// attempt.
 constexpr double part_of_element = 0.5;
 constexpr double near_to_part = 0.01;  // elastic slip makes parts of increments that end there a little shorter
 
@@ -66,8 +67,8 @@ double shortest_element(const model::Model& model, const model::Contact& contact
   return shortest;
 }
 
-/// Mean displacement along a direction of the points on sides A and B of the pairs of a contact, weighted by their normal
-/// forces; of all pairs alike if none presses.
+/// Mean displacement along a direction of the points on sides A and B of the pairs of a contact, weighted by their
+/// normal forces; of all pairs alike if none presses.
 std::array<double, 2> mean_displacements(const Prepared& prepared, const State& state, std::size_t contact,
                                          const Vec2& along) {
   std::array<double, 2> weighted{}, plain{};
@@ -135,9 +136,8 @@ std::vector<Vec2> resultants(const Prepared& prepared, const State& state) {
   std::vector<Vec2> sums(prepared.model.contacts.size(), Vec2::Zero());
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
-    const Vec2& n = prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)]
-                        .pairs[static_cast<std::size_t>(at.index)]
-                        .normal;
+    const Vec2& n =
+        prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].normal;
     const auto k = static_cast<Eigen::Index>(2 * i);
     sums[static_cast<std::size_t>(at.contact)] += state.p[k] * n + state.p[k + 1] * tangent_of(n);
   }
@@ -179,8 +179,8 @@ double largest_mean_slip(const Prepared& prepared, const std::vector<CarriedPair
   return largest;
 }
 
-/// Rigid motions that close the pairs that were closed and that let those of large slip be where they were, in the mean;
-/// `motion`: of the pairs without rigid motions.
+/// Rigid motions that close the pairs that were closed and that let those of large slip be where they were, in the
+/// mean; `motion`: of the pairs without rigid motions.
 Vector fitting_motions(const Prepared& prepared, const std::vector<CarriedPair>& carried, const State& state,
                        const Vector& motion) {
   const contact::RigidMap& G = prepared.contact.G;

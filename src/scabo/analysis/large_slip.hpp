@@ -6,13 +6,13 @@
 //     placement of side s = t sum_i p_n,i (u_s,i . t) / sum_i p_n,i
 //
 // t: along the straight edge of the contact. Both sides are divided again as they face each other there (mesh/match),
-// which gives new nodes, super-elements and pairs; divisions always begin with those that the model asks for. Stiffness,
-// loads and supports are those of the bodies where they are at the start. The displacements of a part are then counted
-// from its translation c (Replacing::moved), without which rounding of K u would exceed the forces.
+// which gives new nodes, super-elements and pairs; divisions always begin with those that the model asks for.
+// Stiffness, loads and supports are those of the bodies where they are at the start. The displacements of a part are
+// then counted from its translation c (Replacing::moved), without which rounding of K u would exceed the forces.
 //
 // What is carried over, by arc length on either side and as the mean of both: tractions of the pairs, the direction of
-// their slip, and slip so far. Contact is then solved again under the same loads, and the totals of its forces change by
-// the jump that the results report:
+// their slip, and slip so far. Contact is then solved again under the same loads, and the totals of its forces change
+// by the jump that the results report:
 //  - pairs that slipped keep their direction and the force of the cone there;
 //  - pairs that stuck have no slip from the displacements under the tractions that are carried over, so that these
 //    remain in equilibrium as far as the new pairs can represent them.
@@ -40,8 +40,7 @@ class LargeSlip {
 
   /// Where the sides are.
   mesh::Placement placement_of(const Prepared& prepared, const State& state) const;
-  std::variant<mesh::Mesh, std::vector<Diagnostic>> mesh_in(const model::Model& model,
-                                                            mesh::Placement placement) const;
+  std::variant<mesh::Mesh, std::vector<Diagnostic>> mesh_in(const model::Model& model, mesh::Placement placement) const;
 
   /// A sentence for each contact whose sides face each other over less than at the start; its index before it.
   std::vector<std::pair<std::size_t, std::string>> slid_off(const model::Model& model,
@@ -62,9 +61,9 @@ class LargeSlip {
 
 /// Pairs found anew in a state.
 struct FoundAnew {
-  std::string reason;    ///< why they were not; empty if they were
-  double jump = 0.0;     ///< largest change of the force of a contact, relative to it
-  int iterations = 0;    ///< of the contact solver
+  std::string reason;  ///< why they were not; empty if they were
+  double jump = 0.0;   ///< largest change of the force of a contact, relative to it
+  int iterations = 0;  ///< of the contact solver
 };
 
 /// Replaces mesh, super-elements and systems of the solution, and the state by that on the new pairs. Nothing changes

@@ -89,7 +89,7 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       if (passed > 1.0 && part > smallest_part_of_slip) {
         part = (next - reached.part) / std::min(std::ceil(passed - 0.01), 64.0);
         reached.attempts.push_back({tried.solution.trace, false});
-        if (options.on_problems) {
+        if (options.on_problems && tried.problem.pairs() > 0) {
           tried.accepted = false;
           reached.problems.push_back(discrete_problem(prepared, tried));
         }
