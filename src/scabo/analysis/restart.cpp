@@ -236,8 +236,8 @@ std::vector<std::string> disagreements(const std::vector<EndState::Agreement>& t
                       of.what, directory));
     else if (found->second != of.digest)
       messages.push_back(
-          fmt::format("{} is not the same as in {}: what the state depends on (shape, mesh, material, "
-                      "place, and the value of a load that acts) must not change",
+          fmt::format("{} is not the same as in {}: what the state depends on (shape, mesh, with the nodes that other "
+                      "bodies need on its edges, material, place, and the value of a load that acts) must not change",
                       of.what, directory));
   }
   for (const EndState::Agreement& of : here)

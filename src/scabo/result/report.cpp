@@ -173,6 +173,8 @@ std::string report_contacts(const analysis::IncrementResult& increment) {
   if (pores) rows.front().emplace_back("pore force");
   const double force = force_level(increment), length = length_level(increment);
   for (const analysis::ContactResult& contact : increment.contacts) {
+    const bool of_absent_body = !increment.absent.empty() && contact.open + contact.stick + contact.slip == 0;
+    if (of_absent_body) continue;
     rows.push_back({contact.name, shown(contact.normal_force, force), shown(contact.tangential_force, force),
                     fmt::format("{}", contact.open), fmt::format("{}", contact.stick), fmt::format("{}", contact.slip),
                     pairs_in_contact(contact), shown_pressure(contact, force), shown(contact.max_gap, length, 4)});

@@ -2,7 +2,6 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -240,18 +239,11 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution) {
     sizes.super_elements += body.count(mesh::CellKind::superelement);
     sizes.finite_elements += body.count(mesh::CellKind::finite_element);
   }
-  // Only an increment shows which pairs can move; of all but the last one, the totals remain.
-  if (!solution.increments.empty() && solution.increments.front().converged) {
-    for (std::size_t c = 0; c < solution.increments.front().contacts.size(); ++c) {
-      int most = 0;  // a contact of an absent body has none
-      for (const analysis::IncrementResult& increment : solution.increments)
-        if (increment.converged) {
-          const analysis::ContactResult& contact = increment.contacts[c];
-          most = std::max(most, contact.open + contact.stick + contact.slip);
-          if (most > 0) break;
-        }
-      sizes.contact_pairs += most;
-    }
+  // Only an increment shows which pairs can move; of all but the last one, the totals remain. Bodies that are added
+  // later have none in it.
+  if (!model::has_stages(solution.model.bodies) && !solution.increments.empty() && solution.increments.front().converged) {
+    for (const analysis::ContactResult& contact : solution.increments.front().contacts)
+      sizes.contact_pairs += contact.open + contact.stick + contact.slip;
   } else {
     for (const mesh::Interface& interface : solution.mesh.interfaces)
       sizes.contact_pairs += static_cast<int>(interface.pairs.size());
