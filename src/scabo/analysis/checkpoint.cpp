@@ -78,7 +78,8 @@ void exchange_replacing(Io& io, Replacing& replaced) {
     replaced.placement.clear();
     replaced.moved.clear();
     for (std::size_t k = 0; k < placement.size(); k += 4)
-      replaced.placement.push_back({Vec2(placement.at(k), placement.at(k + 1)), Vec2(placement.at(k + 2), placement.at(k + 3))});
+      replaced.placement.push_back(
+          {Vec2(placement.at(k), placement.at(k + 1)), Vec2(placement.at(k + 2), placement.at(k + 3))});
     for (std::size_t k = 0; k < moved.size(); k += 2) replaced.moved.emplace_back(moved.at(k), moved.at(k + 1));
   }
 }

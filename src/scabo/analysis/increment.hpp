@@ -89,7 +89,8 @@ contact::JointLaws laws_at(const Prepared& prepared, const Factors& factors);
 void complete(const Prepared& prepared, State& state);
 
 /// Displacement since the start, along x and y, of the point of a pair that belongs to side 0 (A) or 1 (B).
-Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair, int side);
+Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
+                     int side);
 /// Relative motion, B less A, along x and y, that a pair gets from the translations of its parts, less that of the
 /// placement in which it was found.
 Vec2 unplaced_motion(const Prepared& prepared, const Replacing& replaced, int contact);

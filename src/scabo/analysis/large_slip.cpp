@@ -383,7 +383,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
     State from = start;
     for (std::size_t i = 0; keep_directions && i < slides.size(); ++i)
       if (slides[i]) from.slip[static_cast<Eigen::Index>(i)] = -bias * carried[i].direction;
-    tried = attempt(prepared, from, state.factors);
+    tried = timed(solution.timing.newton, [&] { return attempt(prepared, from, state.factors); });
     found.iterations += tried.solution.iterations;
     if (tried.accepted) break;
   }

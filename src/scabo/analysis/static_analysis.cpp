@@ -250,7 +250,7 @@ Factors factors_in(const model::Model& model, std::size_t index, double s) {
 bool find_pairs_where_due(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
                           State& state, PairsFound& found, Reached& reached) {
   if (!large.is_due(assembly->prepared, state)) return true;
-  const FoundAnew anew = timed(solution.timing.newton, [&] { return find_pairs_anew(large, solution, assembly, state); });
+  const FoundAnew anew = find_pairs_anew(large, solution, assembly, state);
   reached.iterations += anew.iterations;
   reached.reason = anew.reason;
   if (!reached.reason.empty()) return false;
@@ -286,8 +286,8 @@ void add_slid_off(const LargeSlip& large, const State& state, const IncrementRes
       return warning.kind == WarningKind::slides_off && warning.subject == name;
     });
     if (!told)
-      solution.warnings.push_back(
-          {WarningKind::slides_off, name, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
+      solution.warnings.push_back({WarningKind::slides_off, name,
+                                   fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
   }
 }
 

@@ -48,9 +48,10 @@ bool runs_straight(const Edge& edge) {
   if (edge.arc) return false;
   const Vec2 along = edge.end - edge.start;
   const double length = along.norm();
-  return edge.points.empty() || (length > 0.0 && std::all_of(edge.points.begin(), edge.points.end(), [&](const Vec2& x) {
-                                   return std::abs(cross(along, Vec2(x - edge.start))) <= 1e-9 * length * length;
-                                 }));
+  return edge.points.empty() ||
+         (length > 0.0 && std::all_of(edge.points.begin(), edge.points.end(), [&](const Vec2& x) {
+            return std::abs(cross(along, Vec2(x - edge.start))) <= 1e-9 * length * length;
+          }));
 }
 
 Edge translated(const Edge& edge, const Vec2& by) {

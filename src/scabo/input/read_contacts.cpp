@@ -284,7 +284,8 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
     if (const auto kind = read_text(report, *slip)) {
       contact.large_slip = *kind == "large";
       if (*kind != "large" && *kind != "small")
-        report.error(*slip, fmt::format("must be small or large, not '{}'{}", *kind, suggestion(*kind, {"small", "large"})));
+        report.error(*slip,
+                     fmt::format("must be small or large, not '{}'{}", *kind, suggestion(*kind, {"small", "large"})));
     }
   if (const auto about = map.get("about")) contact.about = read_vector(report, *about).value_or(Vec2::Zero());
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);

@@ -27,8 +27,8 @@ namespace scabo::mesh {
 
 /// The bodies (those of a Mesh) with sides that match, as far as this is possible; nothing if no body changes.
 /// match_interface (interface.hpp) says what does not match, if anything does not. Contacts whose sides are refined
-/// alike are left alone. Sides are divided as they face each other in the placement; nodes stay where their bodies are at
-/// the start.
+/// alike are left alone. Sides are divided as they face each other in the placement; nodes stay where their bodies are
+/// at the start.
 std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies,
                                                  const Placement& placement = {});
 

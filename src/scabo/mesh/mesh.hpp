@@ -76,9 +76,9 @@ struct PlaceNodes {
   std::vector<LineElement> elements;  ///< of an edge or the face of a crack; empty otherwise
 };
 
-/// How far the two sides of every contact with large slip have moved along it when its pairs are found, since the start:
-/// [contact][0: A, 1: B], zero for all other contacts. Empty: nothing has moved. Nodes of bodies are where the bodies are
-/// at the start; points of pairs are moved by these translations.
+/// How far the two sides of every contact with large slip have moved along it when its pairs are found, since the
+/// start: [contact][0: A, 1: B], zero for all other contacts. Empty: nothing has moved. Nodes of bodies are where the
+/// bodies are at the start; points of pairs are moved by these translations.
 using Placement = std::vector<std::array<Vec2, 2>>;
 
 struct Mesh {

@@ -39,10 +39,10 @@ std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSyst
     const mesh::ContactPair& pair =
         mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
     const int a = contact.a.body, b = contact.b.body;
-    add_side(entries[structure.dofs.part_of(a)], row, -1.0, structure, a, pair.node_a, mesh.point_of(at.contact, pair, 0),
-             pair.normal);
-    add_side(entries[structure.dofs.part_of(b)], row, 1.0, structure, b, pair.node_b, mesh.point_of(at.contact, pair, 1),
-             pair.normal);
+    add_side(entries[structure.dofs.part_of(a)], row, -1.0, structure, a, pair.node_a,
+             mesh.point_of(at.contact, pair, 0), pair.normal);
+    add_side(entries[structure.dofs.part_of(b)], row, 1.0, structure, b, pair.node_b,
+             mesh.point_of(at.contact, pair, 1), pair.normal);
     row += 2;
   }
   std::vector<Eigen::SparseMatrix<double>> motion;
