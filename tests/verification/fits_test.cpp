@@ -59,7 +59,7 @@ steps:
       ASSERT_EQ(solution.increments.size(), 4U) << solution.reason;
       for (std::size_t k = 0; k < 4; ++k) {
         const double mean = contact_of(increment_at(solution, k)).normal_force / (0.5 * std::numbers::pi * scale);
-        EXPECT_NEAR(mean, expected[k], 1e-3 * expected[k]) << k;
+        EXPECT_NEAR(mean, expected[k], 1e-8 * expected[k]) << k;
       }
     }
 }
