@@ -8,6 +8,7 @@
 #include "scabo/analysis/adaptive.hpp"
 #include "scabo/analysis/continuation.hpp"
 #include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/edge_forces.hpp"
 #include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/outside.hpp"
@@ -276,6 +277,7 @@ void run_steps(const Prepared& prepared, StaticSolution& solution, const Options
       result = timed(solution.timing.recover, [&] {
         IncrementResult of_state = described(prepared, reached.state);
         of_state.cracks = crack_results(solution, of_state);
+        of_state.edges = edge_forces(prepared, reached.state, solution, of_state);
         return of_state;
       });
     if (there && !std::isfinite(result.energy.elastic)) {
