@@ -7,21 +7,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "scabo/result/history.hpp"
-#include "verification/run.hpp"
+#include "verification/history_columns.hpp"
 
 namespace scabo::verification {
 namespace {
-
-/// Columns of the row of the last increment.
-std::map<std::string, double> history_of(const analysis::StaticSolution& solution) {
-  result::History history(solution.model);
-  history.row(solution, last(solution));
-  std::map<std::string, double> values;
-  for (const result::HistoryExtremes& column : history.extremes())
-    values[column.column] = column.last ? column.last->value : std::nan("");
-  return values;
-}
 
 /// A beam of length 6 and height 1, built in at the left, under a pressure of 1000 on its top, scaled and turned.
 std::string beam(const std::string& mesh, double scale, double angle) {

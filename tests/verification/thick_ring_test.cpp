@@ -1,4 +1,5 @@
-// A thick ring filled with a heavy liquid and floating in another: linear traction on both rims, against Michell's series.
+// A thick ring filled with a heavy liquid and floating in another: linear traction on both rims, against Michell's
+// series.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,9 +14,9 @@ constexpr double inner = 1.0, outer = 2.0, poisson = 0.3;
 constexpr double liquid_outside = 3.0, liquid_inside = liquid_outside * outer * outer / (inner * inner);
 constexpr double level = 5.0;  // of both, above all of the ring
 
-/// Stress xx, yy, xy in plane stress at the polar coordinates r, angle. Pressure p = liquid (level - y) on both rims, of
-/// which the resultants pi a^2 liquid are in balance. The mean is Lame's; the part with sin(angle) = s, cos(angle) = c
-/// has the stress function A r^3 s + B s / r + C r ln(r) s + F r angle c,
+/// Stress xx, yy, xy in plane stress at the polar coordinates r, angle. Pressure p = liquid (level - y) on both rims,
+/// of which the resultants pi a^2 liquid are in balance. The mean is Lame's; the part with sin(angle) = s, cos(angle) =
+/// c has the stress function A r^3 s + B s / r + C r ln(r) s + F r angle c,
 ///   rr = (2 A r - 2 B / r^3 + (C - 2 F) / r) s,  tt = (6 A r + 2 B / r^3 + C / r) s,
 ///   rt = (-2 A r + 2 B / r^3 - C / r) c,
 /// and displacements that return to themselves around the hole for C = F (1 - nu) / 2. The resultant gives
@@ -42,7 +43,8 @@ struct RingCase {
 class ThickRing : public testing::TestWithParam<RingCase> {};
 
 TEST_P(ThickRing, UnderLinearTractionHasMichellsStress) {
-  const auto solution = run(fmt::format(R"(
+  const auto solution =
+      run(fmt::format(R"(
 scabo: 1
 materials: {{steel: {{young: 1e6, poisson: {}}}}}
 bodies:
@@ -58,8 +60,7 @@ loads:
   outside: {{on: ring.rim, water: {{level: {}, unit_weight: {}}}}}
   inside: {{on: ring.bore, water: {{level: {}, unit_weight: {}}}}}
 )",
-                                        poisson, outer, inner, GetParam().mesh, outer, level, liquid_outside, level,
-                                        liquid_inside));
+                      poisson, outer, inner, GetParam().mesh, outer, level, liquid_outside, level, liquid_inside));
   const double weight = 3.14159 * outer * outer * liquid_outside;  // of the liquid displaced
   for (const Vec2& reaction : last(solution).reactions) EXPECT_LT(reaction.norm(), GetParam().bound * weight);
   double error = 0.0, largest = 0.0;

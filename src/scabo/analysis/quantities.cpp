@@ -354,7 +354,10 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
   for (const model::Quantity& quantity : model.output.error_of) all.push_back(&quantity);
   if (model.tolerance) all.push_back(&model.tolerance->of);
   for (const model::HistoryItem& item : model.output.history)
-    if (const auto* quantity = std::get_if<model::Quantity>(&item.of)) all.push_back(quantity);
+    if (const auto* quantity = std::get_if<model::Quantity>(&item.of))
+      all.push_back(quantity);
+    else if (const auto* place = std::get_if<model::PlaceDisplacement>(&item.of))
+      all.push_back(&place->of);
   std::vector<Diagnostic> mistakes;
   for (const model::Quantity* quantity : all) {
     if (quantity->kind == Kind::displacement) {

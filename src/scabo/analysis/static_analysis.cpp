@@ -8,6 +8,7 @@
 #include "scabo/analysis/adaptive.hpp"
 #include "scabo/analysis/continuation.hpp"
 #include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/edge_forces.hpp"
 #include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/large_slip.hpp"
@@ -372,6 +373,7 @@ void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large,
       result = timed(solution.timing.recover, [&] {
         IncrementResult of_state = described(prepared, reached.state);
         of_state.cracks = crack_results(solution, of_state);
+        of_state.edges = edge_forces(prepared, reached.state, solution, of_state);
         return of_state;
       });
     if (there && !std::isfinite(result.energy.elastic)) {

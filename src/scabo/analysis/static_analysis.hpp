@@ -67,6 +67,12 @@ struct CrackResult {
   element::StressIntensity factors;
 };
 
+/// What acts on a body through one of its edges (edge_forces.hpp).
+struct EdgeForces {
+  Vec2 force = Vec2::Zero();  ///< on the body
+  double moment = 0.0;        ///< counter-clockwise
+};
+
 /// Convergence history of the contact solver in one attempt at an increment, or at a part of it if it was halved.
 struct AttemptResult {
   std::vector<contact::Iteration> iterations;
@@ -144,6 +150,7 @@ struct IncrementResult {
   bool is_absent(int body) const;
   /// One for each support of the model: moment on the body about the point of a support that prescribes a rotation.
   std::vector<std::optional<double>> moments;
+  std::vector<EdgeForces> edges;  ///< one for each model::EdgeResultant of the history, in its order
   std::vector<Vec2> springs;  ///< one for each of the model, in its order: force on the body
   std::vector<int> absent;    ///< bodies that are not there: not yet added, or removed; ascending
   /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces.

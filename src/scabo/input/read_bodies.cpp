@@ -21,7 +21,24 @@ int corner_at(const Outline& outline, const Vec2& point) {
   return -1;
 }
 
+/// `size: auto`.
+bool is_automatic(const Value& value) {
+  return value.node->kind == Node::Kind::scalar && value.node->text == "auto";
+}
+
+/// Of the first mesh of a body whose size follows from a wanted error.
+double first_size(const Outline* outline) {
+  constexpr double cells_along_body = 8.0;
+  return outline == nullptr ? unread : outline_size(*outline) / cells_along_body;
+}
+
 }  // namespace
+
+void check_automatic_sizes(Reading& reading) {
+  for (const Value& size : reading.automatic_sizes)
+    reading.report.error(size, "follows from a wanted error, and none is given: add 'tolerance' to this mesh, as in "
+                               "tolerance: 0.01, or a tolerance of one number to the model");
+}
 
 /// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02, growth: 0.1}]`.
 std::vector<LocalSize> read_refine(Reading& reading, const Value& value, const Outline* outline) {
@@ -77,7 +94,9 @@ MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outli
   if (many) map.refuse("centre", "every cell has a scaling centre of its own: leave 'centre' out");
   if (const auto tolerance = map.get("tolerance")) mesh.tolerance = number_or_unread(reading, tolerance);
   const auto size = map.has("tolerance") && !fem && !many ? map.get("size") : map.need("size");
-  mesh.size = number_or_unread(reading, size);
+  const bool automatic = size && is_automatic(*size);
+  mesh.size = automatic ? first_size(outline) : number_or_unread(reading, size);
+  if (automatic && !mesh.tolerance) reading.automatic_sizes.push_back(*size);
   if (const auto least = map.get("min_size")) mesh.min_size = number_or_unread(reading, least);
   if (!size && mesh.tolerance && outline != nullptr) {
     mesh.size = 0.0;

@@ -120,7 +120,10 @@ void read_sections(Reading& reading, const Value& root) {
   reading.steps_known = reading.report.count() == before_steps;
   find_named_steps(reading);
   if (const auto output = map.get("output")) read_output(reading, *output);
-  if (const auto tolerance = map.get("tolerance")) read_tolerance(reading, *tolerance);
+  if (const auto tolerance = map.get("tolerance"))
+    read_tolerance(reading, *tolerance);
+  else
+    check_automatic_sizes(reading);
   // A misspelt section may be the missing one.
   if (!map.all_known()) reading.places_known = reading.conditions_known = reading.steps_known = false;
 }

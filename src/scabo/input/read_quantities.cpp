@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
@@ -81,6 +83,16 @@ class QuantityReader {
       default:
         return of_contact(name);
     }
+  }
+
+  /// A point or corner, for its displacement.
+  std::optional<Quantity> read_point() {
+    const auto text = read_text(reading_.report, value_);
+    if (!text) return {};
+    quantity_.name = *text;
+    quantity_.source = value_.source();
+    quantity_.kind = Quantity::Kind::displacement;
+    return text->find('.') == std::string::npos ? of_point(*text) : of_corner(*text);
   }
 
  private:
@@ -208,6 +220,85 @@ std::optional<Section> read_section(Reading& reading, const Value& value) {
 
 }  // namespace
 
+namespace {
+
+constexpr const char* history_forms =
+    "{section: {from: [0, 1], to: [2, 1]}}, {edge: wall.bottom} or {displacement: wall.toe, axes: 30}";
+
+/// `30`, in degrees, or a straight edge.
+std::optional<ResultAxes> read_axes(Reading& reading, const Value& value) {
+  ResultAxes axes;
+  const auto text = value.node->kind == Node::Kind::scalar ? read_text(reading.report, value) : std::nullopt;
+  const bool number = text && text->find_first_not_of("+-.0123456789eE") == std::string::npos;
+  if (!text || (!number && text->find('.') == std::string::npos)) {
+    reading.report.error(value, "must be an angle in degrees or a straight edge, as in 30 or dam.face");
+    return {};
+  }
+  if (number) {
+    const auto angle = read_number(reading.report, value);
+    if (!angle) return {};
+    axes.kind = ResultAxes::Kind::angle;
+    axes.first = {std::cos(*angle * std::numbers::pi / 180.0), std::sin(*angle * std::numbers::pi / 180.0)};
+    return axes;
+  }
+  const ReadPlace place = read_place(reading, value);
+  if (!place.place) return {};
+  const Body& body = reading.body(place.body);
+  const Edge* edge = place.place->kind == Place::Kind::edge
+                         ? &body.outline.edges[static_cast<std::size_t>(place.place->index)]
+                         : nullptr;
+  if (!edge || edge->arc || edge->is_chain()) {
+    reading.report.error(value, fmt::format("'{}' is no straight edge, which has one normal: name another, or give an "
+                                            "angle in degrees",
+                                            one_line(*text)));
+    return {};
+  }
+  axes.kind = ResultAxes::Kind::edge;
+  const Vec2 along = (edge->end - edge->start).normalized();  // with the material on its left
+  axes.first = {along.y(), -along.x()};
+  return axes;
+}
+
+std::optional<EdgeResultant> read_edge_resultant(Reading& reading, const MapReader& map) {
+  const std::size_t before = reading.report.count();
+  EdgeResultant edge;
+  const ReadPlace place = read_place(reading, *map.get("edge"));
+  if (const auto about = map.get("about")) edge.about = read_vector(reading.report, *about).value_or(Vec2::Zero());
+  if (const auto axes = map.get("axes")) edge.axes = read_axes(reading, *axes).value_or(ResultAxes{});
+  map.refuse("displacement", "'edge' already says what is wanted: remove one of the two");
+  if (!place.place || reading.report.count() > before) return {};
+  edge.on = *place.place;
+  return edge;
+}
+
+std::optional<PlaceDisplacement> read_place_displacement(Reading& reading, const MapReader& map) {
+  const std::size_t before = reading.report.count();
+  PlaceDisplacement place;
+  const auto of = QuantityReader(reading, *map.get("displacement"), true).read_point();
+  if (const auto axes = map.get("axes")) place.axes = read_axes(reading, *axes).value_or(ResultAxes{});
+  map.refuse("about", "is the point of a moment, and a displacement has none: leave it out");
+  if (!of || reading.report.count() > before) return {};
+  place.of = *of;
+  return place;
+}
+
+/// A history that is a map.
+std::optional<decltype(HistoryItem::of)> read_history_map(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"section", "edge", "displacement", "about", "axes"}, history_forms);
+  if (!map.is_map()) return {};
+  if (const auto cut = map.get("section")) {
+    for (const char* key : {"edge", "displacement", "about", "axes"})
+      map.refuse(key, "does not go with 'section', which has axes along and across its line: leave it out");
+    return read_section(reading, *cut);
+  }
+  if (map.has("edge")) return read_edge_resultant(reading, map);
+  if (map.has("displacement")) return read_place_displacement(reading, map);
+  if (map.all_known()) reading.report.error(value, fmt::format("does not say what is wanted: write {}", history_forms));
+  return {};
+}
+
+}  // namespace
+
 void read_history(Reading& reading, const Value& value) {
   constexpr const char* example = "{tip: upper.top_right.uy, cut: {section: {from: [0, 1], to: [2, 1]}}}";
   for (const Entry& entry : read_named(reading.report, value, "histories", example)) {
@@ -219,11 +310,10 @@ void read_history(Reading& reading, const Value& value) {
       if (!quantity) continue;
       item.of = *quantity;
     } else {
-      const MapReader map(reading.report, entry.value, {"section"}, "{section: {from: [0, 1], to: [2, 1]}}");
-      const auto cut = map.need("section");
-      const auto section = cut ? read_section(reading, *cut) : std::nullopt;
-      if (!section) continue;
-      item.of = *section;
+      const std::size_t before = reading.report.count();
+      const auto of = read_history_map(reading, entry.value);
+      if (!of || reading.report.count() > before) continue;
+      item.of = *of;
     }
     reading.model.output.history.push_back(std::move(item));
   }

@@ -64,6 +64,8 @@ struct Reading {
   Index index_of_curve;                     ///< in model.curves
   bool curves_known = true;                 ///< false: a curve is broken
 
+  std::vector<Value> automatic_sizes;       ///< `size: auto` of meshes without a tolerance of their own
+
   bool steps_known = false;  ///< true: all steps have been read
   /// `fit_in` of contacts, by their entry: the names of steps, which are read after contacts.
   std::vector<std::pair<std::string, Value>> fits_of_contacts;
@@ -94,6 +96,8 @@ void read_curves(Reading& reading, const Value& value);
 /// If the section is absent, there is one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);
+/// Refuses `size: auto` without a wanted error, after the tolerance of the model was read.
+void check_automatic_sizes(Reading& reading);
 /// `tolerance: {of, relative}`.
 void read_tolerance(Reading& reading, const Value& value);
 /// A list of numbers that get an error bar.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scabo/model/checking.hpp"
 
@@ -108,6 +109,24 @@ void check_section(Checking& checking, const std::string& path, const Section& s
                    fmt::format("body '{}' is rigid and has no stress", checking.body(section.body).name));
 }
 
+void check_result_axes(Checking& checking, const std::string& path, const ResultAxes& axes) {
+  if (checking.vector(path, "axes", axes.first) && std::abs(axes.first.norm() - 1.0) > 1e-9)
+    checking.error(path, "axes", "the first direction must have the length 1");
+}
+
+void check_edge_resultant(Checking& checking, const std::string& path, const EdgeResultant& edge) {
+  checking.vector(path, "about", edge.about);
+  check_result_axes(checking, path, edge.axes);
+  if (!check_place(checking, path + ".edge", edge.on)) return;
+  if (edge.on.kind != Place::Kind::edge)
+    checking.error(path, "edge", fmt::format("'{}' is no edge between two corners: name one, as in wall.bottom",
+                                             text_of(checking.model, edge.on)));
+  else if (checking.body(edge.on.body).rigid)
+    checking.error(path, "edge",
+                   fmt::format("body '{}' is rigid: ask for the forces of its contacts or supports",
+                               checking.body(edge.on.body).name));
+}
+
 void check_history(Checking& checking) {
   std::unordered_set<std::string> names;
   const std::vector<HistoryItem>& items = checking.model.output.history;
@@ -118,6 +137,11 @@ void check_history(Checking& checking) {
     check_name(checking, path, item.name, "history", names);
     if (const auto* quantity = std::get_if<Quantity>(&item.of)) check_quantity(checking, path, *quantity, false);
     if (const auto* section = std::get_if<Section>(&item.of)) check_section(checking, path, *section);
+    if (const auto* edge = std::get_if<EdgeResultant>(&item.of)) check_edge_resultant(checking, path, *edge);
+    if (const auto* place = std::get_if<PlaceDisplacement>(&item.of)) {
+      check_quantity(checking, path, place->of, false);
+      check_result_axes(checking, path, place->axes);
+    }
   }
 }
 

@@ -428,10 +428,33 @@ struct Section {
   int body = -1;  ///< only this body; -1: all elastic ones
 };
 
+/// Two directions at right angles along which results are given: x and y; turned by an angle; or the outward normal of a
+/// straight edge and the tangent a quarter turn counter-clockwise from it.
+struct ResultAxes {
+  enum class Kind { xy, angle, edge };
+  Kind kind = Kind::xy;
+  Vec2 first = Vec2(1.0, 0.0);  ///< unit vector; the second is a quarter turn counter-clockwise from it
+
+  Vec2 second() const { return {-first.y(), first.x()}; }
+};
+
+/// Resultant of all that acts on an elastic body through one of its edges, and its moment (analysis/edge_forces.hpp).
+struct EdgeResultant {
+  Place on;                   ///< an edge
+  Vec2 about = Vec2::Zero();  ///< point of the moment
+  ResultAxes axes;
+};
+
+/// Displacement of a point or corner along axes of its own.
+struct PlaceDisplacement {
+  Quantity of;  ///< its point; the component is not used
+  ResultAxes axes;
+};
+
 /// What is written to history.csv after every increment.
 struct HistoryItem {
   std::string name;
-  std::variant<Quantity, Section> of;
+  std::variant<Quantity, Section, EdgeResultant, PlaceDisplacement> of;
   Source source;
 };
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <variant>
 
 #include "scabo/analysis/quantities.hpp"
@@ -14,8 +15,36 @@ namespace scabo::result {
 
 namespace {
 
+/// `.force_x` and `.force_y`, `.force_1` and `.force_2`, `.normal` and `.tangential`.
+std::pair<std::string, std::string> names_along(const model::ResultAxes& axes, const std::string& quantity) {
+  switch (axes.kind) {
+    case model::ResultAxes::Kind::xy:
+      return {"." + quantity + "x", "." + quantity + "y"};
+    case model::ResultAxes::Kind::angle:
+      return {"." + quantity + "1", "." + quantity + "2"};
+    case model::ResultAxes::Kind::edge:
+      break;
+  }
+  return {".normal", ".tangential"};
+}
+
+/// The point whose displacement is wanted, if one is.
+const model::Quantity* point_of(const model::HistoryItem& item) {
+  if (const auto* place = std::get_if<model::PlaceDisplacement>(&item.of)) return &place->of;
+  const auto* quantity = std::get_if<model::Quantity>(&item.of);
+  return quantity && quantity->kind == model::Quantity::Kind::displacement ? quantity : nullptr;
+}
+
 std::vector<std::string> columns_of(const model::HistoryItem& item) {
   if (std::holds_alternative<model::Quantity>(item.of)) return {item.name};
+  if (const auto* edge = std::get_if<model::EdgeResultant>(&item.of)) {
+    const auto [first, second] = names_along(edge->axes, "force_");
+    return {item.name + first, item.name + second, item.name + ".moment"};
+  }
+  if (const auto* place = std::get_if<model::PlaceDisplacement>(&item.of)) {
+    const auto [first, second] = names_along(place->axes, "u");
+    return {item.name + first, item.name + second};
+  }
   return {item.name + ".normal", item.name + ".shear", item.name + ".moment"};
 }
 
@@ -63,12 +92,12 @@ void History::prepare(const analysis::StaticSolution& solution) {
   place_.assign(items_.size(), 0);
   sections_.assign(items_.size(), {});
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    if (const auto* quantity = std::get_if<model::Quantity>(&items_[i].of)) {
-      if (quantity->kind != model::Quantity::Kind::displacement) continue;
+    if (const auto* quantity = point_of(items_[i])) {
       place_[i] = points.size();
       points.push_back(place_of(solution.model, *quantity));
       continue;
     }
+    if (!std::holds_alternative<model::Section>(items_[i].of)) continue;
     sections_[i].points = points_of_section(solution, items_[i], std::get<model::Section>(items_[i].of));
     sections_[i].first = points.size();
     for (const SectionPoint& point : sections_[i].points) points.push_back(point.at);
@@ -104,7 +133,21 @@ std::string History::row(const analysis::StaticSolution& solution, const analysi
     }
     ++column;
   };
+  std::size_t edge = 0;
   for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (const auto* of_edge = std::get_if<model::EdgeResultant>(&items_[i].of)) {
+      const analysis::EdgeForces& forces = increment.edges[edge++];
+      add(forces.force.dot(of_edge->axes.first));
+      add(forces.force.dot(of_edge->axes.second()));
+      add(forces.moment);
+      continue;
+    }
+    if (const auto* place = std::get_if<model::PlaceDisplacement>(&items_[i].of)) {
+      const Vec2& u = values[place_[i]].values.displacement;
+      add(u.dot(place->axes.first));
+      add(u.dot(place->axes.second()));
+      continue;
+    }
     if (const auto* quantity = std::get_if<model::Quantity>(&items_[i].of)) {
       if (quantity->kind == model::Quantity::Kind::displacement)
         add(values[place_[i]].absent ? std::nullopt

@@ -332,6 +332,9 @@ void add_pore_pressure(Structure& structure, const model::PorePressure& pores, c
       Vector nodal = Vector::Zero(places_of(mesh.bodies[b].nodes.size()));
       nodal(element::dofs_of(cell)) += element::equivalent_load(solved.solution(), loads);
       structure.dofs.add(contact.a.body, nodal, forces[structure.dofs.part_of(contact.a.body)]);
+      if (structure.of_bodies.empty()) continue;
+      Vector& of_body = structure.of_bodies.back()[b];
+      of_body = of_body.size() == 0 ? nodal : Vector(of_body + nodal);
     }
   }
 }
@@ -340,7 +343,12 @@ void add_pore_pressure(Structure& structure, const model::PorePressure& pores, c
 
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
                const std::vector<element::SolvedCells>& cells) {
+  const bool of_bodies =
+      std::any_of(model.output.history.begin(), model.output.history.end(), [](const model::HistoryItem& item) {
+        return std::holds_alternative<model::EdgeResultant>(item.of);
+      });
   for (const model::Load& load : model.loads) {
+    if (of_bodies) structure.of_bodies.emplace_back(model.bodies.size());
     std::vector<Vector>& forces = structure.loads.emplace_back(structure.parts.size());
     std::vector<element::CellLoads>& interior = structure.interior.emplace_back(model.bodies.size());
     std::vector<element::InitialStress>& initial = structure.initial.emplace_back(model.bodies.size());
@@ -362,6 +370,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
       Applied applied(model, mesh, cells, *structure.parts[part], b, load.on ? &*load.on : nullptr);
       std::visit(applied, load.kind);
       structure.dofs.add(body, applied.nodal, forces[part]);
+      if (of_bodies) structure.of_bodies.back()[b] = applied.nodal;
       interior[b] = std::move(applied.interior);
       initial[b] = applied.initial;
     }

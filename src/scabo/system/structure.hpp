@@ -26,6 +26,9 @@ struct Structure {
   std::vector<std::vector<element::InitialStress>> initial;
   /// [load][contact]: sum of the forces of pore pressure in the contact, at factor 1; empty where the load is none.
   std::vector<std::vector<std::optional<double>>> pores;
+  /// [load][body]: as `loads`, but apart for bodies that are tied, at the degrees of freedom of each; of pore pressure
+  /// only what acts on the cells at the tips of cracks. Only if the history has edges (model::EdgeResultant).
+  std::vector<std::vector<Vector>> of_bodies;
   double assembly_seconds = 0.0;  ///< of `make_structure`, for its stiffness matrices
 };
 
