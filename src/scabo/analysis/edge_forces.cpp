@@ -24,7 +24,9 @@ class SumOverEdge {
     find_other_ties();
   }
 
-  void add_stiffness(const StaticSolution& solution, const Vector& u) {
+  void add_stiffness(const StaticSolution& solution) {
+    const system::Dofs& dofs = prepared_.structure.dofs;
+    const Vector u = dofs.of_body(edge_.on.body, state_.u[dofs.part_of(edge_.on.body)]);
     for (std::size_t c = 0; c < body_.cells.size(); ++c) {
       const mesh::Cell& cell = body_.cells[c];
       const auto has_node = [&](const mesh::LineElement& element) {
@@ -45,9 +47,11 @@ class SumOverEdge {
   }
 
   void apply_loads() {
+    const double presence =
+        presence_of(prepared_, state_.factors, prepared_.structure.dofs.part_of(edge_.on.body));
     for (std::size_t l = 0; l < prepared_.model.loads.size(); ++l) {
       const model::Load& load = prepared_.model.loads[l];
-      const double factor = state_.factors.loads[l];
+      const double factor = presence * state_.factors.loads[l];
       if (const auto* pores = std::get_if<model::PorePressure>(&load.kind))
         for (const int contact : pores->contacts) apply_pores(*pores, contact, factor);
       const Vector& forces = prepared_.structure.of_bodies[l][body_index()];
@@ -170,14 +174,18 @@ class SumOverEdge {
 
 }  // namespace
 
-std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state, const StaticSolution& solution,
-                                    const IncrementResult& increment) {
+std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state,
+                                    const StaticSolution& solution) {
   std::vector<EdgeForces> results;
   for (const model::HistoryItem& item : prepared.model.output.history) {
     const auto* edge = std::get_if<model::EdgeResultant>(&item.of);
     if (!edge) continue;
+    if (prepared.is_absent(prepared.structure.dofs.part_of(edge->on.body))) {
+      results.emplace_back();
+      continue;
+    }
     SumOverEdge sum(prepared, state, *edge);
-    sum.add_stiffness(solution, increment.fields.displacements[static_cast<std::size_t>(edge->on.body)]);
+    sum.add_stiffness(solution);
     sum.apply_loads();
     sum.apply_contacts();
     sum.apply_reactions();

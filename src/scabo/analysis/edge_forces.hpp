@@ -16,8 +16,7 @@
 
 namespace scabo::analysis {
 
-/// One for each model::EdgeResultant of the history. `increment`: the described state.
-std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state, const StaticSolution& solution,
-                                    const IncrementResult& increment);
+/// One for each model::EdgeResultant of the history; zero where the body is absent.
+std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state, const StaticSolution& solution);
 
 }  // namespace scabo::analysis

@@ -22,13 +22,6 @@ const system::BodySystem& part_of(const Prepared& prepared, int body) {
   return *prepared.structure.parts[prepared.structure.dofs.part_of(body)];
 }
 
-/// Part of its loads that acts on part `p`, 0 to 1.
-double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p) {
-  if (prepared.is_absent(p)) return 0.0;
-  if (factors.presence.empty()) return 1.0;
-  return factors.presence[static_cast<std::size_t>(prepared.structure.dofs.bodies_of(p).front())];
-}
-
 /// Loads, and what removed bodies still exert of the forces that they exerted.
 std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& factors,
                                    const std::vector<Vector>& released) {
@@ -331,6 +324,12 @@ double lost_to_rounding(const Prepared& prepared, const State& state) {
 }
 
 }  // namespace
+
+double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p) {
+  if (prepared.is_absent(p)) return 0.0;
+  if (factors.presence.empty()) return 1.0;
+  return factors.presence[static_cast<std::size_t>(prepared.structure.dofs.bodies_of(p).front())];
+}
 
 Factors between(const Factors& from, const Factors& to, double part) {
   if (part == 1.0) return to;

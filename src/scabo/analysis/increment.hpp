@@ -41,6 +41,8 @@ struct Factors {
   double release = 0.0;               ///< part of State::released that acts
   std::vector<double> fits = {};      ///< per contact, part of its interferences that is there; empty: all of all
 };
+/// Part of its loads that acts on part `p`, 0 to 1.
+double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p);
 Factors between(const Factors& from, const Factors& to, double part);
 /// Initial gap of pair `i`, of which an interference is there in part.
 double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i);

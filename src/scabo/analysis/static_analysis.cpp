@@ -373,7 +373,7 @@ void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large,
       result = timed(solution.timing.recover, [&] {
         IncrementResult of_state = described(prepared, reached.state);
         of_state.cracks = crack_results(solution, of_state);
-        of_state.edges = edge_forces(prepared, reached.state, solution, of_state);
+        of_state.edges = edge_forces(prepared, reached.state, solution);
         return of_state;
       });
     if (there && !std::isfinite(result.energy.elastic)) {
