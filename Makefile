@@ -22,7 +22,7 @@
 PYTHON = $(SCABO_PYTHON)
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
-FUZZ_SECONDS ?= 20
+FUZZ_SECONDS ?= 15
 
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 # Node.js and npm for the page of reports, unless there are some from elsewhere.
