@@ -70,10 +70,10 @@ void exchange_replacing(Io& io, Replacing& replaced) {
   for (const std::array<Vec2, 2>& sides : replaced.placement)
     for (const Vec2& by : sides) placement.insert(placement.end(), by.begin(), by.end());
   for (const Vec2& by : replaced.moved) moved.insert(moved.end(), by.begin(), by.end());
-  io.numbers("state/placement", placement);
-  io.numbers("state/moved", moved);
-  exchange_vector(io, "state/offset", replaced.offset);
-  exchange_vector(io, "state/slip_before", replaced.slip_before);
+  io.numbers("state/replaced/placement", placement);
+  io.numbers("state/replaced/moved", moved);
+  exchange_vector(io, "state/replaced/offset", replaced.offset);
+  exchange_vector(io, "state/replaced/slip_before", replaced.slip_before);
   if constexpr (Io::reads) {
     replaced.placement.clear();
     replaced.moved.clear();
