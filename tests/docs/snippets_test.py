@@ -38,8 +38,9 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 OTHER_PAGES = sorted((ROOT / "docs" / "methods").glob("*.md")) + sorted((ROOT / "docs" / "decisions").glob("*.md"))
 SCABO = pathlib.Path()
 HAS_MODULE = importlib.util.find_spec("scabo") is not None
-# What pages call model.yaml and problem.hdf5; some pages have a model of their own, whose results they read.
-GIVEN = {"model.yaml": "examples/01_double_cantilever/model.yaml", "problem.hdf5": "examples/03_discrete_problem/problem.hdf5"}
+# What pages call model.yaml, problem.hdf5 and part.inp; some pages have a model of their own, whose results they read.
+GIVEN = {"model.yaml": "examples/01_double_cantilever/model.yaml", "problem.hdf5": "examples/03_discrete_problem/problem.hdf5",
+         "part.inp": "tests/fuzz/corpus/convert_abaqus/contact.inp"}
 GIVEN_TO = {"results": {"model.yaml": "tests/docs/results.yaml"}}
 OPTIONAL = {"scabo": HAS_MODULE, "pandas": importlib.util.find_spec("pandas") is not None}
 
@@ -150,7 +151,7 @@ class Page:
 
 def quick(words: list[str], file: pathlib.Path) -> list[str]:
     """All pictures of a result take seconds: they are drawn for the tutorial, one of them elsewhere (tests/plot draws all)."""
-    everything = words[1] == "plot" and "--what" not in words and file.stem != "first_ten_minutes"
+    everything = words[1] == "plot" and not words[2].endswith(".sweep") and "--what" not in words and file.stem != "first_ten_minutes"
     return [*words, "--what", "mesh"] if everything else words
 
 

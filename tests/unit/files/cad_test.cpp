@@ -165,7 +165,7 @@ TEST_F(Cad, Messages) {
   EXPECT_THAT(message("a.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0.5, 2, 1};\n"),
               HasSubstr("surface 1 is not in the plane z = 0: it lies between z = 0.5 and z = 0.5"));
   EXPECT_THAT(message("a.geo", std::string(square), {1e-9, 1}),
-              HasSubstr("about 1.2e+18 nodes, more than the 4000000 allowed"));
+              HasSubstr("about 1.2e+18 nodes, more than the 1000000 allowed"));
   EXPECT_THAT(message("a.geo",
                       "Point(1) = {0, 0, 0}; Point(2) = {1, 1, 0}; Point(3) = {1, 0, 0};\n"
                       "Line(1) = {1, 2}; Line(2) = {2, 3};\nCurve Loop(1) = {1, 2}; Plane Surface(1) = {1};\n"),
