@@ -150,7 +150,7 @@ class Reference:
         if "object" in types:
             more = schema.get("additionalProperties")
             return f"by name: {self.type_of(more)}" if isinstance(more, dict) else "keys"
-        return {"string": "text", "boolean": "`true` or `false`", "null": "`null`", "any": "any"}.get(types[0] if types else "any", "any")
+        return {"string": "text", "boolean": "`true` or `false`", "null": "`null`", "any": "any"}.get(types[0] if types else "null", "any")
 
     def section(self, title: str, schema: dict) -> str:
         required = required_of(schema)
