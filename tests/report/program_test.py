@@ -1,4 +1,5 @@
 """`scabo report` and `scabo run --report`: what they write, what they say, and which exit status they have."""
+import json
 import pathlib
 import re
 import subprocess
@@ -17,6 +18,19 @@ contacts: {base: {between: [table.top, block.bottom], friction: 0.3}}
 supports: [{on: table, displacement: [0, 0], rotation: 0}]
 loads: {weight: {on: block.top, traction: [0, -1e5]}, push: {on: block.left, traction: [1e5, 0]}}
 steps: [{name: rest, loads: {weight: 1, push: 0}}, {name: pushed, increments: 4, loads: {weight: 1, push: 1}}]
+"""
+
+STAGES = """
+scabo: 1
+materials: {stone: {young: 1e9, poisson: 0.2, density: 2000}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}}
+  low: {material: stone, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}, mesh: {size: 0.5}}
+  high: {material: stone, shape: {rectangle: {corner: [0, 1], size: [1, 1]}}, mesh: {kind: quadtree, size: 0.5}, added: second, removed: third}
+supports: [{on: floor, fix: [x, y]}]
+loads: {weight: {gravity: [0, -9.81]}}
+contacts: {joints: {between: all, friction: 0.6}}
+steps: [{name: first, loads: {weight: 1}}, {name: second, increments: 2}, {name: third, increments: 2}]
 """
 
 
@@ -54,6 +68,17 @@ class Program(support.InTemporaryDirectory):
         self.scabo("run", "sliding.yaml", "--report", "-q", status=2)
         text = (self.directory / "sliding.report.html").read_text(encoding="utf-8")
         self.assertIn('"heading":"The loads are more than the structure can carry"', text)
+
+    def test_of_bodies_that_come_and_go(self):
+        """Fields and pairs of the increments that have the mesh of the last one, and a sentence that says so."""
+        self.needs_the_page()
+        (self.directory / "stages.yaml").write_text(STAGES, encoding="utf-8")
+        self.scabo("run", "stages.yaml", "--report", "-q")
+        text = (self.directory / "stages.report.html").read_text(encoding="utf-8")
+        content = json.loads(re.search(r'id="content">(.*?)</script>', text, re.DOTALL)[1])
+        self.assertEqual([content[part]["increments"] for part in ("field", "pairs")], [[1, 4, 5]] * 2)
+        self.assertIn("those with the mesh of the last one", content["field"]["note"])
+        self.assertIn("those with the pairs of the last one", content["pairs"]["note"])
 
     def test_a_report_that_cannot_be_written(self):
         self.needs_the_page()

@@ -31,3 +31,8 @@ def listed(numbers):
         runs = runs[:5] + [None] + runs[-2:]
     return ", ".join("..." if run is None else str(run[0]) if run[0] == run[1] else f"{run[0]}{' to ' if run[1] > run[0] + 1 else ', '}{run[1]}"
                      for run in runs)
+
+
+def mesh_may_change(results):
+    """Whether bodies are added or removed in a run, or pairs found anew (`slip: large`), so that increments have meshes of their own."""
+    return not results.modal and any(entry.get("absent") or "pairs_found_anew" in entry for entry in results.increments)

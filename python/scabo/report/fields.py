@@ -1,7 +1,7 @@
 """The fields of a page: one mesh, and its values after the increments that have a place in it."""
 import numpy as np
 
-from .choice import in_order_of_importance, listed
+from .choice import in_order_of_importance, listed, mesh_may_change
 from .packing import pack
 from .reading import ResultsError, geometry, vtu
 
@@ -43,10 +43,10 @@ def add_fields(results, arrays, budget):
     arrays.add("rigid", np.concatenate(rigid) if rigid else [], "u4")
     arrays.add("rigid_sizes", [len(polygon) for polygon in rigid], "u4")
     quantities = {key: entry for key, entry in QUANTITIES.items() if entry[0] in first.point_data}
-    chosen = add_values(results, numbers, quantities, corners, rigid, arrays, budget)
+    chosen, of_other_meshes = add_values(results, numbers, first, quantities, corners, rigid, arrays, budget)
     return {"centre": centre.tolist(), "points": len(first.points), "triangles": len(corners), "increments": sorted(chosen), "ranges": chosen,
             "magnification": scale_of(results, sorted(chosen)[-1]), "low": first.points.min(axis=0).tolist(),
-            "high": first.points.max(axis=0).tolist(), "note": note_of(results, numbers, sorted(chosen)),
+            "high": first.points.max(axis=0).tolist(), "note": note_of(results, numbers, sorted(chosen), of_other_meshes),
             "quantities": [{"key": key, "name": name, "dimension": dimension} for key, (_, _, name, dimension) in quantities.items()]}
 
 
@@ -58,11 +58,14 @@ def scale_of(results, number):
     return geometry.magnification(grid, results.contacts(number).values())
 
 
-def note_of(results, written, chosen):
+def note_of(results, written, chosen, of_other_meshes):
     """What is missing, in a sentence; empty if nothing is."""
     what = "modes" if results.modal else "increments"
     if len(chosen) == results.count:
         return ""
+    if of_other_meshes:
+        return (f"This page has the fields of {listed(chosen)} of {results.count} {what}, those with the mesh of the last one: bodies are added or "
+                "removed in this run, or bodies are divided again. All other values are those of every one.")
     if len(written) < results.count and len(chosen) == len(written):
         return f"The run wrote fields of {len(written)} of its {results.count} {what}: {listed(chosen)}."
     return (f"This page has the fields of {len(chosen)} of {results.count} {what} ({listed(chosen)}), which keeps its size within bounds; "
@@ -97,22 +100,24 @@ def add_elements(results, grid, outline, arrays):
         place = places_of_nodes(cells, grid)
         rings = [place[ring] for ring in cells.lists(vtu.POLYGON)]
         sides = [np.stack([ring, np.roll(ring, -1)], axis=1) for ring in rings] + [place[cells.cells(vtu.LINE)[:, :2]]]
-        sides = geometry.distinct_sides(np.concatenate(sides))[0]
+        sides = np.concatenate(sides)
+        sides = geometry.distinct_sides(sides[(sides >= 0).all(axis=1)])[0]
         nodes = np.unique(sides)
     arrays.add("elements", sides, "u4")
     arrays.add("nodes", nodes, "u4")
 
 
 def places_of_nodes(cells, grid):
-    """For each point of cells.vtu, a node, its number among the points of the fields, which begin with the nodes of every body."""
+    """For each point of cells.vtu, a node, its number among the points of the fields, which begin with the nodes of every body; -1 where
+    the body is absent."""
     owner = np.zeros(len(cells.points), dtype=int)
     owner[cells.connectivity] = np.repeat(cells.cell_data["body"], np.diff(cells.offsets, prepend=0))
     place = np.zeros(len(cells.points), dtype=int)
     for body in np.unique(owner[owner > 0]):
-        own = np.flatnonzero(owner == body)
-        place[own] = np.flatnonzero(grid.point_data["body"] == body)[0] + own - own[0]
+        own, there = np.flatnonzero(owner == body), np.flatnonzero(grid.point_data["body"] == body)
+        place[own] = there[0] + own - own[0] if len(there) else -1
     size = geometry.extent(grid.points)
-    used = owner > 0
+    used = (owner > 0) & (place >= 0)
     if not np.allclose(grid.points[place[used]], cells.points[used], rtol=0, atol=1e-6 * size):
         raise ResultsError("cells.vtu does not belong to the fields beside it; run the model again")
     return place
@@ -129,24 +134,26 @@ def values_of(grid, entry, rigid):
     return values
 
 
-def add_values(results, numbers, quantities, corners, rigid, arrays, budget):
-    """Returns, for each increment that found a place, the typical and the extreme range of every quantity."""
+def add_values(results, numbers, mesh, quantities, corners, rigid, arrays, budget):
+    """Returns, for each increment that found a place, the typical and the extreme range of every quantity; and the increments whose fields
+    are on another mesh."""
     if results.modal:
         ends = []
     else:
         steps = [entry["step"] for entry in results.increments]
         ends = [number for number in range(1, results.count) if steps[number] != steps[number - 1]]
     wanted = [numbers[k - 1] for k in in_order_of_importance(len(numbers), [numbers.index(end) + 1 for end in ends if end in numbers])]
-    weights, chosen, spent = None, {}, 0
+    shape, chosen, of_other_meshes, spent = mesh.points, {}, [], 0
+    weights = np.bincount(corners.reshape(-1), np.repeat(geometry.areas(shape, corners), 3), len(shape)) if len(corners) else np.ones(len(shape))
     for number in wanted:
         if chosen and spent + spent / len(chosen) > budget:
             break
         grid = results.fields(number)
-        if weights is None:
-            shape = grid.points
-            weights = np.bincount(corners.reshape(-1), np.repeat(geometry.areas(shape, corners), 3), len(shape)) if len(corners) else np.ones(len(shape))
-        elif grid.points.shape != shape.shape or not np.array_equal(grid.points, shape):
-            raise ResultsError(f"{results.directory}: the fields of increment {number} belong to another mesh; run the model again")
+        if not np.array_equal(grid.points, shape):
+            if not mesh_may_change(results):
+                raise ResultsError(f"{results.directory}: the fields of increment {number} belong to another mesh; run the model again")
+            of_other_meshes.append(number)
+            continue
         ranges = {}
         loudest = 1e-6 * float(np.nanmax(np.abs(grid.point_data["von_mises"]), initial=0.0)) if "von_mises" in grid.point_data else 0.0
         for key, entry in quantities.items():
@@ -158,7 +165,7 @@ def add_values(results, numbers, quantities, corners, rigid, arrays, budget):
         if "ux" in quantities:
             ranges["displacement"] = range_of(np.hypot(*grid.point_data["displacement"][:, :2].T), weights, 0.0)
         chosen[number] = ranges
-    return chosen
+    return chosen, of_other_meshes
 
 
 def range_of(values, weights, rounding):

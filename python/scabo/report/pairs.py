@@ -1,7 +1,7 @@
 """The contact pairs of a page: places once, values after every increment."""
 import numpy as np
 
-from .choice import in_order_of_importance, listed
+from .choice import in_order_of_importance, listed, mesh_may_change
 from .packing import pack
 from .reading import ResultsError, geometry, without_rounding
 
@@ -25,13 +25,16 @@ def add_pairs(results, arrays, budget, centre):
     arrays.add("pair_number", joined["pair"], "u4")
     sizes = [len(rows["x"]) for rows in last.values()]
     add_places(results, last, arrays)
-    chosen, spent = set(), 0
+    chosen, others, spent = set(), False, 0
     for number in order_of(results):
         if chosen and spent + spent / len(chosen) > budget:
             break
         contacts = results.contacts(number)
-        if list(contacts) != names or [len(rows["x"]) for rows in contacts.values()] != sizes:
-            raise ResultsError(f"{results.directory / 'contact.csv'}: the increments have different pairs; run the model again")
+        if not same_places(contacts, last):
+            if not mesh_may_change(results):
+                raise ResultsError(f"{results.directory / 'contact.csv'}: the increments have different pairs; run the model again")
+            others = True
+            continue
         for key in VALUES:
             values = np.concatenate([without_rounding(rows, key, ROUNDED[key]) if key in ROUNDED else rows[key]
                                      for rows in contacts.values()])
@@ -45,9 +48,16 @@ def add_pairs(results, arrays, budget, centre):
                                f"{', '.join(STATES)}; run the model again")
         arrays.add(f"state_{number}", codes, "u1")
         chosen.add(number)
+    why = "those with the pairs of the last one" if others else "which keeps its size within bounds"
     note = "" if len(chosen) == results.count else \
-        f"This page has the pairs of {len(chosen)} of {results.count} increments ({listed(chosen)}), which keeps its size within bounds."
+        f"This page has the pairs of {len(chosen)} of {results.count} increments ({listed(chosen)}), {why}."
     return {"names": names, "sizes": sizes, "increments": sorted(chosen), "note": note}
+
+
+def same_places(contacts, last):
+    """Whether the contacts have the pairs of the last increment."""
+    return list(contacts) == list(last) and all(
+        np.array_equal(rows[key], last[name][key]) for name, rows in contacts.items() for key in ("x", "y"))
 
 
 def order_of(results):
