@@ -147,6 +147,32 @@ output:
   EXPECT_NEAR(values.at("top.force_y"), 0.0, near);
 }
 
+// Blocks placed one by one: the load of a block grows over its step, and the edge below carries what acts of it then; an
+// absent body transmits nothing.
+TEST(EdgeForces, OfABodyThatIsPlacedGrowWithItsLoads) {
+  const analysis::StaticSolution solution = run(R"(scabo: 1
+materials: {stone: {young: 1e9, poisson: 0.2, density: 2000}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}}
+  low: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5}}
+  high: {material: stone, shape: {rectangle: {corner: [0, 1], size: [2, 1]}}, mesh: {kind: quadtree, size: 0.5}, added: second}
+supports: [{on: floor, fix: [x, y]}]
+loads: {weight: {gravity: [0, -10]}}
+contacts: {joints: {between: all, friction: 0.6}}
+steps: [{name: first, loads: {weight: 1}}, {name: second, increments: 4}]
+output: {history: {base: {edge: low.bottom}, joint: {edge: high.bottom}, sides: {edge: high.left}}}
+)");
+  ASSERT_EQ(solution.increments.size(), 5u);
+  const double weight = 2000.0 * 10.0 * 2.0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::vector<analysis::EdgeForces>& edges = solution.increments[k].edges;
+    const double placed = 0.25 * static_cast<double>(k);
+    EXPECT_NEAR(edges[0].force.y(), weight * (1.0 + placed), 1e-8 * weight) << k;
+    EXPECT_NEAR(edges[1].force.y(), weight * placed, 1e-8 * weight) << k;
+    EXPECT_NEAR(edges[2].force.norm(), 0.0, 1e-8 * weight) << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Meshes, EdgeForcesOnMeshes,
                          testing::Values("order: 2", "order: 1", "kind: polygons", "kind: quadtree, order: 3",
                                          "kind: fem"));
