@@ -37,6 +37,12 @@ class Links(unittest.TestCase):
             (pathlib.Path(directory) / "index.html").write_text('<a id="here" href="#there"></a><img src="a.png">', encoding="utf-8")
             self.assertEqual(len(list(check_site.broken_links(pathlib.Path(directory)))), 2)
 
+    def test_texts_of_pictures_have_no_colon(self):
+        """The site reads them as YAML."""
+        found = [(page.name, text) for folder in FOLDERS for page in sorted((ROOT / folder).glob("*.md"))
+                 for text in re.findall(r'<img [^>]*alt="([^"]*)"', page.read_text(encoding="utf-8")) if ": " in text]
+        self.assertEqual(found, [])
+
     def test_the_overview_names_every_page(self):
         overview = (ROOT / "docs/README.md").read_text(encoding="utf-8")
         self.assertEqual([page.name for page in sorted((ROOT / "docs").glob("*.md")) if page.stem != "README" and f"]({page.name}" not in overview], [])
