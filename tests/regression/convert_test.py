@@ -283,6 +283,14 @@ class Messages(Converting):
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertRegex(run.stderr, rf"part\.inp:\d+: warning: .*{re.escape(message)}")
 
+    def test_two_amplitudes_of_one_load(self):
+        twice = ("*STEP\n*STATIC\n*DLOAD, AMPLITUDE=UP\nBODY, GRAV, 9.81, 0., -1.\n"
+                 "*DLOAD, AMPLITUDE=LATE\nBODY, GRAV, 1., 0., -1.\n*END STEP\n")
+        tables = "*AMPLITUDE, NAME=UP\n0., 0., 1., 1.\n*AMPLITUDE, NAME=LATE\n0., 0., 0.5, 0., 1., 1.\n"
+        run = self.convert(SQUARE + tables + HELD + twice)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stderr.count("two values with different amplitudes act on the same place"), 1, run.stderr)
+
     def test_what_is_lost(self):
         decks = {SQUARE + part + HELD + PRESSED: (part, message) for part, message in LOST.items()}
         halves = SQUARE + "*ELSET, ELSET=HALF\n1, 2\n" + HELD

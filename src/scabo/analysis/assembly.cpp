@@ -47,7 +47,8 @@ std::unique_ptr<const Assembly> assemble(StaticSolution& solution,
   timing.assemble += structure.assembly_seconds;
   timed(timing.assemble, [&] { system::add_loads(structure, solution.model, solution.mesh, solution.cells); });
   stage("condensation to the contact pairs");
-  return timed(timing.condense, [&] { return std::make_unique<const Assembly>(std::move(structure), solution, on_iteration); });
+  return timed(timing.condense,
+               [&] { return std::make_unique<const Assembly>(std::move(structure), solution, on_iteration); });
 }
 
 }  // namespace scabo::analysis

@@ -47,8 +47,7 @@ class SumOverEdge {
   }
 
   void apply_loads() {
-    const double presence =
-        presence_of(prepared_, state_.factors, prepared_.structure.dofs.part_of(edge_.on.body));
+    const double presence = presence_of(prepared_, state_.factors, prepared_.structure.dofs.part_of(edge_.on.body));
     for (std::size_t l = 0; l < prepared_.model.loads.size(); ++l) {
       const model::Load& load = prepared_.model.loads[l];
       const double factor = presence * state_.factors.loads[l];
@@ -68,8 +67,7 @@ class SumOverEdge {
       const mesh::ContactPair& pair =
           prepared_.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
       const auto k = static_cast<Eigen::Index>(i);
-      const Vec2 tangent(pair.normal.y(), -pair.normal.x());
-      apply_pair(at.contact, pair, state_.p[2 * k] * pair.normal + state_.p[2 * k + 1] * tangent);
+      apply_pair(at.contact, pair, state_.p[2 * k] * pair.normal + state_.p[2 * k + 1] * tangent_of(pair.normal));
     }
   }
 
@@ -174,8 +172,7 @@ class SumOverEdge {
 
 }  // namespace
 
-std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state,
-                                    const StaticSolution& solution) {
+std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state, const StaticSolution& solution) {
   std::vector<EdgeForces> results;
   for (const model::HistoryItem& item : prepared.model.output.history) {
     const auto* edge = std::get_if<model::EdgeResultant>(&item.of);

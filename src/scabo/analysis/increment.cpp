@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scabo/analysis/branch.hpp"
+#include "scabo/analysis/large_slip.hpp"
 #include "scabo/system/contact_laws.hpp"
 
 namespace scabo::analysis {
@@ -303,13 +304,6 @@ void add(element::CellLoads& to, const element::CellLoads& loads, double factor)
   }
 }
 
-/// Whether parts may slide, and others push them, as far as they like.
-bool parts_may_translate(const Prepared& prepared) {
-  const auto& contacts = prepared.model.contacts;
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const model::Contact& contact) { return contact.large_slip; });
-}
-
 /// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
 /// stress.
 double lost_to_rounding(const Prepared& prepared, const State& state) {
@@ -342,8 +336,7 @@ Factors between(const Factors& from, const Factors& to, double part) {
     factors.friction[i] = from.friction[i] + part * (to.friction[i] - from.friction[i]);
   for (std::size_t b = 0; b < to.presence.size(); ++b)
     factors.presence[b] = from.presence[b] + part * (to.presence[b] - from.presence[b]);
-  for (std::size_t c = 0; c < to.fits.size(); ++c)
-    factors.fits[c] = from.fits[c] + part * (to.fits[c] - from.fits[c]);
+  for (std::size_t c = 0; c < to.fits.size(); ++c) factors.fits[c] = from.fits[c] + part * (to.fits[c] - from.fits[c]);
   factors.release = from.release + part * (to.release - from.release);
   return factors;
 }
@@ -389,8 +382,7 @@ std::vector<double> fits_at(const model::Model& model, int step) {
 State initial_state(const Prepared& prepared) {
   State state;
   state.factors = {std::vector<double>(prepared.model.loads.size(), 0.0),
-                   std::vector<double>(prepared.model.supports.size(), 0.0),
-                   coefficients_at_start(prepared.model)};
+                   std::vector<double>(prepared.model.supports.size(), 0.0), coefficients_at_start(prepared.model)};
   state.factors.fits = fits_at(prepared.model, -1);
   const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
   state.p = Vector::Zero(2 * N);
@@ -455,8 +447,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     }
     free.push_back(parts[p]->displacement(to.forces[p], to.prescribed[p]));
     problem.q.noalias() += system.motion[p] * free[p];
-    problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) =
-        loads_on_motions(prepared, p, to);
+    problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
   }
   check_held_pairs(prepared, free, from.held_offset, from.replaced);
 
@@ -493,10 +484,10 @@ Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, 
   const system::Dofs& dofs = prepared.structure.dofs;
   const system::BodySystem& part = part_of(prepared, body);
   const Vector& of_part = state.u[dofs.part_of(body)];
-  Vec2 u = node >= 0 ? Vec2(of_part.segment<2>(dofs.of(body, node, 0)))
-                     : Vec2(system::rigid_point(prepared.mesh.point_of(contact, pair, side), part.reference(),
-                                                part.lever()) *
-                            of_part);
+  Vec2 u = node >= 0
+               ? Vec2(of_part.segment<2>(dofs.of(body, node, 0)))
+               : Vec2(system::rigid_point(prepared.mesh.point_of(contact, pair, side), part.reference(), part.lever()) *
+                      of_part);
   if (!state.replaced.moved.empty()) u += state.replaced.moved[dofs.part_of(body)];
   return u;
 }
@@ -516,8 +507,8 @@ std::vector<Vector> displacements_without_motions(const Prepared& prepared, cons
                             prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
   std::vector<Vector> u;
   for (std::size_t p = 0; p < forces.size(); ++p)
-    u.push_back(prepared.structure.parts[p]->displacement(
-        forces[p] + prepared.contact.motion[p].transpose() * state.p, prescribed[p]));
+    u.push_back(prepared.structure.parts[p]->displacement(forces[p] + prepared.contact.motion[p].transpose() * state.p,
+                                                          prescribed[p]));
   return u;
 }
 
@@ -607,7 +598,7 @@ std::string too_large(const Prepared& prepared, const State& state) {
     if (dofs.is_rigid(p)) continue;
     const double size = 2.0 * prepared.structure.parts[p]->lever();
     Vector u = state.u[p];
-    if (parts_may_translate(prepared)) {
+    if (has_large_slip(prepared.model)) {  // bodies may slide, and others push them, as far as they like
       const Vec2 mean = u.reshaped(2, u.size() / 2).rowwise().mean();
       u.reshaped(2, u.size() / 2).colwise() -= mean;
     }

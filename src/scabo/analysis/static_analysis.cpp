@@ -43,7 +43,7 @@ struct Reached {
   Matrix undetermined;
   std::optional<UniquenessResult> uniqueness;
   bool mechanism = false, stopped = false;
-  std::string reason;  ///< empty if the end was reached
+  std::string reason;          ///< empty if the end was reached
   bool pairs_are_due = false;  ///< the end was not reached: before going on, pairs are to be found anew
   std::vector<AttemptResult> attempts;
   std::vector<DiscreteProblem> problems;  ///< of the attempts, if requested
@@ -219,13 +219,22 @@ Factors start_of(const model::Model& model, std::size_t step) {
   const std::vector<double> presence = presence_at(model, static_cast<int>(step) - 1);
   const double release = takes_away(model, step) ? 1.0 : 0.0;
   if (step == 0 && model.restart)
-    return {model.restart->load_factors, model.restart->support_factors, coefficients_at_start(model), presence, release,
-            fits_at(model, -1)};
+    return {
+        model.restart->load_factors, model.restart->support_factors, coefficients_at_start(model), presence, release,
+        fits_at(model, -1)};
   if (step == 0)
-    return {std::vector<double>(model.loads.size(), 0.0), std::vector<double>(model.supports.size(), 0.0),
-            coefficients_at_start(model), presence, release, fits_at(model, -1)};
+    return {std::vector<double>(model.loads.size(), 0.0),
+            std::vector<double>(model.supports.size(), 0.0),
+            coefficients_at_start(model),
+            presence,
+            release,
+            fits_at(model, -1)};
   const model::Step& before = model.steps[step - 1];
-  return {before.load_factors, before.support_factors, before.friction, presence, release,
+  return {before.load_factors,
+          before.support_factors,
+          before.friction,
+          presence,
+          release,
           fits_at(model, static_cast<int>(step) - 1)};
 }
 
@@ -234,8 +243,7 @@ Factors factors_in(const model::Model& model, std::size_t index, double s) {
   const model::Step& step = model.steps[index];
   Factors factors = between(start_of(model, index),
                             {step.load_factors, step.support_factors, step.friction,
-                             presence_at(model, static_cast<int>(index)), 0.0,
-                             fits_at(model, static_cast<int>(index))},
+                             presence_at(model, static_cast<int>(index)), 0.0, fits_at(model, static_cast<int>(index))},
                             s);
   if (s == 1.0) return factors;  // those of the curves
   const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {
@@ -269,12 +277,11 @@ Reached reach_with_pairs(StaticSolution& solution, std::unique_ptr<const Assembl
   Reached reached;
   reached.state = from;
   do {
-    if (large && !find_pairs_where_due(*large, solution, assembly, reached.state, found ? *found : found.emplace(),
-                                       reached))
+    if (large &&
+        !find_pairs_where_due(*large, solution, assembly, reached.state, found ? *found : found.emplace(), reached))
       return reached;
-    reached = timed(solution.timing.newton, [&] {
-      return reach(now(), std::move(reached), factors_at, least, large, options);
-    });
+    reached = timed(solution.timing.newton,
+                    [&] { return reach(now(), std::move(reached), factors_at, least, large, options); });
   } while (reached.pairs_are_due);
   return reached;
 }

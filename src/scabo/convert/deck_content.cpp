@@ -223,9 +223,8 @@ class ContentReader {
 
   bool is_new(const DeckBlock& block) { return upper(parameter(block, "OP", "MOD")) == "NEW"; }
 
-  void grow(Table& table, const std::pair<int, int>& key, double value, const std::string& amplitude,
-            const DeckLine& line, bool adds) {
-    Growing& growing = table[key];
+  /// `adds`: to what the same step gave before.
+  void grow(Growing& growing, double value, const std::string& amplitude, const DeckLine& line, bool adds) {
     if (growing.touched && adds && growing.amplitude != amplitude)
       remarks_.note(
           line.at,
@@ -286,7 +285,7 @@ class ContentReader {
       for (const int node : nodes_of(line, "the support"))
         for (const int component : components) {
           const bool known = displacements_.contains({node, component});
-          grow(displacements_, {node, component}, value, *amplitude, line, false);
+          grow(displacements_[{node, component}], value, *amplitude, line, false);
           if (in_step_ && !known && content_.steps.size() > 1)
             remarks_.essential(
                 line.at, fmt::format("the support begins in step {}, but supports of Scabo act from the start; give it "
@@ -318,7 +317,7 @@ class ContentReader {
         continue;
       }
       for (const int node : nodes_of(line, "the force"))
-        grow(forces_, {node, *dof == 1.0 ? 0 : 1}, *value, *amplitude, line, true);
+        grow(forces_[{node, *dof == 1.0 ? 0 : 1}], *value, *amplitude, line, true);
     }
   }
 
@@ -328,7 +327,7 @@ class ContentReader {
   }
 
   void press(const std::vector<files::Facet>& sides, double value, const std::string& amplitude, const DeckLine& line) {
-    for (const files::Facet& side : sides) grow(pressures_, key_of(side), value, amplitude, line, true);
+    for (const files::Facet& side : sides) grow(pressures_[key_of(side)], value, amplitude, line, true);
   }
 
   void body_load(const DeckLine& line, bool gravity, const Vec2& value, const std::string& amplitude) {
@@ -336,14 +335,8 @@ class ContentReader {
       return load.gravity == gravity && upper(load.set) == upper(line.fields[0]);
     });
     if (found == body_loads_.end()) found = body_loads_.insert(found, {line.fields[0], gravity, {}, {}});
-    for (int k = 0; k < 2; ++k) {
-      Growing& growing = k == 0 ? found->x : found->y;
-      growing.value = growing.touched ? growing.value + value[k] : value[k];
-      growing.amplitude = amplitude;
-      growing.touched = true;
-      growing.given.label = line.fields[0];
-      growing.given.at = line.at;
-    }
+    grow(found->x, value[0], amplitude, line, true);
+    grow(found->y, value[1], amplitude, line, true);
   }
 
   void dload(const DeckBlock& block) {
