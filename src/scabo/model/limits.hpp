@@ -19,7 +19,7 @@ constexpr Range line_points{2, 1'000'000};    ///< of an output line
 constexpr Range grid_points{1, 1'000'000};    ///< of a grid along one axis, and in all
 constexpr Range every{1, 100'000};            ///< .vtu files of every so many increments
 constexpr Range copies{1, 100'000};           ///< of a body that is repeated
-constexpr double model_nodes = 4e6;               ///< of all bodies: more are a mistyped size, or 30 GB
+constexpr double model_nodes = 4e6;           ///< of all bodies: more are a mistyped size, or 30 GB
 constexpr long edges = 20'000;                ///< of an outline, at most
 constexpr double superelement_dofs = 20'000;  ///< of one super-element: dense matrices, 3 GB each at this number
 

@@ -52,8 +52,7 @@ Probe::Probe(const analysis::StaticSolution& solution, const analysis::FieldStat
       body_(static_cast<std::size_t>(body)),
       u_(state.displacements[body_]),
       reference_displacement_(state.reference_displacement),
-      interior_(state.interior[body_]),
-      fields_(solution.cells[body_].size()) {}
+      interior_(state.interior[body_]) {}
 
 Probe::~Probe() = default;
 
@@ -63,19 +62,19 @@ const CellLocator& Probe::locator() const {
 }
 
 Probe::CellField& Probe::field_of(std::size_t cell) const {
-  if (!fields_[cell]) {
+  std::unique_ptr<CellField>& field = fields_[cell];
+  if (!field) {
     const element::SolvedSuperElement& super_element = *solution_.cells[body_][cell];
     const std::vector<int> dofs = element::dofs_of(solution_.mesh.bodies[body_].cells[cell]);
-    fields_[cell] = std::make_unique<CellField>(super_element, u_(dofs), element::loads_in(interior_, cell).loads);
-    if (many_) fields_[cell]->table.emplace(fields_[cell]->radial, element::fastest_of(super_element.modes()));
+    field = std::make_unique<CellField>(super_element, u_(dofs), element::loads_in(interior_, cell).loads);
+    if (many_) field->table.emplace(field->radial, element::fastest_of(super_element.modes()));
   }
-  return *fields_[cell];
+  return *field;
 }
 
 void Probe::expect_many() {
   many_ = true;
   fields_.clear();
-  fields_.resize(solution_.cells[body_].size());
 }
 
 std::optional<element::PointValues> Probe::at(const Vec2& x) const {

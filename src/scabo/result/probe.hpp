@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
+#include <unordered_map>
 
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/element/cell_locator.hpp"
@@ -48,8 +48,9 @@ class Probe {
   Vec2 reference_displacement_;
   const element::CellLoads& interior_;
   bool many_ = false;
-  mutable std::optional<CellLocator> locator_;              // made when it is first needed
-  mutable std::vector<std::unique_ptr<CellField>> fields_;  // of super-elements, likewise
+  mutable std::optional<CellLocator> locator_;  // made when it is first needed
+  /// Of super-elements, likewise: those that hold points, so that a probe costs nothing for the other cells.
+  mutable std::unordered_map<std::size_t, std::unique_ptr<CellField>> fields_;
 };
 
 /// The same for a single point.
