@@ -91,6 +91,7 @@ bench-large:
 	@cmake/install_packages.sh build bench
 	@$(MAKE) --no-print-directory build
 	@/usr/bin/python3 benchmarks/large/run.py --scabo build/bin/scabo --most 2e6
+	@/usr/bin/python3 benchmarks/large/bodies.py --scabo build/bin/scabo
 
 bench-elements:
 	@cmake/install_packages.sh build bench

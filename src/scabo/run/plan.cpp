@@ -139,22 +139,22 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       plan.mesh += costs.mesh_seconds * n;
       plan.cells += costs.cell_seconds * n;
       plan.factorise += costs.factor_seconds * std::pow(n, 1.5);
-      plan.condense += costs.solve_seconds * n * log2_of(n) * k;
+      if (k > 0.0) plan.condense += costs.sweep_seconds * n + costs.condense_seconds * k * k * std::sqrt(n);
       plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
     }
     plan.fields += written * costs.field_seconds * n;
   }
   // W has a block for each body, dense within it; the systems of Newton's method are as sparse.
   const double components = 2.0 * plan.sizes.contact_pairs;
-  double blocks = 0.0, widest = 0.0;
+  double blocks = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].rigid) continue;
     blocks += 4.0 * pairs_of[b] * pairs_of[b];
-    widest = std::max(widest, 2.0 * pairs_of[b]);
   }
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
+  const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
   plan.contact +=
-      plan.increments * costs.contact_seconds * components * components * std::max(widest, costs.least_width);
+      plan.increments * costs.contact_seconds * components * components * std::max(width, costs.least_width);
   return plan;
 }
 

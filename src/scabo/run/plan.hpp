@@ -2,13 +2,12 @@
 //
 // For a body of n degrees of freedom, b symmetry blocks, k components of its contacts, N pairs in all:
 //
-//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half as much for
-//     fields many cells          sparse_bytes n; mesh, cells and fields in a time proportional to n; more where no
-//     cells are
-//                         equal
+//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half as much for fields
+//     many cells          sparse_bytes n; mesh, cells and fields in a time proportional to n; more where no two cells
+//                         are equal
 //     their factor        fill_bytes n log2(n); factor_seconds n^1.5             (nested dissection in the plane)
-//     condensation        dense: dense_seconds n^2 k; sparse: solve_seconds n log2(n) k
-//     contact             contact_bytes k^2; contact_seconds (2N)^2 k for each increment, of the largest k
+//     condensation        dense: dense_seconds n^2 k; sparse: sweep_seconds n + condense_seconds k^2 n^0.5
+//     contact             contact_bytes k^2; contact_seconds (2N)^2 k for each increment, k averaged
 //
 // Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
@@ -33,13 +32,15 @@ struct CostConstants {
   double own_cell_bytes = 3000.0;   ///< for n of polygons and cells of a file, which are all different
   double own_cell_seconds = 2e-5;   ///< for n of them
   double fill_bytes = 150.0;        ///< for n log2(n): the factor and what its computation needs
-  double factor_seconds = 2e-8;     ///< for n^1.5
+  double factor_seconds = 1e-8;     ///< for n^1.5
   double mesh_seconds = 1e-6;       ///< for n
   double cell_seconds = 1e-6;       ///< for n
   double solve_seconds = 3.5e-9;    ///< for n log2(n) and one right-hand side
+  double sweep_seconds = 1e-7;      ///< for n: the sweep over the factor that condenses
+  double condense_seconds = 4e-10;  ///< for k^2 n^0.5
   double contact_bytes = 50.0;      ///< for k^2 of each body: W and matrices of Newton's method
-  double contact_seconds = 1e-9;    ///< for (2N)^2 k of the body with the largest k and one increment
-  double least_width = 150.0;       ///< least k there, of many bodies with few pairs each
+  double contact_seconds = 1e-9;    ///< for (2N)^2 k of an average body and one increment
+  double least_width = 300.0;       ///< least k there, of many bodies with few pairs each
   double field_seconds = 6e-6;      ///< for n and one increment with fields
 };
 
