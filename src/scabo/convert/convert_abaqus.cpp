@@ -11,8 +11,10 @@
 
 #include "scabo/convert/deck_bodies.hpp"
 #include "scabo/convert/deck_content.hpp"
+#include "scabo/convert/deck_elements.hpp"
 #include "scabo/convert/piece_geometry.hpp"
 #include "scabo/convert/write_mesh.hpp"
+#include "scabo/convert/write_model.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/model/wording.hpp"
 
@@ -25,24 +27,6 @@ using files::ImportedCell;
 using files::ImportedMesh;
 using files::upper;
 using model::number_text;
-
-/// A key or name as YAML takes it for text.
-std::string word(const std::string& name) {
-  static const std::set<std::string> reserved = {"TRUE", "FALSE", "NULL", "YES", "NO", "ON", "OFF", "Y", "N", "~"};
-  return reserved.contains(upper(name)) ? '"' + name + '"' : name;
-}
-
-std::string quoted(const std::string& text) {
-  std::string made = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') made += '\\';
-    const bool plain = static_cast<unsigned char>(c) >= ' ' && static_cast<unsigned char>(c) < 127;
-    made += plain ? std::string(1, c) : std::string("?");
-  }
-  return made + '"';
-}
-
-std::string point(const Vec2& x) { return fmt::format("[{}, {}]", number_text(x.x()), number_text(x.y())); }
 
 /// What a load or a displacement that varies is in `steps`.
 struct Driven {
@@ -58,9 +42,10 @@ class Converter {
   Conversion convert() {
     for (const std::string& remark : mesh_.remarks) mesh_remark(remark);
     content_ = read_content(deck_, remarks_);
-    check_elements();
-    give_materials();
-    bodies_ = bodies_of(deck_, content_, material_of_cell_, remarks_);
+    plane_strain_ = plane_strain_of(deck_, content_, remarks_).value_or(false);
+    GivenMaterials materials = materials_of(deck_, content_, plane_strain_, remarks_);
+    parts_.materials = std::move(materials.lines);
+    bodies_ = bodies_of(deck_, content_, materials.of_cell, remarks_);
     if (content_.steps.empty())
       remarks_.essential({deck_name_, 1}, "the deck has no *STEP, so that nothing is analysed; add one with *STATIC");
     collect_supports();
@@ -74,8 +59,11 @@ class Converter {
     write_body_loads();
     write_contacts();
     write_steps();
-    result_.model = model_text();
-    result_.mesh = mesh_text(deck_, bodies_, pieces_, plane_strain_.value_or(false), deck_name_);
+    parts_.title = content_.title;
+    parts_.plane_strain = plane_strain_;
+    if (!content_.sections.empty()) parts_.thickness = content_.sections.front().thickness;
+    result_.model = model_text(parts_, bodies_, remarks_, deck_name_, mesh_name_);
+    result_.mesh = mesh_text(deck_, bodies_, pieces_, plane_strain_, deck_name_);
     result_.bodies = static_cast<int>(bodies_.bodies.size());
     result_.steps = static_cast<int>(content_.steps.size());
     result_.remarks = remarks_.take();
@@ -93,126 +81,6 @@ class Converter {
         placed ? files::DeckPlace{remark.substr(0, colon), static_cast<int>(line)} : files::DeckPlace{deck_name_, 1};
     const std::string text = placed ? remark.substr(end + 2) : remark;
     remark.find("have no area") != std::string::npos ? remarks_.essential(at, text) : remarks_.note(at, text);
-  }
-
-  void check_elements() {
-    for (const auto& elements : deck_.elements) {
-      const std::string& type = elements.type;
-      const bool taken = type.size() >= 4 && (type.starts_with("CPS") || type.starts_with("CPE")) &&
-                         std::string_view("3468").find(type[3]) != std::string_view::npos &&
-                         type.find_first_not_of("RIHM", 4) == std::string::npos;
-      if (!taken) {
-        if (type.starts_with("T") || type.starts_with("B"))
-          remarks_.note(elements.at, fmt::format("elements of type {} have no section and are left out",
-                                                 files::printable(elements.type)));
-        else if (std::any_of(deck_.type_of_cell.begin(), deck_.type_of_cell.end(), [&](const auto& cell) {
-                   return &deck_.elements[static_cast<std::size_t>(cell.second)] == &elements;
-                 }))
-          remarks_.essential(
-              elements.at,
-              fmt::format("elements of type {} are not taken; use plane ones with 3, 4, 6 or 8 nodes (CPS, CPE)",
-                          files::printable(elements.type)));
-        continue;
-      }
-      const bool strain = type[2] == 'E';
-      if (plane_strain_ && *plane_strain_ != strain)
-        remarks_.essential(elements.at,
-                           "plane stress (CPS) and plane strain (CPE) in one deck are not taken; use one of them");
-      if (!plane_strain_) plane_strain_ = strain;
-      if (type.find_first_of("RI", 4) != std::string::npos)
-        remarks_.note(
-            elements.at,
-            fmt::format("elements of type {} become elements of the same nodes with full integration; results differ "
-                        "by what the mesh does not resolve",
-                        files::printable(type)));
-      if (type.find_first_of("HM", 4) != std::string::npos)
-        remarks_.note(
-            elements.at,
-            fmt::format("elements of type {} become elements for displacements alone; use them only where the "
-                        "material can change its volume",
-                        files::printable(type)));
-    }
-    for (const DeckSection& section : content_.sections)
-      if (section.thickness != content_.sections.front().thickness)
-        remarks_.essential(
-            section.at,
-            fmt::format("the thickness {:g} is not that of the first section, {:g}; a model has one thickness",
-                        section.thickness, content_.sections.front().thickness));
-  }
-
-  const DeckMaterial* material_named(const std::string& name) const {
-    for (const DeckMaterial& material : content_.materials)
-      if (upper(material.name) == upper(name)) return &material;
-    return nullptr;
-  }
-
-  void give_materials() {
-    material_of_cell_.assign(mesh_.cells.size(), "");
-    UniqueNames names;
-    std::map<std::string, std::string> made;
-    std::set<std::string> used;
-    for (const DeckSection& section : content_.sections) {
-      const DeckMaterial* material = material_named(section.material);
-      const auto cells = cells_named(mesh_, section.set);
-      if (!cells) continue;  // of elements that are left out
-      if (material == nullptr) {
-        if (!section.material.empty())
-          remarks_.essential(section.at, fmt::format("there is no material '{}'; correct its name",
-                                                     files::printable(section.material)));
-        continue;
-      }
-      used.insert(upper(material->name));
-      std::string key = upper(material->name);
-      double angle = 0.0;
-      if (!section.orientation.empty()) {
-        const auto found = content_.orientations.find(section.orientation);
-        if (found == content_.orientations.end() && material->orthotropic)
-          remarks_.essential(section.at, fmt::format("there is no usable *ORIENTATION '{}'; correct it",
-                                                     files::printable(section.orientation)));
-        if (found != content_.orientations.end() && material->orthotropic) angle = found->second;
-      }
-      if (angle != 0.0) key += " " + number_text(angle);
-      const auto [entry, is_new] = made.try_emplace(key);
-      if (is_new) {
-        entry->second = names.take(material->name);
-        write_material(*material, angle, entry->second);
-      }
-      for (const int c : *cells) material_of_cell_[static_cast<std::size_t>(c)] = entry->second;
-    }
-    for (const DeckMaterial& material : content_.materials)
-      if (!used.contains(upper(material.name)))
-        remarks_.note(material.at, fmt::format("material '{}' is used by no section and is left out",
-                                               files::printable(material.name)));
-    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-      if (material_of_cell_[c].empty()) {
-        remarks_.essential(
-            deck_.elements[static_cast<std::size_t>(deck_.type_of_cell.at(mesh_.cells[c].number))].at,
-            fmt::format("element {} and maybe others have no material; add a *SOLID SECTION", mesh_.cells[c].number));
-        break;
-      }
-  }
-
-  void write_material(const DeckMaterial& material, double angle, const std::string& name) {
-    std::string text;
-    if (material.isotropic)
-      text = fmt::format("young: {}, poisson: {}", number_text(material.isotropic->first),
-                         number_text(material.isotropic->second));
-    else if (material.orthotropic) {
-      const std::vector<double>& n = *material.orthotropic;
-      text = fmt::format("orthotropic: {{E1: {}, E2: {}, nu12: {}, G12: {}", number_text(n[0]), number_text(n[1]),
-                         number_text(n[3]), number_text(n[6]));
-      if (plane_strain_.value_or(false))
-        text += fmt::format(", E3: {}, nu13: {}, nu23: {}", number_text(n[2]), number_text(n[4]), number_text(n[5]));
-      if (angle != 0.0) text += fmt::format(", angle: {}", number_text(angle));
-      text += "}";
-    } else {
-      remarks_.essential(material.at, fmt::format("material '{}' has no *ELASTIC that is taken; add one",
-                                                  files::printable(material.name)));
-      return;
-    }
-    if (material.density) text += fmt::format(", density: {}", number_text(*material.density));
-    if (material.expansion) text += fmt::format(", expansion: {}", number_text(*material.expansion));
-    materials_ += fmt::format("  {}: {{{}}}\n", word(name), text);
   }
 
   // ---- what acts on sides
@@ -336,7 +204,8 @@ class Converter {
                       what, number));
       return std::nullopt;
     }
-    return fmt::format("{{body: {}, near: {}}}", word(bodies_.bodies[static_cast<std::size_t>(body)].name), point(x));
+    return fmt::format("{{body: {}, near: {}}}", yaml_word(bodies_.bodies[static_cast<std::size_t>(body)].name),
+                       yaml_point(x));
   }
 
   /// One sentence for each line of the deck, whose set may have thousands of such nodes.
@@ -362,15 +231,15 @@ class Converter {
       }
       const double scale = scale_of(course);
       const std::string name = names_.take(label), value = number_text(scale);
-      supports_ +=
+      parts_.supports +=
           fmt::format("  - {{on: {}, displacement: {}, name: {}}}\n", on,
-                      k == 0 ? fmt::format("[{}, null]", value) : fmt::format("[null, {}]", value), word(name));
+                      k == 0 ? fmt::format("[{}, null]", value) : fmt::format("[null, {}]", value), yaml_word(name));
       driven_.push_back({name, scaled(course, 1.0 / scale)});
       ++result_.supports;
     }
     if (fixed.empty()) return;
-    supports_ +=
-        fmt::format("  - {{on: {}, fix: [{}], name: {}}}\n", on, fmt::join(fixed, ", "), word(names_.take(label)));
+    parts_.supports +=
+        fmt::format("  - {{on: {}, fix: [{}], name: {}}}\n", on, fmt::join(fixed, ", "), yaml_word(names_.take(label)));
     ++result_.supports;
   }
 
@@ -404,7 +273,7 @@ class Converter {
   }
 
   void add_load(const std::string& name, const std::string& on, const std::string& kind, const Course& factors) {
-    loads_ += fmt::format("  {}: {{{}{}{}}}\n", word(name), on, on.empty() ? "" : ", ", kind);
+    parts_.loads += fmt::format("  {}: {{{}{}{}}}\n", yaml_word(name), on, on.empty() ? "" : ", ", kind);
     driven_.push_back({name, factors});
     ++result_.loads;
   }
@@ -415,7 +284,7 @@ class Converter {
     const double sx = is_zero(x) ? 0.0 : scale_of(x), sy = is_zero(y) ? 0.0 : scale_of(y);
     const Course fx = scaled(x, sx != 0.0 ? 1.0 / sx : 1.0), fy = scaled(y, sy != 0.0 ? 1.0 / sy : 1.0);
     const auto write = [&](double a, double b, const Course& factors) {
-      add_load(names_.take(label), on, fmt::format("{}: {}", kind, point({a, b})), factors);
+      add_load(names_.take(label), on, fmt::format("{}: {}", kind, yaml_point({a, b})), factors);
     };
     if (sx != 0.0 && sy != 0.0 && fx == fy) return write(sx, sy, fx);
     if (sx != 0.0) write(sx, 0.0, fx);
@@ -473,7 +342,7 @@ class Converter {
               fmt::format("the load acts on a part of body '{}' only, which Scabo's do not; give it to all of its "
                           "elements",
                           name));
-        add_vector_load(label, "on: " + word(name), kind, load.x.course, load.y.course);
+        add_vector_load(label, "on: " + yaml_word(name), kind, load.x.course, load.y.course);
       }
     }
   }
@@ -515,13 +384,13 @@ class Converter {
                                        ? interaction->second.name
                                        : contact.slave + "_" + contact.master;
         if (bonded && least_distance(mesh_, *b, *a) <= 1e-6 * length_of(mesh_, *b)) {
-          ties_ += fmt::format("  {}: {{{}}}\n", word(names.take(wanted)), between);
+          parts_.ties += fmt::format("  {}: {{{}}}\n", yaml_word(names.take(wanted)), between);
           ++result_.ties;
           continue;
         }
         const double mu = interaction == content_.interactions.end() ? 0.0 : interaction->second.friction;
-        contacts_ += fmt::format("  {}: {{{}, {}}}\n", word(names.take(wanted)), between,
-                                 bonded ? std::string("bond: true") : "friction: " + number_text(mu));
+        parts_.contacts += fmt::format("  {}: {{{}, {}}}\n", yaml_word(names.take(wanted)), between,
+                                       bonded ? std::string("bond: true") : "friction: " + number_text(mu));
         ++result_.contacts;
       }
     }
@@ -530,10 +399,10 @@ class Converter {
   // ---- steps
 
   std::string curve_for(const std::vector<std::pair<double, double>>& table) {
-    for (const auto& [name, known] : curves_)
-      if (known == table) return name;
-    curves_.emplace_back(fmt::format("curve_{}", curves_.size() + 1), table);
-    return curves_.back().first;
+    for (const NamedCurve& known : parts_.curves)
+      if (known.table == table) return known.name;
+    parts_.curves.push_back({fmt::format("curve_{}", parts_.curves.size() + 1), table});
+    return parts_.curves.back().name;
   }
 
   void write_steps() {
@@ -547,12 +416,12 @@ class Converter {
         const double before = s > 0 ? driven.factors[s - 1].end : 0.0;
         plain = plain && leg.table.empty() && leg.end == 1.0;
         if (leg.table.empty() && leg.end == before) continue;
-        factors.push_back(
-            fmt::format("{}: {}", word(driven.name), leg.table.empty() ? number_text(leg.end) : curve_for(leg.table)));
+        factors.push_back(fmt::format("{}: {}", yaml_word(driven.name),
+                                      leg.table.empty() ? number_text(leg.end) : curve_for(leg.table)));
       }
       if (factors.empty() && !plain && !driven_.empty())
         factors.push_back(
-            fmt::format("{}: {}", word(driven_.front().name), number_text(driven_.front().factors[s].end)));
+            fmt::format("{}: {}", yaml_word(driven_.front().name), number_text(driven_.front().factors[s].end)));
       const double first = step.first / step.period,
                    largest = std::min(1.0, step.largest > 0.0 ? step.largest / step.period : 1.0);
       std::string increments = "1";
@@ -564,52 +433,11 @@ class Converter {
         increments = fmt::format("{{first: {}, smallest: {}, largest: {}}}",
                                  number_text(std::clamp(first, least, most)), number_text(least), number_text(most));
       }
-      steps_ += fmt::format("  - {{name: {}, increments: {}{}}}\n",
-                            word(names.take(step.name.empty() ? fmt::format("step_{}", s + 1) : step.name)), increments,
-                            plain || factors.empty() ? "" : fmt::format(", loads: {{{}}}", fmt::join(factors, ", ")));
+      parts_.steps +=
+          fmt::format("  - {{name: {}, increments: {}{}}}\n",
+                      yaml_word(names.take(step.name.empty() ? fmt::format("step_{}", s + 1) : step.name)), increments,
+                      plain || factors.empty() ? "" : fmt::format(", loads: {{{}}}", fmt::join(factors, ", ")));
     }
-  }
-
-  // ---- text
-
-  std::string model_text() {
-    std::string text = fmt::format("# Made by `scabo convert` from {}\n", files::printable(deck_name_));
-    for (const Remark& remark : remarks_.all())
-      if (remark.essential) text += fmt::format("# Missing ({}): {}\n", remark.at.line, remark.text);
-    text += "scabo: 1\n";
-    if (!content_.title.empty()) text += fmt::format("title: {}\n", quoted(content_.title));
-    const double thickness = content_.sections.empty() ? 1.0 : content_.sections.front().thickness;
-    text += fmt::format("analysis: {{plane: {}, thickness: {}}}\n", plane_strain_.value_or(false) ? "strain" : "stress",
-                        number_text(thickness));
-    text += "materials:\n" + materials_ + "bodies:\n";
-    for (const DeckBody& body : bodies_.bodies) {
-      text += fmt::format("  {}:\n", word(body.name));
-      if (body.regions.size() == 1) {
-        text += fmt::format("    material: {}\n", word(body.regions[0].material));
-      } else {
-        std::vector<std::string> materials;
-        for (const DeckRegion& region : body.regions)
-          materials.push_back(fmt::format("{}: {}", word(region.name), word(region.material)));
-        text += fmt::format("    materials: {{{}}}\n", fmt::join(materials, ", "));
-      }
-      text += fmt::format("    mesh: {{file: {}, region: {}, elements: fem}}\n", quoted(mesh_name_), word(body.name));
-    }
-    const auto section = [&](const char* name, const std::string& content) {
-      if (!content.empty()) text += fmt::format("{}:\n{}", name, content);
-    };
-    section("supports", supports_);
-    section("loads", loads_);
-    section("contacts", contacts_);
-    section("ties", ties_);
-    std::string curves;
-    for (const auto& [name, table] : curves_) {
-      std::vector<std::string> points;
-      for (const auto& [part, value] : table) points.push_back(point({part, value}));
-      curves += fmt::format("  {}: {{table: [{}]}}\n", name, fmt::join(points, ", "));
-    }
-    section("curves", curves);
-    section("steps", steps_);
-    return text;
   }
 
   const files::AbaqusDeck& deck_;
@@ -618,8 +446,7 @@ class Converter {
   Remarks remarks_;
   DeckContent content_;
   DeckBodies bodies_;
-  std::vector<std::string> material_of_cell_;
-  std::optional<bool> plane_strain_;
+  bool plane_strain_ = false;
   std::vector<SideUse> uses_;
   std::map<std::pair<int, int>, std::set<int>> uses_of_;
   std::vector<Course> courses_;                     // of displacements
@@ -638,8 +465,7 @@ class Converter {
   std::vector<DeckPiece> pieces_;
   UniqueNames names_;  // of loads and supports
   std::vector<Driven> driven_;
-  std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> curves_;
-  std::string materials_, supports_, loads_, contacts_, ties_, steps_;
+  ModelParts parts_;
   Conversion result_;
 };
 

@@ -1,0 +1,151 @@
+#include "scabo/convert/deck_elements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "scabo/convert/deck_bodies.hpp"
+#include "scabo/convert/write_model.hpp"
+#include "scabo/files/abaqus_lines.hpp"
+#include "scabo/files/text_cursor.hpp"
+#include "scabo/model/wording.hpp"
+
+namespace scabo::convert {
+
+namespace {
+
+using files::upper;
+using model::number_text;
+
+const DeckMaterial* material_named(const DeckContent& content, const std::string& name) {
+  for (const DeckMaterial& material : content.materials)
+    if (upper(material.name) == upper(name)) return &material;
+  return nullptr;
+}
+
+/// Empty if its law is not taken.
+std::string material_line(const DeckMaterial& material, double angle, const std::string& name, bool plane_strain,
+                          Remarks& remarks) {
+  std::string text;
+  if (material.isotropic)
+    text = fmt::format("young: {}, poisson: {}", number_text(material.isotropic->first),
+                       number_text(material.isotropic->second));
+  else if (material.orthotropic) {
+    const std::vector<double>& n = *material.orthotropic;
+    text = fmt::format("orthotropic: {{E1: {}, E2: {}, nu12: {}, G12: {}", number_text(n[0]), number_text(n[1]),
+                       number_text(n[3]), number_text(n[6]));
+    if (plane_strain)
+      text += fmt::format(", E3: {}, nu13: {}, nu23: {}", number_text(n[2]), number_text(n[4]), number_text(n[5]));
+    if (angle != 0.0) text += fmt::format(", angle: {}", number_text(angle));
+    text += "}";
+  } else {
+    remarks.essential(material.at, fmt::format("material '{}' has no *ELASTIC that is taken; add one",
+                                               files::printable(material.name)));
+    return {};
+  }
+  if (material.density) text += fmt::format(", density: {}", number_text(*material.density));
+  if (material.expansion) text += fmt::format(", expansion: {}", number_text(*material.expansion));
+  return fmt::format("  {}: {{{}}}\n", yaml_word(name), text);
+}
+
+}  // namespace
+
+std::optional<bool> plane_strainof(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks) {
+  std::optional<bool> plane_strain;
+  for (const auto& elements : deck.elements) {
+    const std::string& type = elements.type;
+    const bool taken = type.size() >= 4 && (type.starts_with("CPS") || type.starts_with("CPE")) &&
+                       std::string_view("3468").find(type[3]) != std::string_view::npos &&
+                       type.find_first_not_of("RIHM", 4) == std::string::npos;
+    if (!taken) {
+      if (type.starts_with("T") || type.starts_with("B"))
+        remarks.note(elements.at, fmt::format("elements of type {} have no section and are left out",
+                                              files::printable(elements.type)));
+      else if (std::any_of(deck.type_of_cell.begin(), deck.type_of_cell.end(), [&](const auto& cell) {
+                 return &deck.elements[static_cast<std::size_t>(cell.second)] == &elements;
+               }))
+        remarks.essential(
+            elements.at,
+            fmt::format("elements of type {} are not taken; use plane ones with 3, 4, 6 or 8 nodes (CPS, CPE)",
+                        files::printable(elements.type)));
+      continue;
+    }
+    const bool strain = type[2] == 'E';
+    if (plane_strain && *plane_strain != strain)
+      remarks.essential(elements.at,
+                        "plane stress (CPS) and plane strain (CPE) in one deck are not taken; use one of them");
+    if (!plane_strain) plane_strain = strain;
+    if (type.find_first_of("RI", 4) != std::string::npos)
+      remarks.note(
+          elements.at,
+          fmt::format("elements of type {} become elements of the same nodes with full integration; results differ "
+                      "by what the mesh does not resolve",
+                      files::printable(type)));
+    if (type.find_first_of("HM", 4) != std::string::npos)
+      remarks.note(elements.at,
+                   fmt::format("elements of type {} become elements for displacements alone; use them only where the "
+                               "material can change its volume",
+                               files::printable(type)));
+  }
+  for (const DeckSection& section : content.sections)
+    if (section.thickness != content.sections.front().thickness)
+      remarks.essential(
+          section.at,
+          fmt::format("the thickness {:g} is not that of the first section, {:g}; a model has one thickness",
+                      section.thickness, content.sections.front().thickness));
+  return plane_strain;
+}
+
+GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& content, bool plane_strain,
+                            Remarks& remarks) {
+  GivenMaterials given;
+  given.of_cell.assign(deck.mesh.cells.size(), "");
+  UniqueNames names;
+  std::map<std::string, std::string> made;
+  std::set<std::string> used;
+  for (const DeckSection& section : content.sections) {
+    const DeckMaterial* material = material_named(content, section.material);
+    const auto cells = cells_named(deck.mesh, section.set);
+    if (!cells) continue;  // of elements that are left out
+    if (material == nullptr) {
+      if (!section.material.empty())
+        remarks.essential(
+            section.at, fmt::format("there is no material '{}'; correct its name", files::printable(section.material)));
+      continue;
+    }
+    used.insert(upper(material->name));
+    std::string key = upper(material->name);
+    double angle = 0.0;
+    if (!section.orientation.empty()) {
+      const auto found = content.orientations.find(section.orientation);
+      if (found == content.orientations.end() && material->orthotropic)
+        remarks.essential(section.at, fmt::format("there is no usable *ORIENTATION '{}'; correct it",
+                                                  files::printable(section.orientation)));
+      if (found != content.orientations.end() && material->orthotropic) angle = found->second;
+    }
+    if (angle != 0.0) key += " " + number_text(angle);
+    const auto [entry, is_new] = made.try_emplace(key);
+    if (is_new) {
+      entry->second = names.take(material->name);
+      given.lines += material_line(*material, angle, entry->second, plane_strain, remarks);
+    }
+    for (const int c : *cells) given.of_cell[static_cast<std::size_t>(c)] = entry->second;
+  }
+  for (const DeckMaterial& material : content.materials)
+    if (!used.contains(upper(material.name)))
+      remarks.note(material.at,
+                   fmt::format("material '{}' is used by no section and is left out", files::printable(material.name)));
+  for (std::size_t c = 0; c < deck.mesh.cells.size(); ++c)
+    if (given.of_cell[c].empty()) {
+      remarks.essential(
+          deck.elements[static_cast<std::size_t>(deck.type_of_cell.at(deck.mesh.cells[c].number))].at,
+          fmt::format("element {} and maybe others have no material; add a *SOLID SECTION", deck.mesh.cells[c].number));
+      break;
+    }
+  return given;
+}
+
+}  // namespace scabo::convert

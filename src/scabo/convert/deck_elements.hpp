@@ -1,0 +1,25 @@
+// What the elements of a deck are: whether they can be taken, the kind of analysis, and their materials.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scabo/convert/deck_content.hpp"
+
+namespace scabo::convert {
+
+/// Whether the elements that are taken are of plane strain; nothing without any. The others, and thicknesses that
+/// differ, become remarks.
+std::optional<bool> plane_strain_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks);
+
+struct GivenMaterials {
+  std::vector<std::string> of_cell;  ///< names of the model; empty for a cell without one
+  std::string lines;                 ///< of the section `materials` of the model
+};
+
+/// A material of the deck that has several orientations becomes as many of the model.
+GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& content, bool plane_strain,
+                            Remarks& remarks);
+
+}  // namespace scabo::convert

@@ -1,0 +1,73 @@
+#include "scabo/convert/write_model.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "scabo/files/abaqus_lines.hpp"
+#include "scabo/files/text_cursor.hpp"
+#include "scabo/model/wording.hpp"
+
+namespace scabo::convert {
+
+using model::number_text;
+
+std::string yaml_word(const std::string& name) {
+  static const std::set<std::string> reserved = {"TRUE", "FALSE", "NULL", "YES", "NO", "ON", "OFF", "Y", "N", "~"};
+  return reserved.contains(files::upper(name)) ? '"' + name + '"' : name;
+}
+
+std::string yaml_quoted(const std::string& text) {
+  std::string made = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') made += '\\';
+    const bool plain = static_cast<unsigned char>(c) >= ' ' && static_cast<unsigned char>(c) < 127;
+    made += plain ? std::string(1, c) : std::string("?");
+  }
+  return made + '"';
+}
+
+std::string yaml_point(const Vec2& x) { return fmt::format("[{}, {}]", number_text(x.x()), number_text(x.y())); }
+
+std::string model_text(const ModelParts& parts, const DeckBodies& bodies, const Remarks& remarks,
+                       const std::string& deck_name, const std::string& mesh_name) {
+  std::string text = fmt::format("# Made by `scabo convert` from {}\n", files::printable(deck_name));
+  for (const Remark& remark : remarks.all())
+    if (remark.essential) text += fmt::format("# Missing ({}): {}\n", remark.at.line, remark.text);
+  text += "scabo: 1\n";
+  if (!parts.title.empty()) text += fmt::format("title: {}\n", yaml_quoted(parts.title));
+  text += fmt::format("analysis: {{plane: {}, thickness: {}}}\n", parts.plane_strain ? "strain" : "stress",
+                      number_text(parts.thickness));
+  text += "materials:\n" + parts.materials + "bodies:\n";
+  for (const DeckBody& body : bodies.bodies) {
+    text += fmt::format("  {}:\n", yaml_word(body.name));
+    if (body.regions.size() == 1) {
+      text += fmt::format("    material: {}\n", yaml_word(body.regions[0].material));
+    } else {
+      std::vector<std::string> materials;
+      for (const DeckRegion& region : body.regions)
+        materials.push_back(fmt::format("{}: {}", yaml_word(region.name), yaml_word(region.material)));
+      text += fmt::format("    materials: {{{}}}\n", fmt::join(materials, ", "));
+    }
+    text += fmt::format("    mesh: {{file: {}, region: {}, elements: fem}}\n", yaml_quoted(mesh_name),
+                        yaml_word(body.name));
+  }
+  const auto section = [&](const char* name, const std::string& content) {
+    if (!content.empty()) text += fmt::format("{}:\n{}", name, content);
+  };
+  section("supports", parts.supports);
+  section("loads", parts.loads);
+  section("contacts", parts.contacts);
+  section("ties", parts.ties);
+  std::string curves;
+  for (const auto& [name, table] : parts.curves) {
+    std::vector<std::string> points;
+    for (const auto& [part, value] : table) points.push_back(yaml_point({part, value}));
+    curves += fmt::format("  {}: {{table: [{}]}}\n", name, fmt::join(points, ", "));
+  }
+  section("curves", curves);
+  section("steps", parts.steps);
+  return text;
+}
+
+}  // namespace scabo::convert
