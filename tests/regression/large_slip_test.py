@@ -1,4 +1,5 @@
-"""Large slip: a block dragged over ten elements of a foundation, and resuming (ironing: example 22)."""
+"""Large slip: a block dragged over ten elements of a foundation, a press fit pushed out, resuming and restarting (ironing: example
+22)."""
 import math
 import shutil
 import signal
@@ -24,6 +25,11 @@ def text_of(value):
     return repr(value) if isinstance(value, float) else str(value)
 
 
+def model_of(sections):
+    """A model file with a line for each section."""
+    return "".join(f"{name}: {text_of(value)}\n" for name, value in sections.items())
+
+
 def turned(point, angle, scale):
     c, s = math.cos(angle), math.sin(angle)
     return [scale * (c * point[0] - s * point[1]), scale * (s * point[0] + c * point[1])]
@@ -47,7 +53,7 @@ def block(angle=0.0, scale=1.0, friction=FRICTION, slip="large", increments=25, 
     steps = [{"name": "press", "loads": {"weight": 1, "drag": 0}}]
     for number, drag in enumerate(drags):
         steps.append({"name": f"drag_{number + 1}", "increments": increments, "loads": {"weight": 1, "drag": drag}})
-    return text_of({
+    return model_of({
         "scabo": 1, "analysis": {"thickness": scale},
         "materials": {"steel": {"young": 210e9 / scale**2, "poisson": 0.3}},
         "bodies": {"ground": foundation,
@@ -58,7 +64,7 @@ def block(angle=0.0, scale=1.0, friction=FRICTION, slip="large", increments=25, 
         "loads": {"weight": {"on": "block.top", "traction": down}},
         "contacts": {"joint": {"between": between, "friction": friction, "slip": slip}},
         "steps": steps,
-        "output": {"history": {"shear": "joint.tangential_force", "work": "friction_energy"}}}) + "\n"
+        "output": {"history": {"shear": "joint.tangential_force", "work": "friction_energy"}}})
 
 
 class LargeSlipRuns(support.InTemporaryDirectory):
@@ -141,7 +147,7 @@ class LargeSlip(LargeSlipRuns):
         """Pushed by F beyond mu N, it slides by (F - mu N) / k, to the size of elastic deformations."""
         text = block(increments=8, drags=(6e6,))
         text = text.replace(", {name: drag, on: block.left, displacement: {along: [1.0, 0.0], value: 1.0}}", "")
-        text = text.replace("loads: {weight: {", "springs: [{on: block.bottom_left, k_x: 1e6, k_y: 0}], "
+        text = text.replace("loads: {weight: {", "springs: [{on: block.bottom_left, k_x: 1e6, k_y: 0}]\n"
                             "loads: {drag: {on: block.left, force: [1, 0]}, weight: {")
         text = text.replace("left: edge_4", "left: edge_4, bottom_left: vertex_1")
         increments = self.solve(text)
@@ -183,7 +189,7 @@ def press_fit(way=60e-3, increments=6, pulled=True, drawn_at=0.0, angle=0.0, sca
     bar = rectangle([drawn_at, 0], [drawn_at + length, HALF], angle, scale)
     jaw = rectangle([0, HALF], [OVERLAP, HALF + JAW], angle, scale)
     between = ["jaw.bottom", "bar.top"] if swapped else ["bar.top", "jaw.bottom"]
-    return text_of({
+    return model_of({
         "scabo": 1, "analysis": {"plane": "stress", "thickness": 40e-3 * scale},
         "materials": {"steel": {"young": YOUNG / scale**2, "poisson": POISSON}},
         "bodies": {"bar": {"material": "steel", "mesh": mesh, "shape": bar}, "jaw": {"material": "steel", "mesh": mesh, "shape": jaw}},
@@ -194,7 +200,7 @@ def press_fit(way=60e-3, increments=6, pulled=True, drawn_at=0.0, angle=0.0, sca
         "steps": [{"name": "press", "friction": {"fit": 0}, "loads": {"push": 0}}, {"name": "grip", "friction": {"fit": GRIP}},
                   {"name": "slide", "increments": 2, "loads": {"push": SLID / way}},
                   {"name": "push", "increments": increments, "loads": {"push": 1}}],
-        "output": {"fields": []}}) + "\n"
+        "output": {"fields": []}})
 
 
 def force_of_fit(overlap, pulled):
@@ -216,7 +222,7 @@ class PressFit(LargeSlipRuns):
     def test_force_falls_with_the_overlap(self):
         for pulled in (True, False):
             with self.subTest(pulled=pulled):
-                increments = self.solve(press_fit(pulled=pulled, mesh={"size": 5e-3}), warned=True)
+                increments = self.solve(press_fit(pulled=pulled, increments=12, mesh={"size": 5e-3}), warned=True)
                 area = OVERLAP * 40e-3
                 pressed = YOUNG * INTERFERENCE / (HALF + JAW) * area
                 self.assertAlmostEqual(increments[0]["contacts"]["fit"]["normal_force"] / pressed, 1, delta=1e-9)
@@ -225,12 +231,12 @@ class PressFit(LargeSlipRuns):
                 self.assertAlmostEqual(slid / force_of_fit(OVERLAP, pulled), 1, delta=2e-4)
                 # Then stress spreads into what sticks out, which is the same at any overlap: it is one of a little more length.
                 forces = self.forces(increments)
-                more = [self.length_of(force, pulled) - (OVERLAP - (k + 1) * 10e-3) for k, force in enumerate(forces)]
+                more = [self.length_of(force, pulled) - (OVERLAP - (k + 1) * 5e-3) for k, force in enumerate(forces)]
                 self.assertTrue(0.9e-3 < min(more) and max(more) < 1.7e-3, more)
                 # Work: of the forces along the way; what is stored in the bar and not lost with the overlap is the rest.
                 friction = [one["energy"]["friction"] for one in increments[4:]]
-                for k in range(5):
-                    by_hand = (forces[k] + forces[k + 1]) / 2 * 10e-3
+                for k in range(11):
+                    by_hand = (forces[k] + forces[k + 1]) / 2 * 5e-3
                     self.assertAlmostEqual((friction[k + 1] - friction[k]) / by_hand, 1, delta=3e-3)
                 first, last = increments[3]["energy"], increments[-1]["energy"]
                 self.assertAlmostEqual((last["external"] - first["external"]) / (last["friction"] - first["friction"]), 1, delta=2e-3)
@@ -282,8 +288,14 @@ class Resume(support.InTemporaryDirectory):
         return wanted
 
     def test_a_killed_run_gives_the_same_bits(self):
+        self.kill(block(increments=100), 101)
+
+    def test_so_does_one_of_a_press_fit(self):
+        self.kill(press_fit(increments=40), 44)
+
+    def kill(self, text, increments):
         path = self.directory / "model.yaml"
-        path.write_text(block(increments=100), encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
         whole = scabo("run", path, "--quiet", "-o", self.directory / "whole.results")
         self.assertEqual(whole.returncode, 0, whole.stderr)
         killed = self.directory / "killed.results"
@@ -296,7 +308,7 @@ class Resume(support.InTemporaryDirectory):
                 table = killed / "contact.csv"
                 rows = table.read_text(encoding="utf-8").splitlines() if table.exists() else []
                 done = {tuple(row.split(",")[:2]) for row in rows[1:]}
-                if len(done) >= part * 101:
+                if len(done) >= part * increments:
                     break
                 time.sleep(0.002)
             process.send_signal(signal.SIGKILL)
@@ -305,6 +317,43 @@ class Resume(support.InTemporaryDirectory):
             self.assertIn(resumed.returncode, (0, 1), resumed.stderr)
             if resumed.returncode == 0:  # else it had ended before the signal
                 self.assertEqual(self.files("killed"), self.files("whole"))
+
+
+class Restart(LargeSlipRuns):
+    """Two runs, the second one from the end of the first one, are one run with the steps of both."""
+
+    def check(self, first, second, whole):
+        self.solve(first, name="one", warned=True)
+        rest = self.solve("restart: one.results\n" + second, name="two", warned=True)
+        of_whole = self.solve(whole, name="whole", warned=True)[-len(rest):]
+        for one, other in zip(of_whole, rest, strict=True):
+            self.assertEqual(one["pairs_found_anew"]["times"], other["pairs_found_anew"]["times"])
+            self.assertEqual(one["contacts"], other["contacts"])
+            self.assertEqual(one["energy"], other["energy"])
+            self.assertEqual(one["reactions"], other["reactions"])
+        self.assertGreater(sum(one["pairs_found_anew"]["times"] for one in rest), 3)
+
+    def test_of_a_block(self):
+        step = "{name: drag_2, increments: 8, loads: {weight: 1, drag: 2.0}}"
+        first, whole = block(increments=8, drags=(1.0,)), block(increments=8, drags=(1.0, 2.0))
+        self.assertIn(step, whole)
+        press = "{name: press, loads: {weight: 1, drag: 0}}, {name: drag_1, increments: 8, loads: {weight: 1, drag: 1.0}}, "
+        second = whole.replace(press, "")
+        self.assertNotEqual(second, whole)
+        self.check(first, second, whole)
+        # The sides are elsewhere: without large slip there is no going on.
+        path = self.directory / "small.yaml"
+        path.write_text("restart: one.results\n" + second.replace("slip: large", "slip: small"), encoding="utf-8")
+        run = scabo("run", path, "--quiet")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("small.yaml:1:10: restart: the sides of contact 'joint' have passed each other in", run.stderr)
+
+    def test_of_a_press_fit(self):
+        whole = press_fit(increments=4).replace("loads: {push: 1}}]", "loads: {push: 0.5}}, {name: more, increments: 4, loads: {push: 1}}]")
+        first = whole.replace(", {name: more, increments: 4, loads: {push: 1}}", "")
+        begin = whole.index("steps: [") + len("steps: [")
+        second = whole[:begin] + whole[whole.index("{name: more"):]
+        self.check(first, second.replace("fit_in: press, ", ""), whole)
 
 
 if __name__ == "__main__":
