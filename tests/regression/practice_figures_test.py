@@ -1,4 +1,4 @@
-"""The pictures of examples 17 to 21, drawn in one process."""
+"""The pictures of examples 17 to 21 and 23, drawn in one process."""
 import contextlib
 import io
 import os
@@ -9,7 +9,7 @@ import support
 from support import ROOT
 
 PICTURES = {"17_dam_sliding": "dam_sliding.png", "18_retaining_wall": "retaining_wall.png", "19_press_fit": "press_fit.png",
-            "20_lap_joint": "lap_joint.png", "21_tunnel_lining": "tunnel_lining.png"}
+            "20_lap_joint": "lap_joint.png", "21_tunnel_lining": "tunnel_lining.png", "23_push_out": "push_out.png"}
 
 
 class Figures(support.InTemporaryDirectory):

@@ -1,4 +1,4 @@
-"""Examples 17 to 21 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21 and 23 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
@@ -74,6 +74,9 @@ class Practice(support.InTemporaryDirectory):
 
     def test_press_fit(self):
         self.check("19_press_fit")
+
+    def test_push_out(self):
+        self.check("23_push_out")
 
     def test_lap_joint(self):
         self.check("20_lap_joint")

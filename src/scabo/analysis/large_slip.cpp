@@ -19,6 +19,7 @@ namespace {
 /// attempt.
 constexpr double part_of_element = 0.5;
 constexpr double near_to_part = 0.01;  // elastic slip makes parts of increments that end there a little shorter
+constexpr double part_of_overlap = 1e-3;  // by which it may change with the same pairs, and the forces with it
 
 const model::Edge& edge_of(const model::Model& model, const model::Place& place) {
   return model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)];
@@ -194,7 +195,7 @@ Vector fitting_motions(const Prepared& prepared, const std::vector<CarriedPair>&
     const auto n = static_cast<Eigen::Index>(2 * i);
     const Vec2 of_parts = motion_of_parts(prepared, state.replaced, at.contact);
     weight[n] = weight[n + 1] = 1.0;
-    target[n] = -(prepared.contact.gap[n / 2] + state.replaced.offset[n] + motion[n]);
+    target[n] = -(gap_at(prepared, state.factors, n / 2) + state.replaced.offset[n] + motion[n]);
     target[n + 1] = (carried[i].motion - of_parts).dot(tangent_of(pair.normal)) - motion[n + 1];
   }
   const Eigen::SparseMatrix<double> weighted = weight.asDiagonal() * G.sparse();
@@ -284,6 +285,18 @@ double beyond_elastic_motion(const std::vector<bool>& large, const Replacing& re
   return most > least ? 2.0 * (most - least) : 1e-3 * element;
 }
 
+/// Forces fell while the sides slid off each other, not at once when their pairs were found anew: corrects the work of
+/// friction, and of what moved the sides against it, to that of the mean of the forces. `slid`: motion of B along A of
+/// every contact; `before`, `after`: resultants on B.
+void count_falling_forces(const std::vector<Vec2>& slid, const std::vector<Vec2>& before,
+                          const std::vector<Vec2>& after, Energy& energy) {
+  for (std::size_t c = 0; c < slid.size(); ++c) {
+    const double change = -0.5 * (after[c] - before[c]).dot(slid[c]);
+    energy.friction += change;
+    energy.external += change;
+  }
+}
+
 }  // namespace
 
 bool has_large_slip(const model::Model& model) {
@@ -321,6 +334,23 @@ double LargeSlip::passed(const Prepared& prepared, const State& from, const Stat
   return most <= 1.0 + near_to_part ? std::min(most, 1.0) : most;
 }
 
+bool LargeSlip::overlap_changed(const Prepared& prepared, const State& state) const {
+  const mesh::Placement now = placement_of(prepared, state), &found = state.replaced.placement;
+  return std::any_of(contacts_.begin(), contacts_.end(), [&](const Of& of) {
+    const model::Contact& contact = prepared.model.contacts[of.contact];
+    const double before = found.empty() ? of.facing : facing_length(prepared.model, contact, of.along, found[of.contact]);
+    return std::abs(facing_length(prepared.model, contact, of.along, now[of.contact]) - before) >
+           part_of_overlap * before;
+  });
+}
+
+std::vector<Vec2> LargeSlip::motions(const Prepared& prepared, const State& from, const State& to) const {
+  std::vector<Vec2> motions(prepared.model.contacts.size(), Vec2::Zero());
+  for (const Of& of : contacts_)
+    motions[of.contact] = (lag(prepared, to, of) - lag(prepared, from, of)) * of.along;
+  return motions;
+}
+
 mesh::Placement LargeSlip::placement_of(const Prepared& prepared, const State& state) const {
   mesh::Placement placement(prepared.model.contacts.size(), {Vec2::Zero(), Vec2::Zero()});
   for (const Of& of : contacts_) {
@@ -350,8 +380,10 @@ std::vector<std::pair<std::size_t, std::string>> LargeSlip::slid_off(const model
 }
 
 FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
-                          State& state) {
+                          const State& since, State& state) {
   FoundAnew found;
+  const bool slides_off = large.overlap_changed(assembly->prepared, state);
+  const std::vector<Vec2> slid = large.motions(assembly->prepared, since, state);
   Replacing replaced;
   replaced.placement = large.placement_of(assembly->prepared, state);
   replaced.moved = translations(assembly->prepared, state, replaced.placement);
@@ -409,6 +441,9 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
   now.energy = state.energy;
   now.energy.elastic = elastic;
   const std::vector<Vec2> after = resultants(prepared, now);
+  if (slides_off) count_falling_forces(slid, forces, after, now.energy);
+  found.certificate = tried.certificate;
+  found.residual = tried.solution.residual;
   for (std::size_t c = 0; c < forces.size(); ++c)
     if (forces[c].norm() > 1e-9 * state.largest_force)
       found.jump = std::max(found.jump, (after[c] - forces[c]).norm() / forces[c].norm());

@@ -16,6 +16,10 @@
 //  - pairs that slipped keep their direction and the force of the cone there;
 //  - pairs that stuck have no slip from the displacements under the tractions that are carried over, so that these
 //    remain in equilibrium as far as the new pairs can represent them.
+//
+// Sides that slide off each other face each other over less and less. Their pairs are found anew at the end of every
+// increment, so that its results are those of the overlap there. The forces fall with it, and the work since the pairs
+// were found is that of the mean of the forces before and after.
 #pragma once
 
 #include <memory>
@@ -37,6 +41,11 @@ class LargeSlip {
   bool is_due(const Prepared& prepared, const State& state) const;
   /// By how much the sides pass each other from one state to another of the same pairs, relative to half an element.
   double passed(const Prepared& prepared, const State& from, const State& to) const;
+  /// Whether the length over which the sides of a contact face each other has changed since their pairs were found.
+  bool overlap_changed(const Prepared& prepared, const State& state) const;
+  /// Motion of side B along that of A, as a vector, of every contact with large slip from one state to another of the
+  /// same pairs; zero of other contacts.
+  std::vector<Vec2> motions(const Prepared& prepared, const State& from, const State& to) const;
 
   /// Where the sides are.
   mesh::Placement placement_of(const Prepared& prepared, const State& state) const;
@@ -64,11 +73,13 @@ struct FoundAnew {
   std::string reason;  ///< why they were not; empty if they were
   double jump = 0.0;   ///< largest change of the force of a contact, relative to it
   int iterations = 0;  ///< of the contact solver
+  contact::Certificate certificate;
+  double residual = 0.0;
 };
 
-/// Replaces mesh, super-elements and systems of the solution, and the state by that on the new pairs. Nothing changes
-/// if it fails.
+/// Replaces mesh, super-elements and systems of the solution, and the state by that on the new pairs; `since`: the state
+/// in which the present pairs began to slide off each other. Nothing changes if it fails.
 FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
-                          State& state);
+                          const State& since, State& state);
 
 }  // namespace scabo::analysis

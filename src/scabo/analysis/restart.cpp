@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "1";
+constexpr const char* end_version = "2";
 
 /// Digest of numbers and texts, one after the other.
 class Fingerprint {
@@ -152,6 +152,9 @@ void exchange_pairs(Io& io, const std::string& path, EndState::OfContact& of) {
   exchange_vector(io, path + "/slip", of.slip);
   exchange_vector(io, path + "/offset", of.offset);
   exchange_vector(io, path + "/held_offset", of.held_offset);
+  exchange_vector(io, path + "/replaced_offset", of.replaced_offset);
+  exchange_vector(io, path + "/slip_before", of.slip_before);
+  io.numbers(path + "/placement", of.placement);
   std::vector<int> states, flags;
   std::vector<double> accumulated;
   for (const contact::ContactState state : of.states) states.push_back(static_cast<int>(state));
@@ -180,6 +183,7 @@ void exchange_end(Io& io, EndState& end) {
                 [&](const std::string& path, EndState::OfContact& of) { exchange_pairs(io, path, of); });
   exchange_list(io, "parts", end.parts, [&](const std::string& path, EndState::OfPart& of) {
     io.text(path + "/body", of.body), exchange_vector(io, path + "/a", of.a);
+    io.numbers(path + "/moved", of.moved);
   });
   exchange_scalars(io, "energy", {&end.energy.external, &end.energy.elastic, &end.energy.friction});
   exchange_scalars(io, "largest_force", {&end.largest_force});
@@ -211,10 +215,67 @@ void put(const Vector& some, const std::vector<Eigen::Index>& places, Eigen::Ind
     to.segment(values * places[i], values) = some.segment(values * static_cast<Eigen::Index>(i), values);
 }
 
-[[noreturn]] void refuse(const Prepared& now, std::vector<std::string> messages) {
+[[noreturn]] void refuse(const model::Model& model, std::vector<std::string> messages) {
   std::vector<Diagnostic> diagnostics;
-  for (std::string& message : messages) diagnostics.push_back({now.model.restart->source, std::move(message)});
-  throw InputError(now.model.file, std::move(diagnostics));
+  for (std::string& message : messages) diagnostics.push_back({model.restart->source, std::move(message)});
+  throw InputError(model.file, std::move(diagnostics));
+}
+
+/// What of the end of a run large slip cannot go on from.
+void check_large_slip(const model::Model& model, const EndState& end) {
+  const std::string& directory = model.restart->directory;
+  std::vector<std::string> messages;
+  for (const model::Contact& contact : model.contacts) {
+    const auto of = std::find_if(end.contacts.begin(), end.contacts.end(),
+                                 [&](const EndState::OfContact& there) { return there.name == contact.name; });
+    if (of == end.contacts.end()) continue;
+    if (!contact.large_slip && std::any_of(of->placement.begin(), of->placement.end(), [](double x) { return x != 0.0; }))
+      messages.push_back(fmt::format(
+          "the sides of contact '{}' have passed each other in {}: give it 'slip: large' here too", contact.name,
+          directory));
+    if (contact.large_slip && of->offset.size() > 0)
+      messages.push_back(fmt::format("contact '{}' cannot have 'slip: large' here, because bodies were added or removed "
+                                     "in {}: make one model of both without stages",
+                                     contact.name, directory));
+  }
+  if (!messages.empty()) refuse(model, std::move(messages));
+}
+
+EndState read_end(const model::Model& model) {
+  const std::string& directory = model.restart->directory;
+  EndState end;
+  try {
+    Unsealing io((fs::path(directory) / model::state_at_end_file).string(), end_group);
+    if (io.text_of("version") != end_version)
+      refuse(model,
+             {fmt::format("the state at the end of {} was written by another version of Scabo: run that model again",
+                          directory)});
+    exchange_end(io, end);
+    io.finish();
+  } catch (const InputError& error) {
+    if (!error.diagnostics().empty() && error.diagnostics().front().at.line == model.restart->source.line) throw;
+    refuse(model, {fmt::format("the state at the end of {} is damaged: run that model again", directory)});
+  } catch (const std::logic_error&) {
+    refuse(model, {fmt::format("the state at the end of {} is damaged: run that model again", directory)});
+  }
+  check_large_slip(model, end);
+  return end;
+}
+
+Vec2 vector_at(const std::vector<double>& numbers, std::size_t first) {
+  return {numbers.at(first), numbers.at(first + 1)};
+}
+
+/// In the placement of a model; empty if no pairs were found anew.
+mesh::Placement placement_at_end(const model::Model& model, const EndState& end) {
+  mesh::Placement placement;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c)
+    for (const EndState::OfContact& of : end.contacts) {
+      if (of.name != model.contacts[c].name || of.placement.empty()) continue;
+      if (placement.empty()) placement.assign(model.contacts.size(), {Vec2::Zero(), Vec2::Zero()});
+      placement[c] = {vector_at(of.placement, 0), vector_at(of.placement, 2)};
+    }
+  return placement;
 }
 
 /// What of two lists of agreements differs, in sentences.
@@ -264,6 +325,10 @@ EndState end_state(const Prepared& now, const State& state) {
     of.slip = selected(state.slip, places, 1);
     of.offset = selected(state.offset, places, 2);
     of.held_offset = selected(state.held_offset, held, 2);
+    of.replaced_offset = selected(state.replaced.offset, places, 2);
+    of.slip_before = selected(state.replaced.slip_before, places, 1);
+    if (!state.replaced.placement.empty())
+      for (const Vec2& by : state.replaced.placement[c]) of.placement.insert(of.placement.end(), by.begin(), by.end());
     for (const Eigen::Index place : places) {
       of.history.push_back(state.history[static_cast<std::size_t>(place)]);
       of.states.push_back(state.states[static_cast<std::size_t>(place)]);
@@ -273,7 +338,10 @@ EndState end_state(const Prepared& now, const State& state) {
     if (now.is_absent(p)) continue;
     const Eigen::Index m = now.structure.parts[p]->rigid_motions().cols();
     const auto body = static_cast<std::size_t>(now.structure.dofs.bodies_of(p).front());
-    end.parts.push_back({now.model.bodies[body].name, state.a.segment(now.contact.first_rigid[p], m)});
+    std::vector<double> moved;
+    if (!state.replaced.moved.empty()) moved.assign(state.replaced.moved[p].begin(), state.replaced.moved[p].end());
+    end.parts.push_back(
+        {now.model.bodies[body].name, state.a.segment(now.contact.first_rigid[p], m), std::move(moved)});
   }
   for (std::size_t i = 0; i < now.model.loads.size(); ++i)
     end.loads.push_back({now.model.loads[i].name, state.factors.loads[i]});
@@ -307,28 +375,20 @@ void write_end_state(const fs::path& directory, EndState end) {
   if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), error.message()));
 }
 
+mesh::Placement placement_of_restart(const model::Model& model) {
+  return placement_at_end(model, read_end(model));
+}
+
 State state_of_restart(const Prepared& now) {
   const std::string& directory = now.model.restart->directory;
-  EndState end;
-  try {
-    Unsealing io((fs::path(directory) / model::state_at_end_file).string(), end_group);
-    if (io.text_of("version") != end_version)
-      refuse(now,
-             {fmt::format("the state at the end of {} was written by another version of Scabo: run that model again",
-                          directory)});
-    exchange_end(io, end);
-    io.finish();
-  } catch (const InputError& error) {
-    if (!error.diagnostics().empty() && error.diagnostics().front().at.line == now.model.restart->source.line) throw;
-    refuse(now, {fmt::format("the state at the end of {} is damaged: run that model again", directory)});
-  } catch (const std::logic_error&) {
-    refuse(now, {fmt::format("the state at the end of {} is damaged: run that model again", directory)});
-  }
+  const EndState end = read_end(now.model);
   State state = initial_state(now);
   state.factors.loads = now.model.restart->load_factors;
   state.factors.supports = now.model.restart->support_factors;
   if (auto messages = disagreements(end.agreements, agreements_of(now, state), directory); !messages.empty())
-    refuse(now, std::move(messages));
+    refuse(now.model, std::move(messages));
+  state.replaced.placement = placement_at_end(now.model, end);
+  if (!state.replaced.placement.empty()) state.replaced.moved.assign(now.structure.parts.size(), Vec2::Zero());
   const auto N = static_cast<Eigen::Index>(now.contact.pairs.size());
   for (std::size_t c = 0; c < now.model.contacts.size(); ++c) {
     const auto found = std::find_if(end.contacts.begin(), end.contacts.end(), [&](const EndState::OfContact& of) {
@@ -341,6 +401,8 @@ State state_of_restart(const Prepared& now) {
     put(found->slip, places, 1, state.slip, N);
     put(found->offset, places, 2, state.offset, 2 * N);
     put(found->held_offset, held, 2, state.held_offset, static_cast<Eigen::Index>(2 * now.contact.held.size()));
+    put(found->replaced_offset, places, 2, state.replaced.offset, 2 * N);
+    put(found->slip_before, places, 1, state.replaced.slip_before, N);
     for (std::size_t i = 0; i < places.size(); ++i) {
       state.history[static_cast<std::size_t>(places[i])] = found->history.at(i);
       state.states[static_cast<std::size_t>(places[i])] = found->states.at(i);
@@ -349,7 +411,9 @@ State state_of_restart(const Prepared& now) {
   for (const EndState::OfPart& of : end.parts)
     for (std::size_t p = 0; p < now.structure.parts.size(); ++p) {
       const auto body = static_cast<std::size_t>(now.structure.dofs.bodies_of(p).front());
-      if (now.is_absent(p) || now.model.bodies[body].name != of.body || of.a.size() == 0) continue;
+      if (now.is_absent(p) || now.model.bodies[body].name != of.body) continue;
+      if (!of.moved.empty() && !state.replaced.moved.empty()) state.replaced.moved[p] = vector_at(of.moved, 0);
+      if (of.a.size() == 0) continue;
       state.a.segment(now.contact.first_rigid[p], of.a.size()) = of.a;
     }
   state.energy = end.energy;

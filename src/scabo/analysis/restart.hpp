@@ -7,7 +7,9 @@
 // Displacements are not kept: they follow from the factors, the contact forces and the rigid motions, as those of a
 // checkpoint do, if bodies, supports, springs, contacts and the loads that act are the same. Digests tell whether they
 // are. Bodies that are absent at the end (stages.hpp) may be left out of the other model, and it may have others that
-// are added later. Laws of contacts may change: a joint keeps its forces, its slip and whether it is broken.
+// are added later. Laws of contacts may change: a joint keeps its forces, its slip and whether it is broken. Of contacts
+// with large slip (large_slip.hpp) the end tells where their sides were when their pairs were found: the other run
+// divides them there before anything is compared.
 #pragma once
 
 #include <filesystem>
@@ -27,12 +29,15 @@ struct EndState {
   struct OfContact {
     std::string name;
     Vector p, gap, slip, offset, held_offset;
+    Vector replaced_offset, slip_before;  ///< Replacing; empty if no pairs were found anew
+    std::vector<double> placement;        ///< translations of A and B in which they were found, 4 numbers; or empty
     contact::History history;
     std::vector<contact::ContactState> states;
   };
   struct OfPart {
     std::string body;  ///< its first one
     Vector a;
+    std::vector<double> moved;  ///< Replacing, 2 numbers; or empty
   };
   struct Factor {
     std::string name;
@@ -53,7 +58,11 @@ EndState end_state(const Prepared& now, const State& state);
 /// Files of another run are read and written with its directory; throws std::runtime_error if they cannot be written.
 void write_end_state(const std::filesystem::path& directory, EndState end);
 
-/// The state from which the first step of a model with `restart` starts. Throws InputError, at the place of `restart`
+/// Where the sides of contacts with large slip are at the start of a model with `restart`; empty if all are where they
+/// are drawn. Throws InputError as state_of_restart().
+mesh::Placement placement_of_restart(const model::Model& model);
+
+/// The state from which the first step of a model with `restart` starts; its mesh is in placement_of_restart(). Throws InputError, at the place of `restart`
 /// in the file, if the other run cannot be read or does not agree with the model.
 State state_of_restart(const Prepared& now);
 

@@ -255,34 +255,45 @@ Factors factors_in(const model::Model& model, std::size_t index, double s) {
   return factors;
 }
 
-/// Finds pairs anew where they are due; false, with the reason, if that fails.
-bool find_pairs_where_due(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
-                          State& state, PairsFound& found, Reached& reached) {
-  if (!large.is_due(assembly->prepared, state)) return true;
-  const FoundAnew anew = find_pairs_anew(large, solution, assembly, state);
+/// Finds pairs anew in the state that was reached; false, with the reason, if that fails. `since`: as find_pairs_anew.
+bool find_pairs(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
+                const State& since, PairsFound& found, Reached& reached) {
+  const FoundAnew anew = find_pairs_anew(large, solution, assembly, since, reached.state);
   reached.iterations += anew.iterations;
   reached.reason = anew.reason;
   if (!reached.reason.empty()) return false;
+  reached.certificate = anew.certificate;
+  reached.residual = anew.residual;
   ++found.times;
   found.jump = std::max(found.jump, anew.jump);
   for (IncrementResult& increment : solution.increments) increment.fields = {};  // of another mesh
   return true;
 }
 
-/// reach() from a state, on pairs that are found anew wherever they are due, and then on another assembly.
+/// reach() from a state, on pairs that are found anew wherever they are due, and then on another assembly. Where sides
+/// slide off each other, that is also at the end.
 Reached reach_with_pairs(StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
                          const std::function<const Prepared&()>& now, const State& from,
                          const std::function<Factors(double)>& factors_at, std::optional<double> least,
                          const LargeSlip* large, const Options& options, std::optional<PairsFound>& found) {
   Reached reached;
   reached.state = from;
+  State since;  // on the present pairs
+  if (large) {
+    since = from;
+    found.emplace();
+  }
+  const auto find = [&] {
+    const bool there = find_pairs(*large, solution, assembly, since, *found, reached);
+    since = reached.state;
+    return there;
+  };
   do {
-    if (large &&
-        !find_pairs_where_due(*large, solution, assembly, reached.state, found ? *found : found.emplace(), reached))
-      return reached;
+    if (large && large->is_due(now(), reached.state) && !find()) return reached;
     reached = timed(solution.timing.newton,
                     [&] { return reach(now(), std::move(reached), factors_at, least, large, options); });
   } while (reached.pairs_are_due);
+  if (large && reached.reason.empty() && !reached.stopped && large->overlap_changed(now(), reached.state)) find();
   return reached;
 }
 
@@ -335,7 +346,7 @@ void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large,
       run.progress = {};
     }
     if (run.step == solution.model.steps.size()) {
-      if (options.on_end && !large) options.on_end(end_state(now(), run.state));  // pairs that stay
+      if (options.on_end) options.on_end(end_state(now(), run.state));
       return;
     }
     if (run.progress.increment == 0 && !large) stages.enter(run.step, run.state);
@@ -508,9 +519,15 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   std::optional<LargeSlip> large;
   if (has_large_slip(solution.model)) {
     large.emplace(solution.model);
-    if (options.from && !options.from->at.state.replaced.placement.empty())
-      solution.mesh = std::get<mesh::Mesh>(
-          large->mesh_in(solution.model, options.from->at.state.replaced.placement));  // it was found before
+    const mesh::Placement at_start = options.from             ? options.from->at.state.replaced.placement
+                                     : solution.model.restart ? placement_of_restart(solution.model)
+                                                              : mesh::Placement();
+    if (!at_start.empty()) {  // it was found before, in this run or in another one
+      auto found = large->mesh_in(solution.model, at_start);
+      if (auto* wrong = std::get_if<std::vector<Diagnostic>>(&found))
+        throw InputError(solution.model.file, std::move(*wrong));
+      solution.mesh = std::get<mesh::Mesh>(std::move(found));
+    }
   }
   stage("super-elements");
   solution.cells =

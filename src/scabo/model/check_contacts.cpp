@@ -111,10 +111,8 @@ void check_large_slip(Checking& checking, const std::string& path, const Contact
   refuse(!contact.friction_along.empty(),
          "beside a coefficient of friction that varies along the contact, because its sides move: give one "
          "coefficient, or divide the edge");
-  refuse(contact.fit_in >= 0, "beside 'fit_in', because the pairs change: leave 'fit_in' out");
   refuse(has_stages(model.bodies),
          "in a model whose bodies are added or removed in steps: leave 'added' and 'removed' out");
-  refuse(model.restart.has_value(), "in a model that starts from the end of another run: make one model of both");
   if (contact.a.kind != Place::Kind::edge || contact.b.kind != Place::Kind::edge)
     return refuse(true, "between the faces of a crack, which do not pass each other");
   const bool sound = checking.sound_shape(contact.a.body) && checking.sound_shape(contact.b.body);
