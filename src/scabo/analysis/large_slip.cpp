@@ -10,6 +10,7 @@
 
 #include "scabo/analysis/carried_over.hpp"
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/element/cells_anew.hpp"
 
 namespace scabo::analysis {
 
@@ -18,7 +19,7 @@ namespace {
 /// The sides pass each other by this part of an element until their pairs are found anew, and by no more in one
 /// attempt.
 constexpr double part_of_element = 0.5;
-constexpr double near_to_part = 0.01;  // elastic slip makes parts of increments that end there a little shorter
+constexpr double near_to_part = 0.01;     // elastic slip makes parts of increments that end there a little shorter
 constexpr double part_of_overlap = 1e-3;  // by which it may change with the same pairs, and the forces with it
 
 const model::Edge& edge_of(const model::Model& model, const model::Place& place) {
@@ -338,7 +339,8 @@ bool LargeSlip::overlap_changed(const Prepared& prepared, const State& state) co
   const mesh::Placement now = placement_of(prepared, state), &found = state.replaced.placement;
   return std::any_of(contacts_.begin(), contacts_.end(), [&](const Of& of) {
     const model::Contact& contact = prepared.model.contacts[of.contact];
-    const double before = found.empty() ? of.facing : facing_length(prepared.model, contact, of.along, found[of.contact]);
+    const double before =
+        found.empty() ? of.facing : facing_length(prepared.model, contact, of.along, found[of.contact]);
     return std::abs(facing_length(prepared.model, contact, of.along, now[of.contact]) - before) >
            part_of_overlap * before;
   });
@@ -346,8 +348,7 @@ bool LargeSlip::overlap_changed(const Prepared& prepared, const State& state) co
 
 std::vector<Vec2> LargeSlip::motions(const Prepared& prepared, const State& from, const State& to) const {
   std::vector<Vec2> motions(prepared.model.contacts.size(), Vec2::Zero());
-  for (const Of& of : contacts_)
-    motions[of.contact] = (lag(prepared, to, of) - lag(prepared, from, of)) * of.along;
+  for (const Of& of : contacts_) motions[of.contact] = (lag(prepared, to, of) - lag(prepared, from, of)) * of.along;
   return motions;
 }
 
@@ -397,7 +398,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
   }
   mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(divided));
   auto cells = timed(solution.timing.super_elements,
-                     [&] { return element::solve_cells(solution.model, mesh, solution.threads); });
+                     [&] { return element::solve_cells_anew(solution.model, mesh, solution.threads, solution.cells); });
   std::swap(solution.mesh, mesh);
   std::swap(solution.cells, cells);
   std::unique_ptr<const Assembly> made = assemble(solution, {}, assembly->prepared.on_iteration);

@@ -77,8 +77,8 @@ struct FoundAnew {
   double residual = 0.0;
 };
 
-/// Replaces mesh, super-elements and systems of the solution, and the state by that on the new pairs; `since`: the state
-/// in which the present pairs began to slide off each other. Nothing changes if it fails.
+/// Replaces mesh, super-elements and systems of the solution, and the state by that on the new pairs; `since`: the
+/// state in which the present pairs began to slide off each other. Nothing changes if it fails.
 FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
                           const State& since, State& state);
 

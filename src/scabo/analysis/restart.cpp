@@ -229,14 +229,16 @@ void check_large_slip(const model::Model& model, const EndState& end) {
     const auto of = std::find_if(end.contacts.begin(), end.contacts.end(),
                                  [&](const EndState::OfContact& there) { return there.name == contact.name; });
     if (of == end.contacts.end()) continue;
-    if (!contact.large_slip && std::any_of(of->placement.begin(), of->placement.end(), [](double x) { return x != 0.0; }))
-      messages.push_back(fmt::format(
-          "the sides of contact '{}' have passed each other in {}: give it 'slip: large' here too", contact.name,
-          directory));
+    if (!contact.large_slip &&
+        std::any_of(of->placement.begin(), of->placement.end(), [](double x) { return x != 0.0; }))
+      messages.push_back(
+          fmt::format("the sides of contact '{}' have passed each other in {}: give it 'slip: large' here too",
+                      contact.name, directory));
     if (contact.large_slip && of->offset.size() > 0)
-      messages.push_back(fmt::format("contact '{}' cannot have 'slip: large' here, because bodies were added or removed "
-                                     "in {}: make one model of both without stages",
-                                     contact.name, directory));
+      messages.push_back(
+          fmt::format("contact '{}' cannot have 'slip: large' here, because bodies were added or removed "
+                      "in {}: make one model of both without stages",
+                      contact.name, directory));
   }
   if (!messages.empty()) refuse(model, std::move(messages));
 }
@@ -375,9 +377,7 @@ void write_end_state(const fs::path& directory, EndState end) {
   if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), error.message()));
 }
 
-mesh::Placement placement_of_restart(const model::Model& model) {
-  return placement_at_end(model, read_end(model));
-}
+mesh::Placement placement_of_restart(const model::Model& model) { return placement_at_end(model, read_end(model)); }
 
 State state_of_restart(const Prepared& now) {
   const std::string& directory = now.model.restart->directory;

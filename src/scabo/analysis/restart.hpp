@@ -7,9 +7,9 @@
 // Displacements are not kept: they follow from the factors, the contact forces and the rigid motions, as those of a
 // checkpoint do, if bodies, supports, springs, contacts and the loads that act are the same. Digests tell whether they
 // are. Bodies that are absent at the end (stages.hpp) may be left out of the other model, and it may have others that
-// are added later. Laws of contacts may change: a joint keeps its forces, its slip and whether it is broken. Of contacts
-// with large slip (large_slip.hpp) the end tells where their sides were when their pairs were found: the other run
-// divides them there before anything is compared.
+// are added later. Laws of contacts may change: a joint keeps its forces, its slip and whether it is broken. Of
+// contacts with large slip (large_slip.hpp) the end tells where their sides were when their pairs were found: the other
+// run divides them there before anything is compared.
 #pragma once
 
 #include <filesystem>
@@ -62,8 +62,8 @@ void write_end_state(const std::filesystem::path& directory, EndState end);
 /// are drawn. Throws InputError as state_of_restart().
 mesh::Placement placement_of_restart(const model::Model& model);
 
-/// The state from which the first step of a model with `restart` starts; its mesh is in placement_of_restart(). Throws InputError, at the place of `restart`
-/// in the file, if the other run cannot be read or does not agree with the model.
+/// The state from which the first step of a model with `restart` starts; its mesh is in placement_of_restart(). Throws
+/// InputError, at the place of `restart` in the file, if the other run cannot be read or does not agree with the model.
 State state_of_restart(const Prepared& now);
 
 }  // namespace scabo::analysis

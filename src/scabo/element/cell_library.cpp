@@ -8,9 +8,11 @@
 #include <limits>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/batch.hpp"
+#include "scabo/element/cells_anew.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/linalg/parallel.hpp"
@@ -34,6 +36,11 @@ bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b, double 
   for (std::size_t i = 0; i < a.ring.nodes.size(); ++i)
     if ((a.ring.nodes[i] - b.ring.nodes[i]).squaredNorm() > most) return false;
   return true;
+}
+
+/// Equal in all that its solution follows from.
+bool are_same(const SolvedSuperElement& a, const SolvedSuperElement& b) {
+  return a.ring.nodes == b.ring.nodes && are_alike(a, b, 0.0);
 }
 
 /// The error of a super-element in the terms of the model file.
@@ -76,13 +83,13 @@ std::vector<std::size_t> solve_in_batches(const std::vector<std::shared_ptr<Solv
 }
 
 /// Many small super-elements are solved in batches; many others are distributed over the threads; of a few, the
-/// symmetry blocks of each. `bodies`: the first body of each.
+/// symmetry blocks of each. `bodies`: the first body of each. `taken`: how many more are known.
 void solve_all(const model::Model& model, const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
-               const std::vector<std::size_t>& bodies, int threads) {
+               const std::vector<std::size_t>& bodies, int taken, int threads) {
   for (const auto& super_element : distinct) super_element->threads = threads;
   const std::vector<std::size_t> others = solve_in_batches(distinct, threads);
   const auto count = static_cast<int>(others.size());
-  const bool many = count >= threads && threads > 1;
+  const bool many = count + taken >= threads && threads > 1;
   const auto solve = [&](int i) {
     const std::size_t at = others[static_cast<std::size_t>(i)];
     SolvedSuperElement& super_element = *distinct[at];
@@ -142,6 +149,36 @@ std::size_t hash_of(const SolvedSuperElement& super_element) {
   return hash;
 }
 
+/// Takes solutions of the same super-elements `before` for those of `solved`, and them out of `distinct` and `bodies`.
+/// Solutions from a batch are not taken, whose last bits may depend on what else is in it.
+void take_over(const std::vector<SolvedCells>& before, std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
+               std::vector<std::size_t>& bodies, std::vector<SolvedCells>& solved) {
+  std::unordered_multimap<std::size_t, std::shared_ptr<const SolvedSuperElement>> known;
+  std::unordered_set<const SolvedSuperElement*> seen;
+  for (const SolvedCells& cells : before)
+    for (const auto& cell : cells)
+      if (cell && seen.insert(cell.get()).second) known.emplace(hash_of(*cell), cell);
+  if (seen.size() >= fewest_of_a_batch) return;
+  std::unordered_map<const SolvedSuperElement*, std::shared_ptr<const SolvedSuperElement>> taken;
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    const auto [first, last] = known.equal_range(hash_of(*distinct[i]));
+    const auto same =
+        std::find_if(first, last, [&](const auto& entry) { return are_same(*entry.second, *distinct[i]); });
+    if (same != last) {
+      taken.emplace(distinct[i].get(), same->second);
+      continue;
+    }
+    bodies[left] = bodies[i];
+    distinct[left++] = distinct[i];
+  }
+  for (SolvedCells& cells : solved)
+    for (auto& cell : cells)
+      if (const auto found = taken.find(cell.get()); found != taken.end()) cell = found->second;
+  distinct.resize(left);
+  bodies.resize(left);
+}
+
 }  // namespace
 
 std::vector<int> dofs_of(const mesh::Cell& cell) {
@@ -183,6 +220,11 @@ const CornerAnalysis& SolvedSuperElement::corner() const {
 }
 
 std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads) {
+  return solve_cells_anew(model, mesh, threads, {});
+}
+
+std::vector<SolvedCells> solve_cells_anew(const model::Model& model, const mesh::Mesh& mesh, int threads,
+                                          const std::vector<SolvedCells>& before) {
   std::vector<std::shared_ptr<SolvedSuperElement>> distinct;
   std::unordered_multimap<std::size_t, std::size_t> known;  // hash to index in `distinct`
   std::vector<std::size_t> bodies;
@@ -218,7 +260,9 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
     }
   }
   if (!folded.empty()) throw InputError(model.file, std::move(folded));
-  solve_all(model, distinct, bodies, threads);
+  const std::size_t all = distinct.size();
+  if (!before.empty() && all < fewest_of_a_batch) take_over(before, distinct, bodies, solved);
+  solve_all(model, distinct, bodies, static_cast<int>(all - distinct.size()), threads);
   return solved;
 }
 

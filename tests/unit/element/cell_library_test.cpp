@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "scabo/element/cells_anew.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/stiffness.hpp"
 #include "theory/rings.hpp"
@@ -57,6 +58,19 @@ TEST(CellLibrary, ManyCellsHaveTheStiffnessThatEachHasAlone) {
     EXPECT_NEAR(cell->rounding() / alone.rounding, 1.0, 1e-6);
     EXPECT_EQ(cell->solution().K, alone.K);  // for fields
     EXPECT_EQ(cell->modes().exponents.size(), static_cast<std::size_t>(alone.K.rows()));
+  }
+}
+
+TEST(CellLibrary, OnlyCellsThatHaveChangedAreSolvedAnew) {
+  Cells cells = distinct_cells(12);
+  const std::vector<SolvedCells> before = solve_cells(cells.model, cells.mesh, 1);
+  std::vector<Vec2>& nodes = cells.mesh.bodies[0].nodes;
+  for (const int node : cells.mesh.bodies[0].cells[7].nodes()) nodes[static_cast<std::size_t>(node)] *= 1.0 + 1e-15;
+  const SolvedCells anew = solve_cells_anew(cells.model, cells.mesh, 1, before).front(),
+                    alone = solve_cells(cells.model, cells.mesh, 1).front();
+  for (std::size_t c = 0; c < anew.size(); ++c) {
+    EXPECT_EQ(anew[c] == before.front()[c], c != 7) << c;
+    EXPECT_EQ(anew[c]->K(), alone[c]->K()) << c;  // also its last bits
   }
 }
 
