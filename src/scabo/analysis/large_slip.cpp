@@ -365,7 +365,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
   }
   mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(divided));
   auto cells = timed(solution.timing.super_elements,
-                     [&] { return element::solve_cells(solution.model, mesh, solution.threads); });
+                     [&] { return solved_cells(solution, mesh); });
   std::swap(solution.mesh, mesh);
   std::swap(solution.cells, cells);
   std::unique_ptr<const Assembly> made = assemble(solution, {}, assembly->prepared.on_iteration);
