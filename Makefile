@@ -58,7 +58,7 @@ wheel: python
 	@cmake --build --preset release --target wheel
 
 test:
-	@cmake/install_packages.sh build test python $(report)
+	@cmake/install_packages.sh build test python $(report) mpi
 	@MAKE="$(MAKE)" cmake/run_stages.sh "Release build and tests" test-release \
 	  "Sanitizer build and tests" test-asan "Fuzzers" fuzz
 
@@ -113,7 +113,7 @@ format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
 packages:
-	@cmake/install_packages.sh build test python $(report) cad docs bench
+	@cmake/install_packages.sh build test python $(report) cad mpi docs bench
 
 install: build
 	@cmake --install build --prefix "$(PREFIX)"

@@ -30,6 +30,10 @@ install(FILES ${PROJECT_BINARY_DIR}/cmake/scaboConfig.cmake
 file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 set_target_properties(scabo_program PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
 install(TARGETS scabo_program)
+if(SCABO_MPI_FOUND)
+  set_target_properties(scabo_mpi PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
+  install(TARGETS scabo_mpi)
+endif()
 
 set(schema ${PROJECT_BINARY_DIR}/model.schema.json)
 add_custom_command(OUTPUT ${schema} COMMAND scabo_program schema > ${schema} DEPENDS scabo_program VERBATIM)
@@ -50,6 +54,9 @@ scabo_own_text(${CMAKE_INSTALL_DATADIR}/bash-completion/completions scabo comple
 scabo_own_text(${CMAKE_INSTALL_DATADIR}/zsh/site-functions _scabo completion zsh)
 scabo_own_text(${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d scabo.fish completion fish)
 add_custom_target(product ALL DEPENDS scabo scabo_program ${schema} ${own_texts})
+if(SCABO_MPI_FOUND)
+  add_dependencies(product scabo_mpi)
+endif()
 
 install(DIRECTORY python/scabo/plot/ DESTINATION ${CMAKE_INSTALL_DATADIR}/scabo/scabo_plot FILES_MATCHING PATTERN "*.py")
 

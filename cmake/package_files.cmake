@@ -21,3 +21,6 @@ if(modules)
   get_filename_component(folder ${modules}/../.. ABSOLUTE)
   file(REMOVE_RECURSE ${folder})
 endif()
+
+# `scabo-mpi` needs PETSc and an MPI, which few who install the package want: 400 MB.
+file(REMOVE ${CPACK_TEMPORARY_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX}/bin/scabo-mpi)

@@ -14,10 +14,16 @@
 
 namespace scabo::app {
 
+class Cluster;  // cluster.hpp
+
 struct CheckOptions {
   std::string model;                  ///< the model file
   std::vector<std::string> settings;  ///< `path=value`, each replacing one value of the model file
 };
+
+/// Under mpirun: smallest number of degrees of freedom of a body that is divided. Smaller ones take less time on one rank
+/// (docs/clusters.md).
+inline constexpr double default_divide_from = 50000.0;
 
 struct RunOptions {
   std::string model;
@@ -28,6 +34,7 @@ struct RunOptions {
   bool json_lines = false;     ///< events on standard output (events.hpp)
   bool ignore_memory = false;  ///< starts even if the estimated memory is not available
   bool report = false;         ///< ends with a page for the browser
+  double divide_from = default_divide_from;
 };
 
 struct SweepOptions {
@@ -47,6 +54,7 @@ struct ResumeOptions {
   int threads = 0;                  ///< 0: as before
   bool quiet = false;
   bool json_lines = false;  ///< events on standard output (events.hpp)
+  double divide_from = default_divide_from;
 };
 
 struct ExponentsOptions {
@@ -80,9 +88,10 @@ struct NewOptions {
   std::filesystem::path output;  ///< empty: `kind.yaml`
 };
 
-ExitStatus run(const RunOptions& options);
+/// `cluster`: the other processes, or null.
+ExitStatus run(const RunOptions& options, Cluster* cluster);
 /// Continues a run from its checkpoint (analysis/checkpoint.hpp).
-ExitStatus resume(const ResumeOptions& options);
+ExitStatus resume(const ResumeOptions& options, Cluster* cluster);
 /// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
                      double reading, Events& events);

@@ -1,6 +1,7 @@
 // `scabo resume`: continues a run from its checkpoint.
 #include <fmt/format.h>
 
+#include "cluster.hpp"
 #include "commands.hpp"
 #include "scabo/input/settings.hpp"
 #include "scabo/model/wording.hpp"
@@ -48,7 +49,7 @@ void check_files(const model::Model& model, const analysis::RunOrigin& origin) {
   if (!same) refuse(model.file, "names other files than when the run began: start anew with `scabo run`");
 }
 
-ExitStatus resume(const ResumeOptions& options, Events& events) {
+ExitStatus resume(const ResumeOptions& options, Cluster* cluster, Events& events) {
   events.stage("reading");
   const auto start = std::chrono::steady_clock::now();
   const std::string name = options.directory.string();
@@ -87,14 +88,15 @@ ExitStatus resume(const ResumeOptions& options, Events& events) {
   run.reading = reading;
   run.start = start;
   run.threads = threads;
+  if (cluster) use(*cluster, path, run.begun.origin.settings, options.divide_from, run);
   return solve_and_report(std::move(run), interrupt, events, options.quiet);
 }
 
 }  // namespace
 
-ExitStatus resume(const ResumeOptions& options) {
+ExitStatus resume(const ResumeOptions& options, Cluster* cluster) {
   Events events(options.json_lines);
-  return events.around("resume", [&] { return resume(options, events); });
+  return events.around("resume", [&] { return resume(options, cluster, events); });
 }
 
 }  // namespace scabo::app

@@ -1,7 +1,10 @@
 // `scabo run`: from the model file to certified results on disk.
+#include <fmt/format.h>
+
 #include <chrono>
 #include <optional>
 
+#include "cluster.hpp"
 #include "commands.hpp"
 #include "report.hpp"
 #include "scabo/analysis/static_analysis.hpp"
@@ -9,6 +12,7 @@
 #include "scabo/result/history.hpp"
 #include "startup.hpp"
 #include "static_run.hpp"
+#include "terminal.hpp"
 
 namespace scabo::app {
 
@@ -23,7 +27,7 @@ fs::path default_output(const std::string& model) {
   return path.replace_extension("results");
 }
 
-ExitStatus run(const RunOptions& options, Events& events) {
+ExitStatus run(const RunOptions& options, Cluster* cluster, Events& events) {
   const Clock::time_point start = Clock::now();
   events.stage("reading");
   const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
@@ -36,6 +40,10 @@ ExitStatus run(const RunOptions& options, Events& events) {
     events.stage("report");
     return report_at_end->write(output, status, options.quiet || options.json_lines);
   };
+  if (cluster && !analysis::can_use_ranks(model)) {
+    print_warning(fmt::format("{}: one of the {} ranks does all of it", analysis::why_no_ranks, cluster->ranks().count()));
+    cluster = nullptr;
+  }
   if (model.analysis.type == model::AnalysisType::modal)
     return reported(run_modal(model, output, options, reading, events));
 
@@ -45,11 +53,13 @@ ExitStatus run(const RunOptions& options, Events& events) {
   events.stage("checking");
   mesh::Mesh mesh = analysis::check(model);
   result::check_sections(model, mesh);
-  const run::Plan plan = run::plan_of(model, mesh);
+  run::Plan plan = run::plan_of(model, mesh);
+  if (cluster) plan.bytes *= cluster->part_on_this_machine();
   const Interrupt interrupt;
   result::ResultsDirectory directory(output, model, std::move(mesh));
   run::StaticRun run{model, &directory};
   run.threads = threads_that_fit(options.threads);
+  if (cluster) use(*cluster, model.file, options.settings, options.divide_from, run);
   run.reading = reading;
   run.start = start;
   run.plan = plan;
@@ -63,9 +73,9 @@ ExitStatus run(const RunOptions& options, Events& events) {
 
 }  // namespace
 
-ExitStatus run(const RunOptions& options) {
+ExitStatus run(const RunOptions& options, Cluster* cluster) {
   Events events(options.json_lines);
-  return events.around("run", [&] { return run(options, events); });
+  return events.around("run", [&] { return run(options, cluster, events); });
 }
 
 }  // namespace scabo::app

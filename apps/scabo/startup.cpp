@@ -1,6 +1,9 @@
 #include "startup.hpp"
 
 #include <fcntl.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -105,6 +108,15 @@ int threads_that_fit(int wanted) {
   if (!room_for_threads(buffers_of(wanted))) return 1;
   take_blas_buffers(buffers_of(wanted));
   return wanted;
+}
+
+void keep_memory() {
+#if defined(__GLIBC__)
+  // Hundreds of matrices are allocated and freed. Returning each to the system and having it cleared again took a third
+  // of the time of a small super-element (17 ms against 12 ms at 320 degrees of freedom).
+  mallopt(M_MMAP_THRESHOLD, 256 << 20);
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+#endif
 }
 
 void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }

@@ -19,6 +19,9 @@ namespace scabo::app {
 /// insufficient, it ends with status 3 and states the amount needed.
 void prepare_process();
 
+/// Memory that is freed remains with the process.
+void keep_memory();
+
 /// `wanted`, whose buffers are then allocated, or 1 if the limit on memory leaves no room for the buffers and stacks of
 /// so many threads.
 int threads_that_fit(int wanted);

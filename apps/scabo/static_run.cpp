@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
+#include <thread>
 
 #include "progress.hpp"
 #include "scabo/model/wording.hpp"
@@ -48,7 +51,37 @@ ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {
   return signal != 0 ? static_cast<ExitStatus>(ExitStatus::signalled + signal) : ExitStatus::not_converged;
 }
 
+/// mpirun ends all processes when one is lost, by SIGTERM and a second later by SIGKILL: while it exists, such an end is
+/// recorded in the results at once. A run that still ends by itself writes another summary.
+class EndFromOutside {
+ public:
+  EndFromOutside(const Interrupt& interrupt, std::filesystem::path directory)
+      : watch_([&interrupt, directory = std::move(directory)](const std::stop_token& over) {
+          while (!over.stop_requested()) {
+            if (interrupt.requested()) {
+              if (result::status_in(directory) == "running")
+                result::mark_failed(directory,
+                                    "the processes were told to end: a rank was lost (mpirun says which), or the run "
+                                    "was ended from outside");
+              return;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          }
+        }) {}
+
+ private:
+  std::jthread watch_;
+};
+
 }  // namespace
+
+void use(Cluster& cluster, const std::string& file, const std::vector<std::string>& settings, double divide_from,
+         run::StaticRun& run) {
+  const std::filesystem::path& directory = run.directory->path();
+  run::marking_failures(directory, [&] { cluster.begin(file, settings, directory, divide_from); });
+  run.directory->divide_fields(&cluster.fields());
+  run.ranks = &cluster.ranks();
+}
 
 ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Events& events, bool quiet) {
   events.files(run.model.file, run.directory->path(), "static");
@@ -76,7 +109,10 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
     events.increment_end(solved.model, increment, solved.increments.size() == 1);
     progress.increment(solved, increment);
   };
+  std::optional<EndFromOutside> watch;
+  if (run.ranks) watch.emplace(interrupt, run.directory->path());
   const analysis::StaticSolution solution = run::solve(run);
+  watch.reset();
   progress.clear();
 
   const ExitStatus status = status_of(solution, interrupt.signal());

@@ -142,20 +142,24 @@ class Results:
             raise ResultsError(f"{path}: cannot be read: {error.strerror}") from None
         except vtu.FormatError as error:
             raise ResultsError(f"{path}: is damaged ({error}); run the model again") from None
-        return [int(match[1]) for match in (re.fullmatch(r"fields_(\d+)\.vtu", name) for name in names) if match]
+        return [int(match[1]) for match in (re.fullmatch(r"fields_(\d+)\.p?vtu", name) for name in names) if match]
 
     def fields(self, number):
-        """The grid of fields_000N.vtu."""
+        """The grid of fields_000N.vtu, or of the parts of fields_000N.pvtu."""
         numbers = self.field_numbers()
         if number not in numbers:
             have = f"there are those of {_listed(numbers)}" if numbers else "`output` in the model file asks for none"
             raise NothingToDraw(f"{self.directory}: has no fields of increment {number}; {have}")
-        return self._grid(f"fields_{number:04d}.vtu")
+        return self._fields(number)
 
     def last_fields(self):
         """The grid of the last file of fields, for outlines of bodies; None where there is none."""
         numbers = self.field_numbers()
-        return self._grid(f"fields_{numbers[-1]:04d}.vtu") if numbers else None
+        return self._fields(numbers[-1]) if numbers else None
+
+    def _fields(self, number):
+        parts = f"fields_{number:04d}.pvtu"  # of a run on several processes
+        return self._grid(parts if (self.directory / parts).exists() else f"fields_{number:04d}.vtu")
 
     def cells(self):
         """The grid of cells.vtu; None where no body has several cells."""
@@ -165,7 +169,7 @@ class Results:
     def _grid(self, name):
         path = self.directory / name
         try:
-            return vtu.read_grid(path)
+            return vtu.read_parts(path) if path.suffix == ".pvtu" else vtu.read_grid(path)
         except OSError as error:
             raise ResultsError(f"{path}: cannot be read: {error.strerror}") from None
         except vtu.FormatError as error:

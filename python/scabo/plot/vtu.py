@@ -52,6 +52,50 @@ def read_grid(path):
         raise FormatError(str(error)) from error
 
 
+def read_parts(path):
+    """The grid of a .pvtu, whose parts were written by several processes: as one process writes it, but for the order of cells and of the
+    points inside them. Errors as of read_grid."""
+    try:
+        pieces = xml.fromstring(path.read_bytes()).findall("PUnstructuredGrid/Piece")
+        names = [piece.attrib["Source"] for piece in pieces]
+    except (xml.ParseError, KeyError) as error:
+        raise FormatError(str(error)) from error
+    parts = [read_grid(path.parent / name) for name in names]
+    if not parts or any("node" not in part.point_data for part in parts):
+        raise FormatError("it names no parts with nodes")
+    return _joined(parts)
+
+
+def _joined(parts):
+    """Points that are the same node with the same values in several parts become one. The points of every body follow each other, nodes
+    first."""
+    shift = np.cumsum([0] + [len(part.points) for part in parts])
+    ends = np.cumsum([0] + [len(part.connectivity) for part in parts])
+    joined = lambda arrays: np.concatenate(list(arrays))
+    points = joined(part.points for part in parts)
+    data = {name: joined(part.point_data[name] for part in parts) for name in parts[0].point_data}
+    node, body = data.pop("node"), data["body"]
+    connectivity = joined(part.connectivity + first for part, first in zip(parts, shift))
+    # Equal nodes come together, points inside cells (which have no number) stay apart.
+    table = np.column_stack([body, node] + [np.nan_to_num(values.reshape(len(points), -1).astype(float)) for values in data.values()])
+    inside = node < 0
+    table[inside, 1] = np.max(node, initial=0) + 1 + np.arange(np.count_nonzero(inside))
+    _, first, copy_of = np.unique(table, axis=0, return_index=True, return_inverse=True)
+    copy_of = copy_of.reshape(-1)
+    # Several points at a node, where materials meet: the first stands among the nodes, the others behind them.
+    kept_body, kept_node = body[first], node[first].astype(int)
+    again = np.zeros(len(first), dtype=bool)
+    again[1:] = (kept_node[1:] >= 0) & (kept_node[1:] == kept_node[:-1]) & (kept_body[1:] == kept_body[:-1])
+    order = np.lexsort([np.where(kept_node < 0, first, kept_node), np.where(kept_node < 0, 2, again.astype(int)), kept_body])
+    place = np.empty(len(first), dtype=int)
+    place[order] = np.arange(len(order))
+    chosen = first[order]
+    return Grid(points[chosen], place[copy_of][connectivity].astype("i4"),
+                joined(part.offsets + end for part, end in zip(parts, ends)).astype("i4"), joined(part.types for part in parts),
+                {name: values[chosen] for name, values in data.items()},
+                {name: joined(part.cell_data[name] for part in parts) for name in parts[0].cell_data})
+
+
 def read_collection(path):
     """Times and names of the files of a .pvd, in its order."""
     try:

@@ -32,6 +32,11 @@ Assembly::Assembly(system::Structure made, const StaticSolution& solution,
                std::move(on_iteration),
                {}} {}
 
+std::vector<element::SolvedCells> solved_cells(const StaticSolution& solution, const mesh::Mesh& mesh) {
+  return element::solve_cells(solution.model, mesh, solution.threads,
+                              system::divided_bodies(solution.ranks, solution.model, mesh), solution.cells);
+}
+
 std::unique_ptr<const Assembly> assemble(StaticSolution& solution,
                                          const std::function<void(const std::string&)>& on_stage,
                                          const std::function<void(const contact::Iteration&)>& on_iteration) {
@@ -41,7 +46,8 @@ std::unique_ptr<const Assembly> assemble(StaticSolution& solution,
   Timing& timing = solution.timing;
   stage("factorisation");
   system::Structure structure = timed(timing.factorise, [&] {
-    return system::make_structure(solution.model, solution.mesh, solution.cells, solution.threads);
+    return system::make_structure(solution.model, solution.mesh, solution.cells, solution.threads,
+                                  solution.ranks);
   });
   timing.factorise -= structure.assembly_seconds;
   timing.assemble += structure.assembly_seconds;

@@ -19,6 +19,10 @@ struct Assembly {
   const Prepared prepared;
 };
 
+/// Super-elements of a mesh of a solution, with what it has of them; those of bodies that are divided among its ranks
+/// are solved there.
+std::vector<element::SolvedCells> solved_cells(const StaticSolution& solution, const mesh::Mesh& mesh);
+
 /// Of a solution with model, mesh and solved super-elements, on its threads; adds to its timing. `on_stage` and
 /// `on_iteration`: as of Options, or empty.
 std::unique_ptr<const Assembly> assemble(StaticSolution& solution,

@@ -10,7 +10,6 @@
 
 #include "scabo/analysis/carried_over.hpp"
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/element/cells_anew.hpp"
 
 namespace scabo::analysis {
 
@@ -398,7 +397,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
   }
   mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(divided));
   auto cells = timed(solution.timing.super_elements,
-                     [&] { return element::solve_cells_anew(solution.model, mesh, solution.threads, solution.cells); });
+                     [&] { return solved_cells(solution, mesh); });
   std::swap(solution.mesh, mesh);
   std::swap(solution.cells, cells);
   std::unique_ptr<const Assembly> made = assemble(solution, {}, assembly->prepared.on_iteration);

@@ -469,6 +469,7 @@ bool has_automatic_steps(const model::Model& model) {
 /// that has no solution, the model remains as it is, and its analysis says why.
 model::Model with_its_increments(const model::Model& model, const mesh::Mesh& mesh, const Options& options) {
   Options with = quiet(options, "increments");
+  with.ranks = nullptr;
   with.keep_fields = false;
   const StaticSolution solution = solve_on_mesh(model, mesh, with);
   if (solution.outcome != Outcome::solved) return model;
@@ -486,6 +487,11 @@ model::Model with_its_increments(const model::Model& model, const mesh::Mesh& me
 
 }  // namespace
 
+bool can_use_ranks(const model::Model& model) {
+  return model.analysis.type == model::AnalysisType::static_ && !wants_bars(model) && !wants_refinement(model) &&
+         !model.output.error;
+}
+
 StaticSolution solve_static(model::Model model, const Options& options) {
   double seconds = 0.0;
   if (options.on_stage) options.on_stage("mesh");
@@ -495,9 +501,11 @@ StaticSolution solve_static(model::Model model, const Options& options) {
     const Stopwatch finding(seconds);
     model = with_its_increments(model, mesh, options);
   }
-  StaticSolution solution = wants_bars(model)         ? solve_with_bars(std::move(model), std::move(mesh), options)
-                            : wants_refinement(model) ? solve_refined(std::move(model), options)
-                            : model.output.error      ? solve_with_error(std::move(model), std::move(mesh), options)
+  Options here = options;  // several meshes: by this process alone
+  here.ranks = nullptr;
+  StaticSolution solution = wants_bars(model)         ? solve_with_bars(std::move(model), std::move(mesh), here)
+                            : wants_refinement(model) ? solve_refined(std::move(model), here)
+                            : model.output.error      ? solve_with_error(std::move(model), std::move(mesh), here)
                                                       : solve_on_mesh(std::move(model), std::move(mesh), options);
   solution.timing.mesh += seconds;
   return solution;
@@ -513,6 +521,7 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   solution.model = std::move(model);
   solution.mesh = std::move(mesh);
   solution.threads = threads;
+  solution.ranks = options.ranks;
   Timing& timing = solution.timing;
   if (options.from) timing = options.from->timing;
 
@@ -530,8 +539,7 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
     }
   }
   stage("super-elements");
-  solution.cells =
-      timed(timing.super_elements, [&] { return element::solve_cells(solution.model, solution.mesh, threads); });
+  solution.cells = timed(timing.super_elements, [&] { return solved_cells(solution, solution.mesh); });
   std::unique_ptr<const Assembly> assembly = assemble(solution, options.on_stage, options.on_iteration);
   if (options.on_mesh) options.on_mesh(solution);
   solution.warnings = solution.model.warnings;

@@ -17,6 +17,10 @@
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/model/model.hpp"
 
+namespace scabo::system {
+class Ranks;  // ranks.hpp
+}
+
 namespace scabo::analysis {
 
 /// Results of a contact pair after an increment. Pairs are numbered from 1 along their contact.
@@ -208,6 +212,7 @@ struct StaticSolution {
   Outcome outcome = Outcome::solved;
   std::string reason;  ///< if not solved
   int threads = 1;     ///< of the analysis; worthwhile for its fields as well
+  system::Ranks* ranks = nullptr;  ///< processes among which large bodies are divided; null: this one alone
   Timing timing;
 };
 
@@ -234,6 +239,8 @@ struct Options {
   /// hardly grows with the number of increments; `on_increment` sees those of every increment.
   bool keep_fields = true;
   int threads = 1;                          ///< upper limit, for BLAS and for distinct super-elements
+  /// Processes among which large bodies are divided; null: this one alone. Analyses on several meshes use only this one.
+  system::Ranks* ranks = nullptr;
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
   /// After each increment with contact pairs: the problems of its attempts, in the order of IncrementResult::attempts.
@@ -260,6 +267,11 @@ struct Options {
 /// Validates the model (model/validate.hpp), meshes it and checks, without solving anything, that every body is held
 /// (not required for a modal analysis) and that every output point lies in a body. Throws InputError.
 mesh::Mesh check(const model::Model& model);
+
+/// Whether large bodies can be divided among ranks (Options::ranks); otherwise `why_no_ranks` says why not.
+bool can_use_ranks(const model::Model& model);
+inline constexpr const char* why_no_ranks =
+    "modal analyses and those on several meshes (error bars, `tolerance`, `error`) are not divided among ranks";
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of
 /// the result.

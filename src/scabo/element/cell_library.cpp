@@ -12,7 +12,6 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/batch.hpp"
-#include "scabo/element/cells_anew.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/linalg/parallel.hpp"
@@ -86,7 +85,6 @@ std::vector<std::size_t> solve_in_batches(const std::vector<std::shared_ptr<Solv
 /// symmetry blocks of each. `bodies`: the first body of each. `taken`: how many more are known.
 void solve_all(const model::Model& model, const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
                const std::vector<std::size_t>& bodies, int taken, int threads) {
-  for (const auto& super_element : distinct) super_element->threads = threads;
   const std::vector<std::size_t> others = solve_in_batches(distinct, threads);
   const auto count = static_cast<int>(others.size());
   const bool many = count + taken >= threads && threads > 1;
@@ -219,13 +217,10 @@ const CornerAnalysis& SolvedSuperElement::corner() const {
   return *corner_;
 }
 
-std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads) {
-  return solve_cells_anew(model, mesh, threads, {});
-}
-
-std::vector<SolvedCells> solve_cells_anew(const model::Model& model, const mesh::Mesh& mesh, int threads,
-                                          const std::vector<SolvedCells>& before) {
+std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads,
+                                     const std::vector<char>& elsewhere, const std::vector<SolvedCells>& before) {
   std::vector<std::shared_ptr<SolvedSuperElement>> distinct;
+  std::vector<char> here;  // for each of them
   std::unordered_multimap<std::size_t, std::size_t> known;  // hash to index in `distinct`
   std::vector<std::size_t> bodies;
   std::vector<SolvedCells> solved(model.bodies.size());
@@ -245,21 +240,32 @@ std::vector<SolvedCells> solve_cells_anew(const model::Model& model, const mesh:
       wanted->sectors = sectors_of(model, cell);
       wanted->domain = domain_of(model.bodies[b], wanted->ring);
       wanted->thickness = model.analysis.thickness;
+      wanted->threads = threads;
+      const bool is_here = elsewhere.empty() || elsewhere[b] == 0;
       const std::size_t hash = hash_of(*wanted);
       const auto [first, last] = known.equal_range(hash);
       const auto same = std::find_if(
           first, last, [&](const auto& entry) { return are_alike(*wanted, *distinct[entry.second], rounding); });
       if (same != last) {
         solved[b].push_back(distinct[same->second]);
+        if (is_here) here[same->second] = 1;
         continue;
       }
       known.emplace(hash, distinct.size());
       distinct.push_back(wanted);
+      here.push_back(is_here ? 1 : 0);
       bodies.push_back(b);
       solved[b].push_back(std::move(wanted));
     }
   }
   if (!folded.empty()) throw InputError(model.file, std::move(folded));
+  if (!elsewhere.empty()) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < distinct.size(); ++i)
+      if (here[i]) distinct[kept] = distinct[i], bodies[kept++] = bodies[i];
+    distinct.resize(kept);
+    bodies.resize(kept);
+  }
   const std::size_t all = distinct.size();
   if (!before.empty() && all < fewest_of_a_batch) take_over(before, distinct, bodies, solved);
   solve_all(model, distinct, bodies, static_cast<int>(all - distinct.size()), threads);

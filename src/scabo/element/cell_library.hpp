@@ -24,14 +24,17 @@ struct SolvedSuperElement {
   /// Its stiffness comes from a batch, with SuperElementSolution::rounding; the rest is solved when first needed.
   void set(Matrix K, double rounding);
 
-  const Matrix& K() const { return whole_ ? whole_->K : K_; }  ///< n x n, symmetric
-  double rounding() const { return rounding_; }                ///< SuperElementSolution::rounding
+  // Of a super-element that was not solved with the others (another process did), all are computed when first needed.
+  const Matrix& K() const { return whole_ ? whole_->K : is_set() ? K_ : solution().K; }  ///< n x n, symmetric
+  double rounding() const { return is_set() ? rounding_ : solution().rounding; }         ///< SuperElementSolution::rounding
   // Computed when first needed; these may be called from several threads.
   const SuperElementSolution& solution() const;
   const ModalSolution& modes() const;    ///< of the interior
   const CornerAnalysis& corner() const;  ///< of its crack or corner; the ring must be open
 
  private:
+  bool is_set() const { return whole_ || K_.size() > 0; }
+
   Matrix K_;
   double rounding_ = 0.0;
   std::unique_ptr<const SuperElementSolution> whole_;  // null: K_ is from a batch
@@ -49,7 +52,11 @@ std::vector<int> dofs_of(const mesh::Cell& cell);
 
 /// Solves the super-elements of all bodies, each distinct one once, on up to `threads` threads; [body][cell]. Two are
 /// equal if their boundaries relative to the scaling centre, their elasticity and their thickness agree. Throws
-/// InputError for those that cannot be solved, and for finite elements that are folded.
-std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads);
+/// InputError for those that cannot be solved, and for finite elements that are folded. `elsewhere`: one for each body
+/// whose cells other processes solve, or empty; here they are solved when they are first needed. `before`: solutions on
+/// another mesh of the model; those of super-elements that are the same to the last bit are taken, which changes no result.
+std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads,
+                                     const std::vector<char>& elsewhere = {},
+                                     const std::vector<SolvedCells>& before = {});
 
 }  // namespace scabo::element

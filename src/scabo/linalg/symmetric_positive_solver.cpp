@@ -24,6 +24,14 @@ SymmetricPositiveSolver::SymmetricPositiveSolver(Matrix A) : SymmetricPositiveSo
   if (!factor_->L.factorise()) throw NotPositiveDefinite();
 }
 
+SymmetricPositiveSolver::SymmetricPositiveSolver(int n, std::unique_ptr<SparseFactor> factor,
+                                                 const FactorisationCosts& costs)
+    : SymmetricPositiveSolver() {
+  factor_->n = n;
+  factor_->sparse = std::move(factor);
+  factor_->costs = costs;
+}
+
 SymmetricPositiveSolver::SymmetricPositiveSolver(const SparseMatrix& A, const SparseOptions& options)
     : SymmetricPositiveSolver() {
   ensure(A.rows() == A.cols() && A.isCompressed(), "SymmetricPositiveSolver needs a square compressed matrix");

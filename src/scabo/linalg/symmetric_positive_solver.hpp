@@ -30,6 +30,8 @@ struct FactorisationCosts {
   double entries = 0.0, operations = 0.0;              ///< nonzero entries of L, floating point operations
 };
 
+class SparseFactor;  // sparse_factor.hpp
+
 /// A = L L'. Dense Cholesky factorisation (LAPACK) if a quarter of the entries or more is nonzero, a sparse one
 /// (CHOLMOD, supernodal, or MUMPS) otherwise: the stiffness of one super-element is full, that of a finite element mesh
 /// is sparse.
@@ -40,6 +42,8 @@ class SymmetricPositiveSolver {
   /// `A`: n x n, both triangles stored. Throws NotPositiveDefinite.
   explicit SymmetricPositiveSolver(const SparseMatrix& A, const SparseOptions& options = {});
   explicit SymmetricPositiveSolver(Matrix A);
+  /// By a factor of an n x n matrix that was computed elsewhere.
+  SymmetricPositiveSolver(int n, std::unique_ptr<SparseFactor> factor, const FactorisationCosts& costs);
   SymmetricPositiveSolver(SymmetricPositiveSolver&&) noexcept;
   SymmetricPositiveSolver& operator=(SymmetricPositiveSolver&&) noexcept;
   ~SymmetricPositiveSolver();

@@ -316,7 +316,8 @@ Eigen::Matrix3Xd recover_cell(Fields& fields, std::size_t first, const analysis:
 
 /// Stress on the sides of cells is the mean of the cells that share the point.
 void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
-                   const analysis::FieldState& state, std::size_t body, const CellsBody& made, const Grid& grid) {
+                   const analysis::FieldState& state, std::size_t body, const CellsBody& made, const Grid& grid,
+                   const CompleteSums& complete) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(made.nodes.size()));
   std::vector<int> cells_at(made.nodes.size(), 0);
@@ -336,6 +337,7 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
       }
     }
   }
+  if (complete) complete(body, made.nodes, made.materials, stresses, cells_at);
   const Vector& u = state.displacements[body];
   // The temperature is the same in all cells of a body.
   const element::LinearField temperature =
@@ -484,7 +486,7 @@ std::shared_ptr<const RingSampling> SamplingLibrary::of_cell(const element::Solv
   return sampling;
 }
 
-Recovery::Recovery(const analysis::StaticSolution& solution) {
+Recovery::Recovery(const analysis::StaticSolution& solution, const std::vector<char>& divided) {
   SamplingLibrary library;
   UsesOfCells uses;
   for (const element::SolvedCells& cells : solution.cells)
@@ -497,7 +499,7 @@ Recovery::Recovery(const analysis::StaticSolution& solution) {
     grid_.first_point.push_back(grid_.point_count());
     if (solution.model.bodies[b].rigid) {
       bodies_.push_back(add_rigid(grid_, solution.model.bodies[b].outline, number));
-    } else if (cells.size() == 1 && cells.front()) {
+    } else if (cells.size() == 1 && cells.front() && (divided.empty() || divided[b] == 0)) {
       SuperElementBody made{library.of_body(*cells.front())};
       add_super_element(grid_, body, *made.sampling, number);
       bodies_.push_back(std::move(made));
@@ -508,7 +510,8 @@ Recovery::Recovery(const analysis::StaticSolution& solution) {
   grid_.first_point.push_back(grid_.point_count());
 }
 
-Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis::FieldState& state) const {
+Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis::FieldState& state,
+                        const CompleteSums& complete) const {
   ensure(state.displacements.size() == bodies_.size() && state.interior.size() == bodies_.size(),
          "a state has displacements and interior loads of every body");
   Fields fields(grid_.point_count());
@@ -520,7 +523,7 @@ Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis
       for (std::size_t i = 0; i < rigid->arms.size(); ++i)
         fields.set(point + i, rigid_displacement(state.displacements[b], rigid->arms[i]), element::Vec3::Zero(), 0.0);
     } else {
-      recover_cells(fields, point, solution, state, b, std::get<CellsBody>(bodies_[b]), grid_);
+      recover_cells(fields, point, solution, state, b, std::get<CellsBody>(bodies_[b]), grid_, complete);
     }
   }
   for (std::size_t point = 0; point < grid_.point_count(); ++point)

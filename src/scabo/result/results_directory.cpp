@@ -25,13 +25,21 @@ namespace fs = std::filesystem;
 
 constexpr const char* problems_name = "problems";
 
-/// `fields_0001.vtu`, `contact_0001.vtu` and the like.
+/// `fields_0001.vtu`, `contact_0001.vtu` and the like; also `fields_0001.pvtu` and its parts, `fields_0001_0.vtu` ...
 bool is_vtu_name(const std::string& name, std::string_view begin) {
-  constexpr std::string_view end = ".vtu";
-  if (!name.starts_with(begin) || !name.ends_with(end)) return false;
-  const std::string number = name.substr(begin.size(), name.size() - begin.size() - end.size());
-  return number.size() >= 4 &&
-         std::all_of(number.begin(), number.end(), [](unsigned char c) { return std::isdigit(c); });
+  if (!name.starts_with(begin)) return false;
+  std::string_view rest = std::string_view(name).substr(begin.size());
+  const auto digits = [&] {
+    const std::size_t count = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    rest.remove_prefix(count);
+    return count;
+  };
+  if (digits() < 4) return false;
+  if (rest.starts_with('_')) {
+    rest.remove_prefix(1);
+    return digits() > 0 && rest == ".vtu";
+  }
+  return rest == ".vtu" || rest == ".pvtu";
 }
 
 constexpr const char* cells_name = "cells.vtu";
@@ -326,7 +334,15 @@ void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const
 /// Collections are written last, because they may name only complete files.
 void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
                                   const analysis::IncrementResult& increment) {
-  if (fields_collection_) {
+  if (fields_collection_ && parts_ && parts_->any()) {
+    const Stopwatch writing(write_seconds_);
+    const std::string stem = fmt::format("fields_{:04d}", finished_);
+    const std::vector<std::string> parts = parts_->write(solution, increment, path_, stem);
+    write_file(path_ / (stem + ".pvtu"), pvtu_content(output_.fields, parts));
+    for (const std::string& part : parts) not_synchronised_.push_back(path_ / part);
+    not_synchronised_.push_back(path_ / (stem + ".pvtu"));
+    fields_collection_->add(pseudo_time(increment), stem + ".pvtu");
+  } else if (fields_collection_) {
     std::optional<Fields> fields;
     {
       const Stopwatch recovering(recover_seconds_);

@@ -33,6 +33,18 @@ std::optional<std::string> status_in(const std::filesystem::path& directory);
 /// full disk), the file remains as it was: readable, with status `running`.
 void mark_failed(const std::filesystem::path& directory, const std::string& reason) noexcept;
 
+/// Other processes write the fields of the cells that they have.
+class FieldParts {
+ public:
+  virtual ~FieldParts() = default;
+  /// Whether they have any.
+  virtual bool any() const = 0;
+  /// Writes `stem_0.vtu`, `stem_1.vtu` ... into a directory; their names. Throws WriteError.
+  virtual std::vector<std::string> write(const analysis::StaticSolution& solution,
+                                         const analysis::IncrementResult& increment,
+                                         const std::filesystem::path& directory, const std::string& stem) = 0;
+};
+
 class ResultsDirectory {
  public:
   /// Prepares the directory, and writes a first summary.json with the sizes of the mesh. Throws WriteError.
@@ -43,6 +55,9 @@ class ResultsDirectory {
                    const analysis::WrittenResults& written);
 
   const std::filesystem::path& path() const { return path_; }
+
+  /// From now on, fields are written in parts, with a .pvtu that names them, while `parts` has any.
+  void divide_fields(FieldParts* parts) { parts_ = parts; }
 
   /// Writes the results of an increment; for one that did not converge, only a line of log.txt. Also writes
   /// summary.json with the results so far, unless that would take more than a twentieth of the time. Throws WriteError.
@@ -78,6 +93,7 @@ class ResultsDirectory {
   void write_running_summary(const analysis::StaticSolution& solution);
 
   std::filesystem::path path_;
+  FieldParts* parts_ = nullptr;
   int steps_ = 0;
   std::optional<DirectoryLock> lock_;
   double pseudo_time(const analysis::IncrementResult& increment) const;

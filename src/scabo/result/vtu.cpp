@@ -136,7 +136,23 @@ class Document {
   int threads_;
 };
 
-void add_fields(Document& document, const Fields& fields, const model::OutputFields& wanted) {
+/// Describes arrays as a .pvtu file does.
+class ArrayNames {
+ public:
+  template <typename Value>
+  void add_field(std::string_view name, int components, const std::vector<Value>&, std::string_view attributes = "") {
+    const std::string number = components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
+    fmt::format_to(std::back_inserter(text_), "      <PDataArray type=\"{}\" Name=\"{}\"{}{}/>\n", name_of<Value>(), name,
+                   number, attributes);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+template <typename To>
+void add_fields(To& document, const Fields& fields, const model::OutputFields& wanted) {
   if (wanted.displacement) document.add_field("displacement", 3, fields.displacement);
   if (wanted.stress) {
     document.add_field("stress", 6, fields.stress,
@@ -157,9 +173,15 @@ void add_fields(Document& document, const Fields& fields, const model::OutputFie
 }
 
 /// The arrays that a viewer shows first.
-std::string point_data(std::string_view scalars, bool displacement) {
-  return fmt::format("      <PointData{}{}>\n", scalars.empty() ? "" : fmt::format(" Scalars=\"{}\"", scalars),
+std::string attributes_of(std::string_view scalars, bool displacement) {
+  return fmt::format("{}{}", scalars.empty() ? "" : fmt::format(" Scalars=\"{}\"", scalars),
                      displacement ? " Vectors=\"displacement\"" : "");
+}
+std::string point_data(std::string_view scalars, bool displacement) {
+  return fmt::format("      <PointData{}>\n", attributes_of(scalars, displacement));
+}
+std::string_view first_scalars(const model::OutputFields& wanted) {
+  return wanted.principal ? "principal_1" : wanted.von_mises ? "von_mises" : "";
 }
 
 void begin_cell_data(Document& document) { document.add("      </PointData>\n      <CellData>\n"); }
@@ -195,14 +217,30 @@ Encoding encoding_of(std::size_t points) {
 
 }  // namespace
 
-std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted, int threads) {
+std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted, int threads,
+                        const std::vector<std::int32_t>& nodes) {
   Document document = begin_piece(grid.point_count(), grid.cell_count(), encoding_of(grid.point_count()), threads);
-  document.add(point_data(wanted.principal ? "principal_1" : wanted.von_mises ? "von_mises" : "", wanted.displacement));
+  document.add(point_data(first_scalars(wanted), wanted.displacement));
   add_fields(document, fields, wanted);
   document.add_array("body", 1, grid.point_body);
+  if (!nodes.empty()) document.add_array("node", 1, nodes);
   begin_cell_data(document);
   document.add_array("body", 1, grid.cell_body);
   return finish_piece(std::move(document), grid);
+}
+
+std::string pvtu_content(const model::OutputFields& wanted, const std::vector<std::string>& parts) {
+  std::string text = opening("PUnstructuredGrid", " header_type=\"UInt64\"") +
+                     fmt::format("  <PUnstructuredGrid GhostLevel=\"0\">\n    <PPointData{}>\n",
+                                 attributes_of(first_scalars(wanted), wanted.displacement));
+  ArrayNames of_points, body, node;
+  add_fields(of_points, Fields(), wanted);
+  body.add_field("body", 1, std::vector<std::int32_t>());
+  node.add_field("node", 1, std::vector<std::int32_t>());
+  text += of_points.text() + body.text() + node.text() + "    </PPointData>\n    <PCellData>\n" + body.text() + "    </PCellData>\n" +
+          "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n";
+  for (const std::string& part : parts) text += fmt::format("    <Piece Source=\"{}\"/>\n", part);
+  return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
 
 std::string vtu_content(const ContactLines& lines) {

@@ -3,9 +3,11 @@
 // written by the VTK library.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scabo/model/model.hpp"
 #include "scabo/result/cell_polygons.hpp"
@@ -19,10 +21,14 @@ namespace scabo::result {
 inline constexpr std::string_view vtk_mark = "<!-- written by Scabo";
 
 /// Content of a .vtu file with the requested arrays, on up to `threads` threads; the content does not depend on them.
+/// `nodes`: of a part of the fields, the node of the body at every point, from 0, or -1; else empty.
 std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {},
-                        int threads = 1);
+                        int threads = 1, const std::vector<std::int32_t>& nodes = {});
 std::string vtu_content(const ContactLines& lines);
 std::string vtu_content(const CellPolygons& polygons, int threads = 1);
+
+/// Content of a .pvtu file: the arrays of parts of the fields, and the files that hold a part each, relative to it.
+std::string pvtu_content(const model::OutputFields& wanted, const std::vector<std::string>& parts);
 
 /// A .pvd file, which is complete after every call.
 class FieldCollection {

@@ -91,6 +91,7 @@ analysis::StaticSolution solve_and_write(const StaticRun& run) {
   Checkpoints checkpoints(run);
   analysis::Options options;
   options.threads = run.threads;
+  options.ranks = run.ranks;
   options.keep_fields = run.keep_fields;
   options.stop = run.stop;
   if (!run.begun.from.increments.empty()) options.from = &run.begun.from;

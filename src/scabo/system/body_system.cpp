@@ -17,19 +17,37 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/linalg/parallel.hpp"
+#include "scabo/linalg/sparse_factor.hpp"
 #include "scabo/linalg/twofold.hpp"
 #include "scabo/system/inclined_nodes.hpp"
+#include "scabo/system/ranks.hpp"
 
 namespace scabo::system {
 
-Vector Stiffness::times(const Vector& u) const { return dense ? Vector(*dense * u) : Vector(sparse * u); }
+Eigen::Index Stiffness::size() const { return divided ? divided->size() : dense ? dense->rows() : sparse.rows(); }
+
+double Stiffness::entries() const {
+  return divided ? divided->entries() : static_cast<double>(dense ? dense->size() : sparse.nonZeros());
+}
+
+Vector Stiffness::times(const Vector& u) const {
+  if (divided) return divided->times(u);
+  return dense ? Vector(*dense * u) : Vector(sparse * u);
+}
 
 linalg::TwofoldVector Stiffness::times(const linalg::TwofoldVector& u) const {
+  if (divided) return divided->times(u);
   return dense ? linalg::product(*dense, u) : linalg::product(sparse, u);
+}
+
+Vector Stiffness::times_squares(const Vector& u) const {
+  if (divided) return divided->times_squares(u);
+  return dense ? Vector(dense->cwiseAbs2() * u) : Vector(sparse.cwiseAbs2() * u);
 }
 
 double Stiffness::largest_diagonal() const {
   if (size() == 0) return 0.0;
+  if (divided) return divided->largest_diagonal();
   return dense ? dense->diagonal().maxCoeff() : Vector(sparse.diagonal()).maxCoeff();
 }
 
@@ -141,6 +159,7 @@ bool equal(const linalg::SparseMatrix& a, const linalg::SparseMatrix& b) {
 }
 bool equal(const Stiffness& a, const Stiffness& b) {
   if (a.unbounded != b.unbounded || !equal(a.springs.matrix, b.springs.matrix)) return false;
+  if (a.divided || b.divided) return a.divided == b.divided;
   if (a.dense || b.dense) return a.dense == b.dense;
   return a.rounding == b.rounding && equal(a.sparse, b.sparse);
 }
@@ -150,9 +169,10 @@ linalg::SparseMatrix with_springs(const Stiffness& stiffness) { return stiffness
 
 /// Equal for equal ones.
 std::size_t hash_of(const Stiffness& stiffness) {
+  if (stiffness.divided) return std::hash<const void*>()(stiffness.divided.get());
   if (stiffness.dense) return std::hash<const void*>()(stiffness.dense.get());
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(stiffness.sparse.valuePtr()),
-                                        static_cast<std::size_t>(stiffness.entries()) * sizeof(double)});
+                                        static_cast<std::size_t>(stiffness.sparse.nonZeros()) * sizeof(double)});
 }
 
 class ElasticBody final : public BodySystem {
@@ -180,7 +200,11 @@ class ElasticBody final : public BodySystem {
   void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes) {
     for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
     const bool alone = inclined_.none() && stiffness().springs.none();
-    if (stiffness().dense) {
+    if (stiffness().divided) {
+      linalg::FactorisationCosts costs;
+      auto factor = stiffness().divided->factorise(dofs_, inclined_, stiffness().springs.matrix, costs);
+      factored_->solver = linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), costs);
+    } else if (stiffness().dense) {
       const auto whole = [&] {
         Matrix K = *stiffness().dense;
         if (has_springs()) K += stiffness().springs.matrix;
@@ -268,8 +292,7 @@ class ElasticBody final : public BodySystem {
     linalg::TwofoldVector strained = linalg::twofold(u);
     if (!stiffness().unbounded) take_out_rigid_motions(strained);
     const Vector square = linalg::rounded(strained).cwiseAbs2();
-    const double sum = stiffness().dense ? square.dot(stiffness().dense->cwiseAbs2() * square)
-                                         : square.dot(Vector(stiffness().sparse.cwiseAbs2() * square));
+    const double sum = square.dot(stiffness().times_squares(square));
     return 0.5 * stiffness().rounding * std::sqrt(sum);  // errors of single entries, independent of each other
   }
   double stiff_force(const Vector& u) const override {
@@ -292,7 +315,7 @@ class ElasticBody final : public BodySystem {
     }
     // The factor alone gives it to about this condition times the unit of rounding.
     constexpr double most_entries = 1e9;  // some seconds
-    const double entries = static_cast<double>(stiffness().entries()) * static_cast<double>(at.size());
+    const double entries = stiffness().entries() * static_cast<double>(at.size());
     if (!at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
       const Vector none = Vector::Zero(size());
       for (std::size_t j = 0; j < at.size(); ++j) {

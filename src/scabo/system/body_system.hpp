@@ -42,20 +42,24 @@ struct Springs {
   Vector times(const Vector& u) const { return none() ? Vector(Vector::Zero(u.size())) : Vector(matrix * u); }
 };
 
-/// Stiffness of an elastic body: dense for one super-element, sparse for finite elements. Springs are kept apart from
-/// it: it resists no rigid motion, they do.
+class DividedStiffness;  // ranks.hpp
+
+/// Stiffness of an elastic body: dense for one super-element, sparse for finite elements, or divided among several
+/// processes. Springs are kept apart from it: it resists no rigid motion, they do.
 struct Stiffness {
   std::shared_ptr<const Matrix> dense;
   linalg::SparseMatrix sparse;
+  std::shared_ptr<const DividedStiffness> divided;
   double rounding = std::numeric_limits<double>::epsilon();  ///< relative error of its entries
   bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
   Springs springs;
 
-  Eigen::Index size() const { return dense ? dense->rows() : sparse.rows(); }
+  Eigen::Index size() const;
   Vector times(const Vector& u) const;
   linalg::TwofoldVector times(const linalg::TwofoldVector& u) const;  ///< in twice the working precision
   double largest_diagonal() const;
-  Eigen::Index entries() const { return dense ? dense->size() : sparse.nonZeros(); }
+  Vector times_squares(const Vector& u) const;  ///< product of the matrix of the squared entries
+  double entries() const;
 };
 
 /// The displacement of a point along a direction, which a support holds at a prescribed value.

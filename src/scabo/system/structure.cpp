@@ -248,12 +248,16 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
 }
 
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, int threads) {
+                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks) {
   Structure structure;
   structure.dofs = Dofs(model, mesh);
   const Dofs& dofs = structure.dofs;
   linalg::SparseOptions options;
   if (model.solver.factorisation == model::Factorisation::mumps) options.library = linalg::SparseLibrary::mumps;
+  if (ranks && options.library == linalg::SparseLibrary::mumps)
+    throw InputError(model.file, {{{0, 0, "solver.factorisation"},
+                                   "with several ranks MUMPS factorises the bodies that are divided among them, and "
+                                   "CHOLMOD the others, without being asked: leave this key out"}});
   if (!linalg::is_built_in(options.library))
     throw InputError(model.file, {{{0, 0, "solver.factorisation"},
                                    "the library of MUMPS was not found: write cholmod, "
@@ -272,8 +276,13 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       continue;
     }
     elastic.push_back(p);
-    Stiffness stiffness =
-        timed(structure.assembly_seconds, [&] { return part_stiffness(model, mesh, cells, dofs, p, threads); });
+    Stiffness stiffness = timed(structure.assembly_seconds, [&] {
+      if (!is_divided(ranks, model, mesh, dofs, p)) return part_stiffness(model, mesh, cells, dofs, p, threads);
+      Stiffness divided;
+      divided.divided = ranks->stiffness(model, mesh, dofs, p, threads);
+      divided.rounding = std::max(divided.rounding, divided.divided->rounding());
+      return divided;
+    });
     stiffness.springs = structure.springs.of_part[p];
     parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p])});
   }

@@ -10,6 +10,7 @@
 #include "scabo/element/radial_load.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/dofs.hpp"
+#include "scabo/system/ranks.hpp"
 #include "scabo/system/springs.hpp"
 
 namespace scabo::system {
@@ -40,9 +41,10 @@ std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, c
 /// Throws InputError for bodies and parts that are held neither by supports nor by springs nor by contact pairs.
 void check_supports(const model::Model& model, const mesh::Mesh& mesh);
 
-/// Factorises every part, on up to `threads` threads. `cells[body]`: its solved super-elements.
+/// Factorises every part, on up to `threads` threads. `cells[body]`: its solved super-elements. `ranks`: the other
+/// processes of the run, or null.
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, int threads = 1);
+                         const std::vector<element::SolvedCells>& cells, int threads = 1, Ranks* ranks = nullptr);
 
 /// Adds the loads to a structure (apply_loads.cpp).
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,

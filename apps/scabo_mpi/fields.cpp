@@ -1,0 +1,273 @@
+// Fields of the cells of each rank, in a file of its own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "own_fields.hpp"
+#include "scabo/base/components.hpp"
+#include "scabo/result/vtu.hpp"
+#include "share.hpp"
+
+namespace scabo::mpi {
+
+namespace {
+
+void pack(Packer& packer, const element::LinearField& field) {
+  packer.add(field.constant);
+  packer.add(field.per_x);
+  packer.add(field.per_y);
+}
+element::LinearField linear_field(Unpacker& unpacker) {
+  element::LinearField field;
+  field.constant = unpacker.get<double>();
+  field.per_x = unpacker.get<double>();
+  field.per_y = unpacker.get<double>();
+  return field;
+}
+
+void pack(Packer& packer, const element::InitialStress& stress) {
+  for (const element::Vec3& part : {stress.constant, stress.per_x, stress.per_y, stress.plain_constant})
+    for (const double value : part) packer.add(value);
+  pack(packer, stress.zz);
+}
+element::InitialStress initial_stress(Unpacker& unpacker) {
+  element::InitialStress stress;
+  for (element::Vec3* part : {&stress.constant, &stress.per_x, &stress.per_y, &stress.plain_constant})
+    for (double& value : *part) value = unpacker.get<double>();
+  stress.zz = linear_field(unpacker);
+  return stress;
+}
+
+void pack(Packer& packer, const element::InteriorLoads& loads) {
+  pack(packer, loads.temperature);
+  packer.add(loads.loads.size());
+  for (const element::RadialLoad& load : loads.loads) {
+    packer.add(load.power);
+    packer.add(load.g);
+    packer.add(load.c);
+  }
+}
+element::InteriorLoads interior_loads(Unpacker& unpacker) {
+  element::InteriorLoads loads;
+  loads.temperature = linear_field(unpacker);
+  loads.loads.resize(unpacker.get<std::size_t>());
+  for (element::RadialLoad& load : loads.loads) {
+    load.power = unpacker.get<double>();
+    load.g = unpacker.get_vector();
+    load.c = unpacker.get_vector();
+  }
+  return loads;
+}
+
+Bytes pack_state(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment,
+                 const std::filesystem::path& directory, const std::string& stem, const Wanted& wanted) {
+  const analysis::FieldState& state = increment.fields;
+  Packer packer;
+  packer.add(directory.string());
+  packer.add(stem);
+  packer.add(solution.threads);
+  packer.add_list(increment.absent);
+  packer.add(state.reference_displacement.x());
+  packer.add(state.reference_displacement.y());
+  packer.add(state.initial.size());
+  for (const element::InitialStress& stress : state.initial) pack(packer, stress);
+  for (std::size_t k = 0; k < wanted.bodies.size(); ++k) {
+    const auto b = static_cast<std::size_t>(wanted.bodies[k]);
+    Vector u(places_of(wanted.nodes[k].size()));
+    for (std::size_t i = 0; i < wanted.nodes[k].size(); ++i)
+      u.segment<2>(place_of(i)) = state.displacements[b].segment<2>(place_of(wanted.nodes[k][i]));
+    packer.add(u);
+    const bool loaded = !state.interior[b].empty();
+    packer.add(loaded);
+    if (!loaded) continue;
+    for (const int cell : wanted.cells[k])
+      pack(packer, element::loads_in(state.interior[b], static_cast<std::size_t>(cell)));
+  }
+  return std::move(packer).take();
+}
+
+/// Sums at points of nodes that several ranks have.
+struct SharedSum {
+  int number = 0, material = 0, cells = 0;
+  double stress[3] = {0.0, 0.0, 0.0};
+};
+
+}  // namespace
+
+std::vector<std::string> Process::write_fields(const analysis::StaticSolution* solution,
+                                               const analysis::IncrementResult* increment,
+                                               const std::filesystem::path* directory, const std::string* stem) {
+  std::vector<std::pair<int, const Share*>> own;  // body, share
+  for (const auto& [id, share] : shares_)
+    for (const int body : share->bodies) own.emplace_back(body, share.get());
+  std::sort(own.begin(), own.end());
+
+  const bool made = agreed([&] {
+    if (own_fields_) return;
+    auto fields = std::make_unique<OwnFields>();
+    analysis::StaticSolution& of = fields->solution;
+    of.model = model();
+    const std::size_t bodies = of.model.bodies.size();
+    fields->divided.assign(bodies, 0);
+    fields->numbers.resize(bodies);
+    fields->node_numbers.resize(bodies);
+    of.mesh.bodies.resize(bodies);
+    of.cells.resize(bodies);
+    for (const auto& [body, share] : own) {
+      const auto b = static_cast<std::size_t>(body);
+      fields->divided[b] = 1;
+      of.mesh.bodies[b] = share->mesh.bodies[b];
+      of.cells[b] = share->cells[b];
+      fields->numbers[b] = share->numbers[b];
+      fields->node_numbers[b] = share->node_numbers[b];
+    }
+    for (std::size_t b = 0; b < bodies; ++b) {
+      if (fields->divided[b]) continue;
+      of.model.bodies[b].rigid = solution && of.model.bodies[b].rigid;  // rank 0 has what is not divided
+      if (!solution) continue;
+      of.mesh.bodies[b] = solution->mesh.bodies[b];
+      of.cells[b] = solution->cells[b];
+    }
+    own_fields_ = std::move(fields);
+  });
+  if (!made) return {};
+  if (own_fields_->is_shared.empty()) {
+    Packer has;
+    std::vector<int> bodies;
+    for (const auto& [body, share] : own) bodies.push_back(body);
+    has.add_list(bodies);
+    for (const auto& [body, share] : own) {
+      has.add_list(share->cell_numbers[static_cast<std::size_t>(body)]);
+      has.add_list(share->node_numbers[static_cast<std::size_t>(body)]);
+    }
+    for (const Bytes& bytes : collected(std::move(has).take())) {
+      Unpacker unpacker(bytes);
+      Wanted& wanted = own_fields_->of_ranks.emplace_back();
+      wanted.bodies = unpacker.get_list<int>();
+      for (std::size_t k = 0; k < wanted.bodies.size(); ++k) {
+        wanted.cells.push_back(unpacker.get_list<int>());
+        wanted.nodes.push_back(unpacker.get_list<int>());
+      }
+    }
+    // A rank has nodes that belong to another one; the list of all such nodes is small.
+    Packer foreign;
+    for (const auto& [body, share] : own) {
+      std::vector<int> list;
+      for (const int number : share->numbers[static_cast<std::size_t>(body)])
+        if (number < share->first[static_cast<std::size_t>(rank_)] ||
+            number >= share->first[static_cast<std::size_t>(rank_) + 1])
+          list.push_back(number);
+      foreign.add_list(list);
+    }
+    const std::vector<Bytes> lists = gathered(std::move(foreign).take());
+    std::vector<std::vector<int>> all(own.size());
+    for (const Bytes& bytes : lists) {
+      Unpacker unpacker(bytes);
+      for (std::vector<int>& of_body : all) {
+        const std::vector<int> list = unpacker.get_list<int>();
+        of_body.insert(of_body.end(), list.begin(), list.end());
+      }
+    }
+    own_fields_->is_shared.resize(own_fields_->divided.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      std::sort(all[k].begin(), all[k].end());
+      const auto b = static_cast<std::size_t>(own[k].first);
+      for (const int number : own_fields_->numbers[b])
+        own_fields_->is_shared[b].push_back(std::binary_search(all[k].begin(), all[k].end(), number));
+    }
+  }
+
+  std::vector<Bytes> messages;
+  if (solution)
+    for (const Wanted& wanted : own_fields_->of_ranks)
+      messages.push_back(pack_state(*solution, *increment, *directory, *stem, wanted));
+  const Bytes message = distributed(solution ? &messages : nullptr);
+  Unpacker unpacker(message);
+  const std::filesystem::path to = unpacker.get_text();
+  const std::string name = unpacker.get_text();
+  analysis::StaticSolution& of = own_fields_->solution;
+  of.threads = unpacker.get<int>();
+  const std::vector<int> absent = unpacker.get_list<int>();
+  analysis::FieldState state;
+  state.reference_displacement.x() = unpacker.get<double>();
+  state.reference_displacement.y() = unpacker.get<double>();
+  const auto initial = unpacker.get<std::size_t>();
+  for (std::size_t i = 0; i < initial; ++i) state.initial.push_back(initial_stress(unpacker));
+  state.displacements.resize(of.model.bodies.size());
+  state.interior.resize(of.model.bodies.size());
+  if (increment) {
+    state.displacements = increment->fields.displacements;
+    state.interior = increment->fields.interior;
+  }
+  for (const auto& [body, share] : own) {
+    const auto b = static_cast<std::size_t>(body);
+    state.displacements[b] = unpacker.get_vector();
+    state.interior[b].clear();
+    if (!unpacker.get<bool>()) continue;
+    for (std::size_t cell = 0; cell < share->cell_numbers[b].size(); ++cell)
+      state.interior[b].push_back(interior_loads(unpacker));
+  }
+
+  const auto complete = [&](std::size_t body, const std::vector<int>& nodes, const std::vector<int>& materials,
+                            Eigen::Matrix3Xd& sums, std::vector<int>& cells) {
+    if (!own_fields_->divided[body]) return;
+    const std::vector<int>& numbers = own_fields_->numbers[body];
+    std::vector<SharedSum> mine;
+    std::map<std::pair<int, int>, std::size_t> point_of;  // number, material
+    for (std::size_t point = 0; point < nodes.size(); ++point) {
+      const auto node = static_cast<std::size_t>(nodes[point]);
+      if (!own_fields_->is_shared[body][node]) continue;
+      const auto column = static_cast<Eigen::Index>(point);
+      mine.push_back({numbers[node], materials[point], cells[point], {sums(0, column), sums(1, column), sums(2, column)}});
+      point_of[{numbers[node], materials[point]}] = point;
+      sums.col(column).setZero();
+      cells[point] = 0;
+    }
+    Packer packer;
+    packer.add_list(mine);
+    for (const Bytes& bytes : gathered(std::move(packer).take())) {  // in the order of ranks, on every rank
+      Unpacker of_rank(bytes);
+      for (const SharedSum& sum : of_rank.get_list<SharedSum>()) {
+        const auto found = point_of.find({sum.number, sum.material});
+        if (found == point_of.end()) continue;
+        sums.col(static_cast<Eigen::Index>(found->second)) += Eigen::Map<const Eigen::Vector3d>(sum.stress);
+        cells[found->second] += sum.cells;
+      }
+    }
+  };
+  result::Fields fields;
+  together([&] {
+    if (!own_fields_->recovery) own_fields_->recovery = std::make_unique<result::Recovery>(of, own_fields_->divided);
+    fields = own_fields_->recovery->fields(of, state, complete);
+  });
+  std::vector<std::string> names;
+  for (int rank = 0; rank < count_; ++rank) names.push_back(fmt::format("{}_{}.vtu", name, rank));
+  const auto write = [&](const result::Grid& grid, const result::Fields& values) {
+    // The first points of an elastic body are its nodes.
+    std::vector<std::int32_t> nodes(grid.point_count(), -1);
+    for (std::size_t b = 0; b < of.model.bodies.size(); ++b) {
+      const auto [begin, end] =
+          std::equal_range(grid.point_body.begin(), grid.point_body.end(), static_cast<std::int32_t>(b + 1));
+      const auto first = static_cast<std::size_t>(begin - grid.point_body.begin());
+      const std::size_t count = std::min(of.mesh.bodies[b].nodes.size(), static_cast<std::size_t>(end - begin));
+      for (std::size_t i = 0; i < count; ++i)
+        nodes[first + i] = own_fields_->divided[b] ? own_fields_->node_numbers[b][i] : static_cast<std::int32_t>(i);
+    }
+    result::write_file(to / names[static_cast<std::size_t>(rank_)],
+                       result::vtu_content(grid, values, of.model.output.fields, of.threads, nodes));
+  };
+  agreed([&] {
+    const result::Grid& grid = own_fields_->recovery->grid();
+    if (absent.empty()) {
+      write(grid, fields);
+    } else {
+      const result::GridFields there = result::without_bodies(grid, fields, absent);
+      write(there.grid, there.fields);
+    }
+  });
+  return names;
+}
+
+}  // namespace scabo::mpi
