@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "progress.hpp"
+#include "scabo/base/interruption.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
 #include "terminal.hpp"
@@ -59,7 +60,14 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
     events.plan(plan);
     progress.plan(plan);
   };
+  // Nothing is lost by an end before the first increment. One that has begun is finished; on several meshes, stages tell
+  // when the first one begins.
+  bool begun = false;
+  const Interruptible::Ask ask = [&] {
+    if (!begun && interrupt.requested()) throw analysis::EndAtOnce{};
+  };
   run.observer.on_stage = [&](const std::string& stage) {
+    begun = begun || stage.find(", increment ") != std::string::npos;
     events.stage(stage);
     progress.stage(stage);
   };
@@ -76,7 +84,10 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
     events.increment_end(solved.model, increment, solved.increments.size() == 1);
     progress.increment(solved, increment);
   };
-  const analysis::StaticSolution solution = run::solve(run);
+  const analysis::StaticSolution solution = [&] {
+    const Interruptible here(&ask);
+    return run::solve(run);
+  }();
   progress.clear();
 
   const ExitStatus status = status_of(solution, interrupt.signal());
