@@ -40,7 +40,7 @@ constexpr const char* run_example = R"(Example:
   scabo run model.yaml -o friction_0.5 --set contacts.joint.friction=0.5
 
 Results: summary.json, contact.csv, fields.pvd (ParaView) and log.txt in DIR.
-Ctrl-C ends the run after the current increment; a second Ctrl-C ends it immediately.)";
+Ctrl-C ends the run after the current increment, or at once if none has begun; a second Ctrl-C ends it immediately.)";
 
 constexpr const char* resume_example = R"(Example:
   scabo resume model.results

@@ -27,7 +27,8 @@ extern "C" void request_stop(int signal) {
   // Except for SIGHUP: the shell and the system both send one when a terminal is closed.
   std::signal(SIGHUP, SIG_IGN);
   constexpr std::string_view message =
-      "\nInterrupted: the run ends after the current increment (Ctrl-C again ends it immediately)\n";
+      "\nInterrupted: the run ends after the current increment, or now if none has begun (Ctrl-C again ends it "
+      "immediately)\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "progress.hpp"
+#include "scabo/base/interruption.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
 #include "terminal.hpp"
@@ -92,7 +93,14 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
     events.plan(plan);
     progress.plan(plan);
   };
+  // Nothing is lost by an end before the first increment. One that has begun is finished; on several meshes, stages tell
+  // when the first one begins.
+  bool begun = false;
+  const Interruptible::Ask ask = [&] {
+    if (!begun && interrupt.requested()) throw analysis::EndAtOnce{};
+  };
   run.observer.on_stage = [&](const std::string& stage) {
+    begun = begun || stage.find(", increment ") != std::string::npos;
     events.stage(stage);
     progress.stage(stage);
   };
@@ -111,7 +119,10 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
   };
   std::optional<EndFromOutside> watch;
   if (run.ranks) watch.emplace(interrupt, run.directory->path());
-  const analysis::StaticSolution solution = run::solve(run);
+  const analysis::StaticSolution solution = [&] {
+    const Interruptible here(run.ranks ? nullptr : &ask);  // other processes are in the midst of it
+    return run::solve(run);
+  }();
   watch.reset();
   progress.clear();
 

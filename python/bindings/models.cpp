@@ -3,6 +3,8 @@
 
 #include <pybind11/stl.h>
 
+#include <docstrings.hpp>  // made by make_docstrings.py
+
 #include "bindings.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/result/history.hpp"
@@ -16,7 +18,8 @@ namespace scabo::python {
 
 namespace {
 
-/// Also checks the model: what is wrong with the text and what is wrong with the model is reported together.
+/// Reads a model file with settings, `path=value` each. Also checks the model: what is wrong with the text and what is
+/// wrong with the model is reported together. Raises ModelError with every mistake.
 Document read(const std::string& file, const std::vector<std::string>& settings) {
   const py::gil_scoped_release release;
   Document document{file, settings, nullptr};
@@ -24,6 +27,12 @@ Document read(const std::string& file, const std::vector<std::string>& settings)
   return document;
 }
 
+/// The content as dictionaries, lists, numbers, bool, text and None, which are new with every call.
+py::object data(const Document& document) { return to_python(*document.root); }
+
+/// Reads and checks a model that is a dictionary. `file`: stands in messages, and files that the model names are relative
+/// to its folder. `document`: what the dictionary was read from, or None; unchanged parts keep their lines in messages.
+/// Raises ModelError with every mistake, and TypeError for values that a model cannot contain.
 CheckedModel checked_model(py::handle data, const std::string& file, const Document* document) {
   CheckedModel checked;
   const Stopwatch reading(checked.reading);
@@ -36,7 +45,9 @@ CheckedModel checked_model(py::handle data, const std::string& file, const Docum
   return checked;
 }
 
-/// What `scabo check` finds out, without solving.
+/// Meshes the model without solving it, as `scabo check` does: numbers of bodies, nodes, dofs, super_elements,
+/// finite_elements, contact_pairs (those that can move), contacts (such pairs of each), increments; memory_bytes and
+/// seconds are estimates, usually right within a factor of two. Raises ModelError.
 py::dict sizes(const CheckedModel& checked) {
   run::Plan plan;
   std::vector<int> pairs;
@@ -70,22 +81,33 @@ std::vector<std::string> names_of(const std::vector<Part>& parts) {
   return names;
 }
 
+/// Whether the analysis is one of natural frequencies (`type: modal`), not a static one.
+bool is_modal(const CheckedModel& checked) { return checked.model.analysis.type == model::AnalysisType::modal; }
+
+/// Names of the bodies, in the order of the model.
+std::vector<std::string> bodies(const CheckedModel& checked) { return names_of(checked.model.bodies); }
+
+/// What the checks warn of, one sentence each.
+std::vector<std::string> warnings(const CheckedModel& checked) { return texts_of(checked.model.warnings); }
+
+/// JSON Schema of the model file, as text.
+std::string schema() { return std::string(input::model_schema()); }
+
 }  // namespace
 
 void bind_models(py::module_& module) {
-  py::class_<Document>(module, "Document")
-      .def_readonly("file", &Document::file)
-      .def("data", [](const Document& document) { return to_python(*document.root); });
-  py::class_<CheckedModel>(module, "CheckedModel")
-      .def_property_readonly(
-          "is_modal",
-          [](const CheckedModel& checked) { return checked.model.analysis.type == model::AnalysisType::modal; })
-      .def_property_readonly("bodies", [](const CheckedModel& checked) { return names_of(checked.model.bodies); })
-      .def_property_readonly("warnings", [](const CheckedModel& checked) { return texts_of(checked.model.warnings); })
-      .def("sizes", &sizes);
-  module.def("read", &read, py::arg("file"), py::arg("settings"));
-  module.def("checked_model", &checked_model, py::arg("data"), py::arg("file"), py::arg("document").none(true));
-  module.def("schema", [] { return std::string(input::model_schema()); });
+  py::class_<Document>(module, "Document", doc::models::Document)
+      .def_readonly("file", &Document::file, doc::models::Document_file)
+      .def("data", &data, doc::models::data);
+  py::class_<CheckedModel>(module, "CheckedModel", doc::models::CheckedModel)
+      .def_property_readonly("is_modal", &is_modal, doc::models::is_modal)
+      .def_property_readonly("bodies", &bodies, doc::models::bodies)
+      .def_property_readonly("warnings", &warnings, doc::models::warnings)
+      .def("sizes", &sizes, doc::models::sizes);
+  module.def("read", &read, py::arg("file"), py::arg("settings"), doc::models::read);
+  module.def("checked_model", &checked_model, py::arg("data"), py::arg("file"), py::arg("document").none(true),
+             doc::models::checked_model);
+  module.def("schema", &schema, doc::models::schema);
 }
 
 }  // namespace scabo::python

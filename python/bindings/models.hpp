@@ -11,7 +11,7 @@ namespace scabo::python {
 
 /// The tree of a model file, with the settings in it.
 struct Document {
-  std::string file;
+  std::string file;                   ///< path of the model file
   std::vector<std::string> settings;  ///< `path=value`
   input::NodePtr root;
 };

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <docstrings.hpp>  // made by make_docstrings.py
 #include <memory>
+#include <thread>
 
 #include "bindings.hpp"
 #include "models.hpp"
@@ -20,12 +21,13 @@
 #include "scabo/run/static_run.hpp"
 #include "scabo/run/time_left.hpp"
 #include "solved.hpp"
+#include "until_ctrl_c.hpp"
 
 namespace scabo::python {
 
 namespace {
 
-/// What a callback is told.
+/// How far a run is, as its callback is told.
 struct Progress {
   std::string stage;                     ///< what is being done, as 'factorisation' or 'step press, increment 2 of 10'
   int increment = 0;                     ///< number of finished increments
@@ -38,12 +40,12 @@ struct Progress {
   std::optional<double> seconds_left;  ///< until the end, if the rest goes on as before; None before an increment is done
 };
 
-/// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an
-/// exception of a signal handler, stop the run. It ends at the next of these occasions: the beginning of a stage or
-/// increment, an iteration of the contact solver. Finished increments are kept.
+/// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an exception
+/// of a signal handler, stop the run. It ends at the next of these occasions: a stage or increment begins, the contact
+/// solver iterates, an interruption point is passed. Finished increments are kept.
 class Watch {
  public:
-  explicit Watch(py::object callback) : callback_(std::move(callback)) {}
+  explicit Watch(py::object callback) : callback_(std::move(callback)) { now_.stage = "mesh"; }
 
   const std::atomic<bool>& stopped() const { return stopped_; }
   /// With the interpreter lock.
@@ -60,16 +62,26 @@ class Watch {
     now_.stage = name;
     now_.iteration.reset();
     now_.iteration_residual.reset();
-    tell();
+    look(true);
+    if (stopped_) throw run::Stopped{};
+  }
+  /// The same of an analysis that can end with the increments that are finished.
+  void stage_of_increments(const std::string& name) {
+    try {
+      stage(name);
+    } catch (const run::Stopped&) {
+      if (name == "mesh") throw;
+      throw analysis::EndAtOnce{};
+    }
   }
   void meshed() { time_left_.begin(); }
   void iteration(const contact::Iteration& iteration) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - told_ < shortest_between_iterations) return;
-    now_.iteration = iteration.iteration;
-    now_.iteration_residual = iteration.residual;
-    now_.seconds_left = time_left_.seconds();
-    tell();
+    if (Clock::now() - told_ >= between_iterations) {
+      now_.iteration = iteration.iteration;
+      now_.iteration_residual = iteration.residual;
+      now_.seconds_left = time_left_.seconds();
+      look(true);
+    }
     if (stopped_) throw analysis::EndAtOnce{};
   }
   void increment(const model::Model& model, const analysis::IncrementResult& result) {
@@ -82,35 +94,55 @@ class Watch {
     now_.iteration_residual.reset();
     time_left_.increment(now_.fraction, now_.increment == 1);
     now_.seconds_left = time_left_.seconds();
-    tell();
+    look(true);  // what is finished is kept: the run looks at stopped() before the next one
+  }
+
+  /// At interruption points, on any thread: whether the run is to end. Only the thread of the run looks.
+  bool work() {
+    if (std::this_thread::get_id() == thread_) {
+      const Clock::time_point now = Clock::now();
+      if (now - looked_ >= between_looks) look(now - told_ >= between_work);
+    }
+    return stopped_;
   }
 
  private:
-  void tell() {
+  using Clock = std::chrono::steady_clock;
+
+  void look(bool tell) {
     {
       const py::gil_scoped_acquire acquire;
-      try {
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!callback_.is_none() && !stopped_) stopped_ = callback_(py::cast(now_)).is(py::bool_(false));
-      } catch (py::error_already_set& raised) {
-        error_ = raised.value();
-        if (raised.trace()) error_.attr("__traceback__") = raised.trace();
-        stopped_ = true;
+      if (!stopped_) {
+        error_ = raised_by_signals();
+        stopped_ = !error_.is_none();
       }
+      if (tell && !callback_.is_none() && !stopped_) call();
     }
-    told_ = std::chrono::steady_clock::now();
-    if (stopped_ && now_.increment == 0) throw run::Stopped{};
+    looked_ = Clock::now();
+    if (tell) told_ = looked_;
   }
 
-  // A display shows a few a second, and each needs the interpreter lock.
-  static constexpr std::chrono::milliseconds shortest_between_iterations{50};
+  void call() {
+    try {
+      stopped_ = callback_(py::cast(now_)).is(py::bool_(false));
+    } catch (py::error_already_set& raised) {
+      error_ = raised.value();
+      if (raised.trace()) error_.attr("__traceback__") = raised.trace();
+      stopped_ = true;
+    }
+  }
+
+  // A display shows a few a second, and each needs the interpreter lock. Within a stage nothing new is told, but the
+  // callback may want the end.
+  static constexpr std::chrono::milliseconds between_iterations{50}, between_work{250};
 
   py::object callback_;
   py::object error_ = py::none();
   Progress now_;
   std::atomic<bool> stopped_{false};
   run::TimeLeft time_left_;
-  std::chrono::steady_clock::time_point told_;
+  const std::thread::id thread_ = std::this_thread::get_id();
+  Clock::time_point told_ = Clock::now(), looked_ = told_;
 };
 
 std::string text_of_file(const std::filesystem::path& file) {
@@ -134,6 +166,10 @@ analysis::StaticSolution run_in_directory(run::StaticRun& run, const CheckedMode
   return solution;
 }
 
+/// Runs a static analysis. `output`: directory of its files, or None. `threads`: upper limit. `keep_fields`: of all
+/// increments, not of the last one alone. `ignore_memory`: starts even if the estimated memory is not available.
+/// `progress`: None, or a function that is called with a Progress; False or an exception of it ends the run, whose result
+/// then contains the finished increments. Raises ModelError, WriteError and MemoryError.
 std::shared_ptr<StaticResult> solve_static(const CheckedModel& checked, const std::optional<std::string>& output,
                                            int threads, bool keep_fields, bool ignore_memory,
                                            const py::object& progress) {
@@ -149,13 +185,17 @@ std::shared_ptr<StaticResult> solve_static(const CheckedModel& checked, const st
     run.stop = &watch.stopped();
     run.keep_fields = keep_fields;
     if (!ignore_memory) run.anyway = "start it with ignore_memory=True";
-    run.observer.on_stage = [&](const std::string& stage) { watch.stage(stage); };
+    run.observer.on_stage = [&](const std::string& stage) { watch.stage_of_increments(stage); };
     run.observer.on_mesh = [&](const auto&) { watch.meshed(); };
     run.observer.on_iteration = [&](const contact::Iteration& iteration) { watch.iteration(iteration); };
     run.observer.on_increment = [&](const auto&, const auto& increment) { watch.increment(checked.model, increment); };
+    const Interruptible::Ask ask = [&] {
+      if (watch.work()) throw analysis::EndAtOnce{};
+    };
     mesh::Mesh mesh = analysis::check(checked.model);
     if (checked.model.analysis.type == model::AnalysisType::static_) result::check_sections(checked.model, mesh);
     run.plan = run::plan_of(checked.model, mesh);
+    const Interruptible here(&ask);
     if (output) {
       solved->solution = run_in_directory(run, checked, *output, std::move(mesh), solved->record);
     } else {
@@ -170,6 +210,7 @@ std::shared_ptr<StaticResult> solve_static(const CheckedModel& checked, const st
   return solved;
 }
 
+/// Runs a modal analysis; arguments as of `solve_static`. Raises Interrupted if `progress` returns False.
 std::shared_ptr<ModalRunResult> solve_modal(const CheckedModel& checked, const std::optional<std::string>& output,
                                             int threads, const py::object& progress) {
   auto solved = std::make_shared<ModalRunResult>();
@@ -182,6 +223,10 @@ std::shared_ptr<ModalRunResult> solve_modal(const CheckedModel& checked, const s
     run.threads = threads;
     if (output) run.output = *output;
     run.on_stage = [&](const std::string& stage) { watch.stage(stage); };
+    const Interruptible::Ask ask = [&] {
+      if (watch.work()) throw run::Stopped{};
+    };
+    const Interruptible here(&ask);
     solved->result = run::solve(run);
     solved->record.directory = output;
     solved->record.warnings = texts_of(solved->result.warnings);
@@ -194,42 +239,47 @@ std::shared_ptr<ModalRunResult> solve_modal(const CheckedModel& checked, const s
   return solved;
 }
 
-/// Writes results that are in memory.
+/// Writes results that are in memory, with the fields of all increments, to a directory, as a run does. Raises
+/// WriteError.
 void write_results(const StaticResult& solved, const std::string& output) {
-  const py::gil_scoped_release release;
-  const analysis::StaticSolution& solution = solved.solution;
-  result::ResultsDirectory directory(output, solution.model, solution.mesh);
-  for (const analysis::IncrementResult& increment : solution.increments) directory.add(solution, increment);
-  directory.finish(solution);
+  until_ctrl_c([&] {
+    const analysis::StaticSolution& solution = solved.solution;
+    result::ResultsDirectory directory(output, solution.model, solution.mesh);
+    run::marking_failures(directory.path(), [&] {
+      for (const analysis::IncrementResult& increment : solution.increments) directory.add(solution, increment);
+      directory.finish(solution);
+    });
+  });
 }
 
 }  // namespace
 
 void bind_runs(py::module_& module) {
-  py::class_<Progress>(module, "Progress", "How far a run is, for its callback.")
-      .def_readonly("stage", &Progress::stage, doc::Progress_stage)
-      .def_readonly("increment", &Progress::increment, doc::Progress_increment)
-      .def_readonly("increments", &Progress::increments, doc::Progress_increments)
-      .def_readonly("fraction", &Progress::fraction, doc::Progress_fraction)
-      .def_readonly("newton_iterations", &Progress::newton_iterations, doc::Progress_newton_iterations)
-      .def_readonly("residual", &Progress::residual, doc::Progress_residual)
-      .def_readonly("iteration", &Progress::iteration, doc::Progress_iteration)
-      .def_readonly("iteration_residual", &Progress::iteration_residual, doc::Progress_iteration_residual)
-      .def_readonly("seconds_left", &Progress::seconds_left, doc::Progress_seconds_left)
+  py::class_<Progress>(module, "Progress", doc::runs::Progress)
+      .def_readonly("stage", &Progress::stage, doc::runs::Progress_stage)
+      .def_readonly("increment", &Progress::increment, doc::runs::Progress_increment)
+      .def_readonly("increments", &Progress::increments, doc::runs::Progress_increments)
+      .def_readonly("fraction", &Progress::fraction, doc::runs::Progress_fraction)
+      .def_readonly("newton_iterations", &Progress::newton_iterations, doc::runs::Progress_newton_iterations)
+      .def_readonly("residual", &Progress::residual, doc::runs::Progress_residual)
+      .def_readonly("iteration", &Progress::iteration, doc::runs::Progress_iteration)
+      .def_readonly("iteration_residual", &Progress::iteration_residual, doc::runs::Progress_iteration_residual)
+      .def_readonly("seconds_left", &Progress::seconds_left, doc::runs::Progress_seconds_left)
       .def("__repr__", [](const Progress& progress) {
         return py::str("Progress(stage={!r}, increment={}, increments={}, fraction={})")
             .format(progress.stage, progress.increment, progress.increments, progress.fraction);
       });
-  py::class_<RunRecord>(module, "RunRecord")
-      .def_readonly("summary", &RunRecord::summary, doc::RunRecord_summary)
-      .def_readonly("directory", &RunRecord::directory, doc::RunRecord_directory)
-      .def_readonly("warnings", &RunRecord::warnings, doc::RunRecord_warnings)
-      .def_readonly("error", &RunRecord::error, doc::RunRecord_error)
-      .def_readonly("why_not_solved", &RunRecord::why_not_solved, doc::RunRecord_why_not_solved);
+  py::class_<RunRecord>(module, "RunRecord", doc::solved::RunRecord)
+      .def_readonly("summary", &RunRecord::summary, doc::solved::RunRecord_summary)
+      .def_readonly("directory", &RunRecord::directory, doc::solved::RunRecord_directory)
+      .def_readonly("warnings", &RunRecord::warnings, doc::solved::RunRecord_warnings)
+      .def_readonly("error", &RunRecord::error, doc::solved::RunRecord_error)
+      .def_readonly("why_not_solved", &RunRecord::why_not_solved, doc::solved::RunRecord_why_not_solved);
   module.def("solve_static", &solve_static, py::arg("model"), py::arg("output"), py::arg("threads"),
-             py::arg("keep_fields"), py::arg("ignore_memory"), py::arg("progress"));
-  module.def("solve_modal", &solve_modal, py::arg("model"), py::arg("output"), py::arg("threads"), py::arg("progress"));
-  module.def("write_results", &write_results, py::arg("result"), py::arg("output"));
+             py::arg("keep_fields"), py::arg("ignore_memory"), py::arg("progress"), doc::runs::solve_static);
+  module.def("solve_modal", &solve_modal, py::arg("model"), py::arg("output"), py::arg("threads"), py::arg("progress"),
+             doc::runs::solve_modal);
+  module.def("write_results", &write_results, py::arg("result"), py::arg("output"), doc::runs::write_results);
 }
 
 }  // namespace scabo::python

@@ -11,7 +11,7 @@
 
 namespace scabo::python {
 
-/// What both kinds of analysis return.
+/// What every kind of analysis returns besides its arrays.
 struct [[gnu::visibility("hidden")]] RunRecord {
   std::string summary;                   ///< content of summary.json
   std::optional<std::string> directory;  ///< where the results are written
@@ -20,14 +20,18 @@ struct [[gnu::visibility("hidden")]] RunRecord {
   std::string why_not_solved;     ///< empty if solved
 };
 
+/// Results of a static analysis. Increments are numbered from 0 in the order of the run, bodies and contacts in the order
+/// of the model. Arrays show the memory of the solution without a copy unless their docstring says so, and cannot be
+/// written.
 struct [[gnu::visibility("hidden")]] StaticResult {
   analysis::StaticSolution solution;
-  RunRecord record;
+  RunRecord record;  ///< summary, directory, warnings, and why the run ended
 };
 
+/// Results of a modal analysis: modes in ascending frequency.
 struct [[gnu::visibility("hidden")]] ModalRunResult {
   analysis::ModalResult result;
-  RunRecord record;
+  RunRecord record;  ///< summary, directory and warnings
 };
 
 }  // namespace scabo::python

@@ -1,6 +1,7 @@
 // Arrays of a static analysis.
 #include <pybind11/stl.h>
 
+#include <docstrings.hpp>  // made by make_docstrings.py
 #include <limits>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "scabo/result/stress.hpp"
 #include "scabo/result/summary.hpp"
 #include "solved.hpp"
+#include "until_ctrl_c.hpp"
 
 namespace scabo::python {
 
@@ -21,7 +23,11 @@ const analysis::IncrementResult& increment_of(const StaticResult& solved, std::s
   return solved.solution.increments.at(increment);
 }
 
-/// The members of the pairs of a contact, each as an array over the pairs; the memory is that of the solution.
+/// The pairs of a contact after an increment, each column an array over the pairs: pair (number from 1), x, y (on A,
+/// length), normal_x, normal_y (out of A), gap (length, positive if open), slip (length, of B relative to A along t),
+/// normal_force (on B, compression positive), tangential_force (on B along t), pressure, shear (force / length^2), state (0
+/// open, 1 stick, 2 slip), and normal_displacement_a, tangential_displacement_a, normal_displacement_b,
+/// tangential_displacement_b (length, along n and t). Displacements and columns need the fields of the increment.
 py::dict pairs(const py::object& self, std::size_t increment, std::size_t contact) {
   const auto& solved = self.cast<const StaticResult&>();
   const std::vector<analysis::PairResult>& list = increment_of(solved, increment).contacts.at(contact).pairs;
@@ -53,11 +59,13 @@ py::dict pairs(const py::object& self, std::size_t increment, std::size_t contac
   return table;
 }
 
+/// Whether displacements and pairs of an increment are kept.
 bool keeps_fields(const StaticResult& solved, std::size_t increment) {
   return !increment_of(solved, increment).fields.displacements.empty();
 }
 
-/// n x 2, or [u_x, u_y, rotation] of a rigid body; relative to the reference point, which takes a copy if that moves.
+/// Displacements of the nodes of a body, (nodes, 2), length, or [u_x, u_y, rotation] of a rigid body about its centroid
+/// (rotation counter-clockwise); relative to the reference point, which takes a copy if that moves.
 py::array displacement(const py::object& self, std::size_t increment, std::size_t body) {
   const auto& solved = self.cast<const StaticResult&>();
   const analysis::FieldState& state = increment_of(solved, increment).fields;
@@ -70,6 +78,7 @@ py::array displacement(const py::object& self, std::size_t increment, std::size_
   return rigid ? view(*held, owner) : view(*held, 2, owner);
 }
 
+/// Positions of the nodes of a body before it deforms, (nodes, 2), length; empty for a rigid body.
 py::array nodes(const py::object& self, std::size_t body) {
   return view(self.cast<const StaticResult&>().solution.mesh.bodies.at(body).nodes, self);
 }
@@ -103,18 +112,21 @@ py::array_t<double> columns(std::size_t points, int count) {
   return py::array_t<double>({static_cast<py::ssize_t>(points), static_cast<py::ssize_t>(count)});
 }
 
+/// Values at points (n, 2) of the undeformed shape, as new arrays: body (n; -1 outside), displacement (n, 2), stress (n,
+/// 4): xx, yy, xy, zz, positive in tension, strain (n, 3): xx, yy, gamma_xy, principal (n, 3), descending, principal_angle
+/// (n, from x, radians), von_mises (n), energy_density (n). `only`: the body that is meant, or -1. Points outside raise
+/// ValueError, or with `allow_outside` are not a number.
 py::dict values(const StaticResult& solved, std::size_t increment, const Numbers& at, int only, bool allow_outside) {
   const std::vector<Vec2> points = points_of(at);
   std::vector<result::PointResult> results;
   std::vector<int> bodies;
-  {
-    const py::gil_scoped_release release;
+  until_ctrl_c([&] {
     bodies = bodies_of(solved, points, only, allow_outside);
     std::vector<mesh::OutputPoint> places;
     for (std::size_t i = 0; i < points.size(); ++i) places.push_back({"", bodies[i], points[i], 0.0});
     const result::PointEvaluation evaluation(solved.solution, std::move(places), 1);
     results = evaluation.at(solved.solution, increment_of(solved, increment));
-  }
+  });
   const std::size_t n = results.size();
   py::array_t<double> displacements = columns(n, 2), stress = columns(n, 4), strain = columns(n, 3),
                       principal = columns(n, 3);
@@ -151,35 +163,45 @@ py::dict values(const StaticResult& solved, std::size_t increment, const Numbers
   return table;
 }
 
+/// Names of the contacts, in the order of the model.
 std::vector<std::string> contact_names(const StaticResult& solved) {
   std::vector<std::string> names;
   for (const model::Contact& contact : solved.solution.model.contacts) names.push_back(contact.name);
   return names;
 }
 
+/// Names of the bodies, in the order of the model.
 std::vector<std::string> body_names(const StaticResult& solved) {
   std::vector<std::string> names;
   for (const model::Body& body : solved.solution.model.bodies) names.push_back(body.name);
   return names;
 }
 
+/// How the run ended: solved, not_converged, mechanism or interrupted.
+std::string status(const StaticResult& solved) { return std::string(result::name_of(solved.solution.outcome)); }
+
+/// Whether the model asks for its discrete contact problems as files, which only a run can write.
+bool writes_problems(const StaticResult& solved) { return solved.solution.model.output.discrete_problems; }
+
+/// Number of increments: those that converged, and at most one that did not, the last.
+std::size_t increments(const StaticResult& solved) { return solved.solution.increments.size(); }
+
 }  // namespace
 
 void bind_static_results(py::module_& module) {
-  py::class_<StaticResult, std::shared_ptr<StaticResult>>(module, "StaticResult")
-      .def_readonly("record", &StaticResult::record)
-      .def_property_readonly(
-          "status", [](const StaticResult& solved) { return std::string(result::name_of(solved.solution.outcome)); })
-      .def_property_readonly("writes_problems",
-                             [](const StaticResult& solved) { return solved.solution.model.output.discrete_problems; })
-      .def_property_readonly("contacts", &contact_names)
-      .def_property_readonly("bodies", &body_names)
-      .def_property_readonly("increments", [](const StaticResult& solved) { return solved.solution.increments.size(); })
-      .def("pairs", &pairs, py::arg("increment"), py::arg("contact"))
-      .def("keeps_fields", &keeps_fields, py::arg("increment"))
-      .def("nodes", &nodes, py::arg("body"))
-      .def("displacement", &displacement, py::arg("increment"), py::arg("body"))
-      .def("values", &values, py::arg("increment"), py::arg("points"), py::arg("only"), py::arg("allow_outside"));
+  py::class_<StaticResult, std::shared_ptr<StaticResult>>(module, "StaticResult", doc::solved::StaticResult)
+      .def_readonly("record", &StaticResult::record, doc::solved::StaticResult_record)
+      .def_property_readonly("status", &status, doc::static_results::status)
+      .def_property_readonly("writes_problems", &writes_problems, doc::static_results::writes_problems)
+      .def_property_readonly("contacts", &contact_names, doc::static_results::contact_names)
+      .def_property_readonly("bodies", &body_names, doc::static_results::body_names)
+      .def_property_readonly("increments", &increments, doc::static_results::increments)
+      .def("pairs", &pairs, py::arg("increment"), py::arg("contact"), doc::static_results::pairs)
+      .def("keeps_fields", &keeps_fields, py::arg("increment"), doc::static_results::keeps_fields)
+      .def("nodes", &nodes, py::arg("body"), doc::static_results::nodes)
+      .def("displacement", &displacement, py::arg("increment"), py::arg("body"), doc::static_results::displacement)
+      .def("values", &values, py::arg("increment"), py::arg("points"), py::arg("only"), py::arg("allow_outside"),
+           doc::static_results::values);
 }
 
 }  // namespace scabo::python

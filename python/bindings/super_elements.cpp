@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <docstrings.hpp>  // made by make_docstrings.py
 #include <limits>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "scabo/element/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "until_ctrl_c.hpp"
 
 namespace scabo::python {
 
@@ -17,6 +19,7 @@ namespace {
 
 using element::Ring;
 
+/// A super-element by itself. Displacements and forces of its boundary are x, y of node after node, n = 2 nodes of them.
 class SuperElement {
  public:
   SuperElement(const std::vector<Vec2>& nodes, const Vec2& centre, bool open, int order, double young, double poisson,
@@ -77,16 +80,21 @@ class SuperElement {
   std::unique_ptr<const element::ModalSolution> modes_;
 };
 
+/// Solves a super-element. `nodes`: its boundary, (nodes, 2), counter-clockwise, with the inner nodes of elements of this
+/// `order` at the Gauss-Lobatto-Legendre points; `centre`: scaling centre; `open`: the boundary does not close; `young`:
+/// force / length^2; `plane_strain`: else plane stress; `unbounded`: outside of the boundary. Raises ValueError for what
+/// cannot be solved.
 std::shared_ptr<SuperElement> make(const Numbers& nodes, const std::array<double, 2>& centre, bool open, int order,
                                    double young, double poisson, bool plane_strain, double thickness, bool unbounded,
                                    int threads) {
   const std::vector<Vec2> points = points_of(nodes);
-  const py::gil_scoped_release release;
-  return std::make_shared<SuperElement>(points, Vec2(centre[0], centre[1]), open, order, young, poisson, plane_strain,
-                                        thickness, unbounded, threads);
+  return until_ctrl_c([&] {
+    return std::make_shared<SuperElement>(points, Vec2(centre[0], centre[1]), open, order, young, poisson, plane_strain,
+                                          thickness, unbounded, threads);
+  });
 }
 
-/// E0, E1, E2 as dense arrays.
+/// E0, E1, E2 of the scaled boundary equation, as dense arrays, (n, n) each, force / length.
 py::tuple coefficients(const SuperElement& super_element) {
   const element::CoefficientMatrices found = super_element.coefficients();
   const auto dense = [](const Eigen::SparseMatrix<double>& sparse) {
@@ -96,23 +104,20 @@ py::tuple coefficients(const SuperElement& super_element) {
   return py::make_tuple(dense(found.E0), dense(found.E1), dense(found.E2));
 }
 
+/// All n exponents lambda of u ~ xi^lambda, complex, in ascending real part; exactly 0 for the two translations. Below 1:
+/// stress is infinite at the scaling centre. A copy.
 py::array_t<std::complex<double>> exponents(SuperElement& super_element) {
-  const std::vector<std::complex<double>>* found = nullptr;
-  {
-    const py::gil_scoped_release release;
-    found = &super_element.modes().exponents;
-  }
+  const std::vector<std::complex<double>>* const found = until_ctrl_c([&] { return &super_element.modes().exponents; });
   return py::array_t<std::complex<double>>(static_cast<py::ssize_t>(found->size()), found->data());
 }
 
+/// Displacement (m, 2) and stress (m, 3): xx, yy, xy, positive in tension, at points (m, 2) relative to the scaling
+/// centre, from the displacements of the boundary (n). Not a number for points outside.
 py::tuple values(SuperElement& super_element, const Numbers& displacement, const Numbers& at) {
   const Vector u = vector_of(displacement);
   const std::vector<Vec2> points = points_of(at);
-  std::vector<std::optional<element::PointValues>> all;
-  {
-    const py::gil_scoped_release release;
-    all = super_element.values(u, points);
-  }
+  const std::vector<std::optional<element::PointValues>> all =
+      until_ctrl_c([&] { return super_element.values(u, points); });
   const auto count = static_cast<py::ssize_t>(all.size());
   py::array_t<double> displacements({count, py::ssize_t{2}}), stress({count, py::ssize_t{3}});
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -124,18 +129,20 @@ py::tuple values(SuperElement& super_element, const Numbers& displacement, const
   return py::make_tuple(displacements, stress);
 }
 
+py::array stiffness(const py::object& self) { return view(self.cast<const SuperElement&>().stiffness(), self); }
+
 }  // namespace
 
 void bind_super_elements(py::module_& module) {
-  py::class_<SuperElement, std::shared_ptr<SuperElement>>(module, "SuperElement")
+  py::class_<SuperElement, std::shared_ptr<SuperElement>>(module, "SuperElement", doc::super_elements::SuperElement)
       .def(py::init(&make), py::arg("nodes"), py::arg("centre"), py::arg("open"), py::arg("order"), py::arg("young"),
-           py::arg("poisson"), py::arg("plane_strain"), py::arg("thickness"), py::arg("unbounded"), py::arg("threads"))
-      .def_property_readonly(
-          "stiffness", [](const py::object& self) { return view(self.cast<const SuperElement&>().stiffness(), self); })
-      .def_property_readonly("exponents", &exponents)
-      .def("coefficients", &coefficients)
-      .def("values", &values, py::arg("displacement"), py::arg("points"));
-  module.def("lobatto_points", &geometry::lobatto_points, py::arg("order"));
+           py::arg("poisson"), py::arg("plane_strain"), py::arg("thickness"), py::arg("unbounded"), py::arg("threads"),
+           doc::super_elements::make)
+      .def_property_readonly("stiffness", &stiffness, doc::stiffness::SuperElementSolution_K)
+      .def_property_readonly("exponents", &exponents, doc::super_elements::exponents)
+      .def("coefficients", &coefficients, doc::super_elements::coefficients)
+      .def("values", &values, py::arg("displacement"), py::arg("points"), doc::super_elements::values);
+  module.def("lobatto_points", &geometry::lobatto_points, py::arg("order"), doc::line_basis::lobatto_points);
 }
 
 }  // namespace scabo::python

@@ -95,10 +95,10 @@ class Model(dict[str, Any]):
         output
             Directory for the files that ``scabo run`` writes (docs/results.md); None: nothing is written.
         progress
-            Called with a ``Progress`` at every stage, after every increment, and a few times a second within one. If it
+            Called with a ``Progress`` at every stage, after every increment, and a few times a second within both. If it
             returns False, the run ends and raises ``Interrupted``; if it raises, the run ends in the same way and the
-            exception is passed on, with the finished increments as its attribute ``result``. Ctrl-C does the same. A
-            single stage, such as a factorisation, is not broken off.
+            exception is passed on, with the finished increments as its attribute ``result``. Ctrl-C does the same.
+            Stages are broken off too, but for single calls of a library, as a sparse factorisation.
             True: a bar with stage, residual and time left, in a notebook or a terminal, if tqdm is installed.
         threads
             Upper limit; small models use one. None: all processors.

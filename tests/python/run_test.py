@@ -17,7 +17,7 @@ import numpy as np
 
 import scabo
 from scabo import _core
-from support import BEAM, ROOT, InTemporaryDirectory, block, program, summary_of
+from support import BEAM, InTemporaryDirectory, block, program, summary_of
 
 TIMES = ("timing", "peak_memory_bytes")
 
@@ -239,6 +239,28 @@ class Progress(InTemporaryDirectory):
         self.assertTrue(all(now.iteration >= 0 and now.iteration_residual > 0.0 for now in seen))
         self.assertRegex(seen[0].stage, "step press, increment ")
 
+    def one_long_stage(self):
+        """A model of which one super-element takes most of the time, because it has no symmetry."""
+        content = block()
+        content["bodies"]["block"].update(shape={"polygon": {"vertices": [[0, 0], [2, 0], [1.9, 1.1], [0.2, 0.9]]}}, mesh={"size": 0.011})
+        content["loads"]["push"] = {"on": "block.edge_3", "traction": [0, -1]}
+        content["contacts"]["base"]["between"] = ["floor.top", "block.edge_1"]
+        return scabo.Model(content)
+
+    def test_it_can_end_within_a_stage(self):
+        told = []
+
+        def callback(now):
+            told.append(now.stage)
+            return told.count("super-elements") < 2 and None
+
+        with self.assertRaises(scabo.Interrupted) as stopped:
+            self.one_long_stage().run(output=self.directory / "results", progress=callback)
+        self.assertEqual(told[-2:], ["super-elements"] * 2)  # no other stage was told
+        self.assertEqual(stopped.exception.result.increments, [])
+        summary = summary_of(self.directory / "results")
+        self.assertEqual((summary["status"], summary["increments"]), ("interrupted", []))
+
     def test_seconds_left(self):
         seen = []
         in_steps(3).run(progress=seen.append)
@@ -281,22 +303,6 @@ class tqdm:
             model.run(progress=lambda now: not now.stage.startswith("mass"))
         with self.assertRaises(ZeroDivisionError):
             model.run(progress=lambda now: 1 / 0)
-
-
-class Docstrings(unittest.TestCase):
-    def test_they_are_the_comments_of_the_members(self):
-        """As the build makes them, without a second copy: python/make_docstrings.py."""
-        for kind, name, source in ((_core.Progress, "Progress", "python/bindings/runs.cpp"),
-                                   (_core.DiscreteSolution, "Solution", "src/scabo/contact/solution.hpp")):
-            text = (ROOT / source).read_text(encoding="utf-8")
-            struct = text[text.index(f"struct {name} {{"):].split("\n};")[0]
-            properties = {key: value.__doc__ for key, value in vars(kind).items() if isinstance(value, property)}
-            self.assertGreater(len(properties), 5)
-            for key, doc in properties.items():
-                if key == "certificate":  # a dictionary that is made here
-                    continue
-                self.assertTrue(doc, key)
-                self.assertIn(doc[1:-1].replace("'", "`"), struct.replace("'", "`"))
 
 
 class Threads(InTemporaryDirectory):
@@ -375,6 +381,36 @@ except KeyboardInterrupt as interrupted:
         output, _ = process.communicate(timeout=1200)
         self.assertEqual(output, "interrupted interrupted True\n")
         self.assertEqual(summary_of(results)["status"], "interrupted")
+
+    def test_within_work_that_calls_nothing(self):
+        """An alarm a fifth into the work ends it: less than two thirds of its processor time pass."""
+        class Alarm(Exception):
+            pass
+
+        def ring(*_):
+            raise Alarm
+
+        n = 640  # elements on four sides without symmetry
+        nodes = scabo.boundary_nodes([[0, 0], [2, 0], [1.9, 1.1], [0.2, 0.9]], 12.0 / n)
+
+        def seconds(work):
+            start = time.process_time()
+            work()
+            return time.process_time() - start
+
+        def element():
+            scabo.SuperElement(nodes, 210e9, 0.3)
+
+        def ended():
+            signal.setitimer(signal.ITIMER_PROF, 0.2 * whole)  # of processor time
+            with self.assertRaises(Alarm):
+                element()
+
+        seconds(element)
+        whole = seconds(element)
+        before = signal.signal(signal.SIGPROF, ring)
+        self.addCleanup(signal.signal, signal.SIGPROF, before)
+        self.assertLess(seconds(ended), 0.67 * whole)
 
 
 if __name__ == "__main__":

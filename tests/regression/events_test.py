@@ -149,6 +149,31 @@ class Events(support.InTemporaryDirectory):
         process.stdout.close()
         return process.wait(support.PATIENCE), text
 
+    def test_sigterm_before_the_first_increment_ends_it_within_a_stage(self):
+        """A super-element without symmetry that takes seconds."""
+        (self.directory / "model.yaml").write_text("""scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies: {plate: {material: steel, shape: {polygon: {vertices: [[0, 0], [2, 0], [1.9, 1.1], [0.2, 0.9]]}}, mesh: {size: 0.009}}}
+supports: [{on: plate.edge_1, fix: [x, y]}]
+loads: {pull: {on: plate.edge_3, traction: [0, 1]}}
+""")
+        process = subprocess.Popen([support.SCABO, "run", self.directory / "model.yaml", "--json-lines", "--quiet"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        text = ""
+        while '"super-elements"' not in text:
+            line = process.stdout.readline()
+            self.assertTrue(line, text)
+            text += line
+        process.send_signal(signal.SIGTERM)
+        text += process.stdout.read()
+        process.stdout.close()
+        self.assertEqual(process.wait(support.PATIENCE), 143)
+        events = self.events(text)
+        self.assertEqual([event["stage"] for event in self.of_kind(events, "stage_begin")][-1], "super-elements")
+        self.assertEqual((events[-1]["status"], events[-1]["exit_status"]), ("interrupted", 143))
+        summary = support.summary_of(self.directory / "model.results")
+        self.assertEqual((summary["status"], summary["increments"]), ("interrupted", []))
+
     def test_sigterm_ends_it_with_a_last_event_and_resume_goes_on(self):
         status, text = self.interrupted(signal.SIGTERM)
         self.assertEqual(status, 143)

@@ -36,7 +36,7 @@ class Units:
 
     @classmethod
     def parse(cls, text):
-        """`m,N`"""
+        """Units from text: length and force, as in `m,N`."""
         parts = [part.strip() for part in text.split(",")]
         if len(parts) != 2 or not all(parts) or any(set(part) & set("$\\{}") for part in parts):
             raise UnitsError(f"--units {text}: give the unit of length and that of force, as in --units m,N")

@@ -557,6 +557,11 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
       return end(not_reached(std::move(*last), error.diagnostics().front().message));
     }
     auto& [solution, wider] = pass;
+    if (!wider && last && solution.outcome == Outcome::interrupted && solution.increments.empty()) {
+      last->outcome = Outcome::interrupted;
+      last->reason = "interrupted: the tolerance is not reached";
+      return end(std::move(*last));
+    }
     if (!wider) return end(std::move(solution));
     const Judgement judgement = judge(solution);
     passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});

@@ -400,6 +400,17 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
                      [&] { return solved_cells(solution, mesh); });
   std::swap(solution.mesh, mesh);
   std::swap(solution.cells, cells);
+  struct Back {  // unless pairs are found, also if the analysis is ended here
+    StaticSolution& solution;
+    mesh::Mesh& mesh;
+    std::vector<element::SolvedCells>& cells;
+    bool wanted = true;
+    ~Back() {
+      if (!wanted) return;
+      std::swap(solution.mesh, mesh);
+      std::swap(solution.cells, cells);
+    }
+  } back{solution, mesh, cells};
   std::unique_ptr<const Assembly> made = assemble(solution, {}, assembly->prepared.on_iteration);
   const Prepared& prepared = made->prepared;
 
@@ -424,8 +435,6 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
                    (tried.solution.status == contact::Status::solved
                         ? fmt::format("the largest figure of the certificate is {:.3g}", tried.certificate.worst())
                         : tried.solution.reason);
-    std::swap(solution.mesh, mesh);
-    std::swap(solution.cells, cells);
     return found;
   }
 
@@ -449,6 +458,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
       found.jump = std::max(found.jump, (after[c] - forces[c]).norm() / forces[c].norm());
   state = std::move(now);
   assembly = std::move(made);
+  back.wanted = false;
   ++solution.pairings;
   return found;
 }

@@ -17,6 +17,7 @@
 #include "scabo/analysis/stages.hpp"
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/worthwhile_threads.hpp"
+#include "scabo/base/interruption.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/uniqueness.hpp"
@@ -334,8 +335,8 @@ void interrupt(StaticSolution& solution) {
   solution.reason = "interrupted: the increments finished so far are kept";
 }
 
-void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large, StaticSolution& solution,
-               const Options& options) {
+void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large, StaticSolution& solution,
+                      const Options& options) {
   // Bodies come and go, or pairs are found anew (which replaces the assembly): not both in one model.
   Stages stages(assembly->prepared, options.from ? options.from->at.step : 0);
   const auto now = [&]() -> const Prepared& { return large ? assembly->prepared : stages.now(); };
@@ -374,12 +375,7 @@ void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large,
     const std::optional<double> least =
         step.automatic ? std::optional(step.automatic->smallest / (end - begin)) : std::nullopt;
     std::optional<PairsFound> found;
-    Reached reached;
-    try {
-      reached = reach_with_pairs(solution, assembly, now, run.state, factors_at, least, large, options, found);
-    } catch (const EndAtOnce&) {
-      reached.stopped = true;
-    }
+    Reached reached = reach_with_pairs(solution, assembly, now, run.state, factors_at, least, large, options, found);
     const Prepared& prepared = now();
     if (reached.stopped) {
       interrupt(solution);
@@ -431,10 +427,24 @@ void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large,
       progress.size = next_size(*step.automatic, progress.reached - begin, reached.halvings > 0, reached.changes,
                                 reached.last_iterations);
     if (options.on_state) options.on_state(prepared, run.state, solution);
-    if (options.on_increment) options.on_increment(solution, solution.increments.back());
+    try {
+      if (options.on_increment) options.on_increment(solution, solution.increments.back());
+    } catch (const EndAtOnce&) {  // an increment is finished when it has been told
+      solution.increments.pop_back();
+      throw;
+    }
     if (options.on_accepted) options.on_accepted(run, solution);
     if (!options.keep_fields && solution.increments.size() > 1)
       drop_fields(solution.increments[solution.increments.size() - 2]);
+  }
+}
+
+void run_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large, StaticSolution& solution,
+               const Options& options) {
+  try {
+    go_through_steps(std::move(assembly), large, solution, options);
+  } catch (const EndAtOnce&) {
+    interrupt(solution);
   }
 }
 
@@ -495,7 +505,10 @@ bool can_use_ranks(const model::Model& model) {
 StaticSolution solve_static(model::Model model, const Options& options) {
   double seconds = 0.0;
   if (options.on_stage) options.on_stage("mesh");
-  mesh::Mesh mesh = timed(seconds, [&] { return check(model); });
+  mesh::Mesh mesh = timed(seconds, [&] {
+    const Interruptible nobody(nullptr);  // every result contains a mesh
+    return check(model);
+  });
   const bool several_meshes = wants_bars(model) || wants_refinement(model) || model.output.error;
   if (several_meshes && has_automatic_steps(model)) {
     const Stopwatch finding(seconds);
@@ -538,10 +551,18 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
       solution.mesh = std::get<mesh::Mesh>(std::move(found));
     }
   }
-  stage("super-elements");
-  solution.cells = timed(timing.super_elements, [&] { return solved_cells(solution, solution.mesh); });
-  std::unique_ptr<const Assembly> assembly = assemble(solution, options.on_stage, options.on_iteration);
-  if (options.on_mesh) options.on_mesh(solution);
+  std::unique_ptr<const Assembly> assembly;
+  try {
+    stage("super-elements");
+    solution.cells = timed(timing.super_elements, [&] { return solved_cells(solution, solution.mesh); });
+    assembly = assemble(solution, options.on_stage, options.on_iteration);
+    if (options.on_mesh) options.on_mesh(solution);
+  } catch (const EndAtOnce&) {
+    if (options.from) solution.increments = options.from->increments;
+    solution.warnings = options.from ? options.from->warnings : solution.model.warnings;
+    interrupt(solution);
+    return solution;
+  }
   solution.warnings = solution.model.warnings;
   for (Warning& warning : load_warnings(solution.model, assembly->structure))
     solution.warnings.push_back(std::move(warning));

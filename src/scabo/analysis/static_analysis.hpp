@@ -224,8 +224,8 @@ struct IncrementBegin {
   std::optional<int> increments;  ///< of the step; empty if their size is automatic
 };
 
-/// Thrown by Options::on_iteration to end the analysis within an increment: it is then `interrupted`, and the finished
-/// increments are kept. `stop` must be set as well.
+/// Thrown by Options::on_iteration, on_stage or at an interruption point (base/interruption.hpp) to end the analysis: it is
+/// then `interrupted`, and the finished increments are kept. `stop` must be set as well.
 struct EndAtOnce {};
 
 struct Prepared;  // increment.hpp

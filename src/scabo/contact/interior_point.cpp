@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/interruption.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
@@ -221,6 +222,7 @@ class InteriorPoints {
     double least_gap = HUGE_VAL;
     int since = 0;
     for (;; ++end.iterations) {
+      interruption_point();
       evaluate();
       const Vector p = in_frame(x_).cwiseQuotient(S_), a = a_.cwiseProduct(C_), motion = motion_of(problem_, p, a);
       const double residual = measure.natural_map(problem_, p, motion);

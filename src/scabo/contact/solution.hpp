@@ -23,11 +23,11 @@ struct Iteration {
 
 struct Solution {
   Status status = Status::not_converged;  ///< what the solver ended with
-  Vector p;                          ///< forces on B, d N numbers
+  Vector p;                          ///< forces on B, d N numbers, pair by pair: normal (compression positive), tangential
   Vector a;                          ///< rigid motions, m numbers
-  Vector gap;                        ///< normal gaps, N numbers
-  Vector slip_increment;             ///< slip in this increment, (d - 1) N numbers
-  std::vector<ContactState> states;  ///< of the pairs, N
+  Vector gap;                        ///< normal gaps, N numbers, positive if open
+  Vector slip_increment;             ///< slip of B relative to A in this increment, (d - 1) N numbers
+  std::vector<ContactState> states;  ///< of the pairs, N: 0 open, 1 stick, 2 slip
   int iterations = 0;                ///< Newton iterations, all attempts together
   int coarse_iterations = 0;         ///< on problems of fewer pairs for the start; not counted above
   double residual = 0.0;             ///< |H| / force scale

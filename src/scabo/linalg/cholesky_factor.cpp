@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "scabo/base/error.hpp"
+#include "scabo/base/interruption.hpp"
 #include "scabo/linalg/tile_kernel.hpp"
 
 namespace scabo::linalg {
@@ -15,6 +16,11 @@ namespace {
 
 constexpr int most_by_tiles = 200;  // rows: there BLAS is as fast with AVX-512
 constexpr int largest_block = 32;
+/// Multiplications and additions between two interruption points: a third of a second.
+constexpr double most_at_once = 1e10;
+
+/// How many rows or columns are treated at once if each takes `each` operations.
+int at_once(double each) { return std::max(64, static_cast<int>(std::min(1e9, most_at_once / each))); }
 
 const TileKernel& tiles() {
   static const TileKernel& fastest = *tile_kernel(0);
@@ -62,6 +68,7 @@ bool CholeskyFactor::factorise() {
 bool CholeskyFactor::factorise_blocks(int first, int last) {
   const int n = static_cast<int>(A.rows()), at = start(first), end = start(last);
   if (last - first == 1) {
+    interruption_point();
     double over[largest_block];
     if (!tiles().cholesky(&A(at, at), n, end - at, over)) return false;
     invert_lower(&A(at, at), n, end - at, over, inverses_.data() + first * largest_block * largest_block);
@@ -110,20 +117,34 @@ void CholeskyFactor::divide(Matrix& B, bool transposed) const {
   ensure(B.cols() == A.rows(), "CholeskyFactor: sizes differ");
   if (B.size() == 0) return;
   const int n = static_cast<int>(A.rows()), rows = static_cast<int>(B.rows());
-  if (blocks() == 1)
+  if (blocks() == 1) {
     tiles().divide(A.data(), n, inverses_.data(), n, B.data(), rows, rows, transposed);
-  else
-    divide_by_blocks(0, blocks(), {B.data(), rows, rows}, transposed);
+    return;
+  }
+  const int piece = at_once(static_cast<double>(n) * n);
+  for (int first = 0; first < rows; first += piece) {
+    interruption_point();
+    divide_by_blocks(0, blocks(), {B.data() + first, std::min(piece, rows - first), rows}, transposed);
+  }
 }
 
 void subtract_square(const Matrix& A, Matrix& C) {
   ensure(C.rows() == A.rows() && C.cols() == A.rows(), "subtract_square: sizes differ");
   if (A.size() == 0) return;
   const int n = static_cast<int>(A.rows()), depth = static_cast<int>(A.cols());
-  if (n <= 2 * most_by_tiles)
+  if (n <= 2 * most_by_tiles) {
     tiles().subtract_square(A.data(), n, n, depth, C.data(), n);
-  else
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, depth, -1.0, A.data(), n, 1.0, C.data(), n);
+    return;
+  }
+  const int piece = at_once(static_cast<double>(n) * depth);
+  for (int first = 0; first < n; first += piece) {  // columns of C
+    interruption_point();
+    const int count = std::min(piece, n - first), below = n - first - count;
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, count, depth, -1.0, &A(first, 0), n, 1.0, &C(first, first), n);
+    if (below > 0)
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, below, count, depth, -1.0, &A(first + count, 0), n,
+                  &A(first, 0), n, 1.0, &C(first + count, first), n);
+  }
 }
 
 }  // namespace scabo::linalg

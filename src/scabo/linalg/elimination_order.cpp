@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "scabo/base/error.hpp"
+#include "scabo/base/interruption.hpp"
 
 namespace scabo::linalg {
 
@@ -81,6 +82,7 @@ class DissectionByPosition {
 
   void divide(int* begin, int* end) {
     if (end - begin <= largest_leaf) return number(begin, end);
+    interruption_point();
     Vec2 low = position(*begin), high = low;
     for (const int* v = begin; v != end; ++v) low = low.cwiseMin(position(*v)), high = high.cwiseMax(position(*v));
     const Eigen::Index axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "scabo/base/interruption.hpp"
 #include "scabo/linalg/dense.hpp"
 
 namespace scabo::linalg {
@@ -22,15 +23,23 @@ thread_local bool working = false;
 void parallel_for(int count, int threads, const std::function<void(int)>& task) {
   const int workers = std::min(threads, count);
   if (workers <= 1 || working) {
-    for (int i = 0; i < count; ++i) task(i);
+    for (int i = 0; i < count; ++i) {
+      interruption_point();
+      task(i);
+    }
     return;
   }
+  const Interruptible::Ask* const ask = Interruptible::asked();
   std::atomic<int> next = 0;
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(workers));
   const auto work = [&](std::exception_ptr& failure) {
     working = true;
+    const Interruptible here(ask);
     try {
-      for (int i = next++; i < count; i = next++) task(i);
+      for (int i = next++; i < count; i = next++) {
+        interruption_point();
+        task(i);
+      }
     } catch (...) {
       failure = std::current_exception();
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scabo/base/error.hpp"
+#include "scabo/base/interruption.hpp"
 
 namespace scabo::linalg {
 
@@ -36,8 +37,11 @@ class Sweep {
   }
 
   Matrix run() {
-    for (std::int64_t s = 0; s < L_.supernodes; ++s)
-      if (reached_[index(s)].count() > 0) visit(s);
+    for (std::int64_t s = 0; s < L_.supernodes; ++s) {
+      if (reached_[index(s)].count() == 0) continue;
+      interruption_point();
+      visit(s);
+    }
     Matrix block(count(), count());
     for (int j = 0; j < count(); ++j)
       for (int i = j; i < count(); ++i)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scabo/base/error.hpp"
+#include "scabo/base/interruption.hpp"
 
 namespace scabo::linalg {
 
@@ -24,6 +25,7 @@ class Inverse {
   Eigen::Index cols() const { return n_; }
   void set_shift(double) {}
   void perform_op(const double* x, double* y) const {
+    interruption_point();
     Eigen::Map<Vector>(y, n_) = inverse_(Eigen::Map<const Vector>(x, n_));
   }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scabo/base/components.hpp"
+#include "scabo/base/interruption.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
@@ -112,6 +113,7 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
     return point;
   };
   for (std::size_t c = 0; c < cells.size(); ++c) {
+    interruption_point();
     const mesh::Cell& cell = body.cells[c];
     if (!cells[c]) {
       const element::FiniteElement element = element::finite_element_of(cell, body.nodes);
@@ -126,6 +128,7 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
                                                  cells[c]->sectors.material_of(sampling.sectors[k])));
   }
   for (std::size_t c = 0; c < cells.size(); ++c) {
+    interruption_point();
     CellsBody::OfCell& of_cell = made.cells[c];
     if (!cells[c]) {
       std::vector<std::int32_t> points = of_cell.outer;

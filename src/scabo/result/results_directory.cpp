@@ -10,6 +10,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "scabo/base/interruption.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/model/restart_files.hpp"
 #include "scabo/result/contact_table.hpp"
@@ -317,24 +318,49 @@ void ResultsDirectory::follow_mesh(const analysis::StaticSolution& solution) {
 
 void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
   follow_mesh(solution);
+  // What takes long comes first and may be interrupted; from the first file on, all files of an increment are written.
+  std::vector<std::string> points;
+  std::optional<std::string> fields;
   if (increment.converged) {
-    ++finished_;
-    if (finished_ % output_.every == 0 || is_last(increment)) add_fields(solution, increment);
+    const int number = finished_ + 1;
+    points = point_rows(solution, increment);
+    const bool with_fields = number % output_.every == 0 || is_last(increment);
+    if (with_fields && fields_collection_ && !in_parts()) fields = fields_of_bodies(solution, increment);
+    const Interruptible nobody(nullptr);
+    finished_ = number;
+    if (with_fields) write_fields(solution, increment, fields);
     const Stopwatch writing(write_seconds_);
     contact_table_->append(contact_table_rows(increment));
     if (history_table_) history_table_->append(history_.row(solution, increment));
-    add_points(solution, increment);
+    for (std::size_t i = 0; i < points.size(); ++i) point_files_[i].file->append(points[i]);
   }
+  const Interruptible nobody(nullptr);
   const Stopwatch writing(write_seconds_);
   convergence_table_->append(convergence_table_rows(increment));
   begin_log(solution);
   log_->append(report_increment(solution.model, increment));
 }
 
+/// The content of the file.
+std::string ResultsDirectory::fields_of_bodies(const analysis::StaticSolution& solution,
+                                               const analysis::IncrementResult& increment) {
+  std::optional<Fields> fields;
+  {
+    const Stopwatch recovering(recover_seconds_);
+    if (!recovery_) recovery_.emplace(solution);
+    fields = recovery_->fields(solution, increment.fields);
+  }
+  const Stopwatch writing(write_seconds_);
+  if (increment.absent.empty()) return vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads);
+  const GridFields there = without_bodies(recovery_->grid(), *fields, increment.absent);
+  return vtu_content(there.grid, there.fields, output_.fields, solution.threads);
+}
+
 /// Collections are written last, because they may name only complete files.
-void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
-                                  const analysis::IncrementResult& increment) {
-  if (fields_collection_ && parts_ && parts_->any()) {
+void ResultsDirectory::write_fields(const analysis::StaticSolution& solution,
+                                    const analysis::IncrementResult& increment,
+                                    const std::optional<std::string>& of_bodies) {
+  if (in_parts()) {
     const Stopwatch writing(write_seconds_);
     const std::string stem = fmt::format("fields_{:04d}", finished_);
     const std::vector<std::string> parts = parts_->write(solution, increment, path_, stem);
@@ -342,21 +368,10 @@ void ResultsDirectory::add_fields(const analysis::StaticSolution& solution,
     for (const std::string& part : parts) not_synchronised_.push_back(path_ / part);
     not_synchronised_.push_back(path_ / (stem + ".pvtu"));
     fields_collection_->add(pseudo_time(increment), stem + ".pvtu");
-  } else if (fields_collection_) {
-    std::optional<Fields> fields;
-    {
-      const Stopwatch recovering(recover_seconds_);
-      if (!recovery_) recovery_.emplace(solution);
-      fields = recovery_->fields(solution, increment.fields);
-    }
+  } else if (of_bodies) {
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("fields_{:04d}.vtu", finished_);
-    if (increment.absent.empty()) {
-      write_file(path_ / file, vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads));
-    } else {
-      const GridFields there = without_bodies(recovery_->grid(), *fields, increment.absent);
-      write_file(path_ / file, vtu_content(there.grid, there.fields, output_.fields, solution.threads));
-    }
+    write_file(path_ / file, *of_bodies);
     not_synchronised_.push_back(path_ / file);
     fields_collection_->add(pseudo_time(increment), file);
   }
@@ -381,9 +396,12 @@ std::filesystem::path ResultsDirectory::problem_file(const analysis::IncrementRe
   return folder / (name + ".hdf5");
 }
 
-void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
-                                  const analysis::IncrementResult& increment) {
-  if (point_files_.empty()) return;
+/// Rows of the tables of points, one text for each file.
+std::vector<std::string> ResultsDirectory::point_rows(const analysis::StaticSolution& solution,
+                                                      const analysis::IncrementResult& increment) {
+  std::vector<std::string> rows;
+  if (point_files_.empty()) return rows;
+  const Stopwatch writing(write_seconds_);
   mesh::OutputPoints points;
   int increments = 0;
   if (!point_files_.front().evaluation) {
@@ -399,8 +417,9 @@ void ResultsDirectory::add_points(const analysis::StaticSolution& solution,
       if (written_before_ == 0 && pairings_ == 0)
         warnings_.insert(warnings_.end(), of.evaluation->warnings().begin(), of.evaluation->warnings().end());
     }
-    of.file->append(point_table_rows(of.table, *of.evaluation, solution, increment));
+    rows.push_back(point_table_rows(of.table, *of.evaluation, solution, increment));
   }
+  return rows;
 }
 
 namespace {
@@ -418,7 +437,10 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
   const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(), [](const auto& increment) {
     return increment.converged && !increment.fields.displacements.empty();
   });
-  if (fields_written_ < finished_ && last != solution.increments.rend()) add_fields(solution, *last);
+  if (fields_written_ < finished_ && last != solution.increments.rend())
+    write_fields(
+        solution, *last,
+        fields_collection_ && !in_parts() ? std::optional(fields_of_bodies(solution, *last)) : std::nullopt);
   if (fields_collection_ && last != solution.increments.rend() && has_many_cells(solution.mesh)) {
     const Stopwatch writing(write_seconds_);
     write_file(path_ / cells_name, vtu_content(cell_polygons(solution, last->fields), solution.threads));

@@ -61,6 +61,7 @@ class ResultsDirectory {
 
   /// Writes the results of an increment; for one that did not converge, only a line of log.txt. Also writes
   /// summary.json with the results so far, unless that would take more than a twentieth of the time. Throws WriteError.
+  /// What is thrown at an interruption point (base/interruption.hpp) leaves the directory as if it had not been called.
   void add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
 
   /// What the files contain now, for a checkpoint. All of it is on the disk.
@@ -98,14 +99,18 @@ class ResultsDirectory {
   std::optional<DirectoryLock> lock_;
   double pseudo_time(const analysis::IncrementResult& increment) const;
   bool is_last(const analysis::IncrementResult& increment) const;
-  void add_fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
+  std::string fields_of_bodies(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
+  bool in_parts() const { return fields_collection_ && parts_ && parts_->any(); }
+  void write_fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment,
+                    const std::optional<std::string>& of_bodies);
   int written_before_ = 0;  // converged increments before the run was resumed
   int finished_ = 0;        // converged increments
   int fields_written_ = 0;  // number of the last increment whose fields are written
   bool log_begun_ = false;
   double recover_seconds_ = 0.0, write_seconds_ = 0.0;
   Clock::time_point next_summary_;
-  void add_points(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
+  std::vector<std::string> point_rows(const analysis::StaticSolution& solution,
+                                      const analysis::IncrementResult& increment);
   std::optional<GrowingFile> contact_table_, convergence_table_, history_table_, log_;
   History history_;
   struct PointFile {

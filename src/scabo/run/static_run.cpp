@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scabo/analysis/restart.hpp"
+#include "scabo/base/interruption.hpp"
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/version.hpp"
@@ -76,6 +77,7 @@ class Checkpoints {
 analysis::StaticSolution stopped_before_any_increment(const StaticRun& run) {
   analysis::StaticSolution solution;
   solution.model = run.model;
+  const Interruptible nobody(nullptr);
   solution.mesh = analysis::check(run.model);
   solution.warnings = run.model.warnings;
   solution.outcome = analysis::Outcome::interrupted;
@@ -115,10 +117,13 @@ analysis::StaticSolution solve_and_write(const StaticRun& run) {
     solved = analysis::solve_static(run.model, options);
   } catch (const Stopped&) {
     solved = stopped_before_any_increment(run);
+  } catch (const analysis::EndAtOnce&) {  // between the passes of an analysis on several meshes
+    solved = stopped_before_any_increment(run);
   }
   solved.timing.read += run.reading;
   solved.timing.total = run.begun.from.timing.total + std::chrono::duration<double>(Clock::now() - run.start).count();
   if (!run.directory) return solved;
+  const Interruptible nobody(nullptr);
   run.directory->finish(solved);
   if (solved.outcome != analysis::Outcome::interrupted) analysis::remove_checkpoint(run.directory->path());
   return solved;

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
+#include "scabo/base/interruption.hpp"
 #include "scabo/input/read_model.hpp"
 
 namespace scabo::run {
@@ -13,15 +15,17 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A block on a rigid floor; friction holds a traction of less than three tenths of the pressure.
-model::Model block(const std::string& traction = "[1, -10]", int increments = 3) {
+model::Model block(const std::string& traction = "[1, -10]", int increments = 3, const std::string& mesh = "") {
   return input::parse_model(R"(
 scabo: 1
 materials: {soft: {young: 1e4, poisson: 0.3}}
 bodies:
   floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}}
-  block: {material: soft, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5}}
+  block: {material: soft, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5)" +
+                                mesh + R"(}}
 supports: [{on: floor, fix: [x, y]}]
 loads: {push: {on: block.top, traction: )" +
                                 traction + R"(}}
@@ -87,6 +91,62 @@ TEST(StaticRun, EndsAtOnceBeforeTheFirstIncrement) {
   EXPECT_EQ(solution.outcome, analysis::Outcome::interrupted);
   EXPECT_TRUE(solution.increments.empty());
   EXPECT_EQ(why_not_solved(solution, true), "interrupted; no increment was finished");
+  EXPECT_EQ(result::status_in(folder.path()), "interrupted");
+}
+
+/// Number of lines of a file without its header.
+int rows_of(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  int rows = -1;
+  while (std::getline(stream, line)) ++rows;
+  return rows;
+}
+
+TEST(StaticRun, EndsAtInterruptionPointsOfThePreparation) {
+  const model::Model model = block("[1, -10]", 3, ", kind: fem");
+  const Directory folder("scabo_unit_run_prepared");
+  result::ResultsDirectory directory(folder.path(), model);
+  const std::atomic<bool> stop{true};
+  StaticRun run{model, &directory};
+  run.stop = &stop;
+  std::vector<std::string> stages;
+  run.observer.on_stage = [&](const std::string& stage) { stages.push_back(stage); };
+  const Interruptible::Ask ask = [] { throw analysis::EndAtOnce{}; };
+  const Interruptible here(&ask);
+  const analysis::StaticSolution solution = solve(run);
+  EXPECT_EQ(solution.outcome, analysis::Outcome::interrupted);
+  EXPECT_TRUE(solution.increments.empty());
+  EXPECT_GT(solution.mesh.nodes(), 0);  // the results contain it
+  EXPECT_THAT(stages.back(), Not(HasSubstr("increment")));
+  EXPECT_EQ(result::status_in(folder.path()), "interrupted");
+}
+
+// The third increment is solved when the end is asked for, and nothing of it is written.
+TEST(StaticRun, AnIncrementThatIsInterruptedWhileItIsWrittenIsNotFinished) {
+  const model::Model model = block("[1, -10]", 5, ", kind: fem");
+  const Directory folder("scabo_unit_run_written");
+  result::ResultsDirectory directory(folder.path(), model);
+  std::atomic<bool> stop{false};
+  StaticRun run{model, &directory};
+  run.stop = &stop;
+  int finished = 0, asked = 0;
+  run.observer.on_increment = [&](const auto&, const auto&) { ++finished; };
+  run.observer.on_iteration = [&](const contact::Iteration&) { stop = finished == 2; };
+  const Interruptible::Ask ask = [&] {
+    if (!stop) return;
+    ++asked;
+    throw analysis::EndAtOnce{};
+  };
+  const Interruptible here(&ask);
+  const analysis::StaticSolution solution = solve(run);
+  EXPECT_EQ(solution.outcome, analysis::Outcome::interrupted);
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(finished, 2);
+  ASSERT_EQ(solution.increments.size(), 2u);
+  EXPECT_EQ(rows_of(folder.path() / "contact.csv"), 2 * static_cast<int>(solution.increments[0].contacts[0].pairs.size()));
+  EXPECT_TRUE(fs::exists(folder.path() / "fields_0002.vtu"));
+  EXPECT_FALSE(fs::exists(folder.path() / "fields_0003.vtu"));
   EXPECT_EQ(result::status_in(folder.path()), "interrupted");
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "scabo/base/interruption.hpp"
+
 namespace scabo::contact {
 
 namespace {
@@ -37,7 +39,10 @@ bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vec
     const Vector before = p_;
     iteration_.start(p_);  // afresh, without what rounding added from pair to pair
     bool moved = false;
-    for (int sweep = 0; sweep < round_of; ++sweep) moved = iteration_.sweep(p_) > 0.0 || moved;
+    for (int sweep = 0; sweep < round_of; ++sweep) {
+      interruption_point();
+      moved = iteration_.sweep(p_) > 0.0 || moved;
+    }
     sweeps_ += round_of;
     const double map = measure_.natural_map(problem_, p_, iteration_.motion());
     if (extrapolated_ && !(map <= map_of_round_)) {

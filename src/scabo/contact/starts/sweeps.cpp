@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scabo/base/interruption.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
 
 namespace scabo::contact {
@@ -116,6 +117,7 @@ class Sweeps {
     double least = HUGE_VAL, least_since = HUGE_VAL;
     before_ = p_;
     while (end.sweeps < most) {
+      interruption_point();
       sweeps_.sweep(p_, motion_);
       ++end.sweeps;
       double figure = measure_.natural_map(problem_, p_, motion_);
