@@ -48,7 +48,8 @@ const char* name_of(ExitStatus status, const std::optional<analysis::Outcome>& o
     case ExitStatus::wrong_input:
       return "wrong_input";
     case ExitStatus::not_converged:
-      return outcome == analysis::Outcome::mechanism ? "mechanism" : "not_converged";
+      if (outcome == analysis::Outcome::mechanism) return "mechanism";
+      return outcome == analysis::Outcome::collapse ? "collapse" : "not_converged";
     default:
       return "failed";
   }

@@ -40,7 +40,7 @@ class Events {
   void error(const std::string& text);
   /// Text for people: on standard output, or on standard error if that has the events.
   void print_summary(const std::string& text) const;
-  /// `not_converged` or `mechanism`, for the last event.
+  /// `not_converged`, `mechanism` or `collapse`, for the last event.
   void outcome(analysis::Outcome outcome) { outcome_ = outcome; }
 
  private:

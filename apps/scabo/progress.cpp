@@ -20,7 +20,11 @@ std::string outcome_of(const analysis::IncrementResult& result) {
   std::string text = model::counted(result.newton_iterations, "iteration");
   if (result.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", result.coarse_iterations);
   if (result.halvings > 0) text += fmt::format(", halved {}", model::counted(result.halvings, "time"));
-  if (!result.converged) return text + (result.reason.starts_with("mechanism") ? ", mechanism" : ", not converged");
+  if (!result.converged) {
+    for (const char* known : {"mechanism", "collapse"})
+      if (result.reason.starts_with(known)) return text + ", " + known;
+    return text + ", not converged";
+  }
   if (result.contacts.empty()) return text;
   int open = 0, stick = 0, slip = 0;
   for (const analysis::ContactResult& contact : result.contacts) {

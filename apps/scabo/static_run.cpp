@@ -46,6 +46,7 @@ ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {
     case analysis::Outcome::interrupted:
     case analysis::Outcome::not_converged:
     case analysis::Outcome::mechanism:
+    case analysis::Outcome::collapse:
       break;
   }
   // A signal also ends the halving of an increment; the run was then stopped by the signal.

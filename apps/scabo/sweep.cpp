@@ -161,7 +161,7 @@ class Sweep {
     };
     if (any({"failed", "killed", "interrupted"})) return ExitStatus::failure;
     if (any({"wrong_input"})) return ExitStatus::wrong_input;
-    return any({"not_converged", "mechanism"}) ? ExitStatus::not_converged : ExitStatus::solved;
+    return any({"not_converged", "mechanism", "collapse"}) ? ExitStatus::not_converged : ExitStatus::solved;
   }
 
   std::string totals() const {

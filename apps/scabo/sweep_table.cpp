@@ -71,7 +71,8 @@ class RowReader {
 }  // namespace
 
 bool is_finished(const SweepRow& row) {
-  return row.status == "solved" || row.status == "not_converged" || row.status == "mechanism";
+  return row.status == "solved" || row.status == "not_converged" || row.status == "mechanism" ||
+         row.status == "collapse";
 }
 
 SweepRow row_of(const std::filesystem::path& results) {

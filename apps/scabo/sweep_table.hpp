@@ -12,7 +12,7 @@ namespace scabo::app {
 
 /// How one point of a sweep ended.
 struct SweepRow {
-  /// `solved`, `not_converged`, `mechanism`, `interrupted`, `failed`, `wrong_input`, `killed`; `waiting` before its
+  /// `solved`, `not_converged`, `mechanism`, `collapse`, `interrupted`, `failed`, `wrong_input`, `killed`; `waiting` before its
   /// run.
   std::string status = "waiting";
   std::string step, reached;                  ///< of the last finished increment: its step, and the part of it

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _core
 from .arguments import threads_of
-from .errors import Infeasible, Mechanism, NotConverged
+from .errors import Collapse, Infeasible, Mechanism, NotConverged
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -27,7 +27,7 @@ class DiscreteSolution:
 
     @property
     def status(self) -> str:
-        """solved, not_converged, mechanism or infeasible."""
+        """solved, not_converged, mechanism, collapse or infeasible."""
         return self._core.status
 
     @property
@@ -77,7 +77,7 @@ class DiscreteSolution:
 
     @property
     def unrestrained_motion(self) -> np.ndarray:
-        """Of a mechanism: the rigid motion that is not restrained, (m); otherwise empty."""
+        """Of a mechanism or a collapse: the rigid motion that is not restrained, (m); otherwise empty."""
         return self._core.unrestrained_motion
 
     @property
@@ -152,7 +152,7 @@ def solve_contact(W: Any, q: ArrayLike, mu: ArrayLike, *, dimension: int = 2, G:
         nothing if start_motions is None else _vector("start_motions", start_motions, count), tolerance, by_certificate,
         iterations, force_scale, time_limit or 0.0, threads_of(threads))
     solution = DiscreteSolution(core, dimension)
-    kinds = {"not_converged": NotConverged, "mechanism": Mechanism, "infeasible": Infeasible}
+    kinds = {"not_converged": NotConverged, "mechanism": Mechanism, "collapse": Collapse, "infeasible": Infeasible}
     if solution.status in kinds:
         raise kinds[solution.status](f"{solution.status.replace('_', ' ')}: {solution.reason}", solution)
     return solution

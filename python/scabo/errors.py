@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-__all__ = ["Error", "Infeasible", "InternalError", "Interrupted", "Mechanism", "ModelError", "ModelWarning",
+__all__ = ["Collapse", "Error", "Infeasible", "InternalError", "Interrupted", "Mechanism", "ModelError", "ModelWarning",
            "NotConverged", "Problem", "WriteError"]
 
 
@@ -50,6 +50,11 @@ class NotConverged(Error, RuntimeError):
 class Mechanism(NotConverged):
     """A body is insufficiently supported: the loads exceed what supports, contact and friction can carry. This is
     proven, and not a failure of the solver."""
+
+
+class Collapse(NotConverged):
+    """The equilibria that the loads pass through end before the increment does: bodies then move on without any further
+    load. Unlike a mechanism it is not proven that no other equilibrium exists."""
 
 
 class Infeasible(NotConverged):

@@ -12,7 +12,7 @@ from typing import Any
 
 from . import _core
 from .arguments import threads_of
-from .errors import Interrupted, Mechanism, ModelWarning, NotConverged
+from .errors import Collapse, Interrupted, Mechanism, ModelWarning, NotConverged
 from .modes import ModalResult
 from .progress import watching
 from .result import Result
@@ -136,7 +136,7 @@ class Model(dict[str, Any]):
             raise solved.record.error
         if not solved.record.why_not_solved:
             return result
-        kinds = {"interrupted": Interrupted, "mechanism": Mechanism}
+        kinds = {"interrupted": Interrupted, "mechanism": Mechanism, "collapse": Collapse}
         raise kinds.get(solved.status, NotConverged)(solved.record.why_not_solved, result)
 
 

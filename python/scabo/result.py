@@ -158,7 +158,7 @@ class Result:
 
     @property
     def status(self) -> str:
-        """solved, not_converged, mechanism or interrupted."""
+        """solved, not_converged, mechanism, collapse or interrupted."""
         return self._core.status
 
     @property

@@ -22,6 +22,7 @@ STATUS = {
     "solved": ("good", "Solved and certified"),
     "not_converged": ("bad", "Did not converge"),
     "mechanism": ("bad", "The loads are more than the structure can carry"),
+    "collapse": ("bad", "The structure falls before the loads are reached"),
     "interrupted": ("warning", "Interrupted"),
     "failed": ("bad", "Ended by an error"),
     "running": ("warning", "Not finished: the run still writes, or was killed"),

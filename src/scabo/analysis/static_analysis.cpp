@@ -43,7 +43,7 @@ struct Reached {
   double residual = 0.0;
   Matrix undetermined;
   std::optional<UniquenessResult> uniqueness;
-  bool mechanism = false, stopped = false;
+  bool mechanism = false, collapse = false, stopped = false;
   std::string reason;          ///< empty if the end was reached
   bool pairs_are_due = false;  ///< the end was not reached: before going on, pairs are to be found anew
   std::vector<AttemptResult> attempts;
@@ -67,6 +67,18 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
         "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
         "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
   return reason;
+}
+
+/// In an attempt to go from part `from` of an increment to part `to`.
+std::string describe_collapse(const Prepared& prepared, const contact::Solution& solution, double from, double to) {
+  std::string text = "collapse: ";
+  if (solution.held > 0.0)
+    text += fmt::format("equilibrium ends at {:.4g} of the increment, where the bodies move on without any further load",
+                        from + solution.held * (to - from));
+  else
+    text += "no equilibrium was found, and on every path of equilibria that was followed the bodies in the end move on "
+            "without any further load";
+  return text + " (" + describe_motions(prepared, solution.motion) + ")";
 }
 
 /// Proceeds from `from` along `factors_at` (0: its factors, 1: the end of the increment), halving the step if an
@@ -121,16 +133,21 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       if (reached.pairs_are_due) break;
       continue;
     }
-    const bool mechanism = tried.solution.status == contact::Status::mechanism;  // a smaller step does not help
-    reached.stopped = !mechanism && options.stop && *options.stop;
+    const bool mechanism = tried.solution.status == contact::Status::mechanism,
+               collapse = tried.solution.status == contact::Status::collapse;
+    const bool smaller_steps_may_help = !mechanism && !collapse;
+    reached.stopped = smaller_steps_may_help && options.stop && *options.stop;
     if (reached.stopped) return reached;
-    if (mechanism || !may_halve) {
+    if (!smaller_steps_may_help || !may_halve) {
       reached.residual = tried.solution.residual;
       reached.certificate = tried.certificate;
       reached.mechanism = mechanism;
+      reached.collapse = collapse;
       if (mechanism)
         reached.reason = fmt::format("mechanism: {}, held neither by supports nor by contact and friction",
                                      describe_motions(prepared, tried.solution.motion));
+      else if (collapse)
+        reached.reason = describe_collapse(prepared, tried.solution, reached.part, next);
       else if (tried.solution.status == contact::Status::solved)
         reached.reason = above_tolerance(tried, prepared.model.solver.tolerance);
       else
@@ -415,7 +432,9 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
     solution.increments.push_back(std::move(result));
     if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
     if (!there) {
-      solution.outcome = reached.mechanism ? Outcome::mechanism : Outcome::not_converged;
+      solution.outcome = reached.mechanism  ? Outcome::mechanism
+                         : reached.collapse ? Outcome::collapse
+                                            : Outcome::not_converged;
       solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);
       if (options.on_increment) options.on_increment(solution, solution.increments.back());
       return;

@@ -196,8 +196,9 @@ struct RefinementPass {
 };
 
 /// mechanism: the loads of an increment exceed what supports, contact and friction can carry. This is proven and is not
-/// a failure of the solver.
-enum class Outcome { solved, not_converged, mechanism, interrupted };
+/// a failure of the solver. collapse: the equilibria that the loads pass through end before the increment does, as
+/// bodies then move on without any further load; that no other equilibrium exists elsewhere is not proven.
+enum class Outcome { solved, not_converged, mechanism, collapse, interrupted };
 
 struct StaticSolution {
   model::Model model;

@@ -84,15 +84,27 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   // From the last increment Newton converges in a few iterations or creeps from kink to kink, while a strategy below
   // needs less than ten (a culvert of 340 pairs under traffic: 50 and 7).
   constexpr int patience = 8;
-  if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, 0, patience}))) return best;
-  if (many && better(bonded(touching))) return best;
+  // Of many bodies a path takes over sooner.
+  constexpr int few = 6;
+  const bool paths = many && may_follow_path(problem_);
+  if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, paths ? std::min(few, options_.iterations) : 0, patience})))
+    return best;
+  if (!cold && paths && better(along_loads(p, a))) return best;
+  const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
+  if (held_together && better(bonded(*held_together))) return best;
   if (hopeless && hopeless()) return best;
+  if (paths && held_together && (better(along_paths(*held_together, touching)) || collapse())) return best;
   if (many && may_take_interior_points(problem_)) {
     if (better(inside())) return best;
     // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.
     if (has_many_motions(problem_)) return best;
   }
   if (cold && better(may_sweep() ? without_history(p, a) : newton_alone(p, a, {"newton"}))) return best;
+  if (!many && may_follow_path(problem_)) {
+    if (!cold && better(along_loads(p, a))) return best;
+    const std::optional<BondedStart> start = bonded_start(problem_, touching);
+    if (start && (better(along_paths(*start, touching)) || collapse())) return best;
+  }
   const bool held = problem_.G.cols() == 0;
   if (!held && better(floating_proximal(p, a))) return best;
   if (held && may_sweep() && better(swept(p, 20, 1e-4))) return best;
@@ -106,12 +118,79 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   return best;
 }
 
-NewtonEnd Ladder::bonded(const std::vector<bool>& touching) {
-  const std::optional<BondedStart> start = bonded_start(problem_, touching);
-  // What converges takes 10 iterations or fewer; interior points take 15 to 40, whatever happens.
-  constexpr int few = 15;
-  const int most = may_take_interior_points(problem_) ? std::min(few, options_.iterations) : 0;
-  return start ? newton_alone(start->p, start->a, {"newton", 0.0, 1.0, most}) : nothing();
+NewtonEnd Ladder::bonded(const BondedStart& start) {
+  // What converges takes 3 to 8 iterations, mostly; a path takes 2 to 10 factorisations, whatever happens.
+  constexpr int few = 6;
+  const int most = may_follow_path(problem_) ? std::min(few, options_.iterations) : 0;
+  return newton_alone(start.p, start.a, {"newton", 0.0, 1.0, most});
+}
+
+/// The path of the loads from the last increment to this one.
+NewtonEnd Ladder::along_loads(const Vector& p, const Vector& a) {
+  PathStart start{p, a, {}, 1e-6, 0.0};
+  for (Eigen::Index i = 0; i < problem_.pairs(); ++i)
+    start.states.push_back(p[2 * i] > 0.0 ? ContactState::stick : ContactState::open);
+  PathEnd end = along_path(start);
+  if (end.how == PathEnd::How::arrived) return arrived(std::move(end));
+  may_fall_ = end.how != PathEnd::How::broken;
+  if (may_fall_) collapse_ = Collapse{std::move(end.motion), 1.0 - end.left};
+  return nothing();
+}
+
+/// Paths from bonded pairs, pressed together first. Where none arrives although each was followed to its end, and that
+/// of the loads as well if there is one, the bodies fall.
+NewtonEnd Ladder::along_paths(const BondedStart& bonded, const std::vector<bool>& touching) {
+  PathStart start{bonded.p, bonded.a, {}, 1e-2, 0.0};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(problem_.pairs()); ++i)
+    start.states.push_back(touching.empty() || touching[i] ? ContactState::stick : ContactState::open);
+  for (const double pressure : {10.0, 1.0}) {
+    start.pressure = pressure;
+    PathEnd end = along_path(start);
+    if (end.how == PathEnd::How::arrived) {
+      NewtonEnd found = arrived(std::move(end));
+      if (found.converged) return found;
+      may_fall_ = false;
+    } else if (end.how == PathEnd::How::broken) {
+      may_fall_ = false;
+    } else if (!collapse_) {
+      collapse_ = Collapse{std::move(end.motion), 0.0};
+    }
+    if (late()) break;
+  }
+  return nothing();
+}
+
+NewtonEnd Ladder::arrived(PathEnd end) {
+  NewtonEnd found = nothing();
+  found.p = std::move(end.p);
+  found.a = std::move(end.a);
+  constexpr int few = 4;
+  return confirmed(std::move(found), few, "path");
+}
+
+/// One iteration for every matrix factorised.
+PathEnd Ladder::along_path(const PathStart& start) {
+  const BDifferentiableEquations equations(problem_, options_.r_factor);
+  PathOptions options;
+  options.deadline = options_.deadline;
+  options.on_factorisation = [&](const Vector& p, const Vector& a) {
+    const Residual at = equations.residual(p, a);
+    trace_.push_back({++iterations_ + coarse_iterations_, at.largest(), at.merit(), 1.0, 0, "path"});
+    if (options_.on_iteration) options_.on_iteration(trace_.back());
+  };
+  return follow_path(problem_, start, options);
+}
+
+/// States are certain when Newton has confirmed them. Where pairs are redundant it may not; then the point itself is
+/// kept if it is a solution.
+NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
+  const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(found.p, found.a);
+  found.residual = at.largest();
+  found.converged = content_ && content_(found.p, at.motion);
+  NewtonEnd end = newton_alone(found.p, found.a, {"newton after " + name, 0.0, 1.0, few});
+  if ((end.converged && end.residual <= found.residual) || !found.converged) return end;
+  trace_.push_back({iterations_ + coarse_iterations_, found.residual, at.merit(), 0.0, 0, name + " kept"});
+  return found;
 }
 
 NewtonEnd Ladder::without_history(const Vector& p, const Vector& a) {
@@ -268,15 +347,12 @@ NewtonEnd Ladder::inside() {
   }
   if (best.p.size() == 0) return best;
   if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points"});
-  const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a);
-  best.residual = at.largest();
-  if (late()) return best;
-  // States are certain when Newton has confirmed them. Where pairs are redundant it may not.
+  if (late()) {
+    best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
+    return best;
+  }
   constexpr int few = 2;
-  NewtonEnd confirmed = newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few});
-  if (confirmed.converged && confirmed.residual < best.residual) return confirmed;
-  trace_.push_back({iterations_ + coarse_iterations_, best.residual, at.merit(), 0.0, 0, "interior point kept"});
-  return best;
+  return confirmed(std::move(best), few, "interior points");
 }
 
 /// The point that sweeps ended with, and its line in the trace.

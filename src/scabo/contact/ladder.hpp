@@ -1,9 +1,13 @@
 // The fallback strategies of solve() in order: starts for Newton, each followed by Newton on the original problem.
 #pragma once
 
+#include <optional>
+
 #include "scabo/contact/interior_point.hpp"
 #include "scabo/contact/newton.hpp"
+#include "scabo/contact/path.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/cold_start.hpp"
 #include "scabo/contact/starts/long_sweeps.hpp"
 
@@ -15,6 +19,12 @@ struct Scaled {
   double stiffness = 1.0;  ///< force / length
 };
 Scaled scaled(const Problem& problem);
+
+/// How bodies fall if no path of equilibria arrives.
+struct Collapse {
+  Vector motion;      ///< m, of length 1
+  double held = 0.0;  ///< part of the way from the previous increment on which there is equilibrium; 0: not known
+};
 
 class Ladder {
  public:
@@ -32,6 +42,10 @@ class Ladder {
   /// On problems with fewer pairs (contact/cold_start.hpp); not included in iterations().
   int coarse_iterations() const { return coarse_iterations_; }
   std::vector<Iteration> take_trace() { return std::move(trace_); }
+  /// Meaningful if no solution was found.
+  std::optional<Collapse> collapse() const {
+    return may_fall_ && collapse_ && collapse_->motion.size() > 0 ? collapse_ : std::nullopt;
+  }
 
  private:
   struct Run {
@@ -47,7 +61,12 @@ class Ladder {
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
   NewtonEnd climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                           const std::function<bool()>& hopeless);
-  NewtonEnd bonded(const std::vector<bool>& touching);
+  NewtonEnd bonded(const BondedStart& start);
+  NewtonEnd along_loads(const Vector& p, const Vector& a);
+  NewtonEnd along_paths(const BondedStart& bonded, const std::vector<bool>& touching);
+  NewtonEnd arrived(PathEnd end);
+  PathEnd along_path(const PathStart& start);
+  NewtonEnd confirmed(NewtonEnd found, int few, const std::string& name);
   NewtonEnd without_history(const Vector& p, const Vector& a);
   NewtonEnd after_start(ColdStart start, const std::string& stage);
   NewtonEnd climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless);
@@ -74,6 +93,8 @@ class Ladder {
   std::function<bool(const Vector&, const Vector&)> content_;
   int iterations_ = 0, coarse_iterations_ = 0;
   std::vector<Iteration> trace_;
+  std::optional<Collapse> collapse_;
+  bool may_fall_ = true;  ///< no path was left unfinished
 };
 
 }  // namespace scabo::contact

@@ -95,6 +95,8 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
   if (judgement.solved(options.tolerance)) {
     solution.status = Status::solved;
     if (problem.G.cols() > 0) solution.undetermined = undetermined_motions(problem, solution.states);
+  } else if (solution.status == Status::collapse) {
+    solution.reason = "bodies move on without any further force on every path of equilibria that was followed";
   } else {
     solution.reason = reason_of(judgement, options.judge, options.tolerance, story_of(solution, options, singular));
   }
@@ -157,6 +159,11 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
   if (solution.status != Status::mechanism) {
     solution.p = end.p.size() == d * N ? end.p : p_start;
     solution.a = end.a.size() == m ? Vector(end.a / stiffness) : Vector(a_start / stiffness);
+    if (const auto collapse = ladder.collapse(); collapse && !end.converged) {
+      solution.status = Status::collapse;
+      solution.motion = collapse->motion;
+      solution.held = collapse->held;
+    }
   }
   solution.iterations = ladder.iterations();
   solution.coarse_iterations = ladder.coarse_iterations();

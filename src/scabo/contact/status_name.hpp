@@ -8,7 +8,7 @@
 
 namespace scabo::contact {
 
-/// `solved`, `not_converged`, `mechanism`, `infeasible`.
+/// `solved`, `not_converged`, `mechanism`, `collapse`, `infeasible`.
 inline std::string_view name_of(Status status) {
   switch (status) {
     case Status::solved:
@@ -17,6 +17,8 @@ inline std::string_view name_of(Status status) {
       return "not_converged";
     case Status::mechanism:
       return "mechanism";
+    case Status::collapse:
+      return "collapse";
     case Status::infeasible:
       return "infeasible";
   }

@@ -136,7 +136,8 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
     }
     return text + '\n';
   }
-  if (increment.reason.starts_with("mechanism")) return text + "; mechanism\n";  // described at the end
+  for (const char* described_at_the_end : {"mechanism", "collapse"})
+    if (increment.reason.starts_with(described_at_the_end)) return text + fmt::format("; {}\n", described_at_the_end);
   return text + fmt::format("; NOT CONVERGED: {}\n", increment.reason);
 }
 
@@ -298,6 +299,7 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
       text += fmt::format("Did not converge: {}\n", solution.reason);
       break;
     case analysis::Outcome::mechanism:
+    case analysis::Outcome::collapse:
       text += fmt::format("Not solved: {}\n", solution.reason);
       break;
     case analysis::Outcome::interrupted:

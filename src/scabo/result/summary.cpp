@@ -213,6 +213,8 @@ std::string_view name_of(analysis::Outcome outcome) {
       return "not_converged";
     case analysis::Outcome::mechanism:
       return "mechanism";
+    case analysis::Outcome::collapse:
+      return "collapse";
     case analysis::Outcome::interrupted:
       return "interrupted";
   }

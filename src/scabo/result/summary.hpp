@@ -35,7 +35,7 @@ std::string running_summary(const std::string& summary);
 /// Its `status`; nothing if it is not a summary.
 std::optional<std::string> status_of_summary(const std::string& summary);
 
-/// `solved`, `not_converged`, `mechanism` or `interrupted`.
+/// `solved`, `not_converged`, `mechanism`, `collapse` or `interrupted`.
 std::string_view name_of(analysis::Outcome outcome);
 std::string_view name_of(element::CornerKind kind);
 

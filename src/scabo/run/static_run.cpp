@@ -167,7 +167,7 @@ std::string why_not_solved(const analysis::StaticSolution& solution, bool interr
   const std::string kept = finished == 0 ? "no increment was finished"
                                          : model::counted(static_cast<long>(finished), "finished increment") + " kept";
   if (interrupted) return fmt::format("interrupted; {}", kept);
-  if (solution.outcome == analysis::Outcome::mechanism) return fmt::format("{} ({})", solution.reason, kept);
+  if (solution.outcome != analysis::Outcome::not_converged) return fmt::format("{} ({})", solution.reason, kept);
   return fmt::format("did not converge: {} ({})", solution.reason, kept);
 }
 

@@ -1,0 +1,430 @@
+#include "scabo/contact/path.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "scabo/linalg/sparse_general_solver.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+using Index = Eigen::Index;
+
+class Path {
+  using Sparse = Eigen::SparseMatrix<double>;
+  using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  /// What the rows of a pair ask for: its normal row u_n = 0 or p_n = 0, its tangential row u_t = 0 (stick) or p_t +
+  /// side mu p_n = 0, where side is the sign of the slip.
+  struct Pair {
+    bool contact = true;
+    int side = 0;  // 0: stick
+  };
+
+  /// A quantity of a pair that must not become negative.
+  enum class Limit { gap, force, upper, lower, slip };
+  struct Next {
+    double step = HUGE_VAL;
+    Index pair = -1;
+    Limit limit = Limit::gap;
+  };
+
+ public:
+  Path(const Problem& problem, const PathStart& start, const PathOptions& options)
+      : problem_(problem), options_(options), N_(problem.pairs()), m_(problem.G.cols()), n_(2 * N_ + m_) {
+    W_ = problem.W.is_sparse() ? SparseRows(problem.W.sparse()) : SparseRows(problem.W.dense().sparseView());
+    Sparse softness(2 * N_, 2 * N_);
+    softness.setIdentity();
+    softness *= options.softness;
+    W_ += SparseRows(softness);
+    G_columns_ = m_ > 0 ? problem.G.sparse() : Sparse(2 * N_, 0);
+    G_ = G_columns_;
+    W_columns_ = W_;
+    begin(start);
+  }
+
+  PathEnd run() {
+    PathEnd end;
+    const int most = options_.most > 0 ? options_.most : static_cast<int>(2 * N_) + 100;
+    int round = 0;
+    bool endless = false;        // t stands still while the bodies move
+    std::optional<Next> passed;  // the limit that the path has just come from
+    if (!factorise(end)) return finish(end, PathEnd::How::broken);
+    while (true) {
+      if (passed) {
+        // Factorised before the change, on a piece on which t moves: there the matrix is regular.
+        const auto replaced = static_cast<int>(rows_.size()) + 2;
+        if ((replaced > options_.changes && !endless) || replaced > capacity()) {
+          if (!factorise(end)) return finish(end, PathEnd::How::broken);
+        }
+        change(*passed);
+      }
+      if (!find_direction(passed)) return finish(end, PathEnd::How::broken);
+      const Next next = nearest_limit(passed);
+      endless = std::abs(dt_) < 1e-9;
+      const double to_end = dt_ < 0.0 && !endless ? t_ / -dt_ : HUGE_VAL;
+      if (to_end <= next.step && to_end < HUGE_VAL) {
+        advance(to_end);
+        const double error = take_softness_back();
+        if (error <= settled || ++round > options_.rounds) return finish(end, PathEnd::How::arrived);
+        passed.reset();
+        rows_.clear();
+        if (!(has_base_states() ? place() : factorise(end))) return finish(end, PathEnd::How::broken);
+        continue;
+      }
+      const bool falls = !(next.step < (endless ? most_of_motion : HUGE_VAL));
+      if (falls || (t_ <= end.left && round == 0)) end.motion = dz_.tail(m_).normalized();
+      if (falls) return finish(end, PathEnd::How::endless);
+      advance(next.step);
+      if (round == 0) end.left = std::min(end.left, t_);
+      ++end.changes;
+      if (options_.deadline.passed()) return finish(end, PathEnd::How::broken);
+      if (end.changes >= most || t_ > far)
+        return finish(end, t_ > end.left + turned ? PathEnd::How::turned_back : PathEnd::How::broken);
+      passed = next;
+    }
+  }
+
+ private:
+  static constexpr double far = 2.0;             // t: the path runs away from the problem
+  static constexpr double turned = 1e-3;         // t above its least
+  static constexpr double settled = 1e-14;       // of the largest force: what rounding leaves of the softness
+  static constexpr double least_force = 1e-300;
+  static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
+
+  PathEnd finish(PathEnd& end, PathEnd::How how) {
+    end.how = how;
+    end.p = z_.head(2 * N_);
+    end.a = z_.tail(m_);
+    if (how == PathEnd::How::arrived) {
+      end.left = 0.0;
+      end.motion.resize(0);
+    }
+    return std::move(end);
+  }
+
+  /// Forces within the cones and motions that agree with them; what is missing to the problem are dq and df.
+  void begin(const PathStart& start) {
+    pairs_.resize(static_cast<std::size_t>(N_));
+    z_.resize(n_);
+    z_.tail(m_) = start.a;
+    const double force = std::max(start.p.cwiseAbs().mean(), least_force);
+    Vector motion = problem_.q + W_ * start.p + G_ * start.a, wanted = Vector::Zero(2 * N_);
+    const double length = std::max(motion.cwiseAbs().mean(), force * options_.softness);
+    std::minstd_rand random(7);
+    std::uniform_real_distribution<double> uniform(0.5, 1.0);
+    for (Index i = 0; i < N_; ++i) {
+      Pair& pair = pairs_[static_cast<std::size_t>(i)];
+      const double mu = problem_.mu[i], margin = start.margin * uniform(random);
+      const ContactState state = start.states[static_cast<std::size_t>(i)];
+      double normal = std::max(start.p[2 * i], 0.0) + force * (start.pressure + margin);
+      double tangent = std::clamp(start.p[2 * i + 1], -(1.0 - margin) * mu * normal, (1.0 - margin) * mu * normal);
+      if (state == ContactState::open) {
+        pair = {false, mu > 0.0 && motion[2 * i + 1] < 0.0 ? -1 : 1};
+        normal = tangent = 0.0;
+        wanted[2 * i] = std::max(motion[2 * i], 0.0) + length * margin;
+        wanted[2 * i + 1] = motion[2 * i + 1];
+      } else if (mu == 0.0) {
+        pair.side = 1;
+        wanted[2 * i + 1] = motion[2 * i + 1];
+      } else if (state == ContactState::slip) {
+        pair.side = tangent > 0.0 ? -1 : 1;
+        tangent = -pair.side * mu * normal;
+        wanted[2 * i + 1] = pair.side * (std::max(pair.side * motion[2 * i + 1], 0.0) + length * margin);
+      }
+      z_[2 * i] = normal;
+      z_[2 * i + 1] = tangent;
+    }
+    q_ = problem_.q;
+    centre_.setZero(2 * N_);
+    dq_ = wanted - (q_ + W_ * z_.head(2 * N_) + G_ * start.a);
+    df_ = -(problem_.f + G_.transpose() * z_.head(2 * N_));
+    motion_ = wanted;
+  }
+
+  /// From u = q + (W + s) p + G a to u = q + W p + s (p - p_now) + G a: a path once more, with hardly any change.
+  /// Returns the motions that go, over the size of all.
+  double take_softness_back() {
+    t_ = 1.0;
+    dq_ = options_.softness * (z_.head(2 * N_) - centre_);
+    centre_ = z_.head(2 * N_);
+    q_ -= dq_;
+    df_.setZero();
+    return dq_.lpNorm<Eigen::Infinity>() / std::max(centre_.lpNorm<Eigen::Infinity>(), least_force);
+  }
+
+  int capacity() const { return options_.changes + 100; }
+
+  /// Whether the matrix that is factorised is that of the states as they are.
+  bool has_base_states() const {
+    return std::equal(pairs_.begin(), pairs_.end(), base_.begin(), [](const Pair& a, const Pair& b) {
+      return a.contact == b.contact && a.side == b.side;
+    });
+  }
+
+  static bool asks_for_motion_in(const std::vector<Pair>& pairs, Index row) {
+    const Pair& pair = pairs[static_cast<std::size_t>(row / 2)];
+    return row % 2 == 0 ? pair.contact : pair.side == 0;
+  }
+  bool asks_for_motion(Index row) const { return asks_for_motion_in(pairs_, row); }
+
+  /// Row `row` of the matrix of these states, times x.
+  double row_times(const std::vector<Pair>& pairs, Index row, const Eigen::Ref<const Vector>& x) const {
+    double sum = 0.0;
+    if (asks_for_motion_in(pairs, row)) {
+      for (SparseRows::InnerIterator it(W_, row); it; ++it) sum += it.value() * x[it.col()];
+      for (SparseRows::InnerIterator it(G_, row); it; ++it) sum += it.value() * x[2 * N_ + it.col()];
+      return sum;
+    }
+    if (row % 2 == 0) return x[row];
+    return x[row] + pairs[static_cast<std::size_t>(row / 2)].side * problem_.mu[row / 2] * x[row - 1];
+  }
+
+  /// What the row has gained since the factorisation, times x.
+  double change_times(Index row, const Eigen::Ref<const Vector>& x) const {
+    return row_times(pairs_, row, x) - row_times(base_, row, x);
+  }
+
+  /// Right-hand side of the derivative by t: A z' = b.
+  double right_of(Index row) const { return asks_for_motion(row) ? -dq_[row] : 0.0; }
+
+  bool factorise(PathEnd& end) {
+    base_ = pairs_;
+    rows_.clear();
+    solved_.resize(n_, capacity());
+    small_.resize(capacity(), capacity());
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(W_.nonZeros() + 2 * G_.nonZeros() + 2 * N_));
+    const auto add = [&](Index row, Index column, double value) {
+      entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+    };
+    for (Index row = 0; row < 2 * N_; ++row) {
+      if (asks_for_motion(row)) {
+        for (SparseRows::InnerIterator it(W_, row); it; ++it) add(row, it.col(), it.value());
+        for (SparseRows::InnerIterator it(G_, row); it; ++it) add(row, 2 * N_ + it.col(), it.value());
+      } else {
+        add(row, row, 1.0);
+        if (row % 2 == 1)
+          add(row, row - 1, pairs_[static_cast<std::size_t>(row / 2)].side * problem_.mu[row / 2]);
+      }
+      for (SparseRows::InnerIterator it(G_, row); it; ++it) add(2 * N_ + it.col(), row, it.value());
+    }
+    A_.resize(n_, n_);
+    A_.setFromTriplets(entries.begin(), entries.end());
+    ++end.factorisations;
+    if (options_.on_factorisation) options_.on_factorisation(z_.head(2 * N_), z_.tail(m_));
+    return lu_.factorise(A_) && place();
+  }
+
+  /// The point and the direction of the piece whose matrix is factorised, without what rounding added from piece to
+  /// piece.
+  bool place() {
+    Vector right(n_), now(n_), z;
+    for (Index row = 0; row < 2 * N_; ++row) {
+      right[row] = right_of(row);
+      now[row] = asks_for_motion(row) ? -(q_[row] + t_ * dq_[row]) : 0.0;
+    }
+    right.tail(m_) = -df_;
+    now.tail(m_) = -(problem_.f + t_ * df_);
+    lu_.solve(right, slope_);
+    refine(right, slope_);
+    lu_.solve(now, z);
+    refine(now, z);
+    if (!z.allFinite() || !slope_.allFinite()) return false;
+    z_ = z;
+    motion_ = q_ + t_ * dq_ + W_columns_ * z_.head(2 * N_) + G_columns_ * z_.tail(m_);
+    return true;
+  }
+
+  void refine(const Vector& right, Vector& x) {
+    Vector correction;
+    lu_.solve(right - A_ * x, correction);
+    x += correction;
+  }
+
+  /// The pair at its limit takes its next state.
+  void change(const Next& at) {
+    Pair& pair = pairs_[static_cast<std::size_t>(at.pair)];
+    const Index normal = 2 * at.pair, tangent = normal + 1;
+    switch (at.limit) {
+      case Limit::gap: {
+        const int side = problem_.mu[at.pair] > 0.0 && motion_[tangent] < 0.0 ? -1 : 1;
+        pair.contact = true;
+        replaced(normal);
+        if (side != pair.side) {
+          pair.side = side;
+          replaced(tangent);
+        }
+        return;
+      }
+      case Limit::force:
+        pair.contact = false;
+        return replaced(normal);
+      case Limit::upper:  // p_t = mu p_n: slips back
+        pair.side = -1;
+        return replaced(tangent);
+      case Limit::lower:
+        pair.side = 1;
+        return replaced(tangent);
+      case Limit::slip:
+        side_before_ = pair.side;
+        pair.side = 0;
+        return replaced(tangent);
+    }
+  }
+
+  /// Row `row` differs from before: 1 + D'Y follows.
+  void replaced(Index row) {
+    auto place = std::find(rows_.begin(), rows_.end(), row);
+    const Index at = place - rows_.begin();
+    if (place == rows_.end()) {
+      Vector unit = Vector::Zero(n_), column;
+      unit[row] = 1.0;
+      lu_.solve(unit, column);
+      solved_.col(at) = column;
+      for (Index i = 0; i < at; ++i) small_(i, at) = change_times(rows_[static_cast<std::size_t>(i)], column);
+      rows_.push_back(row);
+    }
+    for (Index j = 0; j < static_cast<Index>(rows_.size()); ++j) small_(at, j) = change_times(row, solved_.col(j));
+    small_(at, at) += 1.0;
+  }
+
+  /// dz / dt on the piece of the states as they are, towards the side of the limit just passed on which it is met.
+  bool find_direction(const std::optional<Next>& passed) {
+    const auto k = static_cast<Index>(rows_.size());
+    dz_ = slope_;
+    if (k > 0) {
+      // A = B + E D', D' the changes of the rows; with z_B = B^-1 b, Y = B^-1 E and S = 1 + D'Y, A z = b + E c has the
+      // solution z = z_B + Y (c - w), S w = D'(z_B + Y c) = D'z_B + (S - 1) c.
+      const Matrix S = small_.topLeftCorner(k, k);
+      Vector c(k), rest(k);
+      for (Index i = 0; i < k; ++i) {
+        const Index row = rows_[static_cast<std::size_t>(i)];
+        rest[i] = change_times(row, slope_);
+        c[i] = right_of(row) - (asks_for_motion_in(base_, row) ? -dq_[row] : 0.0);
+      }
+      rest += S * c - c;
+      Vector w = S.partialPivLu().solve(rest);
+      if (!w.allFinite())  // nothing holds a body: by rounding alone the way is along its motion, and t stands still
+        w = Matrix(S + 1e-13 * S.cwiseAbs().maxCoeff() * Matrix::Identity(k, k)).partialPivLu().solve(rest);
+      dz_.noalias() += solved_.leftCols(k) * (c - w);
+    }
+    if (!dz_.allFinite()) return false;
+    dt_ = 1.0;
+    d_motion_ = dq_ + W_columns_ * dz_.head(2 * N_) + G_columns_ * dz_.tail(m_);
+    if (!passed) {
+      turn(-1.0);
+    } else {
+      const Index normal = 2 * passed->pair, tangent = normal + 1;
+      const double mu = problem_.mu[passed->pair];
+      const int side = pairs_[static_cast<std::size_t>(passed->pair)].side;
+      double leaves = 0.0;
+      switch (passed->limit) {
+        case Limit::gap:
+          leaves = dz_[normal];
+          break;
+        case Limit::force:
+          leaves = d_motion_[normal];
+          break;
+        case Limit::upper:
+        case Limit::lower:
+          leaves = side * d_motion_[tangent];
+          break;
+        case Limit::slip:
+          leaves = mu * dz_[normal] + side_before_ * dz_[tangent];
+          break;
+      }
+      turn(leaves > 0.0 ? 1.0 : -1.0);
+    }
+    // Along the path by its own length: where t hardly changes, the bodies move.
+    const double size = std::max(1.0, dz_.lpNorm<Eigen::Infinity>() / std::max(z_.lpNorm<Eigen::Infinity>(), least_force));
+    turn(1.0 / size);
+    return true;
+  }
+
+  void turn(double factor) {
+    dz_ *= factor;
+    d_motion_ *= factor;
+    dt_ *= factor;
+  }
+
+  Next nearest_limit(const std::optional<Next>& passed) const {
+    Next next;
+    const double least_force = 1e-13 * dz_.head(2 * N_).lpNorm<Eigen::Infinity>(),
+                 least_motion = 1e-13 * d_motion_.lpNorm<Eigen::Infinity>();
+    for (Index i = 0; i < N_; ++i) {
+      const Pair& pair = pairs_[static_cast<std::size_t>(i)];
+      const double mu = problem_.mu[i];
+      const Index normal = 2 * i, tangent = normal + 1;
+      const auto meets = [&](Limit limit, double value, double change, double least) {
+        if (!(change < -least) || (passed && passed->pair == i && is_just_left(*passed, limit))) return;
+        const double step = std::max(value, 0.0) / -change;
+        if (step < next.step) next = {step, i, limit};
+      };
+      if (!pair.contact) {
+        meets(Limit::gap, motion_[normal], d_motion_[normal], least_motion);
+      } else if (pair.side == 0) {
+        meets(Limit::upper, mu * z_[normal] - z_[tangent], mu * dz_[normal] - dz_[tangent], least_force);
+        meets(Limit::lower, mu * z_[normal] + z_[tangent], mu * dz_[normal] + dz_[tangent], least_force);
+      } else {
+        meets(Limit::force, z_[normal], dz_[normal], least_force);
+        if (mu > 0.0) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], least_motion);
+      }
+    }
+    return next;
+  }
+
+  /// The limit on which the path has stood since the change, seen from the new state.
+  bool is_just_left(const Next& passed, Limit limit) const {
+    switch (passed.limit) {
+      case Limit::gap:
+        return limit == Limit::force;
+      case Limit::force:
+        return limit == Limit::gap;
+      case Limit::upper:
+      case Limit::lower:
+        return limit == Limit::slip;
+      case Limit::slip:
+        return limit == (side_before_ > 0 ? Limit::lower : Limit::upper);
+    }
+    return false;
+  }
+
+  void advance(double step) {
+    z_ += step * dz_;
+    motion_ += step * d_motion_;
+    t_ += step * dt_;
+  }
+
+  const Problem& problem_;
+  const PathOptions& options_;
+  Index N_, m_, n_;
+  SparseRows W_, G_;
+  Sparse W_columns_, G_columns_, A_;
+  Vector q_, centre_, dq_, df_, z_, motion_, slope_, dz_, d_motion_;
+  double t_ = 1.0, dt_ = -1.0;
+  std::vector<Pair> pairs_, base_;
+  std::vector<Index> rows_;  // replaced since the factorisation
+  Matrix solved_;            // Y = B^-1 of their unit vectors
+  Matrix small_;             // 1 + D'Y
+  linalg::SparseGeneralSolver lu_;
+  int side_before_ = 0;
+};
+
+}  // namespace
+
+bool may_follow_path(const Problem& problem) {
+  constexpr Index most_dense = 2000;  // rows: a factorisation costs their cube
+  return problem.dimension == 2 && problem.pairs() > 0 && problem.cohesion.size() == 0 && problem.tension.size() == 0 &&
+         (problem.W.is_sparse() || (problem.W.is_dense() && problem.W.size() <= most_dense));
+}
+
+PathEnd follow_path(const Problem& problem, const PathStart& start, const PathOptions& options) {
+  return Path(problem, start, options).run();
+}
+
+}  // namespace scabo::contact

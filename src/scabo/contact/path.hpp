@@ -1,0 +1,64 @@
+// Path of solutions of a plane problem from forces that need not solve it to those that do, one change of state after
+// the other. Newton's method guesses the states of all pairs at once and may jump between guesses for ever; where
+// friction lets a load have several equilibria, or bodies are about to fall, this finds its way, and tells where the
+// way ends.
+//
+// Any forces in the friction cones, with motions that agree with them (open: u_n > 0; stick: u = 0; slip: u_n = 0, u_t
+// against p_t), solve the problem with other free motions q + dq and loads f + df. In between,
+//
+//     u = (q + t dq) + W p + G a,   0 = (f + t df) + G'p,   Coulomb's law,     t from 1 to 0
+//
+// is linear in (p, a, t) as long as no pair changes its state, and its solutions form a chain of straight pieces
+// (Eaves, "A short course in solving equations with PL homotopies", SIAM-AMS Proc. 9 (1976) 73; of frictional contact:
+// Klarbring, Bjorkman, Z. Angew. Math. Mech. 68 (1988) T55). At the end of a piece one pair is at its limit: it opens,
+// closes, slips or sticks, and in the next piece moves on from there, which tells the direction, also where t grows
+// again. The chain ends at t = 0, or its last piece leads to infinity, along a motion of the bodies that changes no
+// force, or it goes back to larger t for good.
+//
+// One matrix is factorised for up to `changes` changes of state; each replaces a row (Sherman, Morrison, Woodbury). To
+// the diagonal of W `softness` times its mean is added, because pairs of three bodies that meet in a point are
+// redundant; Newton's method on the problem itself follows.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scabo/contact/deadline.hpp"
+#include "scabo/contact/problem.hpp"
+#include "scabo/contact/solution.hpp"
+
+namespace scabo::contact {
+
+struct PathStart {
+  Vector p, a;                       ///< forces, moved into the friction cones here, and rigid motions
+  std::vector<ContactState> states;  ///< N; the direction of slip follows from p
+  double margin = 1e-2;  ///< of the mean force: pairs start this far from their limits, each at another distance
+  double pressure = 0.0;  ///< of the mean force: added to the normal forces of the pairs in contact
+};
+
+struct PathOptions {
+  double softness = 1e-6;
+  int rounds = 8;     ///< paths that take the softness back, most
+  int changes = 150;  ///< of state with one factorisation
+  int most = 0;  ///< changes of state in all; 0: twice the number of pairs
+  Deadline deadline;
+  std::function<void(const Vector& p, const Vector& a)> on_factorisation;  ///< may be empty
+};
+
+struct PathEnd {
+  /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on for ever. turned_back: t has grown again
+  /// and `most` changes do not lead back. broken: rounding, or the deadline.
+  enum class How { arrived, endless, turned_back, broken } how = How::broken;
+  Vector p, a;        ///< where the path ends
+  double left = 1.0;  ///< the least t met
+  Vector motion;      ///< rigid motions where t was least, or of the endless piece, of length 1; empty if arrived
+  int factorisations = 0, changes = 0;
+};
+
+/// Coulomb's law alone in the plane; W sparse, or dense with at most 2,000 rows.
+bool may_follow_path(const Problem& problem);
+
+/// W is symmetric and scaled to a mean W_ii of 1.
+PathEnd follow_path(const Problem& problem, const PathStart& start, const PathOptions& options = {});
+
+}  // namespace scabo::contact

@@ -1,0 +1,152 @@
+// Paths of solutions: a block that slides at the friction limit, one that only a dilatant joint could stop, and random
+// problems, whose solutions are asked of the law itself.
+#include "scabo/contact/path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scabo/contact/ladder.hpp"
+#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/solve.hpp"
+#include "scabo/contact/starts/bonded_start.hpp"
+#include "unit/contact/problems.hpp"
+
+namespace scabo::contact {
+namespace {
+
+constexpr double weight = 10.0, friction = 0.5, width = 2.0, height = 0.1;
+
+/// A low block of five pairs on a floor, pushed by `push`.
+Problem pushed_block(double push) {
+  std::mt19937 random(3);
+  Problem problem;
+  constexpr int pairs = 5;
+  problem.W = test::elastic_flexibility(random, pairs);
+  problem.q = Vector::Zero(2 * pairs);
+  problem.mu = Vector::Constant(pairs, friction);
+  problem.G = test::block_motions(pairs, width, height);
+  problem.f = Eigen::Vector3d(push, -weight, 0.0);
+  return problem;
+}
+
+/// The same under a ceiling with the same friction, `gap` above it.
+Problem between_floor_and_ceiling(double push, double gap) {
+  Problem problem = pushed_block(push);
+  const Eigen::Index rows = problem.q.size(), pairs = problem.pairs();
+  Matrix W = Matrix::Zero(2 * rows, 2 * rows), G(2 * rows, 3);
+  W.topLeftCorner(rows, rows) = W.bottomRightCorner(rows, rows) = problem.W.dense();
+  G << problem.G.dense(), -test::block_motions(static_cast<int>(pairs), width, -height);  // n = -y, t = -x
+  problem.W = W;
+  problem.G = G;
+  problem.q = Vector::Zero(2 * rows);
+  for (Eigen::Index i = 0; i < pairs; ++i) problem.q[rows + 2 * i] = gap;
+  problem.mu = Vector::Constant(2 * pairs, friction);
+  return problem;
+}
+
+/// From the block at rest under its weight.
+PathEnd path_under(double push) {
+  const Solution at_rest = solve(pushed_block(0.0));
+  const Scaled pushed = scaled(pushed_block(push));
+  return follow_path(pushed.problem, {at_rest.p, pushed.stiffness * at_rest.a,
+                                      std::vector<ContactState>(static_cast<std::size_t>(pushed.problem.pairs()),
+                                                                ContactState::stick),
+                                      1e-8, 0.0});
+}
+
+TEST(Path, OfABlockBelowTheFrictionLimitArrives) {
+  const double push = 0.9 * friction * weight;
+  const PathEnd end = path_under(push);
+  ASSERT_EQ(end.how, PathEnd::How::arrived);
+  const Scaled pushed = scaled(pushed_block(push));
+  EXPECT_LT(test::violation(pushed.problem, end.p, end.a), 1e-12 * weight);
+  const Solution solution = solve(pushed_block(push));
+  EXPECT_LT((end.p - solution.p).lpNorm<Eigen::Infinity>(), 1e-9 * weight);
+}
+
+TEST(Path, OfABlockEndsAtTheFrictionLimitInSliding) {
+  const double push = 4.0;
+  const PathEnd end = path_under(push * friction * weight);
+  EXPECT_EQ(end.how, PathEnd::How::endless);
+  EXPECT_NEAR(1.0 - end.left, 1.0 / push, 1e-6);
+  ASSERT_EQ(end.motion.size(), 3);
+  EXPECT_NEAR(end.motion[0], 1.0, 1e-9);
+  EXPECT_NEAR(end.motion.tail(2).norm(), 0.0, 1e-9);
+}
+
+TEST(Path, TakesTheSoftnessBack) {
+  // Two equal pairs at every point: W is singular, forces are not unique, their sums are.
+  const Problem one = pushed_block(0.9 * friction * weight);
+  Problem twice = one;
+  const Eigen::Index rows = one.q.size();
+  Matrix W(2 * rows, 2 * rows), G(2 * rows, 3);
+  W << one.W.dense(), one.W.dense(), one.W.dense(), one.W.dense();
+  G << one.G.dense(), one.G.dense();
+  twice.W = W;
+  twice.G = G;
+  twice.q = Vector::Zero(2 * rows);
+  twice.mu = Vector::Constant(2 * one.pairs(), friction);
+  const Scaled problem = scaled(twice);
+  const auto start = bonded_start(problem.problem, {});
+  ASSERT_TRUE(start);
+  const PathEnd end = follow_path(
+      problem.problem,
+      {start->p, start->a, std::vector<ContactState>(static_cast<std::size_t>(twice.pairs()), ContactState::stick)});
+  ASSERT_EQ(end.how, PathEnd::How::arrived);
+  EXPECT_LT(test::violation(problem.problem, end.p, end.a), 1e-11 * weight);
+  const Solution solution = solve(one);
+  EXPECT_LT((end.p.head(rows) + end.p.tail(rows) - solution.p).lpNorm<Eigen::Infinity>(), 1e-9 * weight);
+}
+
+// Forces of floor and ceiling, both pressed, would balance any push: no mechanism. But a joint that slides does not
+// open, nothing presses the block against the ceiling, and it slides when friction on the floor is used up.
+TEST(Collapse, OfABlockThatOnlyDilatancyWouldHold) {
+  for (const double gap : {1e-3, 1.0})
+    for (const double push : {1.5, 3.0}) {
+      const Problem problem = between_floor_and_ceiling(push * friction * weight, gap);
+      EXPECT_FALSE(find_mechanism(problem));
+      const Solution at_rest = solve(between_floor_and_ceiling(0.0, gap));
+      ASSERT_EQ(at_rest.status, Status::solved);
+      const Solution solution = solve(problem, {at_rest.p, at_rest.a});
+      ASSERT_EQ(solution.status, Status::collapse) << solution.reason;
+      EXPECT_NEAR(solution.held, 1.0 / push, 1e-5);
+      ASSERT_EQ(solution.motion.size(), 3);
+      EXPECT_NEAR(solution.motion[0], 1.0, 1e-9);
+      EXPECT_LT(solution.iterations, 60);
+    }
+}
+
+TEST(Collapse, IsNotSaidBelowTheFrictionLimit) {
+  const Solution at_rest = solve(between_floor_and_ceiling(0.0, 1e-3));
+  const Solution solution = solve(between_floor_and_ceiling(0.99 * friction * weight, 1e-3), {at_rest.p, at_rest.a});
+  EXPECT_EQ(solution.status, Status::solved) << solution.reason;
+}
+
+TEST(Path, OfRandomProblemsEndsInSolutions) {
+  std::mt19937 random(12);
+  int solvable = 0, arrived = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Problem problem = k % 2 == 0 ? test::floating_problem(random, test::whole(random, 2, 12), 1.0)
+                                       : test::held_problem(random, test::whole(random, 2, 12), 1.0);
+    if (solve(problem).status != Status::solved) continue;
+    ++solvable;
+    const Scaled in_forces = scaled(problem);
+    const auto start = bonded_start(in_forces.problem, {});
+    if (!start) continue;
+    const PathEnd end = follow_path(
+        in_forces.problem, {start->p, start->a,
+                            std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::stick),
+                            1e-2, 1.0});
+    if (end.how != PathEnd::How::arrived) continue;
+    ++arrived;
+    EXPECT_LT(test::violation(in_forces.problem, end.p, end.a),
+              1e-9 * std::max(1.0, end.p.lpNorm<Eigen::Infinity>()))
+        << k;
+  }
+  EXPECT_GT(solvable, 200);
+  EXPECT_GT(arrived, 0.95 * solvable);
+}
+
+}  // namespace
+}  // namespace scabo::contact
