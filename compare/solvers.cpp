@@ -63,6 +63,8 @@ std::string refusal(const Road& road, const Problem& problem) {
   if (problem.dimension == 2 && !road.plane) return who + "problems in the plane";
   if (problem.dimension == 3 && !road.space) return who + "problems in space";
   if (!road.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0) return who + "friction: mu must be 0";
+  if (road.method != Method::b_differentiable && problem.mu_backward.size() > 0)
+    return who + "coefficients of friction that differ by the direction of slip";
   const auto some = [](const Vector& v) { return v.size() > 0 && v.maxCoeff() > 0.0; };
   if (!road.strength && (some(problem.cohesion) || some(problem.tension))) return who + "cohesion and tension";
   if (!road.rigid && problem.G.cols() > 0) return who + "rigid motions that contact alone holds";
@@ -139,7 +141,7 @@ void describe(Solution& solution, const Problem& problem, const Vector& motion, 
     solution.gap[i] = motion[d * i];
     solution.slip_increment.segment(t * i, t) = motion.segment(d * i + 1, t);
     const double p_n = solution.p[d * i], slip = motion.segment(d * i + 1, t).norm();
-    const double bound = problem.friction_bound(i, p_n), friction = solution.p.segment(d * i + 1, t).norm();
+    const double bound = problem.friction_bound(i, p_n, solution.p[d * i + 1]), friction = solution.p.segment(d * i + 1, t).norm();
     if (p_n + problem.tension_of(i) <= 1e-13 * scales.force)
       solution.states.push_back(ContactState::open);
     else if (friction < bound * (1.0 - 1e-10) || (bound > 0.0 && slip <= 1e-12 * scales.length))

@@ -105,7 +105,7 @@ Trials corrected(const Problem& problem, const Matrix& r, const Trials& trials, 
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     Trial& trial = next[static_cast<std::size_t>(i)];
     const Local p_t = p.segment(d * i + 1, t), slip = motion.segment(d * i + 1, t);
-    const double bound = problem.friction_bound(i, p[d * i]);
+    const double bound = problem.friction_bound(i, p[d * i], p[d * i + 1]);
     if (trial.state == ContactState::open) {
       if (r(0, i) * motion[d * i] >= -rounding) continue;
       trial.state = problem.mu[i] > 0.0 ? ContactState::stick : ContactState::slip;

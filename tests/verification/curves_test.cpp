@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -168,6 +169,64 @@ TEST(FrictionOfAStep, LimitsTheShearOfSlidingPairs) {
     EXPECT_NEAR(contact_of(increment).tangential_force, -1000.0 * mu, 1e-6);
     EXPECT_EQ(increment.factors.at("drive"), 1.0);
   }
+}
+
+/// Factors and forces of the increments after the first step.
+std::vector<std::array<double, 4>> path_of(const analysis::StaticSolution& solution) {
+  EXPECT_LE(last(solution).certificate.worst(), 1e-10);
+  std::vector<std::array<double, 4>> path;
+  for (const analysis::IncrementResult& increment : solution.increments)
+    if (increment.step > 1)
+      path.push_back({increment.factors.at("drive"), increment.factors.at("press"), contact_of(increment).normal_force,
+                      contact_of(increment).tangential_force});
+  return path;
+}
+
+void expect_same(const analysis::StaticSolution& one, const analysis::StaticSolution& other) {
+  const auto a = path_of(one), b = path_of(other);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < a[k].size(); ++i) EXPECT_NEAR(a[k][i], b[k][i], i < 2 ? 1e-12 : 1e-7) << k;
+}
+
+// The same history in one step, and in several.
+TEST(CurveOverSteps, IsTheSameAsInOneStep) {
+  const std::string table = "table: [[2, 0], [4, 1], [8, -1], [10, 0.5]]", hold = "ramp: {from: 1, to: 2, begin: 0.25, end: 0.5}",
+                    steps = "steps: [{loads: {press: 1}}, ";
+  expect_same(run(driven_block(1e6, "curves: {saw: {" + table + "}, rise: {" + hold + "}}\n" + steps +
+                                        "{increments: 8, loads: {drive: saw, press: rise}}]\n")),
+              run(driven_block(1e6, "curves: {saw: {" + table + ", over: {a: 1, b: 6, c: 1}}, rise: {" + hold +
+                                        ", over: {a: 2, b: 12, c: 2}}}\n" + steps +
+                                        "{name: a, loads: {drive: saw, press: rise}}, {name: b, increments: 6, loads: "
+                                        "{drive: saw, press: rise}}, {name: c, loads: {drive: saw, press: rise}}]\n")));
+  const std::string sine = "sine: {amplitude: 0.7, periods: 1.75, mean: 0}";
+  expect_same(run(driven_block(1e6, "curves: {wave: {" + sine + "}}\n" + steps + "{increments: 12, loads: {drive: wave}}]\n")),
+              run(driven_block(1e6, "curves: {wave: {" + sine + ", over: [a, b, c]}}\n" + steps +
+                                        "{name: a, increments: 4, loads: {drive: wave}}, {name: b, increments: 4, loads: "
+                                        "{drive: wave}}, {name: c, increments: 4, loads: {drive: wave}}]\n")));
+}
+
+// A rigid-like block that is driven to and fro: at the bound mu N all the while, with a friction that one of the steps
+// changes. The factor at every increment is that of the table at its time.
+TEST(CurveOverSteps, GivesTheFactorAtTheTimeOfItsSteps) {
+  const auto solution = run(driven_block(1e9, R"(curves: {tide: {table: [[0, 0], [1, 1], [4, -2], [5, 0]], over: {rise: 1, ebb: 4}}}
+steps:
+  - {name: settle, loads: {press: 1}}
+  - {name: rise, increments: 4, loads: {drive: tide}}
+  - {name: ebb, increments: 8, loads: {drive: tide}, friction: {base: 0.1}}
+)"));
+  EXPECT_LE(last(solution).certificate.worst(), 1e-10);
+  const auto tide = [](double t) { return t < 1.0 ? t : t < 4.0 ? 1.0 - (t - 1.0) : -2.0 + 2.0 * (t - 4.0); };
+  int checked = 0;
+  for (const analysis::IncrementResult& increment : solution.increments) {
+    if (increment.step == 1) continue;
+    const double s = increment.reached, t = increment.step == 2 ? s : 1.0 + 4.0 * s;
+    const double mu = increment.step == 2 ? 0.3 : 0.3 - 0.2 * s;
+    EXPECT_NEAR(increment.factors.at("drive"), tide(t), 1e-12);
+    EXPECT_NEAR(contact_of(increment).tangential_force, (t <= 1.0 || t > 4.0 ? -1.0 : 1.0) * mu * 1000.0, 1e-6) << t;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 12);
 }
 
 }  // namespace

@@ -326,5 +326,67 @@ springs: [{{on: block.bottom, k_n: 4e6}}]
   }
 }
 
+// A bar E, A, L held at its left end, with a spring k at its right end whose far end moves by a: u = a k / (k + E A / L),
+// and the force of the spring is k (a - u). Steps and curves give the movement a factor; twice as much moves twice as far.
+TEST(SpringsAtRest, PullABarByTheirStiffnessTimesWhatIsLeft) {
+  const double E = 2e9, A = 0.5 * 0.2, L = 2.0, k = 3e8, a = 1e-3;
+  for (const double scale : {1.0, 1e-3, 1e3}) {
+    const double area = A * scale;  // plane: the height is scaled, the thickness is not
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{thickness: 0.2}}
+materials: {{stuff: {{young: {}, poisson: 0}}}}
+bodies: {{bar: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [{}, {}]}}}}, mesh: {{size: {}}}}}}}
+supports: [{{on: bar.left, fix: [x, y]}}]
+springs: [{{on: bar.right, k_n: {:.17g}, at_rest: [{:.17g}, null], name: jack}}]
+curves: {{wave: {{sine: {{amplitude: 0.5, periods: 0.75, mean: 1}}}}}}
+steps: [{{name: tighten}}, {{increments: 3, loads: {{jack: wave}}}}, {{loads: {{jack: -2}}}}]
+)",
+                                          E, L * scale, 0.5 * scale, 0.25 * scale, k / area, a * scale));
+    const double stiffness = E * area / (L * scale), u = a * scale * k / (k + stiffness);
+    EXPECT_LE(last(solution).certificate.worst(), 1e-10);
+    for (const analysis::IncrementResult& increment : solution.increments) {
+      const double factor = increment.factors.at("jack");
+      const Vec2 force = increment.springs.front();
+      EXPECT_NEAR(force.x(), factor * k * (a * scale - u), 1e-9 * k * a * scale) << scale;
+      EXPECT_NEAR(force.y(), 0.0, 1e-9 * k * a * scale);
+      EXPECT_NEAR(increment.reactions.front().x(), -force.x(), 1e-9 * k * a * scale);
+      // As a load k a on a spring that was at rest at 0.
+      EXPECT_NEAR(increment.energy.external, increment.energy.elastic, 1e-9 * k * a * a * scale * scale);
+    }
+    EXPECT_NEAR(solution.increments.back().factors.at("jack"), -2.0, 0.0);
+  }
+}
+
+// Ground that settles under a rigid block by [a_n, a_t]: the block goes with it, without any force; turned too.
+TEST(SpringsAtRest, CarryARigidBlockWithTheGround) {
+  for (const double angle : {0.0, 0.9, -2.0}) {
+    const Frame frame{angle, 1.0};
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+materials: {{stuff: {{young: 1e9, poisson: 0.2}}}}
+bodies:
+  aside: {{material: stuff, shape: {}, mesh: {{size: 1}}}}
+  block: {{rigid: true, shape: {}}}
+supports: [{{on: aside, fix: [x, y]}}]
+springs:
+  - {{on: block.bottom, k_n: 5e7, k_t: 2e7, at_rest: [1e-3, -2e-3], name: bed}}
+  - {{on: block.top, k_n: 1e7, k_t: 1e7, at_rest: [-1e-3, 2e-3], name: roof}}
+steps: [{{loads: {{bed: 1, roof: 1}}}}, {{loads: {{bed: 0.5, roof: 0.5}}}}]
+)",
+                                          frame.box(9, 0, 1, 1), frame.box(-1, 0, 2, 3)));
+    // Bottom: outward normal (0, -1), tangent (1, 0); top: (0, 1), (-1, 0).
+    for (const std::size_t k : {0u, 1u}) {
+      const analysis::IncrementResult& increment = increment_at(solution, k);
+      const Vector& motion = increment.fields.displacements[1];
+      const Vec2 expected = (k == 0 ? 1.0 : 0.5) * frame.turned({-2e-3, -1e-3});
+      EXPECT_LT((motion.head<2>() - expected).norm(), 1e-14);
+      EXPECT_NEAR(motion[2], 0.0, 1e-14);
+      EXPECT_LT(sum_of_springs(increment).norm(), 1e-6);
+      EXPECT_LT(increment.springs[0].norm(), 1e-6);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification

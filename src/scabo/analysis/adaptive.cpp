@@ -108,10 +108,10 @@ Flags left_out_cells(const StaticSolution& solution) {
   return left_out;
 }
 
-/// Elements of the faces of cracks in contact that face each other are frozen together.
+/// Elements of the faces of cracks that face each other are frozen together where tip rings are added.
 void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::size_t body,
                         std::vector<bool>& frozen) {
-  const std::vector<int> cracks = mesh::cracks_in_contact(model, static_cast<int>(body));
+  const std::vector<int> cracks = mesh::cracks_with_tractions(model, static_cast<int>(body));
   if (cracks.empty() || frozen.empty()) return;
   std::map<std::vector<int>, std::size_t>
       number;  // of an element, by its nodes; faces run as the boundaries of cells do

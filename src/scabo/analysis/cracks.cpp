@@ -31,11 +31,11 @@ bool in_resonance(const element::StressIntensity& factors, const std::vector<ele
   });
 }
 
-/// Cells at the tips of cracks whose faces are in contact, and the cracks. They are the innermost of many rings, so
+/// Cells at the tips of cracks whose faces are in contact or held, and the cracks. They are the innermost of many rings, so
 /// small that T is lost in the discretised singular field, and without the contact's tractions on their own faces.
-std::map<std::size_t, int> tips_in_contact(const StaticSolution& solution, std::size_t body) {
+std::map<std::size_t, int> tips_in_rings(const StaticSolution& solution, std::size_t body) {
   std::map<std::size_t, int> cells;
-  const std::vector<int> cracks = mesh::cracks_in_contact(solution.model, static_cast<int>(body));
+  const std::vector<int> cracks = mesh::cracks_with_tractions(solution.model, static_cast<int>(body));
   if (cracks.empty()) return cells;
   for (const mesh::TipFace& tip : mesh::tip_faces(solution.model.bodies[body], solution.mesh.bodies[body]))
     if (std::find(cracks.begin(), cracks.end(), tip.crack) != cracks.end()) cells[tip.cell] = tip.crack;
@@ -120,14 +120,20 @@ std::string name_of_tip(const model::Body& body, const Vec2& tip) {
 std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
   std::vector<Warning> warnings;
   for (const CrackResult& crack : cracks) {
-    if (std::isnan(crack.factors.K_I))
+    if (crack.held)
+      warnings.push_back(
+          {WarningKind::crack, crack.name + " held",
+           fmt::format("a support holds a face of '{}', so that the stress at its tip is not that between free faces: "
+                       "the stress intensity factors are undefined",
+                       crack.name)});
+    else if (std::isnan(crack.factors.K_I))
       warnings.push_back(
           {WarningKind::crack, crack.name + " resonance",
            fmt::format(
                "the load on the faces of '{}' has the same singularity at the tip as the stress (resonance), so "
                "that the stress has an additional factor ln(r): the stress intensity factors are undefined",
                crack.name)});
-    if (resolved(crack.factors)) continue;
+    if (crack.held || resolved(crack.factors)) continue;
     std::string list;
     for (const std::complex<double>& exponent : crack.factors.exponents)
       list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
@@ -145,7 +151,8 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
   std::vector<CrackResult> results;
   for (std::size_t b = 0; b < solution.cells.size(); ++b) {
     if (increment.is_absent(static_cast<int>(b))) continue;
-    const std::map<std::size_t, int> touching = tips_in_contact(solution, b);
+    const std::map<std::size_t, int> touching = tips_in_rings(solution, b);
+    const std::vector<int> held = mesh::cracks_held(solution.model, static_cast<int>(b));
     for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
       const auto& super_element = solution.cells[b][c];
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
@@ -161,6 +168,8 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
         const Vec2& end = solution.mesh.bodies[b].nodes[static_cast<std::size_t>(cell.boundary.back().nodes.back())];
         add_innermost_tractions(factors, traction_at(solution, increment, b, tip->second, cell.centre),
                                 (end - cell.centre).norm());
+        results.back().held = std::find(held.begin(), held.end(), tip->second) != held.end();
+        if (results.back().held) take_back(factors);
       }
       if (in_resonance(factors, loads)) take_back(factors);
     }

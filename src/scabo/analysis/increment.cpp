@@ -359,8 +359,10 @@ std::vector<bool> touching_pairs(const Prepared& prepared) {
 
 std::vector<double> coefficients_at_start(const model::Model& model) {
   std::vector<double> coefficients;
-  if (!model.steps.empty() && !model.steps.front().friction.empty())
-    for (const model::Contact& contact : model.contacts) coefficients.push_back(contact.friction);
+  if (model.steps.empty() || model.steps.front().friction.empty()) return coefficients;
+  for (const model::Contact& contact : model.contacts) coefficients.push_back(contact.friction);
+  for (const model::Contact& contact : model.contacts)
+    coefficients.push_back(contact.backward_friction.value_or(contact.friction));
   return coefficients;
 }
 
@@ -567,7 +569,8 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
     }
   }
   const system::Dofs& dofs = prepared.structure.dofs;
-  result.springs = system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u);
+  result.springs = system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u,
+                                             state.factors.loads);
   result.fields.interior.resize(prepared.model.bodies.size());
   result.fields.initial.resize(prepared.model.bodies.size());
   for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {

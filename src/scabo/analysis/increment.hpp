@@ -35,7 +35,7 @@ Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>&
 /// Factors of loads and supports at one time, and coefficients of friction.
 struct Factors {
   std::vector<double> loads, supports;
-  std::vector<double> friction;  ///< of every contact; empty if no step changes one
+  std::vector<double> friction;  ///< of every contact, forward, then backward; empty if no step changes one
   // Staged construction (stages.hpp):
   std::vector<double> presence = {};  ///< per body, part of its loads that acts, 0 to 1; empty: all of all
   double release = 0.0;               ///< part of State::released that acts

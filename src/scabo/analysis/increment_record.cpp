@@ -142,6 +142,7 @@ void exchange(Io& io, element::CornerTerm& of) {
 }
 template <typename Io>
 void exchange(Io& io, CrackResult& of) {
+  io(of.held);
   exchange(io, of.name);
   element::StressIntensity& factors = of.factors;
   io(factors.kind);

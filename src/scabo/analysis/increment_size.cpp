@@ -23,7 +23,7 @@ int state_of(const State& state, std::size_t pair) {
 /// Whether the forces of a pair depend on the path that the loads take.
 bool depends_on_path(const contact::Law& law) {
   const contact::Limits limits = law.limits({});
-  return limits.mu > 0.0 || limits.cohesion > 0.0 || limits.tension > 0.0;
+  return limits.mu > 0.0 || limits.mu_backward.value_or(0.0) > 0.0 || limits.cohesion > 0.0 || limits.tension > 0.0;
 }
 
 }  // namespace

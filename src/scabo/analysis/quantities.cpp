@@ -84,6 +84,8 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
       return increment.contacts[index].max_gap;
     case Kind::reaction:
       return increment.reactions[index][quantity.component];
+    case Kind::spring_force:
+      return increment.springs[index][quantity.component];
     case Kind::displacement:
       return displacement_of_point(solution, increment, quantity);
     case Kind::stress_intensity:
@@ -254,7 +256,8 @@ HeldPairs held_pairs(const Prepared& prepared, const State& state) {
     of_T.emplace_back(n, column, 1.0);
     of_S.emplace_back(n, column, 1.0);
     if (state.states[i] == contact::ContactState::slip) {
-      const double mu = laws.of_pair[i]->limits(state.history[i]).mu, p_t = state.p[t];
+      const contact::Limits limits = laws.of_pair[i]->limits(state.history[i]);
+      const double p_t = state.p[t], mu = p_t > 0.0 ? limits.mu_backward.value_or(limits.mu) : limits.mu;
       if (mu > 0.0 && p_t != 0.0) of_T.emplace_back(t, column, std::copysign(mu, p_t));
     } else {
       of_T.emplace_back(t, ++column, 1.0);

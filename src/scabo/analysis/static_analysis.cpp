@@ -250,7 +250,7 @@ Factors start_of(const model::Model& model, std::size_t step) {
   const model::Step& before = model.steps[step - 1];
   return {before.load_factors,
           before.support_factors,
-          before.friction,
+          model::coefficients_of(before),
           presence,
           release,
           fits_at(model, static_cast<int>(step) - 1)};
@@ -260,7 +260,7 @@ Factors start_of(const model::Model& model, std::size_t step) {
 Factors factors_in(const model::Model& model, std::size_t index, double s) {
   const model::Step& step = model.steps[index];
   Factors factors = between(start_of(model, index),
-                            {step.load_factors, step.support_factors, step.friction,
+                            {step.load_factors, step.support_factors, model::coefficients_of(step),
                              presence_at(model, static_cast<int>(index)), 0.0, fits_at(model, static_cast<int>(index))},
                             s);
   if (s == 1.0) return factors;  // those of the curves

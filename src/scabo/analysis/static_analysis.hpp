@@ -69,6 +69,7 @@ struct Energy {
 struct CrackResult {
   std::string name;  ///< `body.crack`, or `body.corner`
   element::StressIntensity factors;
+  bool held = false;  ///< a support holds one of its faces, so that its stress is not that of free faces
 };
 
 /// What acts on a body through one of its edges (edge_forces.hpp).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace scabo::contact {
 
@@ -46,8 +47,31 @@ double evaluate_normal(const Pair& pair, double tension, Branch& branch) {
   return std::min(pair.opening, strength);  // Zhu 2017, eq. (7)
 }
 
-Vec2 evaluate_tangent(const Pair& pair, double mu, double cohesion, Branch& branch) {
-  const double bound = cohesion + mu * std::max(pair.p_n, 0.0), size = pair.trial.norm();
+/// Where p_t(r) = 0 within rounding and friction prevents slip in one direction only: p_t(r) is on the edge of the other
+/// side, whose bound is 0. Nothing where it is not.
+std::optional<Vec2> evaluate_one_sided(const Pair& pair, const Problem& problem, Eigen::Index i, Branch& branch) {
+  const double cohesion = problem.cohesion_of(i), forward = problem.mu_against(i, -1.0),
+               backward = problem.mu_against(i, 1.0);
+  if (forward == backward || std::min(forward, backward) > 0.0 || cohesion > 0.0) return std::nullopt;
+  if (pair.p_n <= pair.smallest || std::abs(pair.trial[0]) > pair.smallest) return std::nullopt;
+  branch.bound_tie = branch.tip = false;
+  branch.edge = true;
+  branch.tangent = Branch::Tangent::stick;
+  branch.slope = 0.0;
+  branch.lambda = 1.0;
+  branch.along = Vec2(backward == 0.0 ? 1.0 : -1.0, 0.0);
+  const bool within = pair.trial[0] * branch.along[0] <= 0.0;
+  return within ? Vec2(pair.p_t - pair.trial) : pair.p_t;
+}
+
+Vec2 evaluate_tangent(const Pair& pair, const Problem& problem, Eigen::Index i, Branch& branch) {
+  if (problem.mu_backward.size() > 0)
+    if (const auto at_edge = evaluate_one_sided(pair, problem, i, branch)) return *at_edge;
+  const double size = pair.trial.norm(), cohesion = problem.cohesion_of(i);
+  // At the tip of the cone the direction decides (followed_mu).
+  const bool may_be_tip = size <= pair.smallest && std::abs(pair.p_n) <= pair.smallest;
+  const double mu = may_be_tip ? problem.largest_mu(i) : problem.mu_against(i, pair.trial[0]);
+  const double bound = cohesion + mu * std::max(pair.p_n, 0.0);
   branch.bound_tie = mu > 0.0 && std::abs(pair.p_n) <= pair.smallest;
   branch.slope = pair.p_n > pair.smallest || (branch.bound_tie && branch.contact) ? mu : 0.0;
   branch.edge = branch.tip = false;
@@ -68,6 +92,11 @@ Vec2 evaluate_tangent(const Pair& pair, double mu, double cohesion, Branch& bran
     if (branch.tangent == Branch::Tangent::slip) branch.lambda = bound / size;
   }
   return pair.p_t - (size > bound ? bound / size : 1.0) * pair.trial;  // eq. (8)
+}
+
+/// Coefficient for the change dt of p_t(r).
+double mu_for(const Problem& problem, Eigen::Index i, const Branch& branch, const Vec2& dt) {
+  return problem.mu_against(i, branch.tip ? dt[0] : branch.along[0]);
 }
 
 double bound_slope(const Branch& branch, double mu, double dp_n) {
@@ -159,7 +188,7 @@ void BDifferentiableEquations::evaluate_at_motion(const Vector& p, Residual& at)
     const Pair pair{p[d * i], r_[d * i] * at.motion[d * i], p_t, p_t - r_[d * i + 1] * tangent_part(at.motion, i, d),
                     smallest};
     at.H[d * i] = evaluate_normal(pair, problem_.tension_of(i), branch);
-    set_tangent_part(at.H, i, d, evaluate_tangent(pair, problem_.mu[i], problem_.cohesion_of(i), branch));
+    set_tangent_part(at.H, i, d, evaluate_tangent(pair, problem_, i, branch));
   }
 }
 
@@ -192,10 +221,16 @@ Vector BDifferentiableEquations::derivative(const Residual& at, const Vector& di
     slope[d * i] = branch.normal_tie ? std::min(dg, dp_n) : branch.contact ? dg : dp_n;
     const Vec2 dp_t = tangent_part(direction, i, d);
     const Vec2 dt = dp_t - r_[d * i + 1] * tangent_part(du, i, d);
-    set_tangent_part(slope, i, d, dp_t - projected_derivative(branch, dt, bound_slope(branch, problem_.mu[i], dp_n)));
+    const double db = bound_slope(branch, mu_for(problem_, i, branch, dt), dp_n);
+    set_tangent_part(slope, i, d, dp_t - projected_derivative(branch, dt, db));
   }
   if (m > 0) slope.tail(m) = problem_.G.transpose() * direction.head(d * N);
   return slope;
+}
+
+double BDifferentiableEquations::followed_mu(Eigen::Index i, const Branch& branch) const {
+  if (branch.tip && branch.tangent != Branch::Tangent::slip) return problem_.mu[i];  // not used: any value, but one
+  return problem_.mu_against(i, branch.along[0]);
 }
 
 int BDifferentiableEquations::follow(Residual& at, const Vector& direction) const {
@@ -213,11 +248,11 @@ int BDifferentiableEquations::follow(Residual& at, const Vector& direction) cons
     // Within rounding both branches are valid, and the present one is kept.
     const double room = 1e-9 * (std::abs(dg) + std::abs(dp_n));
     if (branch.normal_tie && std::abs(dg - dp_n) > room) branch.contact = dg < dp_n;
-    if (branch.bound_tie && dp_n != 0.0) branch.slope = dp_n > 0.0 ? problem_.mu[i] : 0.0;
     const Vec2 dt = tangent_part(direction, i, d) - r_[d * i + 1] * tangent_part(du, i, d);
-    const double db = bound_slope(branch, problem_.mu[i], dp_n);
+    const double db = bound_slope(branch, mu_for(problem_, i, branch, dt), dp_n);
     if (!(branch.edge && std::abs(branch.along.dot(dt) - db) <= 1e-9 * (dt.norm() + std::abs(db))))
       follow_tangent(branch, dt, db);
+    if (branch.bound_tie && dp_n != 0.0) branch.slope = dp_n > 0.0 ? followed_mu(i, branch) : 0.0;
     changed += !branch.same_branch(before);
   }
   return changed;

@@ -19,6 +19,10 @@
 //          dp_t - P_db(dt)                              tip of the cone, b = 0 and p_t(r) = 0: the law itself, again
 //     HR'  G' dp
 //
+// In the plane mu may differ by direction (problem.hpp): it is then that of the sign of p_t(r), at the tip of the cone
+// that of the sign of dt, where one of the two may be 0 (dp_t - dt, or dp_t). Where b = 0 on one side only, p_t(r) = 0
+// lies on the edge of that side.
+//
 // A proximal term may be added to the motions: u = q + W p + G a + (w / r)(p - centre).
 #pragma once
 
@@ -34,12 +38,12 @@ struct Branch {
   bool contact = false;  ///< the minimum is r u_n
   Tangent tangent = Tangent::free;
   bool normal_tie = false;    ///< both arguments of min are equal within rounding
-  bool edge = false;          ///< |p_t(r)| = b > 0 within rounding
+  bool edge = false;          ///< |p_t(r)| = b > 0 within rounding, or p_t(r) = 0 and b = 0 on one side only
   bool tip = false;           ///< p_t(r) = 0 and b = 0
   bool bound_tie = false;     ///< p_n = 0, where b has two slopes
   double slope = 0.0;         ///< db / dp_n on the branch followed
   double lambda = 1.0;        ///< slip: b / |p_t(r)|
-  Vec2 along = Vec2::Zero();  ///< slip: e
+  Vec2 along = Vec2::Zero();  ///< slip, edge: e
 
   bool tied() const { return normal_tie || edge || tip || bound_tie; }
   bool same_branch(const Branch& other) const {
@@ -84,6 +88,9 @@ class BDifferentiableEquations {
 
   /// At ties: follows the branches that d itself takes from now on. Returns the number of pairs whose branch changes.
   int follow(Residual& at, const Vector& d) const;
+
+  /// Coefficient of friction of pair `i` on the branch followed.
+  double followed_mu(Eigen::Index i, const Branch& branch) const;
 
  private:
   const Problem& problem_;

@@ -23,7 +23,7 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
     const auto slip = motion.segment(d * i + 1, d - 1);
     const auto p_t = p.segment(d * i + 1, d - 1);
     const double g = motion[d * i], p_n = p[d * i], ds = slip.norm(), friction = p_t.norm();
-    const double bound = problem.friction_bound(i, p_n), tension = problem.tension_of(i);
+    const double bound = problem.friction_bound(i, p_n, p_t[0]), tension = problem.tension_of(i);
     const auto raise = [](double& figure, double value) { figure = std::max(figure, value); };
     raise(certificate.penetration, -g / scales.length);
     if (std::isinf(tension)) {
@@ -44,7 +44,9 @@ Certificate certify(const Problem& problem, const Vector& p, const Vector& a, co
     } else {
       raise(certificate.slip_direction, (friction * ds + p_t.dot(slip)) / work);
     }
-    raise(certificate.slip_direction, (bound - friction) * ds / work);
+    // The bound of the friction that opposes this slip, which is another one where p_t has the wrong sign or none.
+    const double opposing = d == 2 ? problem.friction_bound(i, p_n, -slip[0]) : bound;
+    raise(certificate.slip_direction, (opposing - friction) * ds / work);
   }
   if (problem.G.cols() > 0)
     certificate.rigid_balance = (problem.G.transpose() * p + problem.f).lpNorm<Eigen::Infinity>() / scales.force;

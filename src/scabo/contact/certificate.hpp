@@ -13,7 +13,7 @@ struct Certificate {
   double equilibrium = 0.0;      ///< largest residual force of a node (set by the analysis)
   double penetration = 0.0;      ///< most negative gap
   double tension = 0.0;          ///< largest tensile force beyond the strength of the pair
-  double friction_excess = 0.0;  ///< largest |p_t| - (cohesion + mu p_n)
+  double friction_excess = 0.0;  ///< largest |p_t| - (cohesion + mu p_n), mu that of the direction p_t opposes
   double complementarity = 0.0;  ///< largest (p_n + tension) g
   double slip_direction = 0.0;   ///< largest slip in the direction of friction, or slip below the friction bound
   double rigid_balance = 0.0;    ///< force and moment balance of a body (contact part; completed by the analysis)

@@ -60,7 +60,8 @@ Sparse rays_of(const Problem& problem, bool with_friction) {
       add(d * i, column, 1.0);
       if (side == 0) continue;
       const double angle = 2.0 * std::numbers::pi * side / sides;
-      add(d * i + 1, column, problem.mu[i] * (d == 2 ? 2.0 * side - 3.0 : std::cos(angle)));
+      const double along = d == 2 ? 2.0 * side - 3.0 : std::cos(angle);
+      add(d * i + 1, column, problem.mu_against(i, along) * along);
       if (d == 3) add(d * i + 2, column, problem.mu[i] * std::sin(angle));
     }
   Sparse rays(d * N, (sides + 1) * N);
@@ -91,12 +92,14 @@ bool may_slip(const Matrix& W, const Vector& q, double mu, double from, double t
 }
 
 /// Whether no force of the pair alone satisfies Coulomb's law, given r with W r = 0, q.r < 0, which excludes stick.
-bool no_force_obeys(const Matrix& W, const Vector& q, double mu) {
+bool no_force_obeys(const Problem& one) {
+  const Matrix& W = one.W.dense();
+  const Vector& q = one.q;
   if (!(q[0] < 0.0)) return false;  // open
   if (q.size() == 2) {
     for (const double e : {-1.0, 1.0}) {
       Matrix columns(2, 2);
-      columns << W * Vec2(1.0, -mu * e), Vec2(0.0, -e);
+      columns << W * Vec2(1.0, -one.mu_against(0, -e) * e), Vec2(0.0, -e);
       if (combine(columns, -q)) return false;
     }
     return true;
@@ -104,7 +107,7 @@ bool no_force_obeys(const Matrix& W, const Vector& q, double mu) {
   constexpr int arcs = 6, halvings = 12;
   const double width = 2.0 * std::numbers::pi / arcs;
   for (int arc = 0; arc < arcs; ++arc)
-    if (may_slip(W, q, mu, arc * width, (arc + 1) * width, halvings)) return false;
+    if (may_slip(W, q, one.mu[0], arc * width, (arc + 1) * width, halvings)) return false;
   return true;
 }
 
@@ -134,6 +137,7 @@ OnePair one_pair(const Problem& problem, Index i) {
   one.problem.W = Matrix(stiffness * W);
   one.problem.q = stiffness * problem.q.segment(d * i, d);
   one.problem.mu = problem.mu.segment(i, 1);
+  if (problem.mu_backward.size() > 0) one.problem.mu_backward = problem.mu_backward.segment(i, 1);
   return one;
 }
 
@@ -155,7 +159,7 @@ std::optional<Infeasibility> of_single_pairs(const Problem& problem) {
     Vector r = balanced(one.problem, rays_of(one.problem, true));
     if (const double size = r.lpNorm<Eigen::Infinity>(); size > 0.0) r /= size;
     if (!proves_no_motion(one.problem, r)) continue;
-    if (!no_force_obeys(one.problem.W.dense(), one.problem.q, one.problem.mu[0])) continue;
+    if (!no_force_obeys(one.problem)) continue;
     Infeasibility result;
     result.r = Vector::Zero(problem.q.size());
     result.r.segment(d * i, d) = r;
@@ -201,7 +205,8 @@ bool proves_no_motion(const Problem& problem, const Vector& r) {
   const Index d = problem.dimension;
   if (problem.G.cols() > 0 || r.size() != problem.q.size() || !r.allFinite()) return false;
   for (Index i = 0; i < problem.pairs(); ++i)
-    if (!(r[d * i] >= 0.0 && r.segment(d * i + 1, d - 1).norm() <= problem.mu[i] * r[d * i] * (1.0 + 1e-12)))
+    if (!(r[d * i] >= 0.0 && r.segment(d * i + 1, d - 1).norm() <=
+                                 problem.mu_against(i, r[d * i + 1]) * r[d * i] * (1.0 + 1e-12)))
       return false;
   const double work = -problem.q.dot(r), all = problem.q.cwiseAbs().dot(r.cwiseAbs());
   if (!(work > stands_out * all)) return false;

@@ -448,6 +448,7 @@ class InteriorPoints {
 bool may_take_interior_points(const Problem& problem) {
   constexpr Index most_dense = 1000;  // rows
   return problem.pairs() > 0 && problem.cohesion.size() == 0 && problem.tension.size() == 0 &&
+         problem.mu_backward.size() == 0 &&  // the cone must be its own dual, scaled by one mu
          (problem.W.is_sparse() || (problem.W.is_dense() && problem.W.size() <= most_dense)) &&
          problem.mu.minCoeff() > 0.0 && problem.W.diagonal().minCoeff() >= 0.0 && problem.W.diagonal().mean() > 0.0 &&
          !(problem.q.isZero(0.0) && problem.f.isZero(0.0));

@@ -29,10 +29,12 @@ double squared_map_of_bonded(const Parts& u, const Parts& p, double tension, dou
   return normal * normal + (p.t - projected).squaredNorm();
 }
 
-/// |p - P_K(p - (u + mu |u_t| n))|^2.
-double squared_map_of_cone(const Parts& u, const Parts& p, double mu) {
-  const double x_n = p.n - u.n - mu * u.t.norm();
+/// |p - P_K(p - (u + mu |u_t| n))|^2 of pair i. Where mu differs by direction, one edge of the plane cone lies on each
+/// side of the normal, and the nearest point is on the side of x_t.
+double squared_map_of_cone(const Problem& problem, Index i, const Parts& u, const Parts& p) {
+  const double x_n = p.n - u.n - problem.mu_against(i, -u.t[0]) * u.t.norm();
   const Vec2 x_t = p.t - u.t;
+  const double mu = problem.mu_against(i, x_t[0]);
   const double size = x_t.norm();
   if (size <= mu * x_n) return (p.n - x_n) * (p.n - x_n) + (p.t - x_t).squaredNorm();
   if (mu * size <= -x_n) return p.n * p.n + p.t.squaredNorm();
@@ -103,9 +105,9 @@ Measure Measure::of_forces() const {
     const Parts u(motion, i, problem.dimension, stiffness_), p_i(p, i, problem.dimension, 1.0);
     const double tension = problem.tension_of(i);
     if (problem.cohesion_of(i) > 0.0 || tension > 0.0)
-      sum += squared_map_of_bonded(u, p_i, tension, problem.friction_bound(i, p_i.n));
+      sum += squared_map_of_bonded(u, p_i, tension, problem.friction_bound(i, p_i.n, p_i.t[0] - u.t[0]));
     else
-      sum += squared_map_of_cone(u, p_i, problem.mu[i]);
+      sum += squared_map_of_cone(problem, i, u, p_i);
   }
   if (sum == 0.0) return 0.0;
   return std::sqrt(sum) / (norm_ > 0.0 ? norm_ : p.norm() > 0.0 ? p.norm() : 1.0);

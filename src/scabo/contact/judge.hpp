@@ -12,7 +12,8 @@
 //                    the residual of FCLIB with W and q scaled so that the mean of W_ii is 1; P_K: nearest point of
 //                    Coulomb's cone. For a pair with cohesion or tension, whose set of forces is not a cone:
 //                    [p_n - max(p_n - k u_n, -tension), p_t - P_b(p_t - k u_t)], P_b the projection on the disc of
-//                    radius b = cohesion + mu (p_n)+
+//                    radius b = cohesion + mu (p_n)+. Where mu differs by direction, mu |u_t| is mu_f u_t or -mu_b u_t,
+//                    and P_K and P_b take the mu of the sign of what they project
 //     certificate    every condition by itself (certificate.hpp); lengths against what p causes, F / k at most
 //     rounding       eps max_i k sum_j |W_ij| |p_j| / F, the same of G'p: what double precision leaves uncertain of u
 //

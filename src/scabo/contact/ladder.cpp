@@ -426,6 +426,7 @@ NewtonEnd Ladder::growing_friction(const Vector& p, const Vector& a) {
   Vector p_now = p, a_now = a;
   for (double part : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0}) {
     weaker.mu = part * problem_.mu;
+    weaker.mu_backward = part * problem_.mu_backward;
     end = part == 1.0 ? newton_alone(p_now, a_now, {"newton, growing friction"})
                       : run(weaker, p_now, a_now, {"newton, growing friction"});
     if (!end.p.allFinite() || late()) break;

@@ -8,6 +8,15 @@ namespace scabo::contact {
 
 namespace {
 
+/// p_t = plus b+ - minus b-, b+ + b- <= bound p_n.
+struct Sides {
+  double plus = 1.0, minus = 1.0, bound = 0.0;
+};
+Sides sides_of(const Problem& problem, Eigen::Index i) {
+  if (problem.mu_backward.size() == 0) return {1.0, 1.0, problem.mu[i]};
+  return {problem.mu_against(i, 1.0), problem.mu_against(i, -1.0), 1.0};
+}
+
 /// w - M z - 1 z0 = q / unit as a tableau; columns: w (n), z (n), z0, right-hand side.
 Matrix make_tableau(const Problem& problem, double unit) {
   const Eigen::Index N = problem.pairs(), n = 4 * N;
@@ -17,16 +26,19 @@ Matrix make_tableau(const Problem& problem, double unit) {
     for (Eigen::Index j = 0; j < N; ++j) {
       const auto W = problem.W.dense().block<2, 2>(2 * i, 2 * j);
       M(i, j) = W(0, 0);
-      M(i, N + j) = W(0, 1), M(i, 2 * N + j) = -W(0, 1);
-      M(N + i, j) = W(1, 0), M(2 * N + i, j) = -W(1, 0);
-      M(N + i, N + j) = W(1, 1), M(N + i, 2 * N + j) = -W(1, 1);
-      M(2 * N + i, N + j) = -W(1, 1), M(2 * N + i, 2 * N + j) = W(1, 1);
+      const Sides to = sides_of(problem, i), from = sides_of(problem, j);
+      M(i, N + j) = W(0, 1) * from.plus, M(i, 2 * N + j) = -W(0, 1) * from.minus;
+      M(N + i, j) = to.plus * W(1, 0), M(2 * N + i, j) = -to.minus * W(1, 0);
+      M(N + i, N + j) = to.plus * W(1, 1) * from.plus, M(N + i, 2 * N + j) = -to.plus * W(1, 1) * from.minus;
+      M(2 * N + i, N + j) = -to.minus * W(1, 1) * from.plus;
+      M(2 * N + i, 2 * N + j) = to.minus * W(1, 1) * from.minus;
     }
     M(N + i, 3 * N + i) = M(2 * N + i, 3 * N + i) = 1.0;
-    M(3 * N + i, i) = problem.mu[i];
+    const Sides sides = sides_of(problem, i);
+    M(3 * N + i, i) = sides.bound;
     M(3 * N + i, N + i) = M(3 * N + i, 2 * N + i) = -1.0;
     q[i] = problem.q[2 * i];
-    q[N + i] = problem.q[2 * i + 1], q[2 * N + i] = -problem.q[2 * i + 1];
+    q[N + i] = sides.plus * problem.q[2 * i + 1], q[2 * N + i] = -sides.minus * problem.q[2 * i + 1];
   }
   Matrix tableau(n, 2 * n + 2);
   tableau.leftCols(n).setIdentity();
@@ -105,7 +117,8 @@ std::optional<Vector> lemke(const Problem& problem) {
   Vector p(2 * N);
   for (Eigen::Index i = 0; i < N; ++i) {
     p[2 * i] = unit * z[i];
-    p[2 * i + 1] = unit * (z[N + i] - z[2 * N + i]);
+    const Sides sides = sides_of(problem, i);
+    p[2 * i + 1] = unit * (sides.plus * z[N + i] - sides.minus * z[2 * N + i]);
   }
   return p;
 }

@@ -4,6 +4,9 @@
 //
 //     [g; l + ds; l - ds; mu p_n - b+ - b-]  perpendicular to  [p_n; b+; b-; l] >= 0,   p_t = b+ - b-
 //
+// Where mu differs by direction, p_t = mu_b b+ - mu_f b-, the tangential rows are l + mu_b ds and l - mu_f ds, and the
+// last one is p_n - b+ - b-.
+//
 // (Klarbring, Ingenieur-Archiv 56 (1986) 529; Stewart and Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
 #pragma once
 

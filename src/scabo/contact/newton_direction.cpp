@@ -101,7 +101,8 @@ bool NewtonDirection::enumerate(Residual& at, double regularisation, Vector& d) 
       Branch& branch = at.branches[tied[k]];
       const std::size_t bits = combination >> (3 * k) & 7;
       if (branch.normal_tie) branch.contact = (bits & 1) == 0;
-      if (branch.bound_tie) branch.slope = (bits & 2) == 0 ? equations_.problem().mu[static_cast<int>(tied[k])] : 0.0;
+      if (branch.bound_tie)
+        branch.slope = (bits & 2) == 0 ? equations_.followed_mu(static_cast<Eigen::Index>(tied[k]), branch) : 0.0;
       if (branch.edge) branch.tangent = (bits & 4) == 0 ? Branch::Tangent::slip : Branch::Tangent::stick;
       if (branch.tip) branch.tangent = (bits & 4) == 0 ? Branch::Tangent::stick : Branch::Tangent::free;
     }

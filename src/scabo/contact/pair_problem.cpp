@@ -6,7 +6,7 @@
 namespace scabo::contact {
 
 template <int d>
-PairProblem<d>::PairProblem(const double* W, double mu, double cohesion, double tension)
+PairProblem<d>::PairProblem(const double* W, Friction mu, double cohesion, double tension)
     : mu_(mu), cohesion_(cohesion), tension_(tension) {
   std::copy_n(W, d * d, W_);
   inverse_ = W[0] > 0.0 ? 1.0 / W[0] : 0.0;
@@ -21,7 +21,10 @@ PairProblem<d>::PairProblem(const double* W, double mu, double cohesion, double 
   const double size = d == 2 ? scale : scale * scale;
   determinant_ = d == 2 ? A_[0][0] : A_[0][0] * A_[1][1] - A_[0][1] * A_[1][0];
   if (!(determinant_ > 1e-14 * size)) determinant_ = 0.0;
-  if (!(scale > 0.0)) mu_ = cohesion_ = 0.0;  // the pair cannot move tangentially
+  if (!(scale > 0.0)) {  // the pair cannot move tangentially
+    mu_ = {};
+    cohesion_ = 0.0;
+  }
 }
 
 template <int d>
@@ -32,11 +35,11 @@ void PairProblem<d>::solve(const double* free, double* force) {
   if (tension_ < HUGE_VAL && open(free, force)) return;
   std::fill_n(force, d, 0.0);
   force[0] = -a_n * inverse_;
-  if (mu_ == 0.0 && cohesion_ == 0.0) return;
+  if (mu_.forward == 0.0 && mu_.backward == 0.0 && cohesion_ == 0.0) return;
   const double c[2] = {free[1] - tn_[0] * a_n, d == 3 ? free[2] - tn_[1] * a_n : 0.0};
   if (c[0] == 0.0 && c[1] == 0.0) return;
   if (stick(a_n, c, force) || slip(a_n, c, mu_, force)) return;
-  if (cohesion_ == 0.0 || !slip(a_n, c, 0.0, force)) return;
+  if (cohesion_ == 0.0 || !slip(a_n, c, {}, force)) return;
   if (force[0] < -tension_) open(free, force);
 }
 
@@ -76,7 +79,7 @@ bool PairProblem<d>::stick(double a_n, const double* c, double* force) const {
   double p_t[2] = {0.0, 0.0};
   p_t[0] = d == 2 ? -c[0] * part : (A_[0][1] * c[1] - A_[1][1] * c[0]) * part;
   if (d == 3) p_t[1] = (A_[1][0] * c[0] - A_[0][0] * c[1]) * part;
-  const double p_n = normal(a_n, p_t), bound = cohesion_ + mu_ * std::max(p_n, 0.0);
+  const double p_n = normal(a_n, p_t), bound = cohesion_ + mu_.against(p_t[0]) * std::max(p_n, 0.0);
   if (!(p_n >= -tension_ && p_t[0] * p_t[0] + p_t[1] * p_t[1] <= bound * bound)) return false;
   force[0] = p_n;
   std::copy_n(p_t, d - 1, force + 1);
@@ -85,10 +88,12 @@ bool PairProblem<d>::stick(double a_n, const double* c, double* force) const {
 
 /// The force at the bound C + mu p_n; p_n >= 0 unless mu is 0. `force` does not change if there is none.
 template <int d>
-bool PairProblem<d>::slip(double a_n, const double* c, double mu, double* force) {
-  double p_t[2] = {0.0, 0.0}, p_n;
+bool PairProblem<d>::slip(double a_n, const double* c, Friction friction, double* force) {
+  double p_t[2] = {0.0, 0.0}, p_n, mu = friction.forward;
   if constexpr (d == 2) {
-    const double along = c[0] > 0.0 ? -1.0 : 1.0, resistance = W_[0] + along * mu * nt_[0];
+    const double along = c[0] > 0.0 ? -1.0 : 1.0;
+    mu = friction.against(along);
+    const double resistance = W_[0] + along * mu * nt_[0];
     if (!(resistance > 0.0)) return false;
     p_n = -(a_n + along * cohesion_ * nt_[0]) / resistance;
     p_t[0] = along * (cohesion_ + mu * p_n);

@@ -21,8 +21,14 @@ namespace scabo::contact {
 template <int d>
 class PairProblem {
  public:
+  /// Coefficients of friction: against forward slip (p_t < 0) and backward slip (p_t > 0); equal with d = 3.
+  struct Friction {
+    double forward = 0.0, backward = 0.0;
+    double against(double p_t) const { return p_t > 0.0 ? backward : forward; }
+  };
+
   /// `W`: d x d by columns, [normal, tangents]; kept.
-  [[gnu::hot]] PairProblem(const double* W, double mu, double cohesion, double tension);
+  [[gnu::hot]] PairProblem(const double* W, Friction mu, double cohesion, double tension);
 
   /// `free`, `force`: d.
   [[gnu::hot]] void solve(const double* free, double* force);
@@ -35,12 +41,14 @@ class PairProblem {
 
   [[gnu::hot]] bool open(const double* free, double* force);
   [[gnu::hot]] bool stick(double a_n, const double* c, double* force) const;
-  [[gnu::hot]] bool slip(double a_n, const double* c, double mu, double* force);
+  [[gnu::hot]] bool slip(double a_n, const double* c, Friction friction, double* force);
   [[gnu::hot]] void slide(const Tangential& A, double a_n, const double* c, double m, double* p_t);
   [[gnu::hot]] double normal(double a_n, const double* p_t) const;
 
   double W_[d * d];
-  double inverse_, mu_, cohesion_, tension_;
+  double inverse_;
+  Friction mu_;
+  double cohesion_, tension_;
   double nt_[2] = {0.0, 0.0}, tn_[2] = {0.0, 0.0};  // W_nt, W_tn / W_nn; in the plane the second tangent does not exist
   Tangential A_ = {{0.0, 0.0}, {0.0, 0.0}};
   double determinant_;  // of A; 0: singular

@@ -35,7 +35,7 @@ Vector slide_of(const Problem& problem, const Vector& motion) {
 }
 
 /// Effects on the rigid motions of rays whose non-negative combinations hold all friction forces: in the plane the
-/// extreme rays n + mu t and n - mu t, in space those of a pyramid around the cone, so that a proof against it is one
+/// extreme rays n + mu_b t and n - mu_f t, in space those of a pyramid around the cone, so that a proof against it is one
 /// against the cone.
 Matrix rays_of(const Problem& problem) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
@@ -47,7 +47,8 @@ Matrix rays_of(const Problem& problem) {
     for (int k = 0; k < count && !std::isinf(problem.tension_of(i)); ++k) {
       Vector ray = problem.G.dense().row(d * i).transpose();
       if (d == 2) {
-        ray += (k == 0 ? 1.0 : -1.0) * problem.mu[i] * problem.G.dense().row(2 * i + 1).transpose();
+        const double side = k == 0 ? 1.0 : -1.0;
+        ray += side * problem.mu_against(i, side) * problem.G.dense().row(2 * i + 1).transpose();
       } else {
         const double angle = 2.0 * std::numbers::pi * k / sides,
                      reach = problem.mu[i] / std::cos(std::numbers::pi / sides);
@@ -73,7 +74,7 @@ Matrix unlimited(const Problem& problem) {
   return result;
 }
 
-/// The extreme rays of plane friction cones, sparse: n + mu t in the even columns, n - mu t in the odd ones.
+/// The extreme rays of plane friction cones, sparse: n + mu_b t in the even columns, n - mu_f t in the odd ones.
 RigidMap::Sparse sparse_rays(const Problem& problem) {
   const RigidMap::Sparse& G = problem.G.sparse();
   std::vector<Eigen::Triplet<double>> entries;
@@ -82,8 +83,9 @@ RigidMap::Sparse sparse_rays(const Problem& problem) {
     for (RigidMap::Sparse::InnerIterator it(G, motion); it; ++it) {
       const Eigen::Index pair = it.row() / 2;
       const bool normal = it.row() % 2 == 0;
-      entries.emplace_back(motion, 2 * pair, normal ? it.value() : problem.mu[pair] * it.value());
-      entries.emplace_back(motion, 2 * pair + 1, normal ? it.value() : -problem.mu[pair] * it.value());
+      const double plus = problem.mu_against(pair, 1.0), minus = problem.mu_against(pair, -1.0);
+      entries.emplace_back(motion, 2 * pair, normal ? it.value() : plus * it.value());
+      entries.emplace_back(motion, 2 * pair + 1, normal ? it.value() : -minus * it.value());
     }
   RigidMap::Sparse rays(G.cols(), G.rows());
   rays.setFromTriplets(entries.begin(), entries.end());
@@ -142,6 +144,7 @@ std::optional<Vector> mechanism_against_strengths(const Problem& problem, const 
 Problem moderate(Problem problem) {
   const double force = problem.f.norm();
   problem.mu = problem.mu.cwiseMin(10.0);
+  problem.mu_backward = problem.mu_backward.cwiseMin(10.0);
   for (Vector* strengths : {&problem.cohesion, &problem.tension})
     for (double& strength : *strengths)
       if (!std::isinf(strength)) strength = std::min(strength, force);
@@ -162,7 +165,8 @@ std::optional<Vector> find_mechanism(const Problem& in_its_unit) {
   problem.cohesion *= scale;
   problem.tension *= scale;
   const Problem less = moderate(problem);
-  const bool same = less.mu == problem.mu && less.cohesion == problem.cohesion && less.tension == problem.tension;
+  const bool same = less.mu == problem.mu && less.mu_backward == problem.mu_backward &&
+                    less.cohesion == problem.cohesion && less.tension == problem.tension;
   if (!same && !mechanism_of(less)) return std::nullopt;
   return mechanism_of(problem);
 }

@@ -29,6 +29,8 @@ namespace {
   ensure((problem.cohesion.size() == 0 || problem.cohesion.size() == N) &&
              (problem.tension.size() == 0 || problem.tension.size() == N),
          "cohesion and tension of a contact problem have one entry for each pair");
+  ensure(problem.mu_backward.size() == 0 || (problem.mu_backward.size() == N && d == 2),
+         "backward coefficients of friction have one entry for each pair of a plane problem");
 }
 
 [[gnu::hot]] std::vector<ContactState> states_of(const Problem& problem, const Vector& p, const Vector& motion,
@@ -37,8 +39,11 @@ namespace {
   states.reserve(static_cast<std::size_t>(problem.pairs()));
   const Eigen::Index d = problem.dimension;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    const double p_n = p[d * i], bound = problem.friction_bound(i, p_n), tension = problem.tension_of(i);
+    const double p_n = p[d * i], tension = problem.tension_of(i);
     const double friction = p.segment(d * i + 1, d - 1).norm(), slip = motion.segment(d * i + 1, d - 1).norm();
+    // What opposes slip counts, not the sign of a tangential force that is 0 within rounding.
+    const bool moves = d == 2 && slip > 1e-12 * scales.length;
+    const double bound = problem.friction_bound(i, p_n, moves ? -motion[d * i + 1] : p[d * i + 1]);
     // A pair that touches at zero force counts as in contact only if there is a force.
     if (!std::isinf(tension) && p_n + tension <= 1e-13 * scales.force)
       states.push_back(ContactState::open);

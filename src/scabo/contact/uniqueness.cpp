@@ -55,8 +55,8 @@ std::optional<Vector> forces_with(const Problem& problem, const std::vector<Tria
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const Trial state = states[static_cast<std::size_t>(i)];
     if (state == Trial::open) prescribe(2 * i, 0.0), prescribe(2 * i + 1, 0.0);
-    if (state == Trial::slip_plus) prescribe(2 * i + 1, problem.mu[i]);
-    if (state == Trial::slip_minus) prescribe(2 * i + 1, -problem.mu[i]);
+    if (state == Trial::slip_plus) prescribe(2 * i + 1, problem.mu_against(i, 1.0));
+    if (state == Trial::slip_minus) prescribe(2 * i + 1, -problem.mu_against(i, -1.0));
   }
   Eigen::FullPivLU<Matrix> lu(A);
   lu.setThreshold(1e-12);
@@ -94,6 +94,7 @@ std::vector<Vector> other_starts(const Problem& problem, const Solution& solutio
   std::vector<Vector> starts{Vector::Zero(d * N)};
   Problem changed = problem;
   changed.mu.setZero();
+  changed.mu_backward.resize(0);
   changed.cohesion.resize(0);
   if (const Solution frictionless = solve(changed, {}, options); frictionless.status == Status::solved)
     starts.push_back(frictionless.p);
@@ -113,7 +114,10 @@ std::vector<Vector> other_starts(const Problem& problem, const Solution& solutio
     Vector p(d * N);
     for (Eigen::Index i = 0; i < N; ++i) {
       p[d * i] = size * std::max(uniform(random), 0.0);
-      for (Eigen::Index t = 1; t < d; ++t) p[d * i + t] = problem.mu[i] * p[d * i] * uniform(random);
+      for (Eigen::Index t = 1; t < d; ++t) {
+        const double part = uniform(random);
+        p[d * i + t] = problem.mu_against(i, part) * p[d * i] * part;
+      }
     }
     starts.push_back(p);
   }
@@ -148,7 +152,7 @@ double uniqueness_bound(const Problem& problem) {
     for (Eigen::Index j = 0; j < N; ++j) {
       const double D_i = std::sqrt(W.diagonal().segment(d * i + 1, t).mean());
       const double D_j = std::sqrt(W.diagonal().segment(d * j + 1, t).mean());
-      const double M = std::sqrt(problem.mu[i] * problem.mu[j]);
+      const double M = std::sqrt(problem.largest_mu(i) * problem.largest_mu(j));
       normal(i, j) = M * D_i * D_j * K(d * i, d * j);
       tangent.block(t * i, t * j, t, t) = M / (D_i * D_j) * W.block(d * i + 1, d * j + 1, t, t);
     }

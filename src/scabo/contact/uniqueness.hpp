@@ -6,7 +6,8 @@
 //     lambda(M D (W^-1)_nn D M) lambda(M D^-1 W_tt D^-1 M) < 1,
 //     M = diag(sqrt(mu_i)),  D = diag(sqrt((W_tt)_ii)),
 //
-// with lambda the largest eigenvalue: for two solutions, dp'W dp = sum dp_i.du_i <= sum mu_i |dp_n,i| |du_t,i|. For up
+// with lambda the largest eigenvalue, mu_i the larger coefficient where it differs by direction: for two solutions,
+// dp'W dp = sum dp_i.du_i <= sum mu_i |dp_n,i| |du_t,i|. For up
 // to `most_enumerated` plane pairs all combinations of states (open, stick, slip in either direction) are solved
 // instead, which gives all solutions. In other cases, other solutions are searched by Newton from other starts; if none
 // is found, nothing is proven.

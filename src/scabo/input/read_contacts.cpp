@@ -240,6 +240,7 @@ void read_law_or_property(Reading& reading, const MapReader& map, ContactPropert
   }
   const Contact& law = *found->second.law;
   contact.friction = law.friction;
+  contact.backward_friction = law.backward_friction;
   contact.dynamic_friction = law.dynamic_friction;
   contact.slip_distance = law.slip_distance;
   contact.friction_along = law.friction_along;

@@ -8,7 +8,8 @@ namespace scabo::input {
 namespace {
 
 constexpr const char* friction_example =
-    "0.3, {static: 0.5, dynamic: 0.3, slip_distance: 1e-4} or {along: [[0, 0.3], [1, 0.5]]}";
+    "0.3, {forward: 0.3, backward: 0.6}, {static: 0.5, dynamic: 0.3, slip_distance: 1e-4} or {along: [[0, 0.3], [1, "
+    "0.5]]}";
 
 /// `[[s, mu], ...]`.
 void read_along(Report& report, const Value& value, Contact& contact) {
@@ -30,13 +31,33 @@ void read_static_and_dynamic(Report& report, const MapReader& map, Contact& cont
     contact.slip_distance = read_number(report, *distance).value_or(0.0);
 }
 
+/// `{forward: 0.3, backward: 0.6}`; 0 for what is broken.
+std::pair<double, double> read_directions(Report& report, const MapReader& map) {
+  const auto number = [&](const char* key) {
+    const auto value = map.need(key);
+    return value ? read_number(report, *value).value_or(0.0) : 0.0;
+  };
+  const double forward = number("forward");
+  return {forward, number("backward")};
+}
+
 void read_friction(Report& report, const Value& value, Contact& contact) {
   if (value.node->kind != Node::Kind::map) {
     contact.friction = read_number(report, value).value_or(0.0);
     return;
   }
-  const MapReader map(report, value, {"static", "dynamic", "slip_distance", "along"}, friction_example);
+  const MapReader map(report, value, {"forward", "backward", "static", "dynamic", "slip_distance", "along"},
+                      friction_example);
   const auto along = map.get("along");
+  if (map.has("forward") || map.has("backward")) {
+    for (const char* other : {"static", "dynamic", "slip_distance", "along"})
+      if (map.has(other))
+        map.refuse(other, "cannot be combined with 'forward' and 'backward': leave one of them out");
+    const auto [forward, backward] = read_directions(report, map);
+    contact.friction = forward;
+    contact.backward_friction = backward;
+    return;
+  }
   if (!along) {
     if (map.all_known()) read_static_and_dynamic(report, map, contact);
     return;
@@ -47,6 +68,18 @@ void read_friction(Report& report, const Value& value, Contact& contact) {
 }
 
 }  // namespace
+
+std::optional<std::pair<double, double>> read_coefficients(Report& report, const Value& value) {
+  const std::size_t before = report.count();
+  std::pair<double, double> coefficients;
+  if (value.node->kind == Node::Kind::map) {
+    const MapReader map(report, value, {"forward", "backward"}, "{forward: 0.3, backward: 0.6}");
+    if (map.all_known()) coefficients = read_directions(report, map);
+  } else {
+    coefficients.first = coefficients.second = read_number(report, value).value_or(0.0);
+  }
+  return report.count() > before ? std::nullopt : std::optional(coefficients);
+}
 
 void read_law(Reading& reading, const MapReader& map, Contact& contact) {
   Report& report = reading.report;

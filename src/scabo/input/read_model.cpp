@@ -144,6 +144,10 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.mesh.tolerance.has_value(); }))
     parts.emplace_back("tolerances of the mesh");
+  if (std::any_of(model.springs.begin(), model.springs.end(), [](const Spring& spring) {
+        return spring.at_rest[0] != 0.0 || spring.at_rest[1] != 0.0;
+      }))
+    parts.emplace_back("displacements of springs at rest");
   if (!parts.empty()) {
     std::string list = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i) {

@@ -134,7 +134,14 @@ class QuantityReader {
   std::optional<Quantity> of_support(const std::string& name) {
     std::vector<std::string> known;
     for (const Support& support : reading_.model.supports) known.push_back(support.name);
-    return find("support", name, known, reading_.conditions_known);
+    const auto& springs = reading_.model.springs;
+    const auto spring = std::find_if(springs.begin(), springs.end(), [&](const Spring& of) { return of.name == name; });
+    if (spring == springs.end() || std::find(known.begin(), known.end(), name) != known.end())
+      return find("support", name, known, reading_.conditions_known);
+    if (!for_history_) return refuse(fmt::format("the force of springs, here '{}', has no error bar: name a support", name));
+    quantity_.kind = Quantity::Kind::spring_force;
+    quantity_.index = static_cast<int>(spring - springs.begin());
+    return quantity_;
   }
 
   std::optional<Quantity> of_point(const std::string& name) {

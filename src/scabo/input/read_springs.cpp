@@ -28,7 +28,7 @@ bool read_stiffness(Reading& reading, const MapReader& map, const ReadPlace& pla
   }
   const char* keys[2] = {of_edge ? "k_n" : "k_x", of_edge ? "k_t" : "k_y"};
   // Springs act on no other places, which model/check_springs.cpp says.
-  const bool on_edge = place.place && place.place->kind == Place::Kind::edge,
+  const bool on_edge = place.place && (place.place->kind == Place::Kind::edge || place.place->kind == Place::Kind::face),
              on_point =
                  place.place && (place.place->kind == Place::Kind::corner || place.place->kind == Place::Kind::near ||
                                  place.place->kind == Place::Kind::mouth);
@@ -42,10 +42,34 @@ bool read_stiffness(Reading& reading, const MapReader& map, const ReadPlace& pla
   return reading.report.count() == before;
 }
 
+/// `[normal, tangent]` on an edge, `[x, y]` on a point; null: none.
+void read_at_rest(Reading& reading, const Value& value, Spring& spring) {
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != 2) {
+    reading.report.error(value,
+                         fmt::format("must be [normal, tangent] on an edge, [x, y] on a point, with null for none, not {}",
+                                     value.node->kind == Node::Kind::sequence
+                                         ? fmt::format("a list of {}", value.node->items.size())
+                                         : describe(*value.node)));
+    return;
+  }
+  for (std::size_t k = 0; k < 2; ++k)
+    if (value.node->items[k]->kind != Node::Kind::null)
+      spring.at_rest[k] = read_number(reading.report, value.item(k)).value_or(unread);
+}
+
+/// What springs are at rest at acts as a load, to which steps give a factor.
+void add_load_at_rest(Reading& reading, int index) {
+  const Spring& spring = reading.model.springs[static_cast<std::size_t>(index)];
+  if (spring.at_rest[0] == 0.0 && spring.at_rest[1] == 0.0) return;
+  reading.load_names.push_back(spring.name);
+  reading.index_of_load[spring.name] = static_cast<int>(reading.model.loads.size());
+  reading.model.loads.push_back({spring.name, spring.on, AtRest{index}, spring.source});
+}
+
 std::optional<Spring> read_spring(Reading& reading, const Value& value, std::set<std::string>& own_names) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"on", "k_n", "k_t", "k_x", "k_y", "name"}, spring_example,
+  const MapReader map(report, value, {"on", "k_n", "k_t", "k_x", "k_y", "at_rest", "name"}, spring_example,
                       {{"k", "write k_n, along the normal of an edge, and k_t, along it"},
                        {"stiffness", "write k_n, along the normal of an edge, and k_t, along it"}});
   Spring spring;
@@ -62,6 +86,11 @@ std::optional<Spring> read_spring(Reading& reading, const Value& value, std::set
   const ReadPlace place = on ? read_place(reading, *on) : ReadPlace{};
   if (place.body >= 0) reading.state(place.body).held = true;
   if (!map.is_map() || !read_stiffness(reading, map, place, spring)) return {};
+  if (const auto at_rest = map.get("at_rest")) {
+    read_at_rest(reading, *at_rest, spring);
+    if (!map.has("name"))
+      map.refuse("at_rest", "needs a 'name' beside it, by which steps give it a factor, as in name: jack");
+  }
   if (report.count() > before || !place.place) return {};
   spring.on = *place.place;
   return spring;
@@ -88,6 +117,7 @@ void read_springs(Reading& reading, const Value& value) {
     for (k = std::max(k, 1); !taken.insert(name).second;) name = fmt::format("{} ({})", spring.on.text, ++k);
     spring.name = name;
   }
+  for (std::size_t i = 0; i < reading.model.springs.size(); ++i) add_load_at_rest(reading, static_cast<int>(i));
 }
 
 }  // namespace scabo::input

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "scabo/input/numbers.hpp"
 #include "scabo/input/reading.hpp"
@@ -49,7 +50,29 @@ struct Factor {
   int curve = no_curve;
 };
 
-std::optional<Factor> read_factor(Reading& reading, const Value& value) {
+/// The piece of a curve over several steps that belongs to `step`, as a curve of its own; reports if there is none.
+std::optional<int> piece_for(Reading& reading, int curve, CurveOver& over, const Step& step, const Value& value) {
+  const Curve whole = reading.model.curves[static_cast<std::size_t>(curve)];
+  double begin = 0.0;
+  for (CurveOver::Part& part : over.parts) {
+    if (part.step != step.name) {
+      begin = part.end;
+      continue;
+    }
+    if (part.piece >= 0) return part.piece;
+    Curve piece = piece_of(whole, begin, part.end);
+    piece.name = fmt::format("{}_{}", whole.name, step.name);
+    while (reading.index_of_curve.contains(piece.name)) piece.name += "_";
+    part.piece = static_cast<int>(reading.model.curves.size());
+    reading.model.curves.push_back(std::move(piece));
+    return part.piece;
+  }
+  reading.report.error(value, fmt::format("curve '{}' does not run over step '{}': name the step in its 'over'",
+                                          whole.name, step.name));
+  return {};
+}
+
+std::optional<Factor> read_factor(Reading& reading, const Step& step, const Value& value) {
   const Node& node = *value.node;
   const bool word = node.kind == Node::Kind::scalar && !node.unreadable && model::is_name(node.text);
   if (!word) {
@@ -66,13 +89,19 @@ std::optional<Factor> read_factor(Reading& reading, const Value& value) {
                                      known.empty() ? "; the model has no curves" : suggestion(node.text, known)));
     return {};
   }
-  return Factor{value_of(reading.model.curves[static_cast<std::size_t>(found->second)], 1.0), found->second};
+  int curve = found->second;
+  if (const auto over = reading.curves_over.find(curve); over != reading.curves_over.end()) {
+    const auto piece = piece_for(reading, curve, over->second, step, value);
+    if (!piece) return {};
+    curve = *piece;
+  }
+  return Factor{value_of(reading.model.curves[static_cast<std::size_t>(curve)], 1.0), curve};
 }
 
 /// Takes one load or support to a factor; reports an unknown name.
 void set_factor(Reading& reading, const Index& supports, Step& step, const MapEntry& entry, const Value& value,
                 const Source& at) {
-  const auto factor = read_factor(reading, value);
+  const auto factor = read_factor(reading, step, value);
   const auto load = reading.index_of_load.find(entry.key);
   if (load != reading.index_of_load.end() && load->second >= 0) {
     const auto i = static_cast<std::size_t>(load->second);
@@ -155,15 +184,22 @@ void read_increments(Reading& reading, const Value& value, Step& step) {
   step.automatic = automatic;
 }
 
+/// Those of the contacts themselves.
+void add_coefficients(const std::vector<Contact>& contacts, Step& step) {
+  for (const Contact& contact : contacts) {
+    step.friction.push_back(contact.friction);
+    step.backward_friction.push_back(contact.backward_friction.value_or(contact.friction));
+  }
+}
+
 /// `friction: {joint: 0.3}`: coefficients at the end of the step.
 void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
   const std::vector<Contact>& contacts = reading.model.contacts;
-  if (step.friction.empty())
-    for (const Contact& contact : contacts) step.friction.push_back(contact.friction);
+  if (step.friction.empty()) add_coefficients(contacts, step);
   std::vector<std::string> known;
   for (const Contact& contact : contacts) known.push_back(contact.name);
   for (const Entry& entry : read_named(reading.report, value, "coefficients", "{joint: 0.3}")) {
-    const auto coefficient = read_number(reading.report, entry.value);
+    const auto coefficients = read_coefficients(reading.report, entry.value);
     const auto found = std::find(known.begin(), known.end(), entry.key);
     if (found == known.end()) {
       if (reading.conditions_known)
@@ -175,10 +211,10 @@ void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
     if (!has_one_coefficient(contacts[c]))
       reading.report.error(entry.key_source,
                            fmt::format("contact '{}' has no single coefficient of friction that a step could change: "
-                                       "give it 'friction' as one number",
+                                       "give it 'friction' as one number, or as one for each direction",
                                        entry.key));
-    else if (coefficient)
-      step.friction[c] = *coefficient;
+    else if (coefficients)
+      std::tie(step.friction[c], step.backward_friction[c]) = *coefficients;
   }
 }
 
@@ -236,10 +272,42 @@ void tell_of_unused_curves(Reading& reading) {
       for (const int curve : *of)
         if (curve >= 0) used[static_cast<std::size_t>(curve)] = true;
   for (std::size_t c = 0; c < used.size(); ++c)
-    if (!used[c])
+    if (!used[c] && !reading.curves_over.contains(static_cast<int>(c)))
       reading.model.warnings.push_back(
           {WarningKind::input, "curves." + reading.model.curves[c].name,
            fmt::format("curve '{}' has no effect: no step uses it", reading.model.curves[c].name)});
+}
+
+/// The steps of a curve that runs over several of them exist, follow each other, and use it. `names`: of all steps as
+/// written, with how often they run.
+void check_curves_over(Reading& reading, const std::vector<std::pair<std::string, long>>& names) {
+  std::vector<std::string> known;
+  for (const auto& [name, cycles] : names) known.push_back(name);
+  for (const auto& [curve, over] : reading.curves_over) {
+    const std::string& of = reading.model.curves[static_cast<std::size_t>(curve)].name;
+    std::optional<std::size_t> before;
+    for (const CurveOver::Part& part : over.parts) {
+      const auto found = std::find(known.begin(), known.end(), part.step);
+      const auto index = static_cast<std::size_t>(found - known.begin());
+      std::string wrong;
+      if (found == known.end())
+        wrong = fmt::format("there is no step named {}{}", quoted_name(part.step), suggestion(part.step, known));
+      else if (names[index].second > 1)
+        wrong = fmt::format("step '{}' is run in cycles, and a curve over several steps runs once: leave out 'cycles'",
+                            part.step);
+      else if (before && index != *before + 1)
+        wrong = fmt::format("step '{}' does not follow step '{}': name all steps from the first to the last, in order",
+                            part.step, known[*before]);
+      else if (part.piece < 0)
+        wrong = fmt::format("no factor follows curve '{}' in step '{}': name the curve in the 'loads' of the step", of,
+                            part.step);
+      if (!wrong.empty()) {
+        reading.report.error(part.source, wrong);
+        break;
+      }
+      before = index;
+    }
+  }
 }
 
 /// How often a step is run.
@@ -261,6 +329,7 @@ long read_cycles(Reading& reading, const Value& value, const Step& step) {
 }  // namespace
 
 void read_steps(Reading& reading, const std::optional<Value>& value) {
+  const std::size_t before = reading.report.count();
   Step step = start(reading);
   // A fixed support is the same at any factor.
   for (std::size_t i = 0; i < step.support_factors.size(); ++i) {
@@ -286,9 +355,11 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
   Index supports;  // those with a name given by the user
   for (std::size_t i = 0; i < reading.model.supports.size(); ++i)
     if (reading.support_is_named[i]) supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
+  std::vector<std::pair<std::string, long>> names;
   for (std::size_t i = 0; i < items->size(); ++i) {
     step = read_step(reading, supports, (*items)[i], step, i + 1);
     const long cycles = read_cycles(reading, (*items)[i], step);
+    names.emplace_back(step.name, cycles);
     if (factors * (reading.model.steps.size() + static_cast<std::size_t>(cycles)) > most_factors) {
       reading.report.error((*items)[i],
                            "needs more factors of loads and supports than can be stored: use fewer cycles");
@@ -301,12 +372,12 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
     }
   }
   tell_of_unused_curves(reading);
+  if (reading.report.count() == before) check_curves_over(reading, names);
   // A coefficient that a later step changes is, before it, that of the contact.
   const auto& steps = reading.model.steps;
   if (std::none_of(steps.begin(), steps.end(), [](const Step& of) { return !of.friction.empty(); })) return;
   for (Step& of : reading.model.steps)
-    if (of.friction.empty())
-      for (const Contact& contact : reading.model.contacts) of.friction.push_back(contact.friction);
+    if (of.friction.empty()) add_coefficients(reading.model.contacts, of);
 }
 
 namespace {
@@ -361,13 +432,44 @@ std::optional<CurveSine> read_sine(Reading& reading, const Value& value) {
   return reading.report.count() > before ? std::nullopt : std::optional(sine);
 }
 
+/// `[press, shake]`, of equal length, or `{press: 1, shake: 3}`, with their lengths.
+std::optional<CurveOver> read_over(Reading& reading, const Value& value) {
+  constexpr const char* example = "[press, shake] or {press: 1, shake: 3}";
+  CurveOver over;
+  double reached = 0.0;
+  const std::size_t before = reading.report.count();
+  const auto add = [&](const std::string& step, double length, const Source& source) {
+    for (const CurveOver::Part& part : over.parts)
+      if (part.step == step) reading.report.error(source, fmt::format("step '{}' is named twice", step));
+    over.parts.push_back({step, reached += length, -1, source});
+  };
+  if (value.node->kind == Node::Kind::map) {
+    for (const Entry& entry : read_named(reading.report, value, "lengths of steps", example)) {
+      const double length = read_number(reading.report, entry.value).value_or(1.0);
+      if (!(length > 0.0)) reading.report.error(entry.value, "must be greater than 0: it is the length of a step");
+      add(entry.key, length, entry.key_source);
+    }
+  } else {
+    const auto items = read_list(reading.report, value, example);
+    for (const Value& item : items.value_or(std::vector<Value>{}))
+      if (const auto name = read_text(reading.report, item)) add(*name, 1.0, item.source());
+  }
+  if (reading.report.count() == before && over.parts.empty())
+    reading.report.error(value, fmt::format("must name the steps that the curve runs over, as in {}", example));
+  if (reading.report.count() > before) return {};
+  for (CurveOver::Part& part : over.parts) part.end /= reached;
+  over.parts.back().end = 1.0;
+  return over;
+}
+
 }  // namespace
 
 void read_curves(Reading& reading, const Value& value) {
   const std::size_t start = reading.report.count();
   for (const Entry& entry :
        read_named(reading.report, value, "curves", "{cycle: {table: [[0, 0], [1, 1], [3, -1], [4, 0]]}}")) {
-    const MapReader map(reading.report, entry.value, {"table", "ramp", "sine"}, "{sine: {amplitude: 1, periods: 3}}");
+    const MapReader map(reading.report, entry.value, {"table", "ramp", "sine", "over"},
+                        "{sine: {amplitude: 1, periods: 3}}");
     if (!map.is_map()) continue;
     const auto table = map.get("table"), ramp = map.get("ramp"), sine = map.get("sine");
     if (int{table.has_value()} + int{ramp.has_value()} + int{sine.has_value()} != 1) {
@@ -386,7 +488,10 @@ void read_curves(Reading& reading, const Value& value) {
       if (!read) continue;
       curve.kind = *read;
     }
-    reading.index_of_curve.emplace(curve.name, static_cast<int>(reading.model.curves.size()));
+    const auto index = static_cast<int>(reading.model.curves.size());
+    if (const auto over = map.get("over"))
+      if (auto read = read_over(reading, *over)) reading.curves_over.emplace(index, std::move(*read));
+    reading.index_of_curve.emplace(curve.name, index);
     reading.model.curves.push_back(std::move(curve));
   }
   if (reading.report.count() > start) reading.curves_known = false;

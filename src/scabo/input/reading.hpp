@@ -41,6 +41,17 @@ struct BodyState {
 /// Position of a name in a list; models may have thousands of bodies.
 using Index = std::unordered_map<std::string, int>;
 
+/// `over` of a curve: the steps that it runs over, in their order, and where they end on it, 0 to 1.
+struct CurveOver {
+  struct Part {
+    std::string step;
+    double end = 1.0;
+    int piece = -1;  ///< index in model.curves; -1: the step has not been read, or does not use it
+    Source source;
+  };
+  std::vector<Part> parts;
+};
+
 struct Reading {
   Report report;
   Model model;
@@ -61,7 +72,8 @@ struct Reading {
   bool conditions_known = true;             ///< false: a load, support or contact is broken
   bool rigid_known = true;                  ///< false: it is not known whether a body is rigid
 
-  Index index_of_curve;                     ///< in model.curves
+  Index index_of_curve;                     ///< in model.curves; not of pieces
+  std::map<int, CurveOver> curves_over;     ///< curves that run over several steps, by their index
   bool curves_known = true;                 ///< false: a curve is broken
 
   std::vector<Value> automatic_sizes;       ///< `size: auto` of meshes without a tolerance of their own
@@ -110,6 +122,8 @@ std::optional<int> read_body_of(Reading& reading, const MapReader& map);
 
 /// Contact law: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
 void read_law(Reading& reading, const MapReader& map, Contact& contact);
+/// `0.3` or `{forward: 0.3, backward: 0.6}`: coefficients of friction against forward and backward slip; nothing if broken.
+std::optional<std::pair<double, double>> read_coefficients(Report& report, const Value& value);
 
 /// A rectangle whose lower left corner is `a`, with its named edges and corners.
 Outline rectangle_outline(const Vec2& a, const Vec2& size, const Source& source);

@@ -143,4 +143,38 @@ std::vector<int> cracks_in_contact(const model::Model& model, int body) {
   return {cracks.begin(), cracks.end()};
 }
 
+std::vector<int> cracks_held(const model::Model& model, int body) {
+  std::set<int> cracks;
+  for (const model::Support& support : model.supports)
+    if (support.on.body == body && support.on.kind == model::Place::Kind::face) cracks.insert(support.on.index / 2);
+  return {cracks.begin(), cracks.end()};
+}
+
+std::vector<int> cracks_with_tractions(const model::Model& model, int body) {
+  std::set<int> cracks;
+  for (const std::vector<int>& some : {cracks_in_contact(model, body), cracks_held(model, body)})
+    cracks.insert(some.begin(), some.end());
+  for (const model::Spring& spring : model.springs)
+    if (spring.on.body == body && spring.on.kind == model::Place::Kind::face) cracks.insert(spring.on.index / 2);
+  return {cracks.begin(), cracks.end()};
+}
+
+std::map<int, Vec2> normals_of_face(const BodyMesh& mesh, int face) {
+  std::map<int, Vec2> normals;  // integrals of N ds n
+  for (const LineElement& element : mesh.faces.at(static_cast<std::size_t>(face))) {
+    const auto count = static_cast<Eigen::Index>(element.nodes.size());
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(count) - 1);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      Vec2 along = Vec2::Zero();
+      for (Eigen::Index j = 0; j < count; ++j)
+        along += basis.derivatives_at_nodes()(i, j) *
+                 mesh.nodes[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(j)])];
+      Vec2& sum = normals.emplace(element.nodes[static_cast<std::size_t>(i)], Vec2::Zero()).first->second;
+      sum += basis.weights()[static_cast<std::size_t>(i)] * tangent_of(along);
+    }
+  }
+  for (auto& [node, normal] : normals) normal.normalize();
+  return normals;
+}
+
 }  // namespace scabo::mesh

@@ -11,6 +11,7 @@
 //    side faces. tip_rings.hpp takes the pairs further towards the tip.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "scabo/mesh/mesh.hpp"
@@ -46,7 +47,15 @@ std::vector<TipFace> tip_faces(const model::Body& body, const BodyMesh& mesh);
 /// Where only one face of a crack is divided at a point, the other one is divided there too. `cracks`: of which cracks.
 void divide_faces_alike(BodyMesh& mesh, const std::vector<int>& cracks);
 
+/// Outward unit normals at the nodes of a face; at a kink the mean, as of pairs.
+std::map<int, Vec2> normals_of_face(const BodyMesh& mesh, int face);
+
 /// The cracks of a body whose faces are in contact with each other.
 std::vector<int> cracks_in_contact(const model::Model& model, int body);
+/// The cracks of a body of which a face is held by a support.
+std::vector<int> cracks_held(const model::Model& model, int body);
+/// The cracks of a body whose faces carry tractions that are not known before: in contact, held, or on springs. Their
+/// faces have nodes up to the tips (tip_rings.hpp).
+std::vector<int> cracks_with_tractions(const model::Model& model, int body);
 
 }  // namespace scabo::mesh

@@ -192,7 +192,17 @@ bool check_along(Checking& checking, const std::string& path, const Contact& con
 }
 
 bool check_friction(Checking& checking, const std::string& path, const Contact& contact) {
+  if (contact.backward_friction && (contact.dynamic_friction || !contact.friction_along.empty())) {
+    checking.error_of_key(path, "friction.backward",
+                          "cannot be combined with coefficients that fall with slip or vary along the contact: leave "
+                          "one of them out");
+    return false;
+  }
   if (!contact.friction_along.empty()) return check_along(checking, path, contact);
+  if (contact.backward_friction) {
+    const bool forward = check_coefficient(checking, path, "friction.forward", contact.friction);
+    return check_coefficient(checking, path, "friction.backward", *contact.backward_friction) && forward;
+  }
   if (!contact.dynamic_friction) return check_coefficient(checking, path, "friction", contact.friction);
   bool good = check_coefficient(checking, path, "friction.static", contact.friction);
   good = check_coefficient(checking, path, "friction.dynamic", *contact.dynamic_friction) && good;
@@ -218,7 +228,8 @@ void check_law(Checking& checking, const std::string& path, const Contact& conta
   const auto refuse = [&](const char* key, bool given, const char* why) {
     if (given) checking.error_of_key(path, key, why);
   };
-  const bool friction = contact.friction > 0.0 || contact.dynamic_friction || !contact.friction_along.empty();
+  const bool friction = contact.friction > 0.0 || contact.backward_friction || contact.dynamic_friction ||
+                        !contact.friction_along.empty();
   if (contact.bond || contact.shear_strength) {
     const char* why = contact.bond ? no_effect_beside_bond : replaced_by_shear_strength;
     refuse("friction", friction, why);
@@ -240,7 +251,7 @@ void check_contacts_and_ties(Checking& checking) {
   std::unordered_set<std::string> names, tie_names;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const Contact& contact = model.contacts[i];
-    const std::string path = path_of("contacts", contact.name, i);
+    const std::string path = path_of_joint("contacts", contact.source, contact.name, i);
     checking.enter(contact.source);
     check_name(checking, path, contact.name, "contact", names);
     check_law(checking, path, contact);
@@ -253,7 +264,7 @@ void check_contacts_and_ties(Checking& checking) {
   }
   for (std::size_t i = 0; i < model.ties.size(); ++i) {
     const Tie& tie = model.ties[i];
-    const std::string path = path_of("ties", tie.name, i);
+    const std::string path = path_of_joint("ties", tie.source, tie.name, i);
     checking.enter(tie.source);
     check_name(checking, path, tie.name, "tie", tie_names);
     if (check_sides(checking, path, "tie", tie.a, tie.b) && check_both_elastic(checking, path, tie))

@@ -32,6 +32,7 @@ const char* key_of(const Load& load) {
           [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
           [](const Water&) { return "water"; }, [](const UniformStress&) { return "field"; },
           [](const GroundStress&) { return "field"; }, [](const Moment&) { return "moment"; },
+          [](const AtRest&) { return "at_rest"; },
           [](const PorePressure& pores) { return std::holds_alternative<Water>(pores.value) ? "water" : "pressure"; }},
       load.kind);
 }
@@ -236,6 +237,7 @@ bool check_values(Checking& checking, const std::string& path, const Load& load)
             [&](const Water& water) { return check_water(checking, path, water); },
             [&](const UniformStress& stress) { return check_uniform(checking, path, stress); },
             [&](const Moment& moment) { return checking.number(path, kind, moment.value); },
+            [](const AtRest&) { return true; },  // with its springs
             [&](const PorePressure& pores) {
               if (const auto* table = std::get_if<EdgeTable>(&pores.value))
                 return check_table(checking, path, kind, *table);
@@ -249,6 +251,14 @@ bool check_values(Checking& checking, const std::string& path, const Load& load)
 /// Whether a load acts where loads of its kind can.
 bool check_on(Checking& checking, const std::string& path, const Load& load) {
   const std::string kind = key_of(load);
+  if (const auto* at_rest = std::get_if<AtRest>(&load.kind)) {
+    const auto count = static_cast<int>(checking.model.springs.size());
+    if (at_rest->spring >= 0 && at_rest->spring < count && load.on &&
+        load.on->body == checking.model.springs[static_cast<std::size_t>(at_rest->spring)].on.body)
+      return true;
+    if (!checking.gaps.conditions) checking.error(path, kind, "is of no springs of the model, or of another body");
+    return false;
+  }
   if (const auto* pores = std::get_if<PorePressure>(&load.kind)) {
     const auto count = static_cast<int>(checking.model.contacts.size());
     const bool known = std::all_of(pores->contacts.begin(), pores->contacts.end(),
@@ -304,7 +314,7 @@ void check_loads(Checking& checking) {
     if (support.name != support.on.text) supports.insert(support.name);
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
-    const std::string path = path_of("loads", load.name, i);
+    const std::string path = path_of_load(load, i);
     checking.enter(load.source);
     check_name(checking, path, load.name, "load", names);
     if (supports.contains(load.name)) checking.error_of_key(path, "", named_like_a_support(load.name));

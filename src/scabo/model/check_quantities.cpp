@@ -73,6 +73,9 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
     case Quantity::Kind::reaction:
       check_number_of(checking, path, "support", quantity.index, model.supports.size());
       break;
+    case Quantity::Kind::spring_force:
+      check_number_of(checking, path, "spring", quantity.index, model.springs.size());
+      break;
     case Quantity::Kind::displacement:
       if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, model.bodies.size());
       checking.vector(path, "at", quantity.at);

@@ -21,16 +21,30 @@ void check_springs(Checking& checking) {
     if (checking.is_body(spring.on.body))
       checking.held[static_cast<std::size_t>(spring.on.body)] =
           checking.sprung[static_cast<std::size_t>(spring.on.body)] = 1;
-    const bool on_edge = spring.on.kind == Place::Kind::edge;
-    if (good && (spring.on.kind == Place::Kind::face || spring.on.kind == Place::Kind::body)) {
+    const bool on_edge = acts_along(spring);
+    if (good && spring.on.kind == Place::Kind::body) {
       checking.error(path, "on",
-                     fmt::format("'{}' is {}: springs act on an edge, a corner or a point", text_of(model, spring.on),
-                                 spring.on.kind == Place::Kind::body ? "a whole body" : "a face of a crack"));
+                     fmt::format("'{}' is a whole body: springs act on an edge, the face of a crack, a corner or a point",
+                                 text_of(model, spring.on)));
+      good = false;
+    }
+    if (good && spring.on.kind == Place::Kind::face && !has_divided_faces(checking.body(spring.on.body))) {
+      checking.error(path, "on", undivided_face(model, spring.on));
       good = false;
     }
     const char* keys[2] = {on_edge ? "k_n" : "k_x", on_edge ? "k_t" : "k_y"};
     for (std::size_t k = 0; k < 2; ++k)
       if (!checking.not_negative(path, keys[k], spring.stiffness[k])) good = false;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string key = fmt::format("at_rest.{}", k);
+      if (!checking.number(path, key, spring.at_rest[k])) {
+        good = false;
+      } else if (good && spring.at_rest[k] != 0.0 && spring.stiffness[k] == 0.0) {
+        checking.error(path, key,
+                       fmt::format("has no effect, because {} is 0: write null, or give {}", keys[k], keys[k]));
+        good = false;
+      }
+    }
     if (good && spring.stiffness[0] == 0.0 && spring.stiffness[1] == 0.0) {
       checking.error(path, "", fmt::format("{} and {} are 0: one of them must be more than 0", keys[0], keys[1]));
       good = false;

@@ -135,7 +135,7 @@ void check_stages(Checking& checking) {
     const Body &a = checking.body(tie.a.body), &b = checking.body(tie.b.body);
     if (same_stages(a, b)) continue;
     checking.enter(tie.source);
-    checking.error_of_key(path_of("ties", tie.name, i), "",
+    checking.error_of_key(path_of_joint("ties", tie.source, tie.name, i), "",
                           fmt::format("bodies '{}' and '{}' are tied, but are not added and removed in the same steps: "
                                       "use a contact with bond: true instead of the tie",
                                       a.name, b.name));

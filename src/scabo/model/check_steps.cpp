@@ -58,6 +58,8 @@ void check_curves(Checking& checking) {
     if (const auto* sine = std::get_if<CurveSine>(&curve.kind)) {
       checking.number(path, "sine.amplitude", sine->amplitude);
       checking.number(path, "sine.mean", sine->mean);
+      if (!(sine->turns >= 0.0 && std::isfinite(sine->turns)))
+        checking.error(path, "sine", "begins at turns that are not 0 or more");
       if (checking.positive(path, "sine.periods", sine->periods) && sine->periods > 10'000.0)
         checking.error(
             path, "sine.periods",
@@ -118,7 +120,7 @@ void check_friction_of_step(Checking& checking, const std::string& path, const S
   const bool any =
       std::any_of(model.steps.begin(), model.steps.end(), [](const Step& of) { return !of.friction.empty(); });
   if (!any) return;
-  if (step.friction.size() != model.contacts.size()) {
+  if (step.friction.size() != model.contacts.size() || step.backward_friction.size() != step.friction.size()) {
     checking.error(path, "friction", "must give a coefficient for every contact");
     return;
   }
@@ -126,10 +128,15 @@ void check_friction_of_step(Checking& checking, const std::string& path, const S
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (!has_one_coefficient(model.contacts[c])) continue;
     const std::string key = "friction." + model.contacts[c].name;
-    if (checking.not_negative(path, key, step.friction[c]) && step.friction[c] > largest)
-      checking.error(
-          path, key,
-          fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(step.friction[c])));
+    const auto check = [&](const std::string& of, double coefficient) {
+      if (checking.not_negative(path, of, coefficient) && coefficient > largest)
+        checking.error(
+            path, of, fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(coefficient)));
+    };
+    const bool directional = step.friction[c] != step.backward_friction[c] &&
+                             !(std::isnan(step.friction[c]) && std::isnan(step.backward_friction[c]));
+    check(directional ? key + ".forward" : key, step.friction[c]);
+    if (directional) check(key + ".backward", step.backward_friction[c]);
   }
 }
 
@@ -147,6 +154,12 @@ void check_ends(Checking& checking, const std::string& path, const Step& step) {
 
 bool has_one_coefficient(const Contact& contact) {
   return !contact.bond && !contact.shear_strength && !contact.dynamic_friction && contact.friction_along.empty();
+}
+
+std::vector<double> coefficients_of(const Step& step) {
+  std::vector<double> coefficients = step.friction;
+  coefficients.insert(coefficients.end(), step.backward_friction.begin(), step.backward_friction.end());
+  return coefficients;
 }
 
 std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves) {
@@ -224,7 +237,7 @@ void check_never_applied(Checking& checking) {
         (model.restart && model.restart->load_factors.at(i) != 0.0))
       continue;
     checking.enter(load.source);
-    checking.error_of_key(path_of("loads", load.name, i), "",
+    checking.error_of_key(path_of_load(load, i), "",
                           fmt::format("load '{}' is never applied: name it in a step", load.name));
   }
   for (std::size_t i = 0; i < model.supports.size(); ++i) {

@@ -60,6 +60,13 @@ std::string path_of(std::string_view section, const std::string& name, std::size
 /// `supports.2`: as in the file that the part comes from, or by its number.
 std::string path_of(std::string_view section, const Source& source, std::size_t index);
 
+/// `contacts.joints`: the entry of the file, also of a contact or tie that `between: all` found; by its name if it
+/// comes from no file.
+std::string path_of_joint(std::string_view section, const Source& source, const std::string& name, std::size_t index);
+
+/// `loads.tip`; `springs.0` for what springs have at rest.
+std::string path_of_load(const Load& load, std::size_t index);
+
 /// Checks the name of a part, and that no part before it has the same; `what`: `body`.
 void check_name(Checking& checking, const std::string& path, const std::string& name, const char* what,
                 std::unordered_set<std::string>& before);
@@ -101,6 +108,8 @@ bool check_inside(Checking& checking, const std::string& path, const std::string
                   const Outline& outline);
 /// Whether a place exists; reports it if not. A place of a body with a broken shape is passed over: false.
 bool check_place(Checking& checking, const std::string& path, const Place& place);
+/// Why nothing can hold a side face without boundary elements, and what to do.
+std::string undivided_face(const Model& model, const Place& place);
 /// As given by the user, or made from names.
 std::string text_of(const Model& model, const Place& place);
 

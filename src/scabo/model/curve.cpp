@@ -5,10 +5,20 @@
 
 namespace scabo::model {
 
+namespace {
+
+/// Whole quarters without the rounding of their sum.
+double near_quarter(double turns) {
+  const double quarter = 0.25 * std::round(4.0 * turns);
+  return std::abs(turns - quarter) <= 1e-14 * (1.0 + turns) ? quarter : turns;
+}
+
+}  // namespace
+
 double value_of(const Curve& curve, double s) {
   if (const auto* sine = std::get_if<CurveSine>(&curve.kind)) {
     // The sine of whole and half turns is exact: a cycle ends where it begins.
-    const double turns = sine->periods * s, rest = turns - std::floor(turns);
+    const double turns = near_quarter(sine->turns + sine->periods * s), rest = turns - std::floor(turns);
     const double quarter = 4.0 * rest;
     const double value = quarter == 0.0 || quarter == 2.0 ? 0.0 : std::sin(2.0 * std::numbers::pi * rest);
     return sine->mean + sine->amplitude * value;
@@ -24,13 +34,33 @@ double value_of(const Curve& curve, double s) {
   return points.back().value;
 }
 
+Curve piece_of(const Curve& curve, double from, double to) {
+  Curve piece = curve;
+  if (auto* sine = std::get_if<CurveSine>(&piece.kind)) {
+    sine->turns += sine->periods * from;
+    sine->periods *= to - from;
+    return piece;
+  }
+  CurveTable table;
+  table.points.push_back({0.0, value_of(curve, from)});
+  constexpr double rounding = 1e-12;
+  for (const CurveTable::Point& point : std::get<CurveTable>(curve.kind).points)
+    if (point.at > from + rounding && point.at < to - rounding)
+      table.points.push_back({(point.at - from) / (to - from), point.value});
+  table.points.push_back({1.0, value_of(curve, to)});
+  piece.kind = std::move(table);
+  return piece;
+}
+
 std::vector<double> corners_of(const Curve& curve) {
   std::vector<double> corners;
   const auto add = [&](double s) {
     if (s > 0.0 && s < 1.0) corners.push_back(s);
   };
   if (const auto* sine = std::get_if<CurveSine>(&curve.kind))
-    for (double quarter = 1.0; quarter < 4.0 * sine->periods; quarter += 2.0) add(0.25 * quarter / sine->periods);
+    for (double quarter = 2.0 * std::floor(2.0 * sine->turns) + 1.0; quarter < 4.0 * (sine->turns + sine->periods);
+         quarter += 2.0)
+      add((0.25 * quarter - sine->turns) / sine->periods);
   else
     for (const CurveTable::Point& point : std::get<CurveTable>(curve.kind).points) add(point.at);
   return corners;

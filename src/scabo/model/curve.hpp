@@ -18,10 +18,11 @@ struct CurveTable {
   std::vector<Point> points;  ///< one or more, their positions ascending
 };
 
-/// mean + amplitude sin(2 pi periods s), s: part of the step.
+/// mean + amplitude sin(2 pi (turns + periods s)), s: part of the step.
 struct CurveSine {
   double mean = 0.0, amplitude = 0.0;
   double periods = 1.0;  ///< > 0
+  double turns = 0.0;    ///< at the start of the step, >= 0: of a curve over several steps
 };
 
 struct Curve {
@@ -29,6 +30,9 @@ struct Curve {
   std::variant<CurveTable, CurveSine> kind;
   Source source;
 };
+
+/// The part of a curve between `from` and `to`, as a curve from 0 to 1, of one of the steps that a curve runs over.
+Curve piece_of(const Curve& curve, double from, double to);
 
 /// The factor at part `s` of a step, 0 to 1.
 double value_of(const Curve& curve, double s);

@@ -206,12 +206,18 @@ struct Support {
 /// Springs between a place and the ground, which does not move. They push and pull from the start of the analysis on.
 struct Spring {
   std::string name;  ///< given by the user, or the text of the place, made unique
-  Place on;          ///< an edge, or a corner or point
+  Place on;          ///< an edge or the face of a crack, or a corner or point
   /// Edge: along its outward normal and its tangent, force / length^3 (traction per displacement, over the thickness).
   /// Corner or point: along x and y, force / length. 0 or more, one of them more than 0.
   std::array<double, 2> stiffness{};
+  /// Displacement along the same axes at which they are without force, at factor 1 (model::AtRest); [0, 0] without one.
+  std::array<double, 2> at_rest{};
   Source source;
 };
+/// Whether the springs act along an edge or a face, with stiffnesses along its normal and tangent.
+inline bool acts_along(const Spring& spring) {
+  return spring.on.kind == Place::Kind::edge || spring.on.kind == Place::Kind::face;
+}
 
 struct Force {
   Vec2 value;
@@ -294,11 +300,17 @@ struct PorePressure {
   std::variant<double, EdgeTable, Water> value = 0.0;
 };
 
+/// The ground end of springs moves by their Spring::at_rest: the force of their stiffness times it acts on the body. A
+/// load of its own for every such spring, so that steps give it a factor.
+struct AtRest {
+  int spring = -1;  ///< index into Model::springs; the load acts on its place and has its name
+};
+
 struct Load {
   std::string name;
   std::optional<Place> on;  ///< empty: gravity, temperature or stress of every elastic body, or in contacts
   std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature, EdgeTable, Water,
-               UniformStress, GroundStress, Moment, PorePressure>
+               UniformStress, GroundStress, Moment, PorePressure, AtRest>
       kind;
   Source source;
 };
@@ -314,6 +326,8 @@ struct Contact {
   std::string name;
   Place a, b;
   double friction = 0.0;                      ///< coefficient, >= 0; the static one if a dynamic one is given
+  /// Coefficient against backward slip (slip < 0), where it differs; `friction` is then that against forward slip.
+  std::optional<double> backward_friction;
   std::optional<double> dynamic_friction;     ///< coefficient, <= friction
   double slip_distance = 0.0;                 ///< slip over which friction falls to the dynamic value; 0: at once
   std::vector<FrictionPoint> friction_along;  ///< instead of one coefficient; in ascending order of position
@@ -359,6 +373,7 @@ struct Step {
   /// linearly. Empty if no factor follows a curve. The factor above is that of the curve at its end.
   std::vector<int> load_curves, support_curves;
   std::vector<double> friction;  ///< coefficient of every contact at the end of the step; empty if no step changes one
+  std::vector<double> backward_friction;  ///< the same against backward slip; as many as `friction`
   Source source;
 };
 
@@ -372,8 +387,11 @@ inline int load_curve(const Step& step, std::size_t index) {
 inline int support_curve(const Step& step, std::size_t index) {
   return step.support_curves.empty() ? -1 : step.support_curves[index];
 }
-/// Whether the contact has one coefficient of friction, which a step may change.
+/// Whether the contact has one coefficient of friction, or one for each direction of slip, which a step may change.
 bool has_one_coefficient(const Contact& contact);
+/// Coefficients at the end of a step: against forward slip of every contact, then against backward slip; empty if no
+/// step changes one.
+std::vector<double> coefficients_of(const Step& step);
 
 /// Parts of a step, between 0 and 1, at which an increment ends so that no corner of a curve is passed over, ascending.
 std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves);

@@ -24,11 +24,12 @@ struct Quantity {
     centre_of_pressure,  ///< of a contact, length
     max_pressure,        ///< of a contact, force / length^2
     external_energy,     ///< work of loads and reactions, force times length
-    friction_energy      ///< dissipated, force times length
+    friction_energy,     ///< dissipated, force times length
+    spring_force         ///< of springs on their body, force
   };
   Kind kind = Kind::elastic_energy;
   std::string name;        ///< as given by the user
-  int index = -1;          ///< contact, support or body; displacement: -1 for the body that contains the point
+  int index = -1;          ///< contact, support, spring or body; displacement: -1 for the body that contains the point
   int component = 0;       ///< 0: x or K_I, 1: y or K_II
   Vec2 at = Vec2::Zero();  ///< displacement: the point
   std::string crack;       ///< `flaw`; `flaw.start` or `flaw.end` if both ends are tips

@@ -101,6 +101,17 @@ std::string path_of(std::string_view section, const Source& source, std::size_t 
   return path.starts_with(section) ? std::string(path) : fmt::format("{}.{}", section, index);
 }
 
+std::string path_of_joint(std::string_view section, const Source& source, const std::string& name, std::size_t index) {
+  const std::string path = path_of(section, source, index), by_number = fmt::format("{}.{}", section, index);
+  return path == by_number ? path_of(section, name, index) : path;
+}
+
+std::string path_of_load(const Load& load, std::size_t index) {
+  const auto* at_rest = std::get_if<AtRest>(&load.kind);
+  return at_rest == nullptr ? path_of("loads", load.name, index)
+                            : path_of("springs", load.source, static_cast<std::size_t>(std::max(at_rest->spring, 0)));
+}
+
 void check_name(Checking& checking, const std::string& path, const std::string& name, const char* what,
                 std::unordered_set<std::string>& before) {
   if (!is_name(name))
@@ -157,7 +168,7 @@ void check_fits(Checking& checking) {
   for (std::size_t c = 0; c < checking.model.contacts.size(); ++c) {
     const Contact& contact = checking.model.contacts[c];
     if (contact.fit_in < 0) continue;
-    const std::string path = path_of("contacts", contact.name, c);
+    const std::string path = path_of_joint("contacts", contact.source, contact.name, c);
     checking.enter(contact.source);
     if (contact.fit_in >= static_cast<int>(checking.model.steps.size()))
       checking.error(path, "fit_in", "is not a step of the model");

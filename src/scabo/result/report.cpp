@@ -154,6 +154,8 @@ std::string describe_law(const model::Contact& contact) {
     text += contact.slip_distance > 0.0
                 ? fmt::format(", {:g} after {:g} of slip", *contact.dynamic_friction, contact.slip_distance)
                 : fmt::format(", {:g} once it slips", *contact.dynamic_friction);
+  } else if (contact.backward_friction) {
+    text = fmt::format("friction {:g} forward, {:g} backward", contact.friction, *contact.backward_friction);
   } else if (contact.friction == 0.0) {
     text = "frictionless";
   }

@@ -147,6 +147,7 @@ class Applied {
   }
 
   void operator()(const model::PorePressure&) {}  // not of a body: add_pore_pressure()
+  void operator()(const model::AtRest&) {}        // of the springs: add_loads()
 
   void operator()(const model::UniformStress& uniform) { apply(element::initial_stress(uniform)); }
   void operator()(const model::GroundStress& ground) { apply(element::initial_stress(ground)); }
@@ -369,6 +370,12 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
       const std::size_t part = structure.dofs.part_of(body);
       Applied applied(model, mesh, cells, *structure.parts[part], b, load.on ? &*load.on : nullptr);
       std::visit(applied, load.kind);
+      if (const auto* at_rest = std::get_if<model::AtRest>(&load.kind)) {
+        const Vector& of_part = structure.springs.at_rest[static_cast<std::size_t>(at_rest->spring)];
+        forces[part] = of_part;
+        if (of_bodies) structure.of_bodies.back()[b] = structure.dofs.of_body(body, of_part);
+        continue;
+      }
       structure.dofs.add(body, applied.nodal, forces[part]);
       if (of_bodies) structure.of_bodies.back()[b] = applied.nodal;
       interior[b] = std::move(applied.interior);

@@ -29,8 +29,9 @@ LawPointer friction_law(const model::Contact& contact, double s) {
   if (contact.dynamic_friction)
     return std::make_shared<contact::SlipWeakening>(contact.friction, *contact.dynamic_friction, contact.slip_distance);
   const double mu = contact.friction_along.empty() ? contact.friction : coefficient_at(contact.friction_along, s);
-  if (mu == 0.0) return std::make_shared<contact::Frictionless>();
-  return std::make_shared<contact::Coulomb>(mu);
+  const double backward = contact.backward_friction.value_or(mu);
+  if (mu == 0.0 && backward == 0.0) return std::make_shared<contact::Frictionless>();
+  return std::make_shared<contact::Coulomb>(mu, backward);
 }
 
 LawPointer law_of(const model::Contact& contact, double s) {
@@ -81,13 +82,19 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
 contact::JointLaws with_coefficients(const contact::JointLaws& laws, const std::vector<ContactSystem::Pair>& pairs,
                                      const model::Model& model, const std::vector<double>& coefficients) {
   contact::JointLaws changed = laws;
-  std::vector<LawPointer> of_contact(coefficients.size());  // one for all pairs
+  const std::size_t contacts = model.contacts.size();
+  std::vector<LawPointer> of_contact(contacts);  // one for all pairs
   for (std::size_t k = 0; k < pairs.size() && !coefficients.empty(); ++k) {
     const auto c = static_cast<std::size_t>(pairs[k].contact);
-    if (!model::has_one_coefficient(model.contacts[c]) || coefficients[c] == model.contacts[c].friction) continue;
+    const model::Contact& given = model.contacts[c];
+    const double forward = coefficients[c], backward = coefficients[contacts + c];
+    if (!model::has_one_coefficient(given) ||
+        (forward == given.friction && backward == given.backward_friction.value_or(given.friction)))
+      continue;
     if (!of_contact[c]) {
-      model::Contact contact = model.contacts[c];
-      contact.friction = coefficients[c];
+      model::Contact contact = given;
+      contact.friction = forward;
+      contact.backward_friction = backward;
       of_contact[c] = law_of(contact, 0.0);
     }
     changed.of_pair[k] = of_contact[c];

@@ -13,9 +13,9 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Calls `visit(N, x, n, ds)` at the integration points of an element of an edge: shape functions, position, outward
 /// normal, weighted length. Normals of arcs are those of the arc, so that the normal springs around a circle do not
-/// resist its rotation.
+/// resist its rotation. `edge`: null on the face of a crack.
 template <typename Visit>
-void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes, const model::Edge& edge, Visit visit) {
+void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes, const model::Edge* edge, Visit visit) {
   const int order = static_cast<int>(element.nodes.size()) - 1;
   const auto& basis = geometry::LineBasis::of_order(order);
   const geometry::GaussRule rule = geometry::gauss_rule(3 * order / 2 + 2);  // N, N and x,eta of curved elements
@@ -28,8 +28,8 @@ void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes,
     }
     const double length = x_eta.norm();
     Vec2 n = Vec2(x_eta.y(), -x_eta.x()) / length;
-    if (edge.arc)
-      if (const auto foot = geometry::foot_on(edge, x)) n = foot->normal;
+    if (edge != nullptr && edge->arc)
+      if (const auto foot = geometry::foot_on(*edge, x)) n = foot->normal;
     visit(N, x, n, rule.weights[q] * length);
   }
 }
@@ -38,6 +38,11 @@ void integrate(const mesh::LineElement& element, const std::vector<Vec2>& nodes,
 Mat2 tensor_of(const model::Spring& spring, const Vec2& n) {
   const Vec2 t(-n.y(), n.x());
   return spring.stiffness[0] * n * n.transpose() + spring.stiffness[1] * t * t.transpose();
+}
+
+/// The displacement at which the springs are without force.
+Vec2 at_rest_of(const model::Spring& spring, const Vec2& n) {
+  return spring.at_rest[0] * n + spring.at_rest[1] * Vec2(-n.y(), n.x());
 }
 
 /// The directions with springs among two that are at right angles.
@@ -51,33 +56,41 @@ class Assembly {
   Assembly(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs)
       : model_(model), mesh_(mesh), dofs_(dofs) {}
 
-  /// S of one spring; adds the directions that it holds.
-  linalg::SparseMatrix add(const model::Spring& spring, std::vector<HeldDirection>& held) const {
+  /// S and f of one spring.
+  struct OfSpring {
+    linalg::SparseMatrix S;
+    Vector f;
+  };
+  /// Adds the directions that it holds.
+  OfSpring add(const model::Spring& spring, std::vector<HeldDirection>& held) const {
     Triplets entries;
     const auto b = static_cast<std::size_t>(spring.on.body);
-    if (model_.bodies[b].rigid)
-      add_to_rigid(spring, model_.bodies[b], entries, held);
-    else
-      add_to_elastic(spring, mesh_.bodies[b], entries, held);
     const Eigen::Index size = dofs_.size(dofs_.part_of(spring.on.body));
-    linalg::SparseMatrix S(size, size);
-    S.setFromTriplets(entries.begin(), entries.end());
-    return S;
+    OfSpring made{linalg::SparseMatrix(size, size), Vector::Zero(size)};
+    if (model_.bodies[b].rigid)
+      add_to_rigid(spring, model_.bodies[b], entries, made.f, held);
+    else
+      add_to_elastic(spring, mesh_.bodies[b], entries, made.f, held);
+    made.S.setFromTriplets(entries.begin(), entries.end());
+    return made;
   }
 
  private:
-  const model::Edge& edge_of(const model::Spring& spring) const {
-    return model_.bodies[static_cast<std::size_t>(spring.on.body)]
-        .outline.edges[static_cast<std::size_t>(spring.on.index)];
+  const model::Edge* edge_of(const model::Spring& spring) const {
+    if (spring.on.kind != model::Place::Kind::edge) return nullptr;
+    return &model_.bodies[static_cast<std::size_t>(spring.on.body)]
+                .outline.edges[static_cast<std::size_t>(spring.on.index)];
   }
 
-  void add_to_elastic(const model::Spring& spring, const mesh::BodyMesh& mesh, Triplets& entries,
+  void add_to_elastic(const model::Spring& spring, const mesh::BodyMesh& mesh, Triplets& entries, Vector& f,
                       std::vector<HeldDirection>& held) const {
     const mesh::PlaceNodes at = mesh::nodes_of(spring.on, mesh_);
-    if (spring.on.kind != model::Place::Kind::edge) {
+    if (!model::acts_along(spring)) {
       for (int k = 0; k < 2; ++k) {
         const int dof = dofs_.of(spring.on.body, at.nodes.front(), k);
-        entries.emplace_back(dof, dof, spring.stiffness[static_cast<std::size_t>(k)]);
+        const auto axis = static_cast<std::size_t>(k);
+        entries.emplace_back(dof, dof, spring.stiffness[axis]);
+        f[dof] += spring.stiffness[axis] * spring.at_rest[axis];
       }
       hold(spring, mesh.nodes[static_cast<std::size_t>(at.nodes.front())], Vec2::UnitX(), held);
       return;
@@ -85,7 +98,11 @@ class Assembly {
     for (const mesh::LineElement& element : at.elements)
       integrate(element, mesh.nodes, edge_of(spring), [&](const Vector& N, const Vec2& x, const Vec2& n, double ds) {
         const Mat2 k = tensor_of(spring, n) * (ds * model_.analysis.thickness);
+        const Vec2 force = k * at_rest_of(spring, n);
         hold(spring, x, n, held);
+        for (std::size_t i = 0; i < element.nodes.size(); ++i)
+          for (int row = 0; row < 2; ++row)
+            f[dofs_.of(spring.on.body, element.nodes[i], row)] += N[static_cast<Eigen::Index>(i)] * force[row];
         for (std::size_t i = 0; i < element.nodes.size(); ++i)
           for (std::size_t j = 0; j < element.nodes.size(); ++j)
             for (int row = 0; row < 2; ++row)
@@ -96,24 +113,26 @@ class Assembly {
       });
   }
 
-  void add_to_rigid(const model::Spring& spring, const model::Body& body, Triplets& entries,
+  void add_to_rigid(const model::Spring& spring, const model::Body& body, Triplets& entries, Vector& f,
                     std::vector<HeldDirection>& held) const {
     const Vec2 reference = body.outline.centroid();
     const double lever = half_size(body.outline);
     Matrix S = Matrix::Zero(3, 3);
-    const auto add = [&](const Vec2& x, const Mat2& k) {
+    const auto add = [&](const Vec2& x, const Mat2& k, const Vec2& at_rest) {
       const Eigen::Matrix<double, 2, 3> R = rigid_point(x, reference, lever);
       S += R.transpose() * k * R;
+      f += R.transpose() * k * at_rest;
     };
-    if (spring.on.kind != model::Place::Kind::edge) {
+    if (!model::acts_along(spring)) {
       const Vec2 x = rigid_points(spring.on, body).front();
-      add(x, Vec2(spring.stiffness[0], spring.stiffness[1]).asDiagonal());
+      add(x, Vec2(spring.stiffness[0], spring.stiffness[1]).asDiagonal(),
+          Vec2(spring.at_rest[0], spring.at_rest[1]));
       hold(spring, x, Vec2::UnitX(), held);
     } else {
-      const EdgeElements edge = elements_of(edge_of(spring));
+      const EdgeElements edge = elements_of(*edge_of(spring));
       for (const mesh::LineElement& element : edge.elements)
         integrate(element, edge.nodes, edge_of(spring), [&](const Vector&, const Vec2& x, const Vec2& n, double ds) {
-          add(x, tensor_of(spring, n) * (ds * model_.analysis.thickness));
+          add(x, tensor_of(spring, n) * (ds * model_.analysis.thickness), at_rest_of(spring, n));
           hold(spring, x, n, held);
         });
     }
@@ -134,7 +153,9 @@ ModelSprings springs_of(const model::Model& model, const mesh::Mesh& mesh, const
   const Assembly assembly(model, mesh, dofs);
   for (const model::Spring& spring : model.springs) {
     Springs& of_part = springs.of_part[dofs.part_of(spring.on.body)];
-    springs.of_spring.push_back(assembly.add(spring, of_part.directions));
+    Assembly::OfSpring made = assembly.add(spring, of_part.directions);
+    springs.of_spring.push_back(std::move(made.S));
+    springs.at_rest.push_back(std::move(made.f));
     const linalg::SparseMatrix& S = springs.of_spring.back();
     of_part.matrix = of_part.none() ? S : linalg::SparseMatrix(of_part.matrix + S);
   }
@@ -142,11 +163,16 @@ ModelSprings springs_of(const model::Model& model, const mesh::Mesh& mesh, const
 }
 
 std::vector<Vec2> spring_resultants(const ModelSprings& springs, const model::Model& model, const Dofs& dofs,
-                                    const std::vector<Vector>& u) {
+                                    const std::vector<Vector>& u, const std::vector<double>& factors) {
+  std::vector<double> of_rest(springs.of_spring.size(), 0.0);
+  for (std::size_t l = 0; l < model.loads.size(); ++l)
+    if (const auto* at_rest = std::get_if<model::AtRest>(&model.loads[l].kind))
+      of_rest[static_cast<std::size_t>(at_rest->spring)] = factors[l];
   std::vector<Vec2> resultants;
   for (std::size_t s = 0; s < springs.of_spring.size(); ++s) {
     const std::size_t part = dofs.part_of(model.springs[s].on.body);
-    const Vector forces = -(springs.of_spring[s] * u[part]);
+    Vector forces = -(springs.of_spring[s] * u[part]);
+    if (of_rest[s] != 0.0) forces += of_rest[s] * springs.at_rest[s];
     resultants.emplace_back(dofs.is_rigid(part) ? Vec2(forces.head<2>())
                                                 : Vec2(forces.reshaped(2, forces.size() / 2).rowwise().sum()));
   }

@@ -10,6 +10,7 @@
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
+#include "scabo/mesh/crack_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 
@@ -53,10 +54,14 @@ class ConstraintCollector {
           constraints_[part].push_back({-1, Vec2::Zero(), component, true, index, 0.0, Vec2::Zero()});
         continue;
       }
-      for (int node : mesh::nodes_of(support.on, mesh_).nodes)
+      const std::vector<int> nodes = mesh::nodes_of(support.on, mesh_).nodes;
+      const bool of_face = support.on.kind == model::Place::Kind::face && support.axes == model::SupportAxes::edge;
+      const std::map<int, Vec2> normals =
+          of_face ? mesh::normals_of_face(mesh_.bodies[body], support.on.index) : std::map<int, Vec2>{};
+      for (const int node : nodes)
         add(support.on.body, node,
             constraint_along(support, component, mesh_.bodies[body].nodes[static_cast<std::size_t>(node)], index,
-                             *value));
+                             *value, of_face ? &normals.at(node) : nullptr));
     }
   }
 
@@ -73,12 +78,15 @@ class ConstraintCollector {
   }
 
   /// A constraint at a point along axis 0 or 1 of a support; axes along x or y, in either sense, become x and y.
-  Constraint constraint_along(const model::Support& support, int axis, const Vec2& point, int index,
-                              double value) const {
+  /// `normal`: that of the face of a crack; without it, the one of the edge.
+  Constraint constraint_along(const model::Support& support, int axis, const Vec2& point, int index, double value,
+                              const Vec2* normal = nullptr) const {
     Constraint made{-1, point, axis, false, index, value, Vec2::Zero()};
     if (support.axes == model::SupportAxes::xy) return made;
     Vec2 first = support.along;
-    if (support.axes == model::SupportAxes::edge) {
+    if (normal != nullptr) {
+      first = *normal;
+    } else if (support.axes == model::SupportAxes::edge) {
       const model::Outline& outline = model_.bodies[static_cast<std::size_t>(support.on.body)].outline;
       first = geometry::foot_on(outline.edges[static_cast<std::size_t>(support.on.index)], point)->normal;
     }

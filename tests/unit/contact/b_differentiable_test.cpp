@@ -36,7 +36,9 @@ struct Plain {
       H[d * i] = std::min(r[d * i] * u[d * i], p_n + problem.tension_of(i));
       const Vector p_t = z.segment(d * i + 1, d - 1);
       const Vector trial = p_t - r[d * i + 1] * u.segment(d * i + 1, d - 1);
-      const double bound = problem.cohesion_of(i) + problem.mu[i] * std::max(p_n, 0.0), size = trial.norm();
+      const bool backward = d == 2 && problem.mu_backward.size() > 0 && trial[0] > 0.0;
+      const double mu = backward ? problem.mu_backward[i] : problem.mu[i];
+      const double bound = problem.cohesion_of(i) + mu * std::max(p_n, 0.0), size = trial.norm();
       const double lambda = size > 0.0 ? std::min(bound / size, 1.0) : 1.0;
       H.segment(d * i + 1, d - 1) = p_t - lambda * trial;
     }
@@ -50,7 +52,13 @@ Vector random_vector(std::mt19937& random, Eigen::Index size) {
 }
 
 /// Where one pair is put.
-enum class Place { anywhere, normal_tie, no_force, edge, tip, cohesive_edge, pulled, frictionless, count };
+enum class Place { anywhere, normal_tie, no_force, edge, tip, cohesive_edge, pulled, frictionless, one_sided, count };
+
+/// The plane, with one coefficient or one for each direction, and space.
+struct Kind {
+  int d = 2;
+  bool by_direction = false;
+};
 
 /// A problem and a point z at which the pairs lie on kinks of every kind, alone and together.
 struct Kinked {
@@ -58,7 +66,8 @@ struct Kinked {
   Vector z;
 };
 
-Kinked kinked(std::mt19937& random, int d, bool kinks) {
+Kinked kinked(std::mt19937& random, const Kind& kind, bool kinks) {
+  const int d = kind.d;
   const int pairs = whole(random, 1, 5);
   Kinked result;
   Problem& problem = result.problem;
@@ -68,6 +77,13 @@ Kinked kinked(std::mt19937& random, int d, bool kinks) {
     problem = held_problem(random, pairs, 1.0, d);
   }
   for (double& mu : problem.mu) mu = uniform(random, 0.05, 1.0);
+  if (kind.by_direction) {
+    problem.mu_backward = problem.mu;
+    for (double& mu : problem.mu_backward) mu = uniform(random, 0.05, 1.0);
+  }
+  const auto mu_of = [&](int i, double p_t) {
+    return kind.by_direction && p_t > 0.0 ? problem.mu_backward[i] : problem.mu[i];
+  };
   problem.cohesion = Vector::Zero(pairs);
   problem.tension = Vector::Zero(pairs);
   Vector& z = result.z;
@@ -78,7 +94,8 @@ Kinked kinked(std::mt19937& random, int d, bool kinks) {
     auto p_t = z.segment(d * i + 1, d - 1);
     const Vector e = random_vector(random, d - 1).normalized();
     double& p_n = z[d * i];
-    switch (static_cast<Place>(whole(random, 0, static_cast<int>(Place::count) - 1))) {
+    const int places = static_cast<int>(kind.by_direction ? Place::count : Place::one_sided);
+    switch (static_cast<Place>(whole(random, 0, places - 1))) {
       case Place::anywhere:
         break;
       case Place::normal_tie:
@@ -90,7 +107,7 @@ Kinked kinked(std::mt19937& random, int d, bool kinks) {
         break;
       case Place::edge:
         p_n = std::abs(p_n);
-        wanted.segment(d * i + 1, d - 1) = p_t - problem.mu[i] * p_n * e;
+        wanted.segment(d * i + 1, d - 1) = p_t - mu_of(i, e[0]) * p_n * e;
         break;
       case Place::tip:
         p_n = 0.0;
@@ -101,7 +118,7 @@ Kinked kinked(std::mt19937& random, int d, bool kinks) {
       case Place::cohesive_edge:  // at p_n = 0 or not
         problem.cohesion[i] = 0.3;
         if (whole(random, 0, 1) == 0) p_n = 0.0;
-        wanted.segment(d * i + 1, d - 1) = p_t - (0.3 + problem.mu[i] * std::max(p_n, 0.0)) * e;
+        wanted.segment(d * i + 1, d - 1) = p_t - (0.3 + mu_of(i, e[0]) * std::max(p_n, 0.0)) * e;
         break;
       case Place::pulled:
         p_n = -std::abs(p_n);
@@ -110,7 +127,13 @@ Kinked kinked(std::mt19937& random, int d, bool kinks) {
         break;
       case Place::frictionless:
         problem.mu[i] = 0.0;
+        if (kind.by_direction) problem.mu_backward[i] = 0.0;
         if (whole(random, 0, 1) == 0) p_t.setZero();
+        break;
+      case Place::one_sided:  // on the edge without friction, at the tip of the cone or not
+        (whole(random, 0, 1) == 0 ? problem.mu : problem.mu_backward)[i] = 0.0;
+        p_n = whole(random, 0, 2) == 0 ? 0.0 : std::abs(p_n);
+        wanted.segment(d * i + 1, d - 1) = p_t;
         break;
       case Place::count:
         break;
@@ -125,8 +148,8 @@ Vector H_of(const BDifferentiableEquations& equations, const Vector& z) {
   return equations.residual(z.head(problem.q.size()), z.tail(problem.G.cols())).H;
 }
 
-class BDifferentiable : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(PlaneAndSpace, BDifferentiable, testing::Values(2, 3));
+class BDifferentiable : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(PlaneAndSpace, BDifferentiable, testing::Values(Kind{2}, Kind{3}, Kind{2, true}));
 
 TEST_P(BDifferentiable, EquationsAreThoseOfTheTheory) {
   std::mt19937 random(21);
@@ -210,7 +233,8 @@ TEST_P(BDifferentiable, NewtonStaysAtASolution) {
   std::mt19937 random(24);
   int converged = 0;
   for (int k = 0; k < 200; ++k) {
-    const Problem problem = held_problem(random, whole(random, 1, 12), 0.8, GetParam());
+    Problem problem = held_problem(random, whole(random, 1, 12), 0.8, GetParam().d);
+    if (GetParam().by_direction) problem.mu_backward = 0.3 * problem.mu;
     const BDifferentiableEquations equations(problem, 1.0);
     NewtonOptions options;
     options.small = 1e-12;

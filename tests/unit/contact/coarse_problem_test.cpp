@@ -77,12 +77,13 @@ TEST(CoarseProblem, ForcesWithinTheLawsOfTheGroupsAreWithinThoseOfThePairs) {
     Vector p(coarse.problem.q.size());  // on the boundary, or on the tip
     for (Eigen::Index i = 0; i < coarse.problem.pairs(); ++i) {
       p[2 * i] = std::max(uniform(random, -2.0, 2.0), -coarse.problem.tension[i]);
-      p[2 * i + 1] = (whole(random, 0, 1) == 0 ? 1.0 : -1.0) * coarse.problem.friction_bound(i, p[2 * i]);
+      const double side = whole(random, 0, 1) == 0 ? 1.0 : -1.0;
+      p[2 * i + 1] = side * coarse.problem.friction_bound(i, p[2 * i], side);
     }
     const Vector fine = coarse.prolong(p);
     for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
       EXPECT_GE(fine[2 * i], -problem.tension[i] - 1e-14);
-      EXPECT_LE(std::abs(fine[2 * i + 1]), problem.friction_bound(i, fine[2 * i]) + 1e-14);
+      EXPECT_LE(std::abs(fine[2 * i + 1]), problem.friction_bound(i, fine[2 * i], fine[2 * i + 1]) + 1e-14);
     }
   }
 }

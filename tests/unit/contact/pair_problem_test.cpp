@@ -34,9 +34,9 @@ Matrix random_block(Random& random, int d) {
 Vector solved(const Matrix& W, const Vector& free, const Law& law) {
   Vector p(free.size());
   if (free.size() == 2)
-    PairProblem<2>(W.data(), law.mu, law.cohesion, law.tension).solve(free.data(), p.data());
+    PairProblem<2>(W.data(), {law.mu, law.mu}, law.cohesion, law.tension).solve(free.data(), p.data());
   else
-    PairProblem<3>(W.data(), law.mu, law.cohesion, law.tension).solve(free.data(), p.data());
+    PairProblem<3>(W.data(), {law.mu, law.mu}, law.cohesion, law.tension).solve(free.data(), p.data());
   return p;
 }
 
@@ -100,7 +100,7 @@ TEST(PairProblem, TheForceOfTheTimeBeforeIsNoConditionOfTheNext) {
   Random random(11);
   const Matrix W = random_block(random, 3);
   const Law law{0.5, 0.2, 0.1};
-  PairProblem<3> pair(W.data(), law.mu, law.cohesion, law.tension);
+  PairProblem<3> pair(W.data(), {law.mu, law.mu}, law.cohesion, law.tension);
   for (int k = 0; k < 500; ++k) {
     const Vector free = std::pow(10.0, k % 9 - 4) * random_vector(random, 3);
     Vector p(3);

@@ -139,6 +139,13 @@ Vector read_strength(const Hdf5Reader& file, const std::string& path, Index pair
   return values;
 }
 
+/// `mu_backward` in files of Scabo, of plane problems.
+Vector read_backward(const Hdf5Reader& file, const std::string& path, Index pairs, int dimension) {
+  if (!file.has(path)) return {};
+  if (dimension != 2) file.fail(path, "coefficients that differ by direction are for spacedim 2");
+  return read_mu(file, path, pairs);
+}
+
 /// V, R, s: rigid motions if R = 0; otherwise l = -R^-1 (V' r + s) is eliminated into W and q.
 void read_constraints(const Hdf5Reader& file, Problem& problem) {
   const std::string V_path = "fclib_local/V", R_path = "fclib_local/R";
@@ -211,6 +218,7 @@ SavedProblem read_local(const Hdf5Reader& file) {
   const Index pairs = pairs_of(file, "fclib_local/W/m", W.rows(), problem.dimension);
   problem.q = read_vector(file, "fclib_local/vectors/q", W.rows(), "as many as rows of W");
   problem.mu = read_mu(file, "fclib_local/vectors/mu", pairs);
+  problem.mu_backward = read_backward(file, "fclib_local/vectors/mu_backward", pairs, problem.dimension);
   problem.cohesion = read_strength(file, "fclib_local/vectors/cohesion", pairs);
   problem.tension = read_strength(file, "fclib_local/vectors/tension", pairs);
   if (2 * W.nonZeros() >= W.rows() * W.cols())  // dense storage is then smaller and faster
@@ -326,6 +334,7 @@ void write_fclib(const std::string& name, const SavedProblem& saved) {
   write_matrix(file, "fclib_local/W", problem.W.is_sparse() ? problem.W.sparse() : all_entries(problem.W.dense()));
   file.numbers("fclib_local/vectors/q", problem.q);
   file.numbers("fclib_local/vectors/mu", problem.mu);
+  if (problem.mu_backward.size() > 0) file.numbers("fclib_local/vectors/mu_backward", problem.mu_backward);
   if (problem.cohesion.size() > 0) file.numbers("fclib_local/vectors/cohesion", problem.cohesion);
   if (problem.tension.size() > 0) file.numbers("fclib_local/vectors/tension", problem.tension);
   if (problem.G.cols() > 0) {

@@ -7,8 +7,8 @@
 //   solution/{r, l, u, v}
 //
 // The rigid motions of Scabo are the bilateral constraints of FCLIB with V = G, s = f, R = 0 and l = a; signs are the
-// same. Other readers ignore the data that only Scabo uses: vectors/cohesion, vectors/tension (`inf`: bonded) and the
-// group scabo/.
+// same. Other readers ignore the data that only Scabo uses: vectors/cohesion, vectors/tension (`inf`: bonded),
+// vectors/mu_backward (problem.hpp) and the group scabo/.
 //
 // Matrices are groups {m, n, nz, nzmax, p, i, x}, as in CSparse: nz = -1 for compressed columns, -2 for compressed
 // rows, otherwise nz triplets with columns p and rows i. W is kept as it is, even if unsymmetric.

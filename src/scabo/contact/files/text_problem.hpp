@@ -18,7 +18,8 @@
 //        2  `4-by-4, nzmax: 12 nnz: 12, 1-norm: 6.25`, then for each column
 //           `col 0 : locations 0 to 2` and `row : value` for each of its entries
 //
-// The layout cannot store rigid motions, history, cohesion and tension; these need HDF5 (fclib.hpp). Siconos writes
+// The layout cannot store rigid motions, history, cohesion, tension and coefficients that differ by direction; these
+// need HDF5 (fclib.hpp). Siconos writes
 // sparse values with six digits, Scabo with all digits.
 #pragma once
 

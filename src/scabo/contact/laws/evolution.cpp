@@ -28,7 +28,8 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
   for (Eigen::Index i = 0; i < N; ++i) {
     const ContactState state = solution.states[static_cast<std::size_t>(i)];
     const double slip = solution.slip_increment.segment((d - 1) * i, d - 1).norm();
-    const double strength = problem.friction_bound(i, solution.p[d * i]) + problem.tension_of(i);
+    const double strength =
+        problem.friction_bound(i, solution.p[d * i], solution.p[d * i + 1]) + problem.tension_of(i);
     const double opening = force(std::max(solution.gap[i], 0.0), diagonal[d * i]);
     const double sliding = force(slip, diagonal.segment(d * i + 1, d - 1).mean());
     if (std::isinf(strength)) continue;
@@ -144,14 +145,20 @@ History after(const History& from, const History& trial, const Ends& ends) {
 void set_limits(const JointLaws& laws, const History& history, Problem& problem) {
   const auto N = static_cast<Eigen::Index>(laws.of_pair.size());
   problem.mu.resize(N);
+  problem.mu_backward.resize(0);
   problem.cohesion = problem.tension = Vector::Zero(N);
+  Vector backward(N);
+  bool directional = false;
   for (Eigen::Index i = 0; i < N; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Limits limits = laws.of_pair[k]->limits(history[k]);
     problem.mu[i] = limits.mu;
+    backward[i] = limits.mu_backward.value_or(limits.mu);
+    directional = directional || limits.mu_backward.has_value();
     problem.cohesion[i] = limits.cohesion * laws.area[i];
     problem.tension[i] = limits.tension * laws.area[i];
   }
+  if (directional) problem.mu_backward = std::move(backward);
   if (problem.cohesion.isZero(0.0)) problem.cohesion.resize(0);
   if (problem.tension.isZero(0.0)) problem.tension.resize(0);
 }

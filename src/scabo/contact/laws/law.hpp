@@ -5,10 +5,14 @@
 //
 //     p_n >= -tau_t A,   |p_t| <= c A + mu (p_n)+                    A: tributary area of the pair
 //
+// with two coefficients where friction differs by the direction of slip.
+//
 // A law gives the current mu, c and tau_t, and the history that follows from a solution. Laws whose strength decreases
 // (a joint that breaks, friction that decreases once slip begins) are solved repeatedly within the increment until
 // nothing changes (laws/evolution.hpp). Laws never change; histories are values.
 #pragma once
+
+#include <optional>
 
 #include "scabo/contact/problem.hpp"
 
@@ -27,6 +31,8 @@ struct Limits {
   double mu = 0.0;        ///< coefficient of friction
   double cohesion = 0.0;  ///< c, force / length^2; infinity: it cannot slip
   double tension = 0.0;   ///< tau_t, force / length^2; infinity: it cannot open
+  /// Against backward slip, where it differs; `mu` is then that against forward slip.
+  std::optional<double> mu_backward = std::nullopt;
   bool operator==(const Limits&) const = default;
 };
 

@@ -75,6 +75,7 @@ CoarseProblem coarse_problem(const Problem& problem) {
   small.cohesion = weakest(problem.cohesion, coarse, groups);
   small.tension = weakest(problem.tension, coarse, groups);
   small.mu.setConstant(groups, HUGE_VAL);
+  if (problem.mu_backward.size() > 0) small.mu_backward = small.mu;
   small.q.setZero(components * groups);
   Matrix G_small = Matrix::Zero(components * groups, problem.G.cols());
   small.f = problem.f;
@@ -83,6 +84,8 @@ CoarseProblem coarse_problem(const Problem& problem) {
     const Eigen::Index to = coarse.group[static_cast<std::size_t>(j)];
     const double share = coarse.share[j];
     small.mu[to] = std::min(small.mu[to], problem.mu[j]);
+    if (problem.mu_backward.size() > 0)
+      small.mu_backward[to] = std::min(small.mu_backward[to], problem.mu_backward[j]);
     small.q.segment<components>(components * to) += share * problem.q.segment<components>(components * j);
     G_small.middleRows<components>(components * to) += share * problem.G.dense().middleRows<components>(components * j);
     for (Eigen::Index i = 0; i < N; ++i)

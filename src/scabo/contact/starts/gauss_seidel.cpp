@@ -21,7 +21,8 @@ PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {
   for (Index i = 0; i < problem.pairs(); ++i) {
     double block[d * d];
     read_block(i, block);
-    pairs_.emplace_back(block, problem.mu[i], problem.cohesion_of(i), problem.tension_of(i));
+    const typename PairProblem<d>::Friction mu{problem.mu_against(i, -1.0), problem.mu_against(i, 1.0)};
+    pairs_.emplace_back(block, mu, problem.cohesion_of(i), problem.tension_of(i));
   }
 }
 

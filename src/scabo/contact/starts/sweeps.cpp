@@ -165,8 +165,9 @@ class Sweeps {
       const PairProblem<d>& pair = sweeps_.pairs()[static_cast<std::size_t>(i)];
       const double *p = p_.data() + d * i, *u = motion_.data() + d * i;
       const double W_t = d == 2 ? pair.W()[3] : 0.5 * (pair.W()[d + 1] + pair.W()[d * d - 1]);
-      const double r_t = W_t > 0.0 ? 1.0 / W_t : 0.0, bound = problem_.mu[i] * std::max(p[0], 0.0);
+      const double r_t = W_t > 0.0 ? 1.0 / W_t : 0.0;
       double trial[2] = {p[1] - r_t * u[1], d == 3 ? p[d - 1] - r_t * u[d - 1] : 0.0};
+      const double bound = problem_.mu_against(i, trial[0]) * std::max(p[0], 0.0);
       const double size = std::sqrt(trial[0] * trial[0] + trial[1] * trial[1]);
       const double lambda = size > bound ? bound / size : 1.0;
       largest = std::max({largest, std::abs(std::min(pair.inverse() * u[0], p[0])), std::abs(p[1] - lambda * trial[0]),
