@@ -4,6 +4,7 @@ import "./style.css";
 import { ContactPanel } from "./charts/contacts";
 import { ConvergencePanel } from "./charts/convergence";
 import { HistoryPanel } from "./charts/history";
+import { LoopPanel } from "./charts/loops";
 import { readContent, type Content } from "./content";
 import { element } from "./dom";
 import { FieldPanel } from "./field/panel";
@@ -48,15 +49,16 @@ async function start(): Promise<void> {
   field = content.field ? new FieldPanel(state, { step: (by) => bar!.step(by), play: () => bar!.play() }) : null;
   const contacts = content.pairs ? new ContactPanel(state) : null;
   const side: (HTMLElement | null)[] = [content.convergence && count ? new ConvergencePanel(state).root : null, !content.modal && count ? new HistoryPanel(state).root : null];
+  const loops = content.modal ? null : LoopPanel.of(state)?.root ?? null;
   const outcome = verdict(state);
   let summary = model(state);
   const alerts = warnings(content);
   const rest = [content.modal ? modes(state) : count ? increments(state) : null, content.certificate.length ? certificate(content) : null, summary];
-  const parts = [alerts, field?.root, contacts?.root, ...side, ...rest].filter((part): part is HTMLElement => !!part);
+  const parts = [alerts, field?.root, contacts?.root, ...side, loops, ...rest].filter((part): part is HTMLElement => !!part);
   page.append(header(state), navigation(parts), element("main", {}, outcome, alerts ?? "", bar?.root ?? "",
     field || contacts ? element("div", { class: field && contacts ? "wide-and-narrow" : "single" }, ...[field?.root, contacts?.root].filter((part): part is HTMLElement => !!part)) : "",
     !content.field && count ? element("p", { class: "card note" }, "The run wrote no fields (`output` in the model file), so that there is no picture of them.") : "",
-    side.some((part) => part) ? element("div", { class: side.every((part) => part) ? "halves" : "single" }, ...side.filter((part): part is HTMLElement => !!part)) : "", ...rest.filter((part): part is HTMLElement => !!part)),
+    side.some((part) => part) ? element("div", { class: side.every((part) => part) ? "halves" : "single" }, ...side.filter((part): part is HTMLElement => !!part)) : "", loops ?? "", ...rest.filter((part): part is HTMLElement => !!part)),
     element("footer", {}, `Written by Scabo ${content.version} (scabo report). This file asks no network for anything. Values are those of the results directory, to seven digits; `
       + "between the points of the results the picture interpolates."));
   state.on(["units"], () => {

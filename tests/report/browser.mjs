@@ -102,6 +102,23 @@ seen.middle = await page.evaluate(() => window.scaboReport.state.shown.picked !=
 await page.keyboard.press("PageUp");
 seen.stepped = await page.evaluate(() => window.scaboReport.state.shown.increment);
 
+// Two quantities against each other; the ring follows the increment, and a click chooses it.
+const ring = () => page.evaluate(() => { const { x, y } = document.querySelector("#loops .loop-now").dataset; return [Number(x), Number(y)]; });
+const option = (id, name) => page.locator(`#${id} option`).evaluateAll((options, wanted) => options.find((one) => one.textContent === wanted)?.value, name);
+await page.selectOption("#loop-x", await option("loop-x", tasks.loop[0]));
+await page.selectOption("#loop-y", await option("loop-y", tasks.loop[1]));
+seen.loop = { points: await page.locator("#loops .loop-point").evaluateAll((points) => points.map(({ dataset: { x, y } }) => [Number(x), Number(y)])), rings: [] };
+for (const wanted of [3, 1]) {
+  await increment(wanted);
+  seen.loop.rings.push(await ring());
+}
+await page.locator("#loops .loop").scrollIntoViewIfNeeded();
+const point = await page.locator("#loops .loop-point").nth(1).boundingBox();
+await page.mouse.click(point.x + 3, point.y + 3);
+seen.loop.clicked = await page.evaluate(() => window.scaboReport.state.shown.increment);
+await increment(2);
+await page.mouse.move(2, 2);
+
 // Every quantity, then light and dark.
 seen.quantities = await page.locator("#quantity option").evaluateAll((options) => options.map((option) => option.value));
 for (const key of seen.quantities) {

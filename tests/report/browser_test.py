@@ -23,6 +23,7 @@ RINGS = (2, 5, 7)        # of the lower beam, 80 nodes each; a node in the middl
 NODES = (7, 33, 61)
 BETWEEN = ((1.234, 0.567), (5.43, 2.21))
 PAIR, OTHER = 30, 11     # from 0: one that slips, one that is open
+LOOP = ("joint, normal force", "joint, tangential force")  # across, up
 
 
 def chromium():
@@ -55,7 +56,7 @@ class Report(unittest.TestCase):
         cls.triangles = geometry.triangles(grid)
         cls.asked = [(number, *map(float, at)) for number in (3, 1) for at in (*cls.points, *BETWEEN)]
         job = subprocess.run([node, pathlib.Path(__file__).with_name("browser.mjs"), modules, chromium(), cls.folder / "beam.html", cls.folder],
-                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER}), text=True, capture_output=True,
+                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER, "loop": LOOP}), text=True, capture_output=True,
                              timeout=support.PATIENCE)
         assert job.returncode == 0, job.stderr
         cls.seen = json.loads(job.stdout)
@@ -128,6 +129,13 @@ class Report(unittest.TestCase):
                 self.assertAlmostEqual(seen["shown"][key], float(row[key]), delta=1e-6 * abs(float(row[key])) + 1e-300, msg=(name, key))
         self.assertAlmostEqual(self.seen["from_field"]["cursor"], self.seen["from_field"]["expected"], delta=1.5)
         self.assertEqual(self.seen["from_keyboard"]["pair"], OTHER)
+
+    def test_two_quantities_against_each_other(self):
+        totals = [entry["contacts"]["joint"] for entry in self.results.increments]
+        expected = [[total["normal_force"] / 1e3, total["tangential_force"] / 1e3] for total in totals]  # kN
+        np.testing.assert_allclose(self.seen["loop"]["points"], expected, rtol=1e-12)
+        np.testing.assert_allclose(self.seen["loop"]["rings"], [expected[2], expected[0]], rtol=1e-12)
+        self.assertEqual(self.seen["loop"]["clicked"], 2)
 
     def test_the_keyboard_reaches_everything(self):
         wanted = ["units", "theme", "play", "increment", "quantity", "range", "magnification", "show-mesh", "show-elements", "field-view", "pick-x", "pair"]

@@ -144,7 +144,7 @@ TEST(StaticRun, AnIncrementThatIsInterruptedWhileItIsWrittenIsNotFinished) {
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(finished, 2);
   ASSERT_EQ(solution.increments.size(), 2u);
-  EXPECT_EQ(rows_of(folder.path() / "contact.csv"), 2 * static_cast<int>(solution.increments[0].contacts[0].pairs.size()));
+  EXPECT_EQ(rows_of(folder.path() / "contact.csv"), 2 * static_cast<int>(solution.increments.back().contacts[0].pairs.size()));
   EXPECT_TRUE(fs::exists(folder.path() / "fields_0002.vtu"));
   EXPECT_FALSE(fs::exists(folder.path() / "fields_0003.vtu"));
   EXPECT_EQ(result::status_in(folder.path()), "interrupted");
