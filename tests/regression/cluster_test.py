@@ -220,14 +220,15 @@ bodies:
   block: {material: rock, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}, mesh: {kind: quadtree, size: SIZE}}
 supports: [{on: block.bottom, fix: [x, y]}]
 loads: {weight: {gravity: [0, -9.81]}}
-steps: [{increments: 1000}]
+steps: [{increments: 300}]
+output: {every: 1000}
 """
 
     def write(self, size):
         (self.directory / "model.yaml").write_text(self.LARGE.replace("SIZE", str(size)), encoding="utf-8")
 
     def test_a_lost_rank_ends_the_run(self):
-        self.write(0.02)
+        self.write(0.05)
         with subprocess.Popen([MPIRUN, "-n", "2", support.SCABO, "run", "model.yaml", "-o", "results", "--divide-from", "100"],
                               cwd=self.directory, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
             summary = self.directory / "results" / "summary.json"
