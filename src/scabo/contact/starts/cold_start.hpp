@@ -11,7 +11,9 @@
 //                         p = P p_c;  3 sweeps
 //
 // Where pairs are not coupled, 30 sweeps from zero replace the coarse problem. Bodies supported by contact alone are
-// held during sweeps by 0.7 of the mean stiffness of a pair, around the current a. Nothing here needs to converge: the
+// held during sweeps by 0.7 of the mean stiffness of a pair, around the current a. With them (m > 0) at most 10 iterations
+// are made on fewer pairs, no sweeps follow p = P p_c, and where Newton does not reach its aim on the fewest pairs it
+// begins there from forces of pairs that are all held (contact/bonded_start.hpp) as well. Nothing here needs to converge: the
 // last solve is always Newton on the original problem. Figures: docs/methods/12_contact_solver.md.
 #pragma once
 
