@@ -83,7 +83,8 @@ ColdStart nested_start(const Problem& problem, const Vector& a) {
   if (solved.finite) {
     start.p = coarse.prolong(start.p);
     // Sweeps of a floating body go with soft springs, which shift it, the more so the more pairs there are.
-    if (problem.G.cols() == 0) sweep(problem, sweeps_after, start);
+    constexpr int most_swept = 300;
+    if (problem.G.cols() == 0 || problem.pairs() <= most_swept) sweep(problem, sweeps_after, start);
     return start;
   }
   ColdStart swept = swept_start(problem, a);
