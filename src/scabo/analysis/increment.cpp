@@ -75,12 +75,8 @@ std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vecto
 }
 
 /// Supports on both sides may hold a pair; they must not press its points into each other.
-void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, const Vector& offset,
-                      const Replacing& replaced) {
+void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
-  if (contact.held.empty()) return;
-  Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
-  for (std::size_t p = 0; p < u.size(); ++p) motion.noalias() += contact.held_motion[p] * u[p];
   if (offset.size() > 0) motion += offset;
   for (std::size_t i = 0; i < contact.held.size(); ++i) {
     const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
@@ -101,16 +97,25 @@ void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, co
 /// Resultant of nodal forces.
 Vec2 resultant_of(const Vector& forces) { return forces.reshaped(2, forces.size() / 2).rowwise().sum(); }
 
+/// What acts on the parts of a state, and what of it their displacements leave unbalanced (BodySystem::unbalanced): one
+/// product with the stiffness for reactions, certificate and energy. Empty for an absent part.
+struct Balance {
+  Vector forces, unbalanced;
+};
+
 /// Work done on the way between two accepted states, by the trapezoidal rule; displacements are relative to the
 /// reference point. The nodal displacements are not: there the stiffness of an unbounded body is that of one held far
 /// away, which resists a translation.
-Energy energy_between(const Prepared& prepared, const State& from, const State& to) {
+Energy energy_between(const Prepared& prepared, const State& from, const State& to,
+                      const std::vector<Balance>& balances) {
   Energy energy = from.energy;
   energy.elastic = 0.0;
   for (std::size_t p = 0; p < to.u.size(); ++p) {
     energy.external += 0.5 * (from.forces[p] + to.forces[p]).dot(to.u[p] - from.u[p]);
     energy.external += 0.5 * (from.reactions[p] + to.reactions[p]).dot(to.prescribed[p] - from.prescribed[p]);
-    energy.elastic += prepared.structure.parts[p]->elastic_energy(to.u[p]);
+    if (!prepared.is_absent(p))
+      energy.elastic +=
+          prepared.structure.parts[p]->elastic_energy(to.u[p], balances[p].forces + balances[p].unbalanced);
   }
   if (prepared.reference) {
     const Vec2 reached = reference_displacement(prepared, to.u),
@@ -139,21 +144,25 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
 
 /// Displacements and reactions under the loads and contact forces of a state; `free`: known displacements without
 /// contact.
-void add_displacements(const Prepared& prepared, const std::vector<Vector>* free, State& to) {
+std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* free, State& to) {
   const auto& parts = prepared.structure.parts;
+  std::vector<Balance> balances(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (prepared.is_absent(p)) {
       to.u.push_back(Vector::Zero(parts[p]->size()));
       to.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(parts[p]->constraints().size())));
       continue;
     }
-    const Vector forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
-    Vector u = free ? (*free)[p] : parts[p]->displacement(forces, to.prescribed[p]);
+    Balance& balance = balances[p];
+    balance.forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
+    Vector u = free ? (*free)[p] : parts[p]->displacement(balance.forces, to.prescribed[p]);
     const Matrix& rigid = parts[p]->rigid_motions();
     if (rigid.cols() > 0) u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
-    to.reactions.push_back(parts[p]->reactions(u, forces));
+    balance.unbalanced = parts[p]->unbalanced(u, balance.forces);
+    to.reactions.push_back(parts[p]->reactions_of(balance.unbalanced));
     to.u.push_back(std::move(u));
   }
+  return balances;
 }
 
 /// Force and moment of everything that acts on a part, as [F_x, F_y, M / L] about its reference point.
@@ -196,7 +205,8 @@ double scale_of(const Prepared& prepared, const State& state, double largest_at_
 }
 
 /// Completes the certificate with what only the whole structure can tell: equilibrium of every node and of every part.
-void certify_structure(const Prepared& prepared, const State& state, double scale, contact::Certificate& certificate) {
+void certify_structure(const Prepared& prepared, const State& state, std::vector<Balance> balances, double scale,
+                       contact::Certificate& certificate) {
   if (scale == 0.0) return;
   const system::Dofs& dofs = prepared.structure.dofs;
   for (std::size_t p = 0; p < state.u.size(); ++p) {
@@ -206,8 +216,8 @@ void certify_structure(const Prepared& prepared, const State& state, double scal
     }
     if (prepared.is_absent(p)) continue;
     const system::BodySystem& part = *prepared.structure.parts[p];
-    Vector forces = state.forces[p] + prepared.contact.motion[p].transpose() * state.p;
-    certificate.equilibrium = std::max(certificate.equilibrium, part.imbalance(state.u[p], forces) / scale);
+    Vector& forces = balances[p].forces;
+    certificate.equilibrium = std::max(certificate.equilibrium, part.imbalance_of(balances[p].unbalanced) / scale);
     // Of a rigid body imbalance() is the balance; what acts on an unbounded part goes to infinity.
     if (dofs.is_rigid(p) || dofs.is_unbounded(p)) continue;
     system::add_reactions(part.constraints(), state.reactions[p], forces);
@@ -441,17 +451,25 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   options.iterations = prepared.model.solver.iterations;
   options.on_iteration = prepared.on_iteration;
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
-  std::vector<Vector> free;  // without contact
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (prepared.is_absent(p)) {
-      free.push_back(Vector::Zero(parts[p]->size()));
-      continue;
-    }
-    free.push_back(parts[p]->displacement(to.forces[p], to.prescribed[p]));
-    problem.q.noalias() += system.motion[p] * free[p];
-    problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
+  std::vector<Vector> free;  // displacements without contact, where they are not known from before
+  Vector held = Vector::Zero(static_cast<Eigen::Index>(2 * system.held.size()));
+  const bool kept = prepared.free_motions && N > 0 && to.replaced.moved.empty() && to.released.empty();
+  if (kept) {
+    FreeMotions::OfPairs motions = prepared.free_motions->at(prepared, factors);
+    problem.q += motions.moving;
+    held = std::move(motions.held);
   }
-  check_held_pairs(prepared, free, from.held_offset, from.replaced);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!prepared.is_absent(p))
+      problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
+    if (kept) continue;
+    free.push_back(prepared.is_absent(p) ? Vector(Vector::Zero(parts[p]->size()))
+                                         : parts[p]->displacement(to.forces[p], to.prescribed[p]));
+    if (prepared.is_absent(p)) continue;
+    problem.q.noalias() += system.motion[p] * free[p];
+    if (!system.held.empty()) held.noalias() += system.held_motion[p] * free[p];
+  }
+  if (!system.held.empty()) check_held_pairs(prepared, std::move(held), from.held_offset, from.replaced);
 
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
@@ -467,12 +485,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.gap = result.solution.gap;
   to.slip = from.slip + result.solution.slip_increment;
   to.states = result.solution.states;
-  add_displacements(prepared, N == 0 ? &free : nullptr, to);
-  to.energy = energy_between(prepared, from, to);
+  std::vector<Balance> balances = add_displacements(prepared, N == 0 ? &free : nullptr, to);
+  to.energy = energy_between(prepared, from, to, balances);
   result.certificate = result.solution.certificate;
   to.largest_force = std::max(from.largest_force, largest_force(to));
   const double scale = scale_of(prepared, to, std::max(options.force_scale, to.largest_force));
-  certify_structure(prepared, to, scale, result.certificate);
+  certify_structure(prepared, to, std::move(balances), scale, result.certificate);
   if (scale > 0.0) result.rounding = rounding * resistance(prepared, to) / scale;
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;

@@ -7,6 +7,7 @@
 
 #include "scabo/contact/gmres.hpp"
 #include "scabo/linalg/general_solver.hpp"
+#include "scabo/linalg/single_precision_solver.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
@@ -14,6 +15,8 @@ namespace scabo::contact {
 struct NewtonDirection::Workspace {
   Matrix A, factor;
   linalg::GeneralSolver solver;
+  Eigen::MatrixXf single;
+  linalg::SinglePrecisionSolver single_solver;
   Vector column, full, image, residual;
   Eigen::SparseMatrix<double> sparse, raised;
   Eigen::SparseMatrix<double, Eigen::RowMajor> G;  // by rows, for sparse saddle systems
@@ -29,6 +32,9 @@ namespace {
 // Unknowns of a dense factorisation: of the matrix W itself, for which GMRES needs hundreds of products, and of one
 // that would have to be formed first.
 constexpr Eigen::Index most_of_dense = 6000, most_of_formed = 2500;
+// Unknowns from which the factorisation is one in single precision, and up to which there is one.
+constexpr Eigen::Index least_of_single = 2500, most_of_single = 24000;
+constexpr GmresOptions refining_gmres{1e-13, 30, 60};
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
 constexpr Eigen::Index least_sparse = 120;     // unknowns below which dense is faster
 
@@ -204,6 +210,9 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   bool solved = false;
   if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = solve_sparse(regularisation);
+  else if (problem.W.is_dense() && size + m > least_of_single && size + m <= most_of_single &&
+           solve_by_single_precision(regularisation))
+    solved = true;
   else if (problem.W.is_dense() ? size + m <= most_of_dense : std::max(size + m, forces) <= most_of_formed)
     solved = solve_dense(regularisation);
   else
@@ -286,6 +295,59 @@ bool NewtonDirection::solve_dense(double regularisation) {
   const double left = gmres(multiply, precondition, right, x, singular_gmres);
   y = x;
   return y.allFinite() && left <= descending;
+}
+
+bool NewtonDirection::solve_by_single_precision(double regularisation) {
+  const Problem& problem = equations_.problem();
+  const Matrix &W = problem.W.dense(), &G = problem.G.dense();
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
+  Eigen::MatrixXf& A = work_->single;
+  A.resize(n, n);
+  // Rows and columns of a motion, [component of a pair, weight], without those of weight 0.
+  struct Entry {
+    Eigen::Index component;
+    double weight;
+  };
+  std::vector<Entry> rows;
+  std::vector<Eigen::Index> first_of_row(static_cast<std::size_t>(size + 1), 0);
+  for (Eigen::Index row = 0; row < size; ++row) {
+    const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
+    for (Eigen::Index k = 0; k < d; ++k)
+      if (to.row[k] != 0.0) rows.push_back({d * to.pair + k, to.scale * to.row[k]});
+    first_of_row[static_cast<std::size_t>(row + 1)] = static_cast<Eigen::Index>(rows.size());
+  }
+  const auto motions_of_rows = [&](const auto& motion, auto&& into) {
+    for (Eigen::Index row = 0; row < size; ++row) {
+      double sum = 0.0;
+      for (Eigen::Index e = first_of_row[static_cast<std::size_t>(row)];
+           e < first_of_row[static_cast<std::size_t>(row + 1)]; ++e)
+        sum += rows[static_cast<std::size_t>(e)].weight * motion[rows[static_cast<std::size_t>(e)].component];
+      into[row] = static_cast<float>(sum);
+    }
+  };
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
+    work_->column.setZero(W.rows());
+    for (Eigen::Index k = 0; k < d; ++k)
+      if (from.column[k] != 0.0) work_->column.noalias() += from.column[k] * W.col(d * from.pair + k);
+    motions_of_rows(work_->column, A.col(j));
+    A(j, j) += static_cast<float>(regularisation * (1.0 - from.own) + from.own);
+    for (Eigen::Index g = 0; g < m; ++g) {
+      double force = 0.0;
+      for (Eigen::Index k = 0; k < d; ++k) force += from.column[k] * G(d * from.pair + k, g);
+      A(size + g, j) = static_cast<float>(force);
+    }
+  }
+  for (Eigen::Index g = 0; g < m; ++g) motions_of_rows(G.col(g), A.col(size + g));
+  if (m > 0) A.block(size, size, m, m).setZero();
+  if (!work_->single_solver.factorise(A)) return false;
+  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
+  const auto precondition = [&](const Vector& x, Vector& result) { work_->single_solver.solve(x, result); };
+  const Vector right = right_.head(n);
+  y_.setZero(n);
+  const double left = gmres(multiply, precondition, right, y_, refining_gmres);
+  return y_.allFinite() && left <= exact;
 }
 
 void NewtonDirection::lay_out_sparse(double regularisation) {
@@ -379,7 +441,7 @@ void NewtonDirection::apply(const Vector& x, double regularisation, Vector& resu
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
   work.full.setZero(problem.W.size());
   expand(x, work.full);
-  work.image = problem.W * work.full;
+  problem.W.apply(work.full, work.image);
   problem.G.add_motion(x.tail(problem.G.cols()), work.image);
   result.resize(x.size());
   gather(work.image, result);

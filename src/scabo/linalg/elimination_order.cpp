@@ -165,7 +165,8 @@ std::vector<std::int64_t> elimination_order(const SparseMatrix& A, Ordering meth
   cholmod_common common{};
   cholmod_l_start(&common);
   common.print = 0;
-  int done = cholmod_l_amd(&view, nullptr, 0, order_of_groups.data(), &common);
+  const bool by_degree = method == Ordering::automatic || method == Ordering::minimum_degree;
+  int done = by_degree ? cholmod_l_amd(&view, nullptr, 0, order_of_groups.data(), &common) : 1;
   const double vertices = static_cast<double>(view.nrow), unknowns = static_cast<double>(A.rows());
   // CHOLMOD states the operations for one unknown a vertex.
   const double operations = common.fl * std::pow(unknowns / std::max(1.0, vertices), 3);

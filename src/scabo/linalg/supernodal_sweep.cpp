@@ -42,10 +42,13 @@ class Sweep {
       interruption_point();
       visit(s);
     }
+    fill_upper_triangle();
     Matrix block(count(), count());
-    for (int j = 0; j < count(); ++j)
-      for (int i = j; i < count(); ++i)
-        block(sorted_[index(i)], sorted_[index(j)]) = block(sorted_[index(j)], sorted_[index(i)]) = result_(i, j);
+    for (int j = 0; j < count(); ++j) {
+      double* const to = block.col(sorted_[index(j)]).data();
+      const double* const from = result_.col(j).data();
+      for (int i = 0; i < count(); ++i) to[sorted_[index(i)]] = from[i];
+    }
     return block;
   }
 
@@ -59,6 +62,15 @@ class Sweep {
   std::int64_t parent(std::int64_t s) const {
     const std::int64_t columns = L_.columns_of(s);
     return L_.rows_of(s) > columns ? supernode_of(L_.rows[L_.first_row[s] + columns]) : L_.supernodes;
+  }
+
+  /// By tiles, which stay in the cache.
+  void fill_upper_triangle() {
+    constexpr int tile = 64;
+    for (int first = 0; first < count(); first += tile)
+      for (int below = first; below < count(); below += tile)
+        for (int j = first; j < std::min(first + tile, count()); ++j)
+          for (int i = std::max(below, j + 1); i < std::min(below + tile, count()); ++i) result_(j, i) = result_(i, j);
   }
 
   void find_supernodes() {

@@ -89,12 +89,18 @@ class BodySystem {
   virtual Vector displacement(const Vector& f, const Vector& prescribed) const = 0;
   /// A on the given degrees of freedom.
   virtual Matrix flexibility(const std::vector<int>& dofs) const = 0;
-  /// Forces exerted by the constraints, one for each, for displacements u under the forces f (contact forces included).
-  virtual Vector reactions(const Vector& u, const Vector& f) const = 0;
-  /// Largest unbalanced force on a degree of freedom without constraint.
-  virtual double imbalance(const Vector& u, const Vector& f) const = 0;
-  /// 1/2 u'(K + S) u.
+  /// (K + S) u - f for displacements u under the forces f (contact forces included): the forces of the constraints, and
+  /// what is not balanced elsewhere.
+  virtual Vector unbalanced(const Vector& u, const Vector& f) const = 0;
+  /// Of these: the forces exerted by the constraints, one for each.
+  virtual Vector reactions_of(const Vector& unbalanced) const = 0;
+  Vector reactions(const Vector& u, const Vector& f) const { return reactions_of(unbalanced(u, f)); }
+  /// Of these: the largest on a degree of freedom without constraint.
+  virtual double imbalance_of(const Vector& unbalanced) const = 0;
+  double imbalance(const Vector& u, const Vector& f) const { return imbalance_of(unbalanced(u, f)); }
+  /// 1/2 u'(K + S) u; `resisting`: (K + S) u, where it is known.
   virtual double elastic_energy(const Vector& u) const = 0;
+  virtual double elastic_energy(const Vector& u, const Vector& resisting) const = 0;
   /// Estimated error of elastic_energy(u) by the rounding of the entries of K. Its ratio to the energy is the relative
   /// error of the displacement under the load.
   virtual double energy_lost(const Vector& u) const = 0;
@@ -131,6 +137,7 @@ struct ElasticPart {
   Stiffness stiffness;
   std::vector<Vec2> nodes;
   std::vector<Constraint> constraints;
+  int contact_dofs = 0;  ///< degrees of freedom in contact pairs, for the order of elimination
 };
 /// The same for many bodies, on up to `threads` threads. Bodies whose matrices are equal bit for bit, as those of equal
 /// blocks with equal supports are wherever they stand, share stiffness and factor. NotPositiveDefinite comes with the

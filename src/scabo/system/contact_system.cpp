@@ -59,6 +59,34 @@ struct PartFlexibility {
   Matrix block;  // rows x rows, symmetric
 };
 
+/// N A N' of a symmetric A, exactly symmetric, by tiles of its columns: no other matrix is as large.
+Matrix congruent(const Eigen::SparseMatrix<double, Eigen::RowMajor>& N, const Matrix& A) {
+  constexpr Eigen::Index tile = 64;
+  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+  const Eigen::Index rows = N.rows();
+  Matrix result(rows, rows), half(A.rows(), tile);
+  for (Eigen::Index first = 0; first < rows; first += tile) {
+    const Eigen::Index count = std::min(tile, rows - first), last = first + count;
+    for (Eigen::Index j = first; j < last; ++j) {
+      auto column = half.col(j - first);
+      column.setZero();
+      for (Row it(N, j); it; ++it) column += it.value() * A.col(it.col());
+      for (Eigen::Index i = j; i < rows; ++i) {
+        double sum = 0.0;
+        for (Row it(N, i); it; ++it) sum += it.value() * column[it.col()];
+        result(i, j) = sum;
+      }
+    }
+    for (Eigen::Index j = first; j < last; ++j)
+      for (Eigen::Index i = j + 1; i < last; ++i) result(j, i) = result(i, j);
+    for (Eigen::Index below = last; below < rows; below += tile) {
+      const Eigen::Index height = std::min(tile, rows - below);
+      result.block(first, below, count, height) = result.block(below, first, height, count).transpose();
+    }
+  }
+  return result;
+}
+
 PartFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const BodySystem& part) {
   PartFlexibility result;
   std::vector<int> touched;  // degrees of freedom of the part
@@ -81,8 +109,7 @@ PartFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const 
   Eigen::SparseMatrix<double> narrow(static_cast<Eigen::Index>(result.rows.size()),
                                      static_cast<Eigen::Index>(touched.size()));
   narrow.setFromTriplets(entries.begin(), entries.end());
-  const Matrix half = (narrow * part.flexibility(touched)).transpose(), W = narrow * half;
-  result.block = 0.5 * (W + W.transpose());
+  result.block = congruent(narrow, part.flexibility(touched));
   return result;
 }
 

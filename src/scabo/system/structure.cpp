@@ -255,6 +255,19 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
   if (!diagnostics.empty()) throw InputError(model.file, std::move(diagnostics));
 }
 
+namespace {
+
+/// Degrees of freedom of every part that belong to pairs.
+std::vector<int> dofs_in_contacts(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
+  std::vector<int> of_part(dofs.parts(), 0);
+  for (std::size_t c = 0; c < mesh.interfaces.size(); ++c)
+    for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body})
+      of_part[dofs.part_of(body)] += 2 * static_cast<int>(mesh.interfaces[c].pairs.size());
+  return of_part;
+}
+
+}  // namespace
+
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                          const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks) {
   Structure structure;
@@ -278,6 +291,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
   };
   std::vector<std::size_t> elastic;
   std::vector<ElasticPart> parts;
+  const std::vector<int> contact_dofs = dofs_in_contacts(model, mesh, dofs);
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
     if (body_of(p).rigid) {
       structure.parts[p] = make_rigid_body(model, body_of(p), std::move(constraints[p]), structure.springs.of_part[p]);
@@ -292,7 +306,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       return divided;
     });
     stiffness.springs = structure.springs.of_part[p];
-    parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p])});
+    parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), contact_dofs[p]});
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options);

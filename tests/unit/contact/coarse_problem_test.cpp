@@ -166,6 +166,40 @@ TEST(ColdStart, WithoutCouplingItIsThatOfSweeps) {
   EXPECT_EQ(nested.coarse_iterations, 0);
 }
 
+/// A long plate that lies on a joint and is pushed, held by contact alone.
+Problem plate(int pairs, double reach, double friction, double shear, double ripple) {
+  Problem problem;
+  problem.W = joint_flexibility(pairs, reach);
+  problem.mu = Vector::Constant(pairs, friction);
+  problem.q.resize(2 * pairs);
+  Matrix G(2 * pairs, 3);
+  for (int i = 0; i < pairs; ++i) {
+    const double x = 2.0 * i / (pairs - 1.0) - 1.0;
+    problem.q[2 * i] = ripple * std::cos(11.0 * x);
+    problem.q[2 * i + 1] = shear * std::sin(3.0 * x);
+    G.row(2 * i) << 1.0, 0.0, x;
+    G.row(2 * i + 1) << 0.0, 1.0, 0.0;
+  }
+  problem.G = G;
+  problem.f = Eigen::Vector3d(-1.0 * pairs, 0.3 * friction * pairs, 0.05 * pairs);
+  return problem;
+}
+
+/// Sweeps after the extension to many pairs shift it: 3, 7 and 4 iterations with them.
+TEST(ColdStart, OfALongFloatingBodyIsNotShiftedBySweeps) {
+  struct Case {
+    Problem problem;
+    int most;
+  };
+  for (const Case& now : {Case{plate(800, 10.0, 0.5, 3.0, 2.0), 1}, Case{plate(800, 60.0, 0.2, 10.0, 5.0), 3},
+                          Case{plate(400, 6.0, 0.5, 3.0, 2.0), 2}}) {
+    const Solution solution = solve(now.problem);
+    ASSERT_EQ(solution.status, Status::solved) << solution.reason;
+    EXPECT_LE(violation(now.problem, solution.p, solution.a), 1e-9);
+    EXPECT_LE(solution.iterations, now.most);
+  }
+}
+
 TEST(ColdStart, IterationsOnFewerPairsAreCountedApartAndStandInTheTrace) {
   std::mt19937 random(10);
   Problem problem = joint(random, 200, 0.7);

@@ -1,5 +1,8 @@
 #include "scabo/contact/starts/cold_start.hpp"
 
+#include <optional>
+
+#include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/coarse_problem.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/newton.hpp"
@@ -23,10 +26,17 @@ void sweep(const Problem& problem, int sweeps, ColdStart& start) {
 }
 
 /// Newton on the problem of fewer pairs from its own start, which is extended; the best iterate is sufficient.
-bool solve_loosely(const Problem& coarse, ColdStart& start) {
+struct Loosely {
+  bool finite = false, converged = false;
+  double residual = 0.0;  ///< relative to the largest force of the start
+};
+Loosely solve_loosely(const Problem& coarse, ColdStart& start) {
+  // What is wrong with a floating body on few pairs stays wrong on more, and iterations on few pairs cost little.
+  constexpr int of_held = 3, of_floating = 10;
+  const double force = start.p.lpNorm<Eigen::Infinity>();
   NewtonOptions options;
-  options.small = 5e-2 * start.p.lpNorm<Eigen::Infinity>();
-  options.iterations = 3;
+  options.small = 5e-2 * force;
+  options.iterations = coarse.G.cols() > 0 ? of_floating : of_held;
   options.stage = "newton, " + std::to_string(coarse.pairs()) + " pairs";
   NewtonEnd end = newton(BDifferentiableEquations(coarse, 1.0), std::move(start.p), std::move(start.a), options);
   for (Iteration& iteration : end.trace) {
@@ -36,7 +46,23 @@ bool solve_loosely(const Problem& coarse, ColdStart& start) {
   start.coarse_iterations += end.iterations;
   start.p = std::move(end.p);
   start.a = std::move(end.a);
-  return start.p.allFinite() && start.a.allFinite();
+  return {start.p.allFinite() && start.a.allFinite(), end.converged, force > 0.0 ? end.residual / force : 0.0};
+}
+
+/// Of the problem of fewest pairs: sweeps may leave a floating body where all pairs slip and Newton has no direction;
+/// forces of pairs that are all held then are the better start.
+Loosely solve_fewest(const Problem& coarse, ColdStart& start) {
+  const Loosely swept = solve_loosely(coarse, start);
+  if (swept.converged || coarse.G.cols() == 0) return swept;
+  std::optional<BondedStart> held = bonded_start(coarse, {});
+  if (!held) return swept;
+  ColdStart other{std::move(held->p), std::move(held->a), start.coarse_iterations, start.trace};
+  const Loosely bonded = solve_loosely(coarse, other);
+  start.coarse_iterations = other.coarse_iterations;
+  start.trace = other.trace;
+  if (!bonded.finite || (swept.finite && bonded.residual >= swept.residual)) return swept;
+  start = std::move(other);
+  return bonded;
 }
 
 }  // namespace
@@ -52,9 +78,13 @@ ColdStart nested_start(const Problem& problem, const Vector& a) {
   const CoarseProblem coarse = coarse_problem(problem);
   if (4 * coarse.problem.pairs() > 3 * problem.pairs()) return swept_start(problem, a);
   ColdStart start = nested_start(coarse.problem, a);
-  if (solve_loosely(coarse.problem, start)) {
+  const Loosely solved =
+      may_nest(coarse.problem) ? solve_loosely(coarse.problem, start) : solve_fewest(coarse.problem, start);
+  if (solved.finite) {
     start.p = coarse.prolong(start.p);
-    sweep(problem, sweeps_after, start);
+    // Sweeps of a floating body go with soft springs, which shift it, the more so the more pairs there are.
+    constexpr int most_swept = 300;
+    if (problem.G.cols() == 0 || problem.pairs() <= most_swept) sweep(problem, sweeps_after, start);
     return start;
   }
   ColdStart swept = swept_start(problem, a);
