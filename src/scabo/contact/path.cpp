@@ -19,7 +19,7 @@ class Path {
   using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
   /// What the rows of a pair ask for: its normal row u_n = 0 or p_n = 0, its tangential row u_t = 0 (stick) or p_t +
-  /// side mu p_n = 0, where side is the sign of the slip.
+  /// side mu p_n = 0, where side is the sign of the slip and mu the coefficient against slip of this sign.
   struct Pair {
     bool contact = true;
     int side = 0;  // 0: stick
@@ -119,21 +119,22 @@ class Path {
     std::uniform_real_distribution<double> uniform(0.5, 1.0);
     for (Index i = 0; i < N_; ++i) {
       Pair& pair = pairs_[static_cast<std::size_t>(i)];
-      const double mu = problem_.mu[i], margin = start.margin * uniform(random);
+      const double margin = start.margin * uniform(random);
       const ContactState state = start.states[static_cast<std::size_t>(i)];
       double normal = std::max(start.p[2 * i], 0.0) + force * (start.pressure + margin);
-      double tangent = std::clamp(start.p[2 * i + 1], -(1.0 - margin) * mu * normal, (1.0 - margin) * mu * normal);
+      double tangent = std::clamp(start.p[2 * i + 1], -(1.0 - margin) * mu_of(i, 1) * normal,
+                                  (1.0 - margin) * mu_of(i, -1) * normal);
       if (state == ContactState::open) {
-        pair = {false, mu > 0.0 && motion[2 * i + 1] < 0.0 ? -1 : 1};
+        pair = {false, may_stick(i) && motion[2 * i + 1] < 0.0 ? -1 : 1};
         normal = tangent = 0.0;
         wanted[2 * i] = std::max(motion[2 * i], 0.0) + length * margin;
         wanted[2 * i + 1] = motion[2 * i + 1];
-      } else if (mu == 0.0) {
+      } else if (!may_stick(i)) {
         pair.side = 1;
         wanted[2 * i + 1] = motion[2 * i + 1];
       } else if (state == ContactState::slip) {
         pair.side = tangent > 0.0 ? -1 : 1;
-        tangent = -pair.side * mu * normal;
+        tangent = -pair.side * mu_of(i, pair.side) * normal;
         wanted[2 * i + 1] = pair.side * (std::max(pair.side * motion[2 * i + 1], 0.0) + length * margin);
       }
       z_[2 * i] = normal;
@@ -156,6 +157,9 @@ class Path {
     df_.setZero();
     return dq_.lpNorm<Eigen::Infinity>() / std::max(centre_.lpNorm<Eigen::Infinity>(), least_force);
   }
+
+  double mu_of(Index pair, int side) const { return problem_.mu_against(pair, -side); }
+  bool may_stick(Index pair) const { return problem_.largest_mu(pair) > 0.0; }
 
   int capacity() const { return options_.changes + 100; }
 
@@ -181,7 +185,8 @@ class Path {
       return sum;
     }
     if (row % 2 == 0) return x[row];
-    return x[row] + pairs[static_cast<std::size_t>(row / 2)].side * problem_.mu[row / 2] * x[row - 1];
+    const int side = pairs[static_cast<std::size_t>(row / 2)].side;
+    return x[row] + side * mu_of(row / 2, side) * x[row - 1];
   }
 
   /// What the row has gained since the factorisation, times x.
@@ -208,8 +213,8 @@ class Path {
         for (SparseRows::InnerIterator it(G_, row); it; ++it) add(row, 2 * N_ + it.col(), it.value());
       } else {
         add(row, row, 1.0);
-        if (row % 2 == 1)
-          add(row, row - 1, pairs_[static_cast<std::size_t>(row / 2)].side * problem_.mu[row / 2]);
+        const int side = pairs_[static_cast<std::size_t>(row / 2)].side;
+        if (row % 2 == 1) add(row, row - 1, side * mu_of(row / 2, side));
       }
       for (SparseRows::InnerIterator it(G_, row); it; ++it) add(2 * N_ + it.col(), row, it.value());
     }
@@ -252,7 +257,7 @@ class Path {
     const Index normal = 2 * at.pair, tangent = normal + 1;
     switch (at.limit) {
       case Limit::gap: {
-        const int side = problem_.mu[at.pair] > 0.0 && motion_[tangent] < 0.0 ? -1 : 1;
+        const int side = may_stick(at.pair) && motion_[tangent] < 0.0 ? -1 : 1;
         pair.contact = true;
         replaced(normal);
         if (side != pair.side) {
@@ -264,7 +269,7 @@ class Path {
       case Limit::force:
         pair.contact = false;
         return replaced(normal);
-      case Limit::upper:  // p_t = mu p_n: slips back
+      case Limit::upper:  // p_t = mu p_n: slips backward
         pair.side = -1;
         return replaced(tangent);
       case Limit::lower:
@@ -320,7 +325,6 @@ class Path {
       turn(-1.0);
     } else {
       const Index normal = 2 * passed->pair, tangent = normal + 1;
-      const double mu = problem_.mu[passed->pair];
       const int side = pairs_[static_cast<std::size_t>(passed->pair)].side;
       double leaves = 0.0;
       switch (passed->limit) {
@@ -335,7 +339,7 @@ class Path {
           leaves = side * d_motion_[tangent];
           break;
         case Limit::slip:
-          leaves = mu * dz_[normal] + side_before_ * dz_[tangent];
+          leaves = mu_of(passed->pair, side_before_) * dz_[normal] + side_before_ * dz_[tangent];
           break;
       }
       turn(leaves > 0.0 ? 1.0 : -1.0);
@@ -358,7 +362,6 @@ class Path {
                  least_motion = 1e-13 * d_motion_.lpNorm<Eigen::Infinity>();
     for (Index i = 0; i < N_; ++i) {
       const Pair& pair = pairs_[static_cast<std::size_t>(i)];
-      const double mu = problem_.mu[i];
       const Index normal = 2 * i, tangent = normal + 1;
       const auto meets = [&](Limit limit, double value, double change, double least) {
         if (!(change < -least) || (passed && passed->pair == i && is_just_left(*passed, limit))) return;
@@ -368,11 +371,12 @@ class Path {
       if (!pair.contact) {
         meets(Limit::gap, motion_[normal], d_motion_[normal], least_motion);
       } else if (pair.side == 0) {
-        meets(Limit::upper, mu * z_[normal] - z_[tangent], mu * dz_[normal] - dz_[tangent], least_force);
-        meets(Limit::lower, mu * z_[normal] + z_[tangent], mu * dz_[normal] + dz_[tangent], least_force);
+        const double forward = mu_of(i, 1), backward = mu_of(i, -1);
+        meets(Limit::upper, backward * z_[normal] - z_[tangent], backward * dz_[normal] - dz_[tangent], least_force);
+        meets(Limit::lower, forward * z_[normal] + z_[tangent], forward * dz_[normal] + dz_[tangent], least_force);
       } else {
         meets(Limit::force, z_[normal], dz_[normal], least_force);
-        if (mu > 0.0) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], least_motion);
+        if (may_stick(i)) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], least_motion);
       }
     }
     return next;

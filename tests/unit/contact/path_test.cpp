@@ -123,12 +123,35 @@ TEST(Collapse, IsNotSaidBelowTheFrictionLimit) {
   EXPECT_EQ(solution.status, Status::solved) << solution.reason;
 }
 
+// Pushed to the right the block slips forward on the floor below (slip is its motion along t of the pairs).
+TEST(Path, FindsTheFrictionLimitOfEachDirection) {
+  const auto block = [](double push) {
+    Problem problem = pushed_block(push);
+    problem.mu_backward = Vector::Constant(problem.pairs(), 0.4 * friction);
+    return problem;
+  };
+  const Solution at_rest = solve(block(0.0));
+  double held[2] = {};
+  for (const int way : {0, 1}) {
+    const double push = (way == 0 ? 4.0 : -4.0) * friction * weight;
+    const Scaled pushed = scaled(block(push));
+    const PathEnd end = follow_path(pushed.problem, {at_rest.p, pushed.stiffness * at_rest.a,
+                                                     std::vector<ContactState>(5, ContactState::stick), 1e-8, 0.0});
+    ASSERT_EQ(end.how, PathEnd::How::endless);
+    held[way] = 4.0 * (1.0 - end.left);
+  }
+  EXPECT_NEAR(std::max(held[0], held[1]), 1.0, 1e-5);
+  EXPECT_NEAR(std::min(held[0], held[1]), 0.4, 1e-5);
+}
+
 TEST(Path, OfRandomProblemsEndsInSolutions) {
   std::mt19937 random(12);
   int solvable = 0, arrived = 0;
   for (int k = 0; k < 300; ++k) {
-    const Problem problem = k % 2 == 0 ? test::floating_problem(random, test::whole(random, 2, 12), 1.0)
-                                       : test::held_problem(random, test::whole(random, 2, 12), 1.0);
+    Problem problem = k % 2 == 0 ? test::floating_problem(random, test::whole(random, 2, 12), 1.0)
+                                 : test::held_problem(random, test::whole(random, 2, 12), 1.0);
+    if (k % 3 == 0)  // friction that differs by direction
+      problem.mu_backward = Vector::NullaryExpr(problem.pairs(), [&] { return test::uniform(random, 0.05, 1.0); });
     if (solve(problem).status != Status::solved) continue;
     ++solvable;
     const Scaled in_forces = scaled(problem);
