@@ -26,7 +26,7 @@ BEYOND_SCHEMA = re.compile(
     r"|polygon_(?!two_vertices|vertex_of_three)|outline_(not_|full_circle|arc_radii|arc_crosses|arc_swallows"
     r"|name_twice|without_area)"
     r"|shape_too_|centre_|mesh_(1e9|too_many|(quadtree|polygons)_of_a_sliver|min_size_(of|above)|refine_(of|on_un)|tolerance_of_a_body|quadtree_centre)"
-    r"|springs_(both_zero|leave_|named_|of_|on_)|field_(below_|on_|with_szz)|moment_on_|pores_(in_no|over_)|rotation_of_an"
+    r"|springs_(both_zero|leave_|named_|of_|on_|at_rest_(named|never|without_stiffness))|field_(below_|on_|with_szz)|moment_on_|pores_(in_no|over_)|rotation_of_an"
     r"|stage_|fit_|restart_|symmetry_(?!of_nothing)"
     r"|image_|tie_(all_|with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named)|regions?_(of_unknown|of_the_same|outside|overlap|in_a_hole)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
@@ -39,7 +39,7 @@ BEYOND_SCHEMA = re.compile(
     r"|quantity_|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
     r"|edge_load_(not_asc|off_|on_a_body|third|values_missing)|water_(on_a_corner|up_zero)"
     r"|support_(normal_of|normal_and_|along_zero)|temperature_(on_an|without)|body_force_on_a|law_(dynamic_above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names|increments_(smallest_above|first_above))|later_|imported_crack|parameter_(?!of_)"
-    r"|history_(contact_unknown|section_of|section_outside|axes_(of_an_|word)|displacement_unknown|edge_(is_|of_|unknown))|slip_large_(curved|with_tol|in_stages)|size_auto_|property_(unknown$)|curve_(unknown|jumps|not_asc|ramp_back)|step_(cycles|factor_is|friction_(unknown|of_a))")
+    r"|history_(contact_unknown|section_of|section_outside|axes_(of_an_|word)|displacement_unknown|edge_(is_|of_|unknown))|slip_large_(curved|with_tol|in_stages)|size_auto_|property_(unknown$)|curve_(unknown|jumps|not_asc|ramp_back|over_(?!no_length))|step_(cycles|factor_is|friction_(unknown|of_a))")
 
 
 class Loader(yaml.SafeLoader):

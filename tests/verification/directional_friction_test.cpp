@@ -77,11 +77,12 @@ steps: [{loads: {press: 1}}, {increments: 8, loads: {drive: cycle}}]
 }
 
 // In a cycle the base slides by 2 amplitudes each way, less what the block shears until it slips again:
-// W = (mu_f + mu_b) N s, s = 2 amplitude - (mu_f + mu_b) N h / (G A). The increments in which slip reverses are small.
+// W = (mu_f + mu_b) N s, s = 2 amplitude - (mu_f + mu_b) N h / (G A). The increments in which slip reverses are small:
+// in them the mean of the forces at both ends counts, which loses 2e-4 here.
 TEST(FrictionByDirection, DissipatesTheLoopOfForceAndMotion) {
   const double N = 1000.0, amplitude = 0.01, G = 0.5e9;
   const auto solution = run(driven(R"(
-curves: {cycle: {table: [[0, 0], [1, 1], [1.0001, 0.9999], [3, -1], [3.0001, -0.9999], [4, 0]]}}
+curves: {cycle: {table: [[0, 0], [1, 1], [1.001, 0.999], [3, -1], [3.001, -0.999], [4, 0]]}}
 steps: [{loads: {press: 1}}, {increments: 4, cycles: 3, loads: {drive: cycle}}]
 )"));
   std::array<double, 5> dissipated{};  // at the end of every step
@@ -90,7 +91,7 @@ steps: [{loads: {press: 1}}, {increments: 4, cycles: 3, loads: {drive: cycle}}]
   EXPECT_LE(last(solution).certificate.worst(), 1e-10);
   const double expected = (forward + backward) * N * (2.0 * amplitude - (forward + backward) * N / (G * 2.0));
   for (const std::size_t cycle : {3u, 4u})
-    EXPECT_NEAR(dissipated[cycle] - dissipated[cycle - 1], expected, 1e-4 * expected);
+    EXPECT_NEAR(dissipated[cycle] - dissipated[cycle - 1], expected, 1e-3 * expected);
 }
 
 std::string incline(double degrees, const std::string& friction, const std::string& rest = "") {
@@ -166,9 +167,10 @@ contacts: {{base: {{{}}}}}
     EXPECT_NEAR(contact_of(last(solution)).tangential_force, 1000.0 * backward, 1e-8);
 }
 
-// A load beyond mu_f N moves the block on a spring; a symmetric load of the same amplitude, below mu_b N, moves it
-// forward only: it stays where the spring balances the excess. k x = F - mu_f N at the first peak, and at the
-// opposite peak -F - k x >= -mu_b N holds: the drift remains. With a second, larger peak it drifts on.
+// A block on a spring is shaken by loads of the same amplitude to both sides. At a peak F it moves to where
+// F - k x = mu_f N, or keeps its place; at -F it moves back to where F + k x = mu_b N, if that is nearer. So it drifts
+// to the side of less friction: to x_1 = (F_1 - mu_f N) / k by the first peaks, and, as F_2 + k x_2 > mu_b N, from x_2
+// = (F_2 - mu_f N) / k back to (mu_b N - F_2) / k by the second ones.
 TEST(FrictionByDirection, LetsABlockThatIsShakenDriftToTheSideOfLessFriction) {
   const double N = 1000.0, k = 1e5, F = 300.0;
   const auto solution = run(fmt::format(R"(scabo: 1
@@ -199,10 +201,12 @@ steps: [{{loads: {{press: 1}}}}, {{increments: 8, loads: {{shake: quake}}}}]
   EXPECT_NEAR(slip_at(1.0 / 8), first, 1e-4 * first);
   EXPECT_NEAR(slip_at(3.0 / 8), first, 1e-4 * first);
   EXPECT_NEAR(slip_at(5.0 / 8), second, 1e-4 * second);
-  EXPECT_NEAR(slip_at(1.0), second, 1e-4 * second);
+  const double back = (backward * N - 1.2 * F) / k;
+  EXPECT_NEAR(slip_at(7.0 / 8), back, 1e-4 * back);
+  EXPECT_NEAR(slip_at(1.0), back, 1e-4 * back);
 }
 
-// A block on pins at its lower corners: the crack in it, under shear of one sign or the other.
+// A crack that is closed by pressure and slides under shear of one sign or the other, as with that coefficient alone.
 TEST(FrictionByDirection, OfAClosedCrackIsThatOfItsDirection) {
   const auto crack = [&](const std::string& friction, double shear) {
     return run(fmt::format(R"(scabo: 1
@@ -221,8 +225,9 @@ steps: [{{loads: {{press: 1}}}}, {{loads: {{shear: 1}}}}]
 )",
                            shear, friction));
   };
-  const auto right = crack(both, 9e5), as_right = crack("0.2", 9e5), left = crack(both, -9e5),
-             as_left = crack("0.5", -9e5);
+  const std::string less = "{forward: 0.05, backward: 0.1}";
+  const auto right = crack(less, 2.6e5), as_right = crack("0.05", 2.6e5), left = crack(less, -2.6e5),
+             as_left = crack("0.1", -2.6e5);
   EXPECT_NEAR(contact_of(last(right)).tangential_force, contact_of(last(as_right)).tangential_force,
               1e-6 * std::abs(contact_of(last(as_right)).tangential_force));
   EXPECT_NEAR(contact_of(last(left)).tangential_force, contact_of(last(as_left)).tangential_force,
