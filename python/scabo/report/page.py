@@ -29,7 +29,7 @@ def template():
             return text
         raise ResultsError(f"{place}: is not the page for reports: build Scabo again (make build)")
     raise ResultsError(f"the page for reports is not at {places[1] if folder.name == 'scabo_report' else places[0]}: `make report` in "
-                       "the sources of Scabo builds it, then `make install` (it needs Node.js 18 or newer and npm: apt install nodejs npm)")
+                       "the sources of Scabo builds it, and `make install` takes it along (it needs Node.js 18 or newer and npm: apt install nodejs npm)")
 
 
 def page_of(directory, units=None, megabytes=MEGABYTES):
