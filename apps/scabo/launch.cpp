@@ -58,11 +58,13 @@ void become_a_rank(char** arguments) {
   if (wish != nullptr && std::strcmp(wish, "no") == 0) return;
   const std::string_view command = arguments[1] == nullptr ? "" : arguments[1];
   if (command != "run" && command != "resume")
-    refuse(started, fmt::format("mpirun started {} processes, and only `scabo run` and `scabo resume` can use them: start "
-                                "this command without mpirun",
-                                started.count));
+    refuse(started,
+           fmt::format("mpirun started {} processes, and only `scabo run` and `scabo resume` can use them: start "
+                       "this command without mpirun",
+                       started.count));
   std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "scabo-mpi";
+  const std::filesystem::path program =
+      std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "scabo-mpi";
   if (!error && access(program.c_str(), X_OK) == 0) {
     const auto threads = std::to_string(
         std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / std::max(1, started.on_this_machine)));

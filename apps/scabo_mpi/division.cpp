@@ -11,9 +11,9 @@ namespace {
 
 /// Cells of a part, one body after another, by the part's nodes.
 struct CellsOfPart {
-  std::vector<std::size_t> first;         // of each body; the last entry is the number of cells
-  std::vector<std::vector<int>> nodes;    // of each cell
-  std::vector<std::vector<int>> cells_at; // of each node
+  std::vector<std::size_t> first;          // of each body; the last entry is the number of cells
+  std::vector<std::vector<int>> nodes;     // of each cell
+  std::vector<std::vector<int>> cells_at;  // of each node
 };
 
 CellsOfPart cells_of(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part) {
@@ -95,7 +95,8 @@ Division divide_cells(const mesh::Mesh& mesh, const system::Dofs& dofs, std::siz
   std::partial_sum(division.first.begin(), division.first.end(), division.first.begin());
   std::vector<int> next(division.first.begin(), division.first.end() - 1);
   division.number.resize(nodes);
-  for (std::size_t node = 0; node < nodes; ++node) division.number[node] = next[static_cast<std::size_t>(owner[node])]++;
+  for (std::size_t node = 0; node < nodes; ++node)
+    division.number[node] = next[static_cast<std::size_t>(owner[node])]++;
   return division;
 }
 

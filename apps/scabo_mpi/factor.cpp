@@ -124,13 +124,9 @@ FactorFacts Process::factorise(int id, int share_id, const FactorRequest* reques
       check(MatGetFactor(part, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, made->F.out()));
       check(MatMumpsSetIcntl(made->F, 8, 0));  // no scaling: a factor of the matrix itself
       check(MatMumpsSetIcntl(made->F, 14, relaxed));
-      timed(facts.order_and_analyse, [&] {
-        check(MatCholeskyFactorSymbolic(made->F, part, nullptr, &options));
-      });
+      timed(facts.order_and_analyse, [&] { check(MatCholeskyFactorSymbolic(made->F, part, nullptr, &options)); });
       if (info(made->F, 1, true) >= 0)
-        timed(facts.factorise, [&] {
-          check(MatCholeskyFactorNumeric(made->F, part, &options));
-        });
+        timed(facts.factorise, [&] { check(MatCholeskyFactorNumeric(made->F, part, &options)); });
       if (!is_too_small(info(made->F, 1, true)) || relaxed >= most_relaxed) return;
     }
   });
@@ -189,7 +185,7 @@ void Process::inverse_block(int id, const std::vector<int>* indices, Matrix* blo
     check(MatCreateMPIAIJWithArrays(comm_, rows, rows, at.size, at.size, start.data(), columns.data(), values.data(),
                                     pattern.out()));
     check(MatCreateTranspose(pattern, by_columns.out()));
-    check(MatMumpsSetIcntl(at.F, 27, 128));  // columns at a time
+    check(MatMumpsSetIcntl(at.F, 27, 256));  // columns at a time
     check(MatMumpsGetInverse(at.F, by_columns));
     check(MatMumpsSetIcntl(at.F, 30, 0));  // both remain as they were for the inverse, and solves would fail
     check(MatMumpsSetIcntl(at.F, 21, 1));

@@ -210,9 +210,11 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
       state.interior[b].push_back(interior_loads(unpacker));
   }
 
+  std::vector<std::vector<int>> of_points(of.model.bodies.size());  // [body]: own node of each point on the sides of cells
   const auto complete = [&](std::size_t body, const std::vector<int>& nodes, const std::vector<int>& materials,
                             Eigen::Matrix3Xd& sums, std::vector<int>& cells) {
     if (!own_fields_->divided[body]) return;
+    of_points[body] = nodes;
     const std::vector<int>& numbers = own_fields_->numbers[body];
     std::vector<SharedSum> mine;
     std::map<std::pair<int, int>, std::size_t> point_of;  // number, material
@@ -220,7 +222,8 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
       const auto node = static_cast<std::size_t>(nodes[point]);
       if (!own_fields_->is_shared[body][node]) continue;
       const auto column = static_cast<Eigen::Index>(point);
-      mine.push_back({numbers[node], materials[point], cells[point], {sums(0, column), sums(1, column), sums(2, column)}});
+      mine.push_back(
+          {numbers[node], materials[point], cells[point], {sums(0, column), sums(1, column), sums(2, column)}});
       point_of[{numbers[node], materials[point]}] = point;
       sums.col(column).setZero();
       cells[point] = 0;
@@ -245,15 +248,18 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
   std::vector<std::string> names;
   for (int rank = 0; rank < count_; ++rank) names.push_back(fmt::format("{}_{}.vtu", name, rank));
   const auto write = [&](const result::Grid& grid, const result::Fields& values) {
-    // The first points of an elastic body are its nodes.
+    // The first points of an elastic body are its nodes; of one that is divided, those follow where materials meet.
     std::vector<std::int32_t> nodes(grid.point_count(), -1);
     for (std::size_t b = 0; b < of.model.bodies.size(); ++b) {
       const auto [begin, end] =
           std::equal_range(grid.point_body.begin(), grid.point_body.end(), static_cast<std::int32_t>(b + 1));
       const auto first = static_cast<std::size_t>(begin - grid.point_body.begin());
-      const std::size_t count = std::min(of.mesh.bodies[b].nodes.size(), static_cast<std::size_t>(end - begin));
+      const bool divided = own_fields_->divided[b] != 0;
+      const std::size_t count = std::min(divided ? of_points[b].size() : of.mesh.bodies[b].nodes.size(),
+                                         static_cast<std::size_t>(end - begin));
       for (std::size_t i = 0; i < count; ++i)
-        nodes[first + i] = own_fields_->divided[b] ? own_fields_->node_numbers[b][i] : static_cast<std::int32_t>(i);
+        nodes[first + i] = divided ? own_fields_->node_numbers[b][static_cast<std::size_t>(of_points[b][i])]
+                                   : static_cast<std::int32_t>(i);
     }
     result::write_file(to / names[static_cast<std::size_t>(rank_)],
                        result::vtu_content(grid, values, of.model.output.fields, of.threads, nodes));

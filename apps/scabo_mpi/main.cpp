@@ -2,16 +2,16 @@
 #include <mpi.h>
 #include <petscsys.h>
 
+#include <command_line.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <launch.hpp>
+#include <startup.hpp>
 #include <string>
 #include <vector>
 
-#include "command_line.hpp"
-#include "launch.hpp"
 #include "petsc.hpp"
 #include "ranks.hpp"
-#include "startup.hpp"
 
 int main(int argc, char** argv) {
   scabo::app::prepare_process();

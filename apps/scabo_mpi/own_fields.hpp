@@ -18,8 +18,9 @@ struct Wanted {
 /// The cells of this rank as a solution of their own.
 struct OwnFields {
   analysis::StaticSolution solution;
-  std::vector<char> divided;              // [body]
-  std::vector<std::vector<int>> numbers, node_numbers;  // [body]: own nodes among all ranks and in the body, of divided ones
+  std::vector<char> divided;  // [body]
+  std::vector<std::vector<int>> numbers,
+      node_numbers;                          // [body]: own nodes among all ranks and in the body, of divided ones
   std::vector<std::vector<char>> is_shared;  // [body][own node]: other ranks have it as well
   std::unique_ptr<const result::Recovery> recovery;
   std::vector<Wanted> of_ranks;  // on rank 0

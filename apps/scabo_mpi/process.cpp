@@ -9,18 +9,18 @@
 #include <new>
 #include <thread>
 
+#include "own_fields.hpp"
 #include "scabo/input/read_model.hpp"
 #include "scabo/input/settings.hpp"
 #include "scabo/result/results_directory.hpp"
 #include "scabo/run/failures.hpp"
-#include "own_fields.hpp"
 #include "share.hpp"
 
 namespace scabo::mpi {
 
 namespace {
 
-constexpr int failure = 3;                                // exit status
+constexpr int failure = 3;                                  // exit status
 constexpr std::size_t most_at_once = std::size_t{1} << 30;  // bytes: MPI counts with int
 
 /// What an exception of a rank was, for rank 0 to throw again.

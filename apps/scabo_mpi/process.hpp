@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "message.hpp"
-#include "scabo/linalg/twofold.hpp"
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/linalg/twofold.hpp"
 #include "scabo/model/model.hpp"
 
 namespace scabo::mpi {
@@ -30,8 +30,8 @@ struct RankFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-struct Share;     // share.hpp: cells and rows of a divided part on this rank
-struct FactorOf;  // share.hpp: its part of a factor
+struct Share;      // share.hpp: cells and rows of a divided part on this rank
+struct FactorOf;   // share.hpp: its part of a factor
 struct OwnFields;  // fields.cpp
 
 /// The rows and columns to factorise (ranks.hpp), in the order of nodes among all ranks (Division).

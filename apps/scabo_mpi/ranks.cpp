@@ -33,9 +33,9 @@ class Order {
  private:
   template <typename Values>
   static auto& at(Values& values, Eigen::Index i) {
-    return values[static_cast<typename std::conditional_t<std::is_same_v<std::remove_const_t<Values>, Vector>,
-                                                          std::type_identity<Eigen::Index>,
-                                                          std::type_identity<std::size_t>>::type>(i)];
+    return values[static_cast<
+        typename std::conditional_t<std::is_same_v<std::remove_const_t<Values>, Vector>,
+                                    std::type_identity<Eigen::Index>, std::type_identity<std::size_t>>::type>(i)];
   }
   std::vector<int> number_;
 };
@@ -138,8 +138,8 @@ class DividedPart final : public system::DividedStiffness {
       const std::lock_guard lock(ranks_.one_at_a_time_);
       id = ranks_.next_id_++;
     }
-    const FactorFacts facts = ranks_.all({Command::factorise, id, id_},
-                                         [&] { return ranks_.process_.factorise(id, id_, &request); });
+    const FactorFacts facts =
+        ranks_.all({Command::factorise, id, id_}, [&] { return ranks_.process_.factorise(id, id_, &request); });
     if (!facts.definite) throw linalg::NotPositiveDefinite();
     costs.analyse += facts.order_and_analyse;
     costs.factorise += facts.factorise;
@@ -155,14 +155,13 @@ class DividedPart final : public system::DividedStiffness {
   ShareFacts facts_;
 };
 
-std::shared_ptr<const system::DividedStiffness> PetscRanks::stiffness(const model::Model& model,
-                                                                      const mesh::Mesh& mesh, const system::Dofs& dofs,
-                                                                      std::size_t part, int threads) {
+std::shared_ptr<const system::DividedStiffness> PetscRanks::stiffness(const model::Model& model, const mesh::Mesh& mesh,
+                                                                      const system::Dofs& dofs, std::size_t part,
+                                                                      int threads) {
   const std::lock_guard lock(one_at_a_time_);
   const Division division = divide_cells(mesh, dofs, part, count());
   std::vector<Bytes> messages;
-  for (int rank = 0; rank < count(); ++rank)
-    messages.push_back(pack_share(mesh, dofs, part, division, rank, threads));
+  for (int rank = 0; rank < count(); ++rank) messages.push_back(pack_share(mesh, dofs, part, division, rank, threads));
   process_.use(model);
   const int id = next_id_++;
   announce({Command::divide, id});
@@ -175,8 +174,7 @@ bool PetscRanks::any() const { return process_.has_shares(); }
 std::vector<std::string> PetscRanks::write(const analysis::StaticSolution& solution,
                                            const analysis::IncrementResult& increment,
                                            const std::filesystem::path& directory, const std::string& stem) {
-  return all({Command::write_fields},
-             [&] { return process_.write_fields(&solution, &increment, &directory, &stem); });
+  return all({Command::write_fields}, [&] { return process_.write_fields(&solution, &increment, &directory, &stem); });
 }
 
 void PetscRanks::begin(const std::string& file, const std::vector<std::string>& settings,

@@ -1,9 +1,9 @@
 // Rank 0's side: what the program asks of all ranks (system/ranks.hpp), and the loop of the others.
 #pragma once
 
+#include <cluster.hpp>
 #include <mutex>
 
-#include "cluster.hpp"
 #include "process.hpp"
 #include "scabo/result/results_directory.hpp"
 #include "scabo/system/ranks.hpp"

@@ -1,6 +1,5 @@
 // The stiffness of a divided part: cells, rows, products.
 #include "share.hpp"
-#include "transfer.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,13 +7,14 @@
 #include "own_fields.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/system/assembly.hpp"
+#include "transfer.hpp"
 
 namespace scabo::mpi {
 
 namespace {
 
-/// Stiffness of the cells of a share, and the numbers of its nodes among all ranks. Nodes that two of its bodies have in
-/// common are one.
+/// Stiffness of the cells of a share, and the numbers of its nodes among all ranks. Nodes that two of its bodies have
+/// in common are one.
 struct OwnStiffness {
   std::vector<PetscInt> numbers;
   linalg::SparseMatrix K;
@@ -23,8 +23,7 @@ struct OwnStiffness {
 OwnStiffness own_stiffness(const model::Model& model, const Share& share) {
   OwnStiffness own;
   const auto of_body = [&](std::size_t b) {
-    system::Stiffness stiffness =
-        system::body_stiffness(model, share.mesh.bodies[b], share.cells[b], share.threads);
+    system::Stiffness stiffness = system::body_stiffness(model, share.mesh.bodies[b], share.cells[b], share.threads);
     return stiffness.dense ? linalg::SparseMatrix(stiffness.dense->sparseView(0.0, 0.0)) : std::move(stiffness.sparse);
   };
   if (share.bodies.size() == 1) {
@@ -52,7 +51,8 @@ OwnStiffness own_stiffness(const model::Model& model, const Share& share) {
     };
     const linalg::SparseMatrix K = of_body(b);
     for (Eigen::Index j = 0; j < K.cols(); ++j)
-      for (linalg::SparseMatrix::InnerIterator it(K, j); it; ++it) entries.emplace_back(at(it.row()), at(j), it.value());
+      for (linalg::SparseMatrix::InnerIterator it(K, j); it; ++it)
+        entries.emplace_back(at(it.row()), at(j), it.value());
   }
   const auto n = static_cast<Eigen::Index>(2 * own.numbers.size());
   own.K.resize(n, n);
@@ -134,12 +134,8 @@ ShareFacts Process::divide(int id, std::vector<Bytes>* messages) {
   double seconds[2] = {0.0, 0.0};
   const bool all_solved = agreed([&] {
     *made = unpack_share(message, model().bodies.size());
-    timed(seconds[0], [&] {
-      made->cells = element::solve_cells(model(), made->mesh, made->threads);
-    });
-    timed(seconds[1], [&] {
-      own = own_stiffness(model(), *made);
-    });
+    timed(seconds[0], [&] { made->cells = element::solve_cells(model(), made->mesh, made->threads); });
+    timed(seconds[1], [&] { own = own_stiffness(model(), *made); });
   });
   if (!all_solved) return facts;
   double local[3] = {0.0, 0.0, system::Stiffness().rounding};
@@ -147,9 +143,7 @@ ShareFacts Process::divide(int id, std::vector<Bytes>* messages) {
     for (const auto& cell : made->cells[static_cast<std::size_t>(b)])
       if (cell) local[2] = std::max(local[2], cell->rounding());
   together([&] {
-    timed(seconds[1], [&] {
-      assemble(comm_, rank_, std::move(own), *made);
-    });
+    timed(seconds[1], [&] { assemble(comm_, rank_, std::move(own), *made); });
     prepare_products(*made);
     MatInfo info;
     check(MatGetInfo(made->K, MAT_GLOBAL_SUM, &info));
@@ -230,8 +224,9 @@ void Process::multiply_twofold(int id, const linalg::TwofoldVector* u, linalg::T
     linalg::TwofoldVector sums(own.size());
     for (std::size_t i = 0; i < own.size(); ++i) {
       own_rows.row(i, [&](double value, std::size_t j) { sums[i] = sums[i] + linalg::Twofold{value, 0.0} * own[j]; });
-      other_rows.row(i,
-                     [&](double value, std::size_t j) { sums[i] = sums[i] + linalg::Twofold{value, 0.0} * others[j]; });
+      other_rows.row(i, [&](double value, std::size_t j) {
+        sums[i] = sums[i] + linalg::Twofold{value, 0.0} * others[j];
+      });
     }
     if (y) y->resize(static_cast<std::size_t>(n));
     for (const bool low : {false, true}) {

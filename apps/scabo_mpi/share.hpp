@@ -2,8 +2,8 @@
 // gave it.
 //
 // Nodes are numbered anew among all ranks: first those of rank 0, then those of rank 1 ... A node belongs to the first
-// rank among those of its cells. Two degrees of freedom follow from each. A rank assembles the stiffness of its cells by
-// itself; at nodes that it shares with others, PETSc adds what they have (MATIS, converted to MPIAIJ).
+// rank among those of its cells. Two degrees of freedom follow from each. A rank assembles the stiffness of its cells
+// by itself; at nodes that it shares with others, PETSc adds what they have (MATIS, converted to MPIAIJ).
 #pragma once
 
 #include "petsc.hpp"
@@ -38,11 +38,11 @@ struct Share {
   std::vector<std::vector<int>> numbers;       // [body]: own nodes among all ranks
   std::vector<element::SolvedCells> cells;     // [body]
 
-  OwnedMat K;                        // rows of own nodes
-  OwnedVec x, y, at_root;            // of K; all of x on rank 0
-  OwnedScatter to_root;              // x to at_root
-  OwnedVec others;                   // entries of x in other ranks' columns
-  OwnedScatter to_others;            // x to others
+  OwnedMat K;                                          // rows of own nodes
+  OwnedVec x, y, at_root;                              // of K; all of x on rank 0
+  OwnedScatter to_root;                                // x to at_root
+  OwnedVec others;                                     // entries of x in other ranks' columns
+  OwnedScatter to_others;                              // x to others
   Mat own_columns = nullptr, other_columns = nullptr;  // blocks of K, which owns them
   int nodes(int rank) const {
     return first[static_cast<std::size_t>(rank) + 1] - first[static_cast<std::size_t>(rank)];

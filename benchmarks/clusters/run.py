@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import tempfile
 import threading
@@ -29,7 +30,8 @@ contacts: {{joint: {{between: [lower.top, upper.bottom], friction: 0.3}}}}
 steps: [{{increments: 1}}]
 solver: {{}}
 """
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+               "OMPI_MCA_mpi_yield_when_idle": "1"}
 STAGES = ("read", "mesh", "super_elements", "assemble", "factorise", "condense", "newton", "recover", "write", "total")
 
 
@@ -73,14 +75,17 @@ def run(command, directory, **environment):
     memory = Memory({"scabo", "scabo-mpi"})
     memory.start()
     start = time.monotonic()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, cwd=directory, env={**ENVIRONMENT, "SCABO_BENCHMARK": str(os.getpid()), **environment},
                           capture_output=True, text=True)
     seconds = time.monotonic() - start
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     memory.over = True
     memory.join()
     if done.returncode != 0:
         raise SystemExit(f"{' '.join(command)}: status {done.returncode}\n{done.stderr}")
-    return seconds, memory.most
+    return seconds, processor, memory.most
 
 
 def main():
@@ -97,7 +102,7 @@ def main():
     for dofs in arguments.dofs:
         with tempfile.TemporaryDirectory() as holder:
             directory = pathlib.Path(holder)
-            size = (2.0 * 2.0 / dofs) ** 0.5 * (1 if arguments.order == 1 else 1.73)
+            size = (2.0 * 2.5 / dofs) ** 0.5 * (1 if arguments.order == 1 else 1.73)
             width = min(2.0, max(4 * size, arguments.pairs * size / arguments.order))
             (directory / "model.yaml").write_text(MODEL.format(dofs=dofs, size=round(size, 6), width=round(width, 6),
                                                                first=round(1 - width / 2, 6), kind=arguments.kind, order=arguments.order))
@@ -109,11 +114,11 @@ def main():
                                *(["--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3",
                                   "--mca", "pml_monitoring_filename", "volume"] if arguments.volume else []),
                                scabo, *common, "-o", "ranks", "--threads", "1"], {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"})):
-                seconds, memory = run(command, directory, **environment)
+                seconds, processor, memory = run(command, directory, **environment)
                 summary = json.loads((directory / name / "summary.json").read_text())
                 results[name] = summary
                 stages = "  ".join(f"{stage} {summary['timing'][stage]:.2f}" for stage in STAGES)
-                print(f"{name:6} {summary['model']['dofs']} dofs, {summary['model']['contact_pairs']} pairs, wall {seconds:.1f} s: {stages}; "
+                print(f"{name:6} {summary['model']['dofs']} dofs, {summary['model']['contact_pairs']} pairs, wall {seconds:.1f} s, processors {processor:.1f} s: {stages}; "
                       f"memory {', '.join(f'{memory[rank] / 1e9:.2f}' for rank in sorted(memory))} GB", flush=True)
             if arguments.volume:
                 print(f"bytes between ranks: {bytes_between(directory)}", flush=True)

@@ -18,10 +18,10 @@ namespace scabo::system {
 class DividedStiffness {
  public:
   virtual ~DividedStiffness() = default;
-  virtual Eigen::Index size() const = 0;          ///< n
-  virtual double entries() const = 0;             ///< stored ones, of all processes
-  virtual double largest_diagonal() const = 0;    ///< max_i K_ii
-  virtual double rounding() const = 0;            ///< Stiffness::rounding
+  virtual Eigen::Index size() const = 0;        ///< n
+  virtual double entries() const = 0;           ///< stored ones, of all processes
+  virtual double largest_diagonal() const = 0;  ///< max_i K_ii
+  virtual double rounding() const = 0;          ///< Stiffness::rounding
   virtual Vector times(const Vector& u) const = 0;
   virtual linalg::TwofoldVector times(const linalg::TwofoldVector& u) const = 0;  ///< in twice the working precision
   virtual Vector times_squares(const Vector& u) const = 0;  ///< product of the matrix of the squared entries
