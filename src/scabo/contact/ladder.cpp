@@ -179,6 +179,8 @@ PathEnd Ladder::along_path(const PathStart& start) {
   const BDifferentiableEquations equations(problem_, options_.r_factor);
   PathOptions options;
   options.deadline = options_.deadline;
+  // Paths that arrive take up to two changes for each pair; what falls may take twice as many.
+  if (problem_.pairs() > most_of_paths_first) options.most = 2 * problem_.pairs() + 100;
   options.on_factorisation = [&](const Vector& p, const Vector& a) {
     const Residual at = equations.residual(p, a);
     trace_.push_back({++iterations_ + coarse_iterations_, at.largest(), at.merit(), 1.0, 0, "path"});

@@ -49,7 +49,7 @@ class Path {
 
   PathEnd run() {
     PathEnd end;
-    const int most = options_.most > 0 ? options_.most : static_cast<int>(2 * N_) + 100;
+    const int most = options_.most > 0 ? options_.most : static_cast<int>(4 * N_) + 100;
     int round = 0, least_at = 0;
     bool endless = false;        // t stands still while the bodies move
     std::optional<Next> passed;  // the limit that the path has just come from

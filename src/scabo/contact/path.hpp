@@ -40,7 +40,7 @@ struct PathOptions {
   double softness = 1e-6;
   int rounds = 8;     ///< paths that take the softness back, most
   int changes = 250;  ///< of state with one factorisation
-  int most = 0;  ///< changes of state in all; 0: twice the number of pairs
+  int most = 0;  ///< changes of state in all; 0: 100, and four for each pair
   Deadline deadline;
   std::function<void(const Vector& p, const Vector& a)> on_factorisation;  ///< may be empty
 };
