@@ -15,6 +15,10 @@ namespace scabo::contact {
 
 namespace {
 
+/// Pairs of many bodies up to which a path comes before interior points: each of its changes of state costs a solve (16 x
+/// 16 blocks, 2,260 pairs, 0.9 of the limit load: 11 s and 4 s).
+constexpr int most_of_paths_first = 1000;
+
 NewtonEnd nothing() {
   NewtonEnd end;
   end.residual = HUGE_VAL;
@@ -84,18 +88,20 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   // From the last increment Newton converges in a few iterations or creeps from kink to kink, while a strategy below
   // needs less than ten (a culvert of 340 pairs under traffic: 50 and 7).
   constexpr int patience = 8;
-  // Of many bodies a path takes over sooner.
-  constexpr int few = 6;
-  const bool paths = many && may_follow_path(problem_);
+  constexpr int few = 6;  // of many bodies a path takes over sooner
+  const bool paths = many && may_follow_path(problem_), paths_first = paths && problem_.pairs() <= most_of_paths_first;
   if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, paths ? std::min(few, options_.iterations) : 0, patience})))
     return best;
-  if (!cold && paths && better(along_loads(p, a))) return best;
+  if (!cold && paths_first && better(along_loads(p, a))) return best;
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
   if (held_together && better(bonded(*held_together))) return best;
   if (hopeless && hopeless()) return best;
+  const bool inner = many && may_take_interior_points(problem_);
+  if (inner && !paths_first && better(inside({1.0}))) return best;
+  if (!cold && paths && !paths_first && better(along_loads(p, a))) return best;
   if (paths && held_together && (better(along_paths(*held_together, touching)) || collapse())) return best;
-  if (many && may_take_interior_points(problem_)) {
-    if (better(inside())) return best;
+  if (inner) {
+    if (better(paths_first ? inside({1.0, 10.0, 1000.0}) : inside({10.0, 1000.0}))) return best;
     // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.
     if (has_many_motions(problem_)) return best;
   }
@@ -119,8 +125,8 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
 }
 
 NewtonEnd Ladder::bonded(const BondedStart& start) {
-  // What converges takes 3 to 8 iterations, mostly; a path takes 2 to 10 factorisations, whatever happens.
-  constexpr int few = 6;
+  // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
+  const int few = problem_.pairs() <= most_of_paths_first ? 6 : 10;
   const int most = may_follow_path(problem_) ? std::min(few, options_.iterations) : 0;
   return newton_alone(start.p, start.a, {"newton", 0.0, 1.0, most});
 }
@@ -173,6 +179,8 @@ PathEnd Ladder::along_path(const PathStart& start) {
   const BDifferentiableEquations equations(problem_, options_.r_factor);
   PathOptions options;
   options.deadline = options_.deadline;
+  // Paths that arrive take up to two changes for each pair; what falls may take twice as many.
+  if (problem_.pairs() > most_of_paths_first) options.most = 2 * problem_.pairs() + 100;
   options.on_factorisation = [&](const Vector& p, const Vector& a) {
     const Residual at = equations.residual(p, a);
     trace_.push_back({++iterations_ + coarse_iterations_, at.largest(), at.merit(), 1.0, 0, "path"});
@@ -330,12 +338,12 @@ NewtonEnd Ladder::inside_from(double start_factor) {
   return newton_alone(end.p, Vector(), {"newton after interior points", 1e-6, 1.0, 12});
 }
 
-/// Interior points for elastic bodies from several starts, then Newton from the best of them.
-NewtonEnd Ladder::inside() {
+/// Interior points for elastic bodies from starts with these factors, then Newton from the best of them.
+NewtonEnd Ladder::inside(std::initializer_list<double> start_factors) {
   NewtonEnd best = nothing();
   // Walls near their collapse load (mu 1, 8 x 8 blocks, 0.80 to 0.92 of it) are solved from one of these and not from
   // the others.
-  for (const double factor : {1.0, 10.0, 1000.0}) {
+  for (const double factor : start_factors) {
     InteriorPointEnd reached = interior_points_from(factor);
     if (reached.p.size() > 0 && (reached.content || reached.residual < best.residual)) {
       best.p = std::move(reached.p);
@@ -346,7 +354,8 @@ NewtonEnd Ladder::inside() {
     if (best.converged || late()) break;
   }
   if (best.p.size() == 0) return best;
-  if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points"});
+  constexpr int few_from_outside = 10;
+  if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few_from_outside});
   if (late()) {
     best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
     return best;

@@ -1,6 +1,7 @@
 // The fallback strategies of solve() in order: starts for Newton, each followed by Newton on the original problem.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 
 #include "scabo/contact/interior_point.hpp"
@@ -74,7 +75,7 @@ class Ladder {
   NewtonEnd swept_on(LongSweeps& sweeps, int most);
   InteriorPointEnd interior_points_from(double start_factor);
   NewtonEnd inside_from(double start_factor);
-  NewtonEnd inside();
+  NewtonEnd inside(std::initializer_list<double> start_factors);
   NewtonEnd end_of_sweeps(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);
   NewtonEnd vanishing_proximal(Vector p);

@@ -49,8 +49,8 @@ class Path {
 
   PathEnd run() {
     PathEnd end;
-    const int most = options_.most > 0 ? options_.most : static_cast<int>(2 * N_) + 100;
-    int round = 0;
+    const int most = options_.most > 0 ? options_.most : static_cast<int>(4 * N_) + 100;
+    int round = 0, least_at = 0;
     bool endless = false;        // t stands still while the bodies move
     std::optional<Next> passed;  // the limit that the path has just come from
     if (!factorise(end)) return finish(end, PathEnd::How::broken);
@@ -80,18 +80,20 @@ class Path {
       if (falls || (t_ <= end.left && round == 0)) end.motion = dz_.tail(m_).normalized();
       if (falls) return finish(end, PathEnd::How::endless);
       advance(next.step);
-      if (round == 0) end.left = std::min(end.left, t_);
       ++end.changes;
+      if (round == 0 && t_ < end.left) {
+        end.left = t_;
+        least_at = end.changes;
+      }
       if (options_.deadline.passed()) return finish(end, PathEnd::How::broken);
       if (end.changes >= most || t_ > far)
-        return finish(end, t_ > end.left + turned ? PathEnd::How::turned_back : PathEnd::How::broken);
+        return finish(end, 8 * (end.changes - least_at) > most ? PathEnd::How::turned_back : PathEnd::How::broken);
       passed = next;
     }
   }
 
  private:
   static constexpr double far = 2.0;             // t: the path runs away from the problem
-  static constexpr double turned = 1e-3;         // t above its least
   static constexpr double settled = 1e-14;       // of the largest force: what rounding leaves of the softness
   static constexpr double least_force = 1e-300;
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far

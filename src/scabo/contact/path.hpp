@@ -39,15 +39,15 @@ struct PathStart {
 struct PathOptions {
   double softness = 1e-6;
   int rounds = 8;     ///< paths that take the softness back, most
-  int changes = 150;  ///< of state with one factorisation
-  int most = 0;  ///< changes of state in all; 0: twice the number of pairs
+  int changes = 250;  ///< of state with one factorisation
+  int most = 0;  ///< changes of state in all; 0: 100, and four for each pair
   Deadline deadline;
   std::function<void(const Vector& p, const Vector& a)> on_factorisation;  ///< may be empty
 };
 
 struct PathEnd {
   /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on for ever. turned_back: t has grown again
-  /// and `most` changes do not lead back. broken: rounding, or the deadline.
+  /// and an eighth of `most` changes, or more, does not lead below its least. broken: rounding, `most`, or the deadline.
   enum class How { arrived, endless, turned_back, broken } how = How::broken;
   Vector p, a;        ///< where the path ends
   double left = 1.0;  ///< the least t met
