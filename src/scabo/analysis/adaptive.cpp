@@ -204,6 +204,10 @@ Options quiet(const Options& options, const std::string& what) {
 }
 
 void replay(StaticSolution& solution, const Options& options) {
+  if (solution.outcome == Outcome::solved && options.stop && *options.stop) {
+    solution.outcome = Outcome::interrupted;
+    solution.reason = "interrupted: errors were not computed to the end";
+  }
   if (options.on_mesh) options.on_mesh(solution);
   std::vector<IncrementResult> increments = std::move(solution.increments);
   solution.increments.clear();

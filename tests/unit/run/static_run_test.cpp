@@ -18,7 +18,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A block on a rigid floor; friction holds a traction of less than three tenths of the pressure.
-model::Model block(const std::string& traction = "[1, -10]", int increments = 3, const std::string& mesh = "") {
+model::Model block(const std::string& traction = "[1, -10]", int increments = 3, const std::string& mesh = "",
+                   const std::string& more = "") {
   return input::parse_model(R"(
 scabo: 1
 materials: {soft: {young: 1e4, poisson: 0.3}}
@@ -31,7 +32,7 @@ loads: {push: {on: block.top, traction: )" +
                                 traction + R"(}}
 contacts: {base: {between: [floor.top, block.bottom], friction: 0.3}}
 steps: [{name: press, increments: )" +
-                                std::to_string(increments) + "}]\n",
+                                std::to_string(increments) + "}]\n" + more,
                             "block.yaml");
 }
 
@@ -148,6 +149,45 @@ TEST(StaticRun, AnIncrementThatIsInterruptedWhileItIsWrittenIsNotFinished) {
   EXPECT_TRUE(fs::exists(folder.path() / "fields_0002.vtu"));
   EXPECT_FALSE(fs::exists(folder.path() / "fields_0003.vtu"));
   EXPECT_EQ(result::status_in(folder.path()), "interrupted");
+}
+
+// Of analyses on one mesh and on several ones: whatever is at work, the run ends with results that say so.
+TEST(StaticRun, EndsAtAnyInterruptionPoint) {
+  const std::vector<std::pair<std::string, std::string>> kinds = {
+      {", kind: fem", ""},
+      {", kind: polygons", "output: {error: true}\n"},
+      {"", "output: {error_of: [base.normal_force]}\n"},
+      {", tolerance: 0.02", ""},
+      {"", "tolerance: {of: base.normal_force, relative: 1e-2}\n"},
+  };
+  for (const auto& [mesh, more] : kinds) {
+    SCOPED_TRACE(mesh + " " + more);
+    const model::Model model = block("[1, -10]", 2, mesh, more);
+    const auto run_until = [&](int last) {  // how often it asked, and whether it ended as it should
+      const Directory folder("scabo_unit_run_anywhere");
+      result::ResultsDirectory directory(folder.path(), model);
+      std::atomic<bool> stop{false};
+      std::atomic<int> asked{0};
+      StaticRun run{model, &directory};
+      run.stop = &stop;
+      const Interruptible::Ask ask = [&] {
+        if (++asked < last) return;
+        stop = true;
+        throw analysis::EndAtOnce{};
+      };
+      const Interruptible here(&ask);
+      const analysis::StaticSolution solution = solve(run);
+      const bool ended = asked >= last;
+      EXPECT_EQ(solution.outcome == analysis::Outcome::interrupted, ended) << "at point " << last << ": " << solution.reason;
+      if (ended) {
+        EXPECT_EQ(result::status_in(folder.path()), "interrupted") << "at point " << last;
+      }
+      return asked.load();
+    };
+    const int all = run_until(1 << 30);
+    EXPECT_GT(all, 3);
+    for (int last = 1; last <= all; last += 1 + last / 3) run_until(last);
+  }
 }
 
 TEST(StaticRun, RecordsAFailure) {
