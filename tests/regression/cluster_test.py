@@ -64,7 +64,7 @@ contacts:
   all: {between: all, friction: 0.4}
   plate: {between: [base.top, plate.bottom], friction: 0.2}
 steps:
-  - {name: weight, increments: 1, loads: {weight: 1}}
+  - {name: weight, increments: 1, loads: {weight: 1, punch: 1}}
   - {name: push, increments: 2, loads: {weight: 1, press: 1, push: 1, punch: 1, tip: 1}}
 output:
   points: [[1, 0.5], [4, 1.2], [9, 0.5]]
