@@ -140,7 +140,7 @@ TEST(Tower, OfTwoHundredBlocksStandsToItsCollapsePush) {
     for (const double part : {0.5, 0.9, 0.99}) holds({1, 200, friction}, part, 1);
 }
 
-// Near its collapse load hundreds of joints of a wall have opened or slip, and interior points follow Newton.
+// Near its collapse load hundreds of joints of a wall have opened or slip, and a path of equilibria follows Newton.
 TEST(Wall, CarriesNearlyItsCollapsePush) {
   const auto carries = [](const Blocks& blocks, double part) {
     const double push = part * blocks.collapse_push();
@@ -148,12 +148,26 @@ TEST(Wall, CarriesNearlyItsCollapsePush) {
     const Vec2 carried = floor_forces(blocks, solution, last(solution));
     EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
     EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
-    EXPECT_LE(last(solution).newton_iterations, 75);
+    EXPECT_LE(last(solution).newton_iterations, 13);
     EXPECT_EQ(last(solution).halvings, 0);
   };
   for (const double friction : {0.3, 0.6, 1.0}) carries({4, 4, friction}, 0.99);
   for (const double friction : {0.3, 0.6}) carries({8, 8, friction}, 0.99);
   carries({8, 8, 1.0}, 0.9);
+}
+
+TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
+  for (const double friction : {0.3, 0.6, 1.0}) holds({4, 4, friction}, 0.99, 10);
+}
+
+// Forces within the cones balance the push, so that it is no mechanism; but the equilibria that the push passes through end
+// at 0.93 of it (docs/methods/12), and no other was found.
+TEST(Wall, WithStrongFrictionFallsBeforeItsLimitLoad) {
+  const Blocks blocks{8, 8, 1.0};
+  EXPECT_EQ(run(model_of(blocks, 0.92 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::solved);
+  const auto solution = run(model_of(blocks, 0.99 * blocks.collapse_push(), 1));
+  EXPECT_EQ(solution.outcome, analysis::Outcome::collapse) << solution.reason;
+  EXPECT_EQ(solution.increments.back().halvings, 0);
 }
 
 // A wall of separate blocks falls before the whole slides or turns: parts of it turn, along steps in the bond. Limit
