@@ -17,6 +17,7 @@ struct NewtonDirection::Workspace {
   linalg::GeneralSolver solver;
   Eigen::MatrixXf single;
   linalg::SinglePrecisionSolver single_solver;
+  bool single_fails = false;  // W is too ill-conditioned: of slender bodies
   Vector column, full, image, residual;
   Eigen::SparseMatrix<double> sparse, raised;
   Eigen::SparseMatrix<double, Eigen::RowMajor> G;  // by rows, for sparse saddle systems
@@ -31,10 +32,10 @@ namespace {
 
 // Unknowns of a dense factorisation: of the matrix W itself, for which GMRES needs hundreds of products, and of one
 // that would have to be formed first.
-constexpr Eigen::Index most_of_dense = 6000, most_of_formed = 2500;
+constexpr Eigen::Index most_of_dense = 8000, most_of_formed = 2500;
 // Unknowns from which the factorisation is one in single precision, and up to which there is one.
 constexpr Eigen::Index least_of_single = 2500, most_of_single = 24000;
-constexpr GmresOptions refining_gmres{1e-13, 30, 60};
+constexpr GmresOptions refining_gmres{1e-13, 40, 80};
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
 constexpr Eigen::Index least_sparse = 120;     // unknowns below which dense is faster
 
@@ -210,7 +211,7 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   bool solved = false;
   if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = solve_sparse(regularisation);
-  else if (problem.W.is_dense() && size + m > least_of_single && size + m <= most_of_single &&
+  else if (problem.W.is_dense() && !work_->single_fails && size + m > least_of_single && size + m <= most_of_single &&
            solve_by_single_precision(regularisation))
     solved = true;
   else if (problem.W.is_dense() ? size + m <= most_of_dense : std::max(size + m, forces) <= most_of_formed)
@@ -347,7 +348,8 @@ bool NewtonDirection::solve_by_single_precision(double regularisation) {
   const Vector right = right_.head(n);
   y_.setZero(n);
   const double left = gmres(multiply, precondition, right, y_, refining_gmres);
-  return y_.allFinite() && left <= exact;
+  work_->single_fails = !(y_.allFinite() && left <= exact);
+  return !work_->single_fails;
 }
 
 void NewtonDirection::lay_out_sparse(double regularisation) {

@@ -49,11 +49,12 @@ Loosely solve_loosely(const Problem& coarse, ColdStart& start) {
   return {start.p.allFinite() && start.a.allFinite(), end.converged, force > 0.0 ? end.residual / force : 0.0};
 }
 
-/// Of the problem of fewest pairs: sweeps may leave a floating body where all pairs slip and Newton has no direction;
-/// forces of pairs that are all held then are the better start.
-Loosely solve_fewest(const Problem& coarse, ColdStart& start) {
+/// Sweeps may leave a floating body where all pairs slip and Newton has no direction; forces of pairs that are all held
+/// then are the better start. Of few pairs they cost little.
+Loosely solve_from_either(const Problem& coarse, ColdStart& start) {
+  constexpr int few = 400;
   const Loosely swept = solve_loosely(coarse, start);
-  if (swept.converged || coarse.G.cols() == 0) return swept;
+  if (swept.converged || coarse.G.cols() == 0 || coarse.pairs() > few) return swept;
   std::optional<BondedStart> held = bonded_start(coarse, {});
   if (!held) return swept;
   ColdStart other{std::move(held->p), std::move(held->a), start.coarse_iterations, start.trace};
@@ -78,9 +79,7 @@ ColdStart nested_start(const Problem& problem, const Vector& a) {
   const CoarseProblem coarse = coarse_problem(problem);
   if (4 * coarse.problem.pairs() > 3 * problem.pairs()) return swept_start(problem, a);
   ColdStart start = nested_start(coarse.problem, a);
-  const Loosely solved =
-      may_nest(coarse.problem) ? solve_loosely(coarse.problem, start) : solve_fewest(coarse.problem, start);
-  if (solved.finite) {
+  if (solve_from_either(coarse.problem, start).finite) {
     start.p = coarse.prolong(start.p);
     // Sweeps of a floating body go with soft springs, which shift it, the more so the more pairs there are.
     constexpr int most_swept = 300;
