@@ -137,9 +137,9 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
   return energy;
 }
 
-/// Displacements and reactions under the loads and contact forces of a state; `free`: known displacements without
-/// contact.
-void add_displacements(const Prepared& prepared, const std::vector<Vector>* free, State& to) {
+/// Displacements and reactions under the loads and contact forces of a state; `known`: the displacements without rigid
+/// motions.
+void add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to) {
   const auto& parts = prepared.structure.parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (prepared.is_absent(p)) {
@@ -148,7 +148,7 @@ void add_displacements(const Prepared& prepared, const std::vector<Vector>* free
       continue;
     }
     const Vector forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
-    Vector u = free ? (*free)[p] : parts[p]->displacement(forces, to.prescribed[p]);
+    Vector u = known ? (*known)[p] : parts[p]->displacement(forces, to.prescribed[p]);
     const Matrix& rigid = parts[p]->rigid_motions();
     if (rigid.cols() > 0) u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
     to.reactions.push_back(parts[p]->reactions(u, forces));
@@ -401,12 +401,12 @@ State initial_state(const Prepared& prepared) {
   return state;
 }
 
-void complete(const Prepared& prepared, State& state) {
+void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions) {
   state.forces = applied_forces(prepared, state.factors, state.released);
   state.prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
   state.u.clear();
   state.reactions.clear();
-  add_displacements(prepared, nullptr, state);
+  add_displacements(prepared, without_motions, state);
 }
 
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
