@@ -142,9 +142,9 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
   return energy;
 }
 
-/// Displacements and reactions under the loads and contact forces of a state; `free`: known displacements without
-/// contact.
-std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* free, State& to) {
+/// Displacements and reactions under the loads and contact forces of a state; `known`: the displacements without rigid
+/// motions.
+std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to) {
   const auto& parts = prepared.structure.parts;
   std::vector<Balance> balances(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -155,7 +155,7 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
     }
     Balance& balance = balances[p];
     balance.forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
-    Vector u = free ? (*free)[p] : parts[p]->displacement(balance.forces, to.prescribed[p]);
+    Vector u = known ? (*known)[p] : parts[p]->displacement(balance.forces, to.prescribed[p]);
     const Matrix& rigid = parts[p]->rigid_motions();
     if (rigid.cols() > 0) u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
     balance.unbalanced = parts[p]->unbalanced(u, balance.forces);
@@ -413,12 +413,12 @@ State initial_state(const Prepared& prepared) {
   return state;
 }
 
-void complete(const Prepared& prepared, State& state) {
+void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions) {
   state.forces = applied_forces(prepared, state.factors, state.released);
   state.prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
   state.u.clear();
   state.reactions.clear();
-  add_displacements(prepared, nullptr, state);
+  add_displacements(prepared, without_motions, state);
 }
 
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {

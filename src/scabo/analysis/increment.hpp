@@ -90,8 +90,8 @@ contact::JointLaws laws_at(const Prepared& prepared, const Factors& factors);
 
 /// Completes a state of which only the history is known (factors, forces and states of the pairs, rigid motions,
 /// energy): displacements, applied forces, reactions and prescribed values follow from it, bit by bit as when the state
-/// was reached.
-void complete(const Prepared& prepared, State& state);
+/// was reached. `without_motions`: displacements_without_motions() of the state, if they are known.
+void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions = nullptr);
 
 /// Displacement since the start, along x and y, of the point of a pair that belongs to side 0 (A) or 1 (B).
 Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,

@@ -269,7 +269,7 @@ State start_on(const Prepared& prepared, const std::vector<CarriedPair>& carried
   for (Eigen::Index i = 0; i < N; ++i)
     if (large[static_cast<std::size_t>(i)]) state.replaced.offset[2 * i + 1] = -motion[2 * i + 1];
   astray = largest_mean_slip(prepared, carried, state, motion);
-  complete(prepared, state);
+  complete(prepared, state, &u);
   return state;
 }
 
