@@ -12,6 +12,7 @@
 #include "scabo/contact/laws/coulomb.hpp"
 #include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/lemke.hpp"
+#include "scabo/contact/pair_problem.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/uniqueness.hpp"
 #include "unit/contact/problems.hpp"
@@ -76,6 +77,19 @@ TEST(FrictionByDirection, OfOnePairIsSolvedByHand) {
       if (q_t != 0.0) EXPECT_EQ(solution.states[0], slips ? ContactState::slip : ContactState::stick);
       EXPECT_LT(solution.natural_map_residual, 1e-14);
     }
+}
+
+// The pair by itself, as sweeps solve it.
+TEST(FrictionByDirection, OfAPairInASweepIsItsSolution) {
+  std::mt19937 random(66);
+  for (int k = 0; k < 200; ++k) {
+    Problem problem = held_problem(random, 1, 0.5);
+    make_directional(random, problem, 0.5);
+    const Matrix W = problem.W.dense();
+    Vector p(2);
+    PairProblem<2>(W.data(), {problem.mu[0], problem.mu_backward[0]}, 0.0, 0.0).solve(problem.q.data(), p.data());
+    EXPECT_LT(violation(problem, p, Vector()), 1e-12);
+  }
 }
 
 TEST(FrictionByDirection, EqualInBothGivesEqualBits) {

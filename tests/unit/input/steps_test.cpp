@@ -100,6 +100,7 @@ TEST(Steps, CoefficientsOfFrictionStayUntilTheyAreChanged) {
   ASSERT_EQ(model.steps.size(), 3u);
   EXPECT_EQ(model.steps[0].friction, std::vector<double>{0.5});
   EXPECT_EQ(model.steps[1].friction, std::vector<double>{0.2});
+  EXPECT_EQ(model.steps[1].backward_friction, std::vector<double>{0.2});  // in both directions
   EXPECT_EQ(model.steps[1].load_factors, std::vector<double>{1.0});  // as they were
   EXPECT_EQ(model.steps[2].friction, std::vector<double>{0.2});
 }
