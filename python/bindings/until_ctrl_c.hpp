@@ -20,8 +20,8 @@ constexpr std::chrono::milliseconds between_looks{100};
   throw py::error_already_set();
 }
 
-/// What is raised by the handlers of signals that have arrived; None if none has, or in another thread than the main one.
-/// With the interpreter lock.
+/// What is raised by the handlers of signals that have arrived; None if none has, or in another thread than the main
+/// one. With the interpreter lock.
 inline py::object raised_by_signals() {
   if (PyErr_CheckSignals() == 0) return py::none();
   py::error_already_set raised;
@@ -39,7 +39,8 @@ auto until_ctrl_c(const Work& work) {
   const std::thread::id thread = std::this_thread::get_id();
   auto looked = std::chrono::steady_clock::now();
   const Interruptible::Ask ask = [&] {
-    if (!stopped && std::this_thread::get_id() == thread && std::chrono::steady_clock::now() - looked >= between_looks) {
+    if (!stopped && std::this_thread::get_id() == thread &&
+        std::chrono::steady_clock::now() - looked >= between_looks) {
       const py::gil_scoped_acquire acquire;
       error = raised_by_signals();
       stopped = !error.is_none();
