@@ -22,5 +22,5 @@ if(modules)
   file(REMOVE_RECURSE ${folder})
 endif()
 
-# `scabo-mpi` needs PETSc and an MPI, which few who install the package want: 400 MB.
+# `scabo-mpi` needs PETSc and an MPI, which few who install the package want: 410 MB.
 file(REMOVE ${CPACK_TEMPORARY_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX}/bin/scabo-mpi)
