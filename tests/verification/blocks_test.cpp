@@ -185,6 +185,32 @@ TEST(Wall, SlidesAtItsCollapsePush) {
   EXPECT_EQ(run(model_of(blocks, 1.01 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::mechanism);
 }
 
+// A block 4 x 0.5 m close below a ceiling. Forces of floor and ceiling, both pressed, could balance any push, but nothing
+// presses the block against the ceiling: it slides at mu times its weight, mu rho g 2 m^2 = 19,620 N.
+TEST(Block, BelowACeilingSlidesAtTheFrictionLimitOfTheFloor) {
+  const auto under = [](double traction) {
+    return run(fmt::format(
+        "scabo: 1\nmaterials: {{stone: {{young: 5e9, poisson: 0.2, density: 2000}}}}\nbodies:\n"
+        "  floor: {{rigid: true, shape: {{rectangle: {{corner: [-2, -1], size: [8, 1]}}}}}}\n"
+        "  ceiling: {{rigid: true, shape: {{rectangle: {{corner: [-2, 0.501], size: [8, 1]}}}}}}\n"
+        "  block: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [4, 0.5]}}}}, mesh: {{size: 0.25, order: "
+        "1}}}}\n"
+        "supports: [{{on: floor, fix: [x, y]}}, {{on: ceiling, fix: [x, y]}}]\n"
+        "loads:\n  weight: {{gravity: [0, -9.81]}}\n  push: {{on: block.left, traction: [{}, 0]}}\n"
+        "contacts:\n  below: {{between: [floor.top, block.bottom], friction: 0.5}}\n"
+        "  above: {{between: [block.top, ceiling.bottom], friction: 0.5}}\n"
+        "steps:\n  - {{name: weight, loads: {{weight: 1}}}}\n  - {{name: push, loads: {{weight: 1, push: 1}}}}\n",
+        traction));
+  };
+  const double limit = 0.5 * weight_per_volume * 2.0 / 0.5;  // as a traction
+  EXPECT_EQ(under(0.99 * limit).outcome, analysis::Outcome::solved);
+  const auto solution = under(2.0 * limit);
+  EXPECT_EQ(solution.outcome, analysis::Outcome::collapse);
+  EXPECT_NE(solution.reason.find("collapse: equilibrium ends at 0.5 of the increment"), std::string::npos)
+      << solution.reason;
+  EXPECT_NE(solution.reason.find("body 'block': translation along (1, 0)"), std::string::npos) << solution.reason;
+}
+
 // The same in millimetres and in kilometres: the same forces and iterations, and what falls falls by the same verdict.
 TEST(Tower, IsTheSameInEveryUnit) {
   for (const double part : {0.5, 1.01}) {
