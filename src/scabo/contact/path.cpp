@@ -356,8 +356,8 @@ class Path {
 
   Next nearest_limit(const std::optional<Next>& passed) const {
     Next next;
-    const double least_force = 1e-13 * dz_.head(2 * N_).lpNorm<Eigen::Infinity>(),
-                 least_motion = 1e-13 * d_motion_.lpNorm<Eigen::Infinity>();
+    const double still_force = 1e-13 * dz_.head(2 * N_).lpNorm<Eigen::Infinity>(),
+                 still_motion = 1e-13 * d_motion_.lpNorm<Eigen::Infinity>();
     for (Index i = 0; i < N_; ++i) {
       const Pair& pair = pairs_[static_cast<std::size_t>(i)];
       const double mu = problem_.mu[i];
@@ -368,13 +368,13 @@ class Path {
         if (step < next.step) next = {step, i, limit};
       };
       if (!pair.contact) {
-        meets(Limit::gap, motion_[normal], d_motion_[normal], least_motion);
+        meets(Limit::gap, motion_[normal], d_motion_[normal], still_motion);
       } else if (pair.side == 0) {
-        meets(Limit::upper, mu * z_[normal] - z_[tangent], mu * dz_[normal] - dz_[tangent], least_force);
-        meets(Limit::lower, mu * z_[normal] + z_[tangent], mu * dz_[normal] + dz_[tangent], least_force);
+        meets(Limit::upper, mu * z_[normal] - z_[tangent], mu * dz_[normal] - dz_[tangent], still_force);
+        meets(Limit::lower, mu * z_[normal] + z_[tangent], mu * dz_[normal] + dz_[tangent], still_force);
       } else {
-        meets(Limit::force, z_[normal], dz_[normal], least_force);
-        if (mu > 0.0) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], least_motion);
+        meets(Limit::force, z_[normal], dz_[normal], still_force);
+        if (mu > 0.0) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], still_motion);
       }
     }
     return next;
