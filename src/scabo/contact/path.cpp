@@ -93,8 +93,8 @@ class Path {
   }
 
  private:
-  static constexpr double far = 2.0;             // t: the path runs away from the problem
-  static constexpr double settled = 1e-14;       // of the largest force: what rounding leaves of the softness
+  static constexpr double far = 2.0;        // t: the path runs away from the problem
+  static constexpr double settled = 1e-14;  // of the largest force: what rounding leaves of the softness
   static constexpr double least_force = 1e-300;
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
 
@@ -163,9 +163,8 @@ class Path {
 
   /// Whether the matrix that is factorised is that of the states as they are.
   bool has_base_states() const {
-    return std::equal(pairs_.begin(), pairs_.end(), base_.begin(), [](const Pair& a, const Pair& b) {
-      return a.contact == b.contact && a.side == b.side;
-    });
+    return std::equal(pairs_.begin(), pairs_.end(), base_.begin(),
+                      [](const Pair& a, const Pair& b) { return a.contact == b.contact && a.side == b.side; });
   }
 
   static bool asks_for_motion_in(const std::vector<Pair>& pairs, Index row) {
@@ -210,8 +209,7 @@ class Path {
         for (SparseRows::InnerIterator it(G_, row); it; ++it) add(row, 2 * N_ + it.col(), it.value());
       } else {
         add(row, row, 1.0);
-        if (row % 2 == 1)
-          add(row, row - 1, pairs_[static_cast<std::size_t>(row / 2)].side * problem_.mu[row / 2]);
+        if (row % 2 == 1) add(row, row - 1, pairs_[static_cast<std::size_t>(row / 2)].side * problem_.mu[row / 2]);
       }
       for (SparseRows::InnerIterator it(G_, row); it; ++it) add(2 * N_ + it.col(), row, it.value());
     }
@@ -343,7 +341,8 @@ class Path {
       turn(leaves > 0.0 ? 1.0 : -1.0);
     }
     // Along the path by its own length: where t hardly changes, the bodies move.
-    const double size = std::max(1.0, dz_.lpNorm<Eigen::Infinity>() / std::max(z_.lpNorm<Eigen::Infinity>(), least_force));
+    const double size =
+        std::max(1.0, dz_.lpNorm<Eigen::Infinity>() / std::max(z_.lpNorm<Eigen::Infinity>(), least_force));
     turn(1.0 / size);
     return true;
   }
