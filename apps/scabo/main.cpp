@@ -28,8 +28,9 @@ namespace {
 constexpr const char* exit_statuses = R"(Exit status:
   0    solved and certified
   1    the command line, the model file or a file it names is wrong
-  2    the solve did not converge, the loads exceed what supports and contact can carry (status `mechanism`), bodies fall before the loads are reached (`collapse`), or a
-       problem file has no solution (`infeasible`); the results of the converged increments are kept
+  2    the solve did not converge, the loads exceed what supports and contact can carry (status `mechanism`), bodies
+       fall before the loads are reached (`collapse`), or a problem file has no solution (`infeasible`); the results of
+       the converged increments are kept
   3    any other failure: results cannot be written, another run writes into the same directory, memory is
        insufficient, or the program has a bug
   130  interrupted by Ctrl-C after an increment (143: by SIGTERM, 129: by SIGHUP); the finished increments are kept
@@ -69,7 +70,8 @@ constexpr const char* contact_example = R"(Example:
   scabo contact model.results/problems/press_3.hdf5 --json > solution.json
 
 FILE is HDF5 in FCLIB's layout, in local or global form, or text in the layout of Siconos. Exit status 0: solved, that
-is, the natural-map residual or the certificate is below the tolerance; 2: not converged, a mechanism, a collapse, or infeasible.)";
+is, the natural-map residual or the certificate is below the tolerance; 2: not converged, a mechanism, a collapse, or
+infeasible.)";
 
 constexpr const char* plot_example = R"(Example:
   scabo plot model.results --what contact --units m,N -o contact.pdf
