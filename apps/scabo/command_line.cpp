@@ -70,7 +70,8 @@ constexpr const char* contact_example = R"(Example:
   scabo contact model.results/problems/press_3.hdf5 --json > solution.json
 
 FILE is HDF5 in FCLIB's layout, in local or global form, or text in the layout of Siconos. Exit status 0: solved, that
-is, the natural-map residual or the certificate is below the tolerance; 2: not converged, a mechanism, or infeasible.)";
+is, the natural-map residual or the certificate is below the tolerance; 2: not converged, a mechanism, a collapse, or
+infeasible.)";
 
 constexpr const char* plot_example = R"(Example:
   scabo plot model.results --what contact --units m,N -o contact.pdf

@@ -93,8 +93,8 @@ class Path {
   }
 
  private:
-  static constexpr double far = 2.0;             // t: the path runs away from the problem
-  static constexpr double settled = 1e-14;       // of the largest force: what rounding leaves of the softness
+  static constexpr double far = 2.0;        // t: the path runs away from the problem
+  static constexpr double settled = 1e-14;  // of the largest force: what rounding leaves of the softness
   static constexpr double least_force = 1e-300;
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
 
@@ -167,9 +167,8 @@ class Path {
 
   /// Whether the matrix that is factorised is that of the states as they are.
   bool has_base_states() const {
-    return std::equal(pairs_.begin(), pairs_.end(), base_.begin(), [](const Pair& a, const Pair& b) {
-      return a.contact == b.contact && a.side == b.side;
-    });
+    return std::equal(pairs_.begin(), pairs_.end(), base_.begin(),
+                      [](const Pair& a, const Pair& b) { return a.contact == b.contact && a.side == b.side; });
   }
 
   static bool asks_for_motion_in(const std::vector<Pair>& pairs, Index row) {
@@ -347,7 +346,8 @@ class Path {
       turn(leaves > 0.0 ? 1.0 : -1.0);
     }
     // Along the path by its own length: where t hardly changes, the bodies move.
-    const double size = std::max(1.0, dz_.lpNorm<Eigen::Infinity>() / std::max(z_.lpNorm<Eigen::Infinity>(), least_force));
+    const double size =
+        std::max(1.0, dz_.lpNorm<Eigen::Infinity>() / std::max(z_.lpNorm<Eigen::Infinity>(), least_force));
     turn(1.0 / size);
     return true;
   }
@@ -360,8 +360,8 @@ class Path {
 
   Next nearest_limit(const std::optional<Next>& passed) const {
     Next next;
-    const double least_force = 1e-13 * dz_.head(2 * N_).lpNorm<Eigen::Infinity>(),
-                 least_motion = 1e-13 * d_motion_.lpNorm<Eigen::Infinity>();
+    const double still_force = 1e-13 * dz_.head(2 * N_).lpNorm<Eigen::Infinity>(),
+                 still_motion = 1e-13 * d_motion_.lpNorm<Eigen::Infinity>();
     for (Index i = 0; i < N_; ++i) {
       const Pair& pair = pairs_[static_cast<std::size_t>(i)];
       const Index normal = 2 * i, tangent = normal + 1;
@@ -371,14 +371,14 @@ class Path {
         if (step < next.step) next = {step, i, limit};
       };
       if (!pair.contact) {
-        meets(Limit::gap, motion_[normal], d_motion_[normal], least_motion);
+        meets(Limit::gap, motion_[normal], d_motion_[normal], still_motion);
       } else if (pair.side == 0) {
         const double forward = mu_of(i, 1), backward = mu_of(i, -1);
-        meets(Limit::upper, backward * z_[normal] - z_[tangent], backward * dz_[normal] - dz_[tangent], least_force);
-        meets(Limit::lower, forward * z_[normal] + z_[tangent], forward * dz_[normal] + dz_[tangent], least_force);
+        meets(Limit::upper, backward * z_[normal] - z_[tangent], backward * dz_[normal] - dz_[tangent], still_force);
+        meets(Limit::lower, forward * z_[normal] + z_[tangent], forward * dz_[normal] + dz_[tangent], still_force);
       } else {
-        meets(Limit::force, z_[normal], dz_[normal], least_force);
-        if (may_stick(i)) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], least_motion);
+        meets(Limit::force, z_[normal], dz_[normal], still_force);
+        if (may_stick(i)) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], still_motion);
       }
     }
     return next;

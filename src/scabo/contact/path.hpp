@@ -32,7 +32,7 @@ namespace scabo::contact {
 struct PathStart {
   Vector p, a;                       ///< forces, moved into the friction cones here, and rigid motions
   std::vector<ContactState> states;  ///< N; the direction of slip follows from p
-  double margin = 1e-2;  ///< of the mean force: pairs start this far from their limits, each at another distance
+  double margin = 1e-2;   ///< of the mean force: pairs start this far from their limits, each at another distance
   double pressure = 0.0;  ///< of the mean force: added to the normal forces of the pairs in contact
 };
 
@@ -40,14 +40,15 @@ struct PathOptions {
   double softness = 1e-6;
   int rounds = 8;     ///< paths that take the softness back, most
   int changes = 250;  ///< of state with one factorisation
-  int most = 0;  ///< changes of state in all; 0: 100, and four for each pair
+  int most = 0;       ///< changes of state in all; 0: 100, and four for each pair
   Deadline deadline;
   std::function<void(const Vector& p, const Vector& a)> on_factorisation;  ///< may be empty
 };
 
 struct PathEnd {
-  /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on for ever. turned_back: t has grown again
-  /// and an eighth of `most` changes, or more, does not lead below its least. broken: rounding, `most`, or the deadline.
+  /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on for ever. turned_back: t has grown
+  /// again and an eighth of `most` changes, or more, does not lead below its least. broken: rounding, `most`, or the
+  /// deadline.
   enum class How { arrived, endless, turned_back, broken } how = How::broken;
   Vector p, a;        ///< where the path ends
   double left = 1.0;  ///< the least t met

@@ -49,10 +49,10 @@ Problem between_floor_and_ceiling(double push, double gap) {
 PathEnd path_under(double push) {
   const Solution at_rest = solve(pushed_block(0.0));
   const Scaled pushed = scaled(pushed_block(push));
-  return follow_path(pushed.problem, {at_rest.p, pushed.stiffness * at_rest.a,
-                                      std::vector<ContactState>(static_cast<std::size_t>(pushed.problem.pairs()),
-                                                                ContactState::stick),
-                                      1e-8, 0.0});
+  return follow_path(
+      pushed.problem,
+      {at_rest.p, pushed.stiffness * at_rest.a,
+       std::vector<ContactState>(static_cast<std::size_t>(pushed.problem.pairs()), ContactState::stick), 1e-8, 0.0});
 }
 
 TEST(Path, OfABlockBelowTheFrictionLimitArrives) {
@@ -159,13 +159,12 @@ TEST(Path, OfRandomProblemsEndsInSolutions) {
     const auto start = bonded_start(in_forces.problem, {});
     if (!start) continue;
     const PathEnd end = follow_path(
-        in_forces.problem, {start->p, start->a,
-                            std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::stick),
-                            1e-2, 1.0});
+        in_forces.problem,
+        {start->p, start->a, std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::stick),
+         1e-2, 1.0});
     if (end.how != PathEnd::How::arrived) continue;
     ++arrived;
-    EXPECT_LT(test::violation(in_forces.problem, end.p, end.a),
-              1e-9 * std::max(1.0, end.p.lpNorm<Eigen::Infinity>()))
+    EXPECT_LT(test::violation(in_forces.problem, end.p, end.a), 1e-9 * std::max(1.0, end.p.lpNorm<Eigen::Infinity>()))
         << k;
   }
   EXPECT_GT(solvable, 200);
