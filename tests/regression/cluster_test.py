@@ -22,6 +22,7 @@ MPIRUN = shutil.which("mpirun")
 # Also as root, and with more ranks than processors, one thread each.
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_base_warn_component_unused": "0",
+               "OMPI_MCA_odls_base_sigkill_timeout": "5",  # a busy machine is slow to record the end
                "OMPI_MCA_mpi_yield_when_idle": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 # Every kind of mesh, tied bodies of two kinds, one of a file, a slender one, inclined supports, springs, a rigid body, and a
@@ -232,15 +233,13 @@ output: {every: 1000}
         with subprocess.Popen([MPIRUN, "-n", "2", support.SCABO, "run", "model.yaml", "-o", "results", "--divide-from", "100"],
                               cwd=self.directory, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
             summary = self.directory / "results" / "summary.json"
-            for _ in range(600):
-                if (self.directory / "results" / "checkpoint.hdf5").exists():
-                    break
+            while not (self.directory / "results" / "checkpoint.hdf5").exists() and run.poll() is None:
                 time.sleep(0.05)
             ranks = [int(entry.name) for entry in pathlib.Path("/proc").iterdir()
                      if entry.name.isdigit() and self.is_rank(entry, run.pid, "1")]
             self.assertEqual(len(ranks), 1)
             os.kill(ranks[0], signal.SIGKILL)
-            _, errors = run.communicate(timeout=60)
+            _, errors = run.communicate(timeout=support.PATIENCE)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("signal 9", errors)  # mpirun names the rank
         self.assertEqual(json.loads(summary.read_text(encoding="utf-8"))["status"], "failed")
