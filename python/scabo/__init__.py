@@ -12,8 +12,8 @@ contact problem by itself). docs/python.md has the manual.
 from ._core import Progress
 from ._core import version as __version__
 from .discrete import DiscreteSolution, solve_contact
-from .errors import (Collapse, Error, Infeasible, InternalError, Interrupted, Mechanism, ModelError, ModelWarning, NotConverged,
-                     Problem, WriteError)
+from .errors import (Collapse, Error, Infeasible, InternalError, Interrupted, Mechanism, ModelError, ModelWarning,
+                     NotConverged, Problem, WriteError)
 from .model import Model, Sizes, read, schema
 from .modes import Mode, ModalResult
 from .result import Contact, Increment, Result
@@ -22,7 +22,7 @@ from .super_element import SuperElement, boundary_nodes
 Progress.__module__ = "scabo"
 
 __all__ = [
-    "Collapse", "Contact", "DiscreteSolution", "Error", "Increment", "Infeasible", "InternalError", "Interrupted", "Mechanism",
-    "ModalResult", "Mode", "Model", "ModelError", "ModelWarning", "NotConverged", "Problem", "Progress", "Result", "Sizes",
+    "Collapse", "Contact", "DiscreteSolution", "Error", "Increment", "Infeasible", "InternalError", "Interrupted",
+    "Mechanism", "ModalResult", "Mode", "Model", "ModelError", "ModelWarning", "NotConverged", "Problem", "Progress", "Result", "Sizes",
     "SuperElement", "WriteError", "__version__", "boundary_nodes", "read", "schema", "solve_contact",
 ]

@@ -15,8 +15,8 @@ namespace scabo::contact {
 
 namespace {
 
-/// Pairs of many bodies up to which a path comes before interior points: each of its changes of state costs a solve (16 x
-/// 16 blocks, 2,260 pairs, 0.9 of the limit load: 11 s and 4 s).
+/// Pairs of many bodies up to which a path comes before interior points: each of its changes of state costs a solve
+/// (16 x 16 blocks, 2,260 pairs, 0.9 of the limit load: 11 s and 4 s).
 constexpr int most_of_paths_first = 1000;
 
 NewtonEnd nothing() {
@@ -90,8 +90,8 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   constexpr int patience = 8;
   constexpr int few = 6;  // of many bodies a path takes over sooner
   const bool paths = many && may_follow_path(problem_), paths_first = paths && problem_.pairs() <= most_of_paths_first;
-  if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, paths ? std::min(few, options_.iterations) : 0, patience})))
-    return best;
+  const int most = paths ? std::min(few, options_.iterations) : 0;
+  if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, most, patience}))) return best;
   if (!cold && paths_first && better(along_loads(p, a))) return best;
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
   if (held_together && better(bonded(*held_together))) return best;
@@ -354,8 +354,10 @@ NewtonEnd Ladder::inside(std::initializer_list<double> start_factors) {
     if (best.converged || late()) break;
   }
   if (best.p.size() == 0) return best;
-  constexpr int few_from_outside = 10;
-  if (!best.converged) return newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few_from_outside});
+  if (!best.converged) {
+    constexpr int few = 10;
+    return newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few});
+  }
   if (late()) {
     best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
     return best;
