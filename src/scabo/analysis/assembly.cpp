@@ -30,8 +30,7 @@ Assembly::Assembly(system::Structure made, const StaticSolution& solution,
                force_scale(structure),
                reference_of(solution.model, solution.mesh, solution.cells),
                std::move(on_iteration),
-               {},
-               free_motions_worth_keeping(solution.model)} {}
+               {}} {}
 
 std::unique_ptr<const Assembly> assemble(StaticSolution& solution,
                                          const std::function<void(const std::string&)>& on_stage,
