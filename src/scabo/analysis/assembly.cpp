@@ -30,8 +30,7 @@ Assembly::Assembly(system::Structure made, const StaticSolution& solution,
                force_scale(structure),
                reference_of(solution.model, solution.mesh, solution.cells),
                std::move(on_iteration),
-               {},
-               free_motions_worth_keeping(solution.model)} {}
+               {}} {}
 
 std::vector<element::SolvedCells> solved_cells(const StaticSolution& solution, const mesh::Mesh& mesh) {
   return element::solve_cells(solution.model, mesh, solution.threads,

@@ -75,8 +75,12 @@ std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vecto
 }
 
 /// Supports on both sides may hold a pair; they must not press its points into each other.
-void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
+void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, const Vector& offset,
+                      const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
+  if (contact.held.empty()) return;
+  Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
+  for (std::size_t p = 0; p < u.size(); ++p) motion.noalias() += contact.held_motion[p] * u[p];
   if (offset.size() > 0) motion += offset;
   for (std::size_t i = 0; i < contact.held.size(); ++i) {
     const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
@@ -451,25 +455,17 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   options.iterations = prepared.model.solver.iterations;
   options.on_iteration = prepared.on_iteration;
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
-  std::vector<Vector> free;  // displacements without contact, where they are not known from before
-  Vector held = Vector::Zero(static_cast<Eigen::Index>(2 * system.held.size()));
-  const bool kept = prepared.free_motions && N > 0 && to.replaced.moved.empty() && to.released.empty();
-  if (kept) {
-    FreeMotions::OfPairs motions = prepared.free_motions->at(prepared, factors);
-    problem.q += motions.moving;
-    held = std::move(motions.held);
-  }
+  std::vector<Vector> free;  // without contact
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (!prepared.is_absent(p))
-      problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
-    if (kept) continue;
-    free.push_back(prepared.is_absent(p) ? Vector(Vector::Zero(parts[p]->size()))
-                                         : parts[p]->displacement(to.forces[p], to.prescribed[p]));
-    if (prepared.is_absent(p)) continue;
+    if (prepared.is_absent(p)) {
+      free.push_back(Vector::Zero(parts[p]->size()));
+      continue;
+    }
+    free.push_back(parts[p]->displacement(to.forces[p], to.prescribed[p]));
     problem.q.noalias() += system.motion[p] * free[p];
-    if (!system.held.empty()) held.noalias() += system.held_motion[p] * free[p];
+    problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
   }
-  if (!system.held.empty()) check_held_pairs(prepared, std::move(held), from.held_offset, from.replaced);
+  check_held_pairs(prepared, free, from.held_offset, from.replaced);
 
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;

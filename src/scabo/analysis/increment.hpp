@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "scabo/analysis/free_motions.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/system/contact_system.hpp"
 
@@ -25,8 +24,6 @@ struct Prepared {
   std::optional<Reference> reference;
   std::function<void(const contact::Iteration&)> on_iteration = {};  ///< Options::on_iteration
   std::vector<char> absent;  ///< per part: not there at this stage of construction (stages.hpp); empty: all are there
-
-  std::shared_ptr<FreeMotions> free_motions = {};  ///< null: they are computed for each attempt
 
   bool is_absent(std::size_t part) const { return !absent.empty() && absent[part] != 0; }
 };

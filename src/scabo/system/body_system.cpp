@@ -239,8 +239,7 @@ class ElasticBody final : public BodySystem {
       u[constraints_[c].dof] = prescribed[static_cast<Eigen::Index>(c)];
     u = inclined_.displacements(std::move(u));
     u += u.isZero(0.0) ? solved(f) : solved(f - internal_forces(u));
-    const Vector left = f - internal_forces(u);
-    if (may_be_refined(u, left)) u += solved(left);  // the certificate is judged at 1e-10
+    u += solved(f - internal_forces(u));  // the certificate is judged at 1e-10
 
     if (rounding_matters(u, f)) u = linalg::rounded(refined(u, f).u);
     return u;
@@ -368,17 +367,6 @@ class ElasticBody final : public BodySystem {
     Vector forces = stiffness().times(u);
     if (has_springs()) forces += springs;
     return forces;
-  }
-
-  /// Whether another solve may bring the forces `left` at u further down. In a large body it costs as much as the first;
-  /// what rounding of u alone leaves is not removed by it.
-  bool may_be_refined(const Vector& u, const Vector& left) const {
-    constexpr Eigen::Index large = 20'000;
-    if (stiffness().dense || size() < large) return true;
-    const Vector components = inclined_.components(left);
-    double largest = 0.0;
-    for (const int dof : dofs_) largest = std::max(largest, std::abs(components[dof]));
-    return !(largest <= 4.0 * std::numeric_limits<double>::epsilon() * stiff_force(u));
   }
 
   /// Whether rounding u can leave forces that are not small beside f: in slender bodies K u is a small difference of
