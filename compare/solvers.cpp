@@ -4,11 +4,6 @@
 #include <cstdio>
 #include <limits>
 
-#include "scabo/contact/b_differentiable.hpp"
-#include "scabo/contact/infeasibility.hpp"
-#include "scabo/contact/lemke.hpp"
-#include "scabo/contact/newton.hpp"
-#include "scabo/contact/rigid_motions.hpp"
 #include "compare/alart_curnier.hpp"
 #include "compare/fischer_burmeister.hpp"
 #include "compare/gauss_seidel.hpp"
@@ -17,11 +12,15 @@
 #include "compare/siconos.hpp"
 #include "compare/tresca.hpp"
 #include "compare/trial_and_error.hpp"
+#include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/infeasibility.hpp"
+#include "scabo/contact/lemke.hpp"
+#include "scabo/contact/newton.hpp"
+#include "scabo/contact/rigid_motions.hpp"
 
 namespace scabo::compare {
 
 namespace {
-
 
 /// Name of a method and the problems that it handles.
 struct Road {
@@ -141,7 +140,8 @@ void describe(Solution& solution, const Problem& problem, const Vector& motion, 
     solution.gap[i] = motion[d * i];
     solution.slip_increment.segment(t * i, t) = motion.segment(d * i + 1, t);
     const double p_n = solution.p[d * i], slip = motion.segment(d * i + 1, t).norm();
-    const double bound = problem.friction_bound(i, p_n, solution.p[d * i + 1]), friction = solution.p.segment(d * i + 1, t).norm();
+    const double bound = problem.friction_bound(i, p_n, solution.p[d * i + 1]),
+                 friction = solution.p.segment(d * i + 1, t).norm();
     if (p_n + problem.tension_of(i) <= 1e-13 * scales.force)
       solution.states.push_back(ContactState::open);
     else if (friction < bound * (1.0 - 1e-10) || (bound > 0.0 && slip <= 1e-12 * scales.length))

@@ -150,7 +150,7 @@ class CommandLine {
         ->check(CLI::Range(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
     run_->add_flag("--json-lines", run_options_.json_lines,
-                  "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
+                   "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
     run_->add_flag("--ignore-memory", run_options_.ignore_memory,
                    "Starts even if less memory is available than the analysis is expected to need");
     add_division(*run_, run_options_.divide_from);
@@ -166,8 +166,9 @@ class CommandLine {
         ->check(CLI::Range(1, 1024));
     resume_->add_flag("-q,--quiet", resume_options_.quiet, "Prints only errors and warnings");
     add_division(*resume_, resume_options_.divide_from);
-    resume_->add_flag("--json-lines", resume_options_.json_lines,
-                  "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
+    resume_->add_flag(
+        "--json-lines", resume_options_.json_lines,
+        "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
     resume_->footer(resume_example);
 
     sweep_->add_option("MODEL", sweep_options_.model, model_help)->required()->option_text(" ");
@@ -182,7 +183,9 @@ class CommandLine {
     sweep_->add_option("-j,--jobs", sweep_options_.jobs, "Runs at a time; default: one for each processor")
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
-    sweep_->add_option("--threads", sweep_options_.threads, "Threads of each run; default: processors over runs at a time")
+    sweep_
+        ->add_option("--threads", sweep_options_.threads,
+                     "Threads of each run; default: processors over runs at a time")
         ->option_text("N")
         ->check(CLI::Range(1, 1024));
     sweep_->add_flag("--anew", sweep_options_.anew, "Replaces what DIR holds of another sweep, and runs all points");
@@ -241,9 +244,12 @@ class CommandLine {
     new_->footer(new_example);
 
     convert_->add_option("DECK", convert_options_.deck, "Input file (.inp)")->required()->option_text(" ");
-    convert_->add_option("-o,--output", convert_options_.output, "Name of the model file; default: part.yaml, beside part.inp")
+    convert_
+        ->add_option("-o,--output", convert_options_.output,
+                     "Name of the model file; default: part.yaml, beside part.inp")
         ->option_text("FILE");
-    convert_->add_flag("--incomplete", convert_options_.incomplete, "Writes a model even if something essential is missing in it");
+    convert_->add_flag("--incomplete", convert_options_.incomplete,
+                       "Writes a model even if something essential is missing in it");
     convert_->add_flag("--force", convert_options_.force, "Replaces the files that there are");
     convert_->footer(convert_example);
 
@@ -348,8 +354,9 @@ class CommandLine {
     plot_->add_option("--what", plot_options_.what, "What is drawn; default: all that the results have")
         ->option_text("KIND")
         ->check(one_of({"stress", "contact", "convergence", "mesh", "history", "all"}));
-    plot_->add_option("--increment", plot_options_.increment,
-                      "Number from 1 over all steps, or of the mode; default: -1, the last one")
+    plot_
+        ->add_option("--increment", plot_options_.increment,
+                     "Number from 1 over all steps, or of the mode; default: -1, the last one")
         ->option_text("N");
     plot_->add_option("--component", plot_options_.text, "Part of stress, contact or history; a wrong name lists them")
         ->option_text("NAME");
@@ -362,8 +369,9 @@ class CommandLine {
         ->option_text("X0,X1,Y0,Y1");
     plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
         ->option_text("LENGTH,FORCE");
-    plot_->add_option("-o,--output", plot_options_.text,
-                      "A .png, .svg or .pdf; default: .png files beside DIR, one for each picture")
+    plot_
+        ->add_option("-o,--output", plot_options_.text,
+                     "A .png, .svg or .pdf; default: .png files beside DIR, one for each picture")
         ->option_text("FILE");
     plot_->footer(plot_example);
   }
@@ -373,10 +381,13 @@ class CommandLine {
     report_->add_option("DIR", report_options_.directory, "Results directory of a run")->required()->option_text(" ");
     report_->add_option("-o,--output", report_options_.text, "Name of the page; default: model.report.html beside DIR")
         ->option_text("FILE");
-    report_->add_option("--units", report_options_.text, "Units of the model, as in --units m,N; the page can change them")
+    report_
+        ->add_option("--units", report_options_.text, "Units of the model, as in --units m,N; the page can change them")
         ->option_text("LENGTH,FORCE");
-    report_->add_option("--size", report_options_.size,
-                        "Largest size of the page in megabytes; default: 25. Of long runs it leaves out fields of increments")
+    report_
+        ->add_option(
+            "--size", report_options_.size,
+            "Largest size of the page in megabytes; default: 25. Of long runs it leaves out fields of increments")
         ->option_text("MB")
         ->check(CLI::PositiveNumber);
     report_->add_flag("-q,--quiet", report_options_.quiet, "Does not print the name of the page");

@@ -21,8 +21,8 @@ struct CheckOptions {
   std::vector<std::string> settings;  ///< `path=value`, each replacing one value of the model file
 };
 
-/// Under mpirun: smallest number of degrees of freedom of a body that is divided. Smaller ones take less time on one rank
-/// (docs/clusters.md).
+/// Under mpirun: smallest number of degrees of freedom of a body that is divided. Smaller ones take less time on one
+/// rank (docs/clusters.md).
 inline constexpr double default_divide_from = 50000.0;
 
 struct RunOptions {

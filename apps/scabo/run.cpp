@@ -41,7 +41,8 @@ ExitStatus run(const RunOptions& options, Cluster* cluster, Events& events) {
     return report_at_end->write(output, status, options.quiet || options.json_lines);
   };
   if (cluster && !analysis::can_use_ranks(model)) {
-    print_warning(fmt::format("{}: one of the {} ranks does all of it", analysis::why_no_ranks, cluster->ranks().count()));
+    print_warning(
+        fmt::format("{}: one of the {} ranks does all of it", analysis::why_no_ranks, cluster->ranks().count()));
     cluster = nullptr;
   }
   if (model.analysis.type == model::AnalysisType::modal)

@@ -14,8 +14,8 @@ namespace scabo::app {
 /// - If memory is scarce, the buffer of BLAS and a part of the stack are allocated now.
 ///
 /// The check of memory itself runs before main and before the initialisers of shared libraries: OpenBLAS allocates a
-/// buffer of 128 MB for each of its threads while it is loaded, more when their number changes, and retries forever if it
-/// gets none. In that case its threads are limited to one, and the program restarts itself; if memory is still
+/// buffer of 128 MB for each of its threads while it is loaded, more when their number changes, and retries forever if
+/// it gets none. In that case its threads are limited to one, and the program restarts itself; if memory is still
 /// insufficient, it ends with status 3 and states the amount needed.
 void prepare_process();
 

@@ -53,8 +53,8 @@ ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {
   return signal != 0 ? static_cast<ExitStatus>(ExitStatus::signalled + signal) : ExitStatus::not_converged;
 }
 
-/// mpirun ends all processes when one is lost, by SIGTERM and a second later by SIGKILL: while it exists, such an end is
-/// recorded in the results at once. A run that still ends by itself writes another summary.
+/// mpirun ends all processes when one is lost, by SIGTERM and a second later by SIGKILL: while it exists, such an end
+/// is recorded in the results at once. A run that still ends by itself writes another summary.
 class EndFromOutside {
  public:
   EndFromOutside(const Interrupt& interrupt, std::filesystem::path directory)
@@ -94,8 +94,8 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
     events.plan(plan);
     progress.plan(plan);
   };
-  // Nothing is lost by an end before the first increment. One that has begun is finished; on several meshes, stages tell
-  // when the first one begins.
+  // Nothing is lost by an end before the first increment. One that has begun is finished; on several meshes, stages
+  // tell when the first one begins.
   bool begun = false;
   const Interruptible::Ask ask = [&] {
     if (!begun && interrupt.requested()) throw analysis::EndAtOnce{};

@@ -12,8 +12,8 @@ namespace scabo::app {
 
 /// How one point of a sweep ended.
 struct SweepRow {
-  /// `solved`, `not_converged`, `mechanism`, `collapse`, `interrupted`, `failed`, `wrong_input`, `killed`; `waiting` before its
-  /// run.
+  /// `solved`, `not_converged`, `mechanism`, `collapse`, `interrupted`, `failed`, `wrong_input`, `killed`; `waiting`
+  /// before its run.
   std::string status = "waiting";
   std::string step, reached;                  ///< of the last finished increment: its step, and the part of it
   std::map<std::string, std::string> values;  ///< main quantities of the last increment by the name of their column

@@ -210,7 +210,8 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
       state.interior[b].push_back(interior_loads(unpacker));
   }
 
-  std::vector<std::vector<int>> of_points(of.model.bodies.size());  // [body]: own node of each point on the sides of cells
+  std::vector<std::vector<int>> of_points(
+      of.model.bodies.size());  // [body]: own node of each point on the sides of cells
   const auto complete = [&](std::size_t body, const std::vector<int>& nodes, const std::vector<int>& materials,
                             Eigen::Matrix3Xd& sums, std::vector<int>& cells) {
     if (!own_fields_->divided[body]) return;

@@ -35,12 +35,13 @@ contact::Delassus operator_of(const py::tuple& columns, Eigen::Index size) {
       Sparse(Eigen::Map<const Sparse>(size, size, values.size(), starts.data(), rows.data(), values.data())));
 }
 
-/// Solves u = W p + q + G a, G' p + f = 0 with Coulomb friction on N pairs in `dimension` d = 2 or 3; per pair first the
-/// normal, then the tangential components. `dense`: W, (d N, d N), or `columns`: the same as SciPy keeps a sparse matrix by
-/// columns (indptr, indices, data); `q`: motions without contact forces, (d N), the normal ones positive if open; `mu`,
-/// `cohesion` and `tension`: (N), the latter two forces, or empty; `G`: (d N, m) or None; `f`: (m); `start_forces` (d N) and
-/// `start_motions` (m): where Newton begins, or empty. `tolerance`: free of units, of the certificate (`by_certificate`) or
-/// of the natural map. `force_scale`: largest applied force, 0 if it is not known. `seconds`: limit of time, 0 for none.
+/// Solves u = W p + q + G a, G' p + f = 0 with Coulomb friction on N pairs in `dimension` d = 2 or 3; per pair first
+/// the normal, then the tangential components. `dense`: W, (d N, d N), or `columns`: the same as SciPy keeps a sparse
+/// matrix by columns (indptr, indices, data); `q`: motions without contact forces, (d N), the normal ones positive if
+/// open; `mu`, `cohesion` and `tension`: (N), the latter two forces, or empty; `G`: (d N, m) or None; `f`: (m);
+/// `start_forces` (d N) and `start_motions` (m): where Newton begins, or empty. `tolerance`: free of units, of the
+/// certificate (`by_certificate`) or of the natural map. `force_scale`: largest applied force, 0 if it is not known.
+/// `seconds`: limit of time, 0 for none.
 std::shared_ptr<Solution> solve(const std::optional<Numbers>& dense, const std::optional<py::tuple>& columns,
                                 const Numbers& q, const Numbers& mu, int dimension, const Numbers& cohesion,
                                 const Numbers& tension, const std::optional<Numbers>& G, const Numbers& f,
@@ -101,31 +102,33 @@ py::array vector_view(const py::object& self) {
 
 void bind_contact(py::module_& module) {
   py::class_<Solution, std::shared_ptr<Solution>>(module, "DiscreteSolution", doc::contact::Solution)
-      .def_property_readonly("status", [](const Solution& of) { return contact::name_of(of.status); },
-                             doc::solution::Solution_status)
+      .def_property_readonly(
+          "status", [](const Solution& of) { return contact::name_of(of.status); }, doc::solution::Solution_status)
       .def_property_readonly("forces", &vector_view<&Solution::p>, doc::solution::Solution_p)
       .def_property_readonly("rigid_motions", &vector_view<&Solution::a>, doc::solution::Solution_a)
       .def_property_readonly("gap", &vector_view<&Solution::gap>, doc::solution::Solution_gap)
       .def_property_readonly("slip", &vector_view<&Solution::slip_increment>, doc::solution::Solution_slip_increment)
       .def_property_readonly("unrestrained_motion", &vector_view<&Solution::motion>, doc::solution::Solution_motion)
       .def_property_readonly("proof", &vector_view<&Solution::proof>, doc::solution::Solution_proof)
-      .def_property_readonly("states",
-                             [](const py::object& self) {
-                               const auto& states = self.cast<const Solution&>().states;
-                               return view(reinterpret_cast<const int*>(states.data()),
-                                           {static_cast<py::ssize_t>(states.size())},
-                                           {static_cast<py::ssize_t>(sizeof(int))}, self);
-                             },
-                             doc::solution::Solution_states)
+      .def_property_readonly(
+          "states",
+          [](const py::object& self) {
+            const auto& states = self.cast<const Solution&>().states;
+            return view(reinterpret_cast<const int*>(states.data()), {static_cast<py::ssize_t>(states.size())},
+                        {static_cast<py::ssize_t>(sizeof(int))}, self);
+          },
+          doc::solution::Solution_states)
       .def_readonly("iterations", &Solution::iterations, doc::solution::Solution_iterations)
-      .def_readonly("natural_map_residual", &Solution::natural_map_residual, doc::solution::Solution_natural_map_residual)
+      .def_readonly("natural_map_residual", &Solution::natural_map_residual,
+                    doc::solution::Solution_natural_map_residual)
       .def_readonly("rounding", &Solution::rounding, doc::solution::Solution_rounding)
       .def_readonly("reason", &Solution::reason, doc::solution::Solution_reason)
       .def_property_readonly("certificate", &certificate_of, doc::contact::certificate_of);
   module.def("solve_contact", &solve, py::arg("dense"), py::arg("columns"), py::arg("q"), py::arg("mu"),
              py::arg("dimension"), py::arg("cohesion"), py::arg("tension"), py::arg("G"), py::arg("f"),
              py::arg("start_forces"), py::arg("start_motions"), py::arg("tolerance"), py::arg("by_certificate"),
-             py::arg("iterations"), py::arg("force_scale"), py::arg("seconds"), py::arg("threads"), doc::contact::solve);
+             py::arg("iterations"), py::arg("force_scale"), py::arg("seconds"), py::arg("threads"),
+             doc::contact::solve);
 }
 
 }  // namespace scabo::python

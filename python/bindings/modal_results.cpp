@@ -11,9 +11,9 @@ namespace scabo::python {
 
 namespace {
 
-/// One dictionary for each mode: frequency (1 / time; 0 if rigid), rigid, modal_mass (shape' M shape), effective_mass (of
-/// motions of the supports along x and y), residual (of K shape = omega^2 M shape, free of units), and shape: arrays
-/// (nodes, 2) by the name of the body, without a copy, whose largest displacement of a node is 1.
+/// One dictionary for each mode: frequency (1 / time; 0 if rigid), rigid, modal_mass (shape' M shape), effective_mass
+/// (of motions of the supports along x and y), residual (of K shape = omega^2 M shape, free of units), and shape:
+/// arrays (nodes, 2) by the name of the body, without a copy, whose largest displacement of a node is 1.
 py::list modes(const py::object& self) {
   const auto& solved = self.cast<const ModalRunResult&>();
   py::list list;

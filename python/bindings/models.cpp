@@ -7,10 +7,10 @@
 
 #include "bindings.hpp"
 #include "scabo/analysis/static_analysis.hpp"
-#include "scabo/result/history.hpp"
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/input/document.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/result/history.hpp"
 #include "scabo/run/plan.hpp"
 #include "tree.hpp"
 
@@ -30,9 +30,9 @@ Document read(const std::string& file, const std::vector<std::string>& settings)
 /// The content as dictionaries, lists, numbers, bool, text and None, which are new with every call.
 py::object data(const Document& document) { return to_python(*document.root); }
 
-/// Reads and checks a model that is a dictionary. `file`: stands in messages, and files that the model names are relative
-/// to its folder. `document`: what the dictionary was read from, or None; unchanged parts keep their lines in messages.
-/// Raises ModelError with every mistake, and TypeError for values that a model cannot contain.
+/// Reads and checks a model that is a dictionary. `file`: stands in messages, and files that the model names are
+/// relative to its folder. `document`: what the dictionary was read from, or None; unchanged parts keep their lines in
+/// messages. Raises ModelError with every mistake, and TypeError for values that a model cannot contain.
 CheckedModel checked_model(py::handle data, const std::string& file, const Document* document) {
   CheckedModel checked;
   const Stopwatch reading(checked.reading);

@@ -3,9 +3,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <docstrings.hpp>  // made by make_docstrings.py
 #include <fstream>
 #include <iterator>
-#include <docstrings.hpp>  // made by make_docstrings.py
 #include <memory>
 #include <thread>
 
@@ -35,14 +35,15 @@ struct Progress {
   double fraction = 0.0;                 ///< part of the steps that is done, 0 to 1
   std::optional<int> newton_iterations;  ///< of the last finished increment; None before it
   std::optional<double> residual;        ///< of the last finished increment; None before it
-  std::optional<int> iteration;  ///< of the contact solver in the increment at work; None between increments
+  std::optional<int> iteration;          ///< of the contact solver in the increment at work; None between increments
   std::optional<double> iteration_residual;  ///< residual of that iteration
-  std::optional<double> seconds_left;  ///< until the end, if the rest goes on as before; None before an increment is done
+  std::optional<double>
+      seconds_left;  ///< until the end, if the rest goes on as before; None before an increment is done
 };
 
-/// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an exception
-/// of a signal handler, stop the run. It ends at the next of these occasions: a stage or increment begins, the contact
-/// solver iterates, an interruption point is passed. Finished increments are kept.
+/// Passes progress to a Python callback, and looks for Ctrl-C. A callback that returns False or raises, and an
+/// exception of a signal handler, stop the run. It ends at the next of these occasions: a stage or increment begins,
+/// the contact solver iterates, an interruption point is passed. Finished increments are kept.
 class Watch {
  public:
   explicit Watch(py::object callback) : callback_(std::move(callback)) { now_.stage = "mesh"; }
@@ -168,8 +169,8 @@ analysis::StaticSolution run_in_directory(run::StaticRun& run, const CheckedMode
 
 /// Runs a static analysis. `output`: directory of its files, or None. `threads`: upper limit. `keep_fields`: of all
 /// increments, not of the last one alone. `ignore_memory`: starts even if the estimated memory is not available.
-/// `progress`: None, or a function that is called with a Progress; False or an exception of it ends the run, whose result
-/// then contains the finished increments. Raises ModelError, WriteError and MemoryError.
+/// `progress`: None, or a function that is called with a Progress; False or an exception of it ends the run, whose
+/// result then contains the finished increments. Raises ModelError, WriteError and MemoryError.
 std::shared_ptr<StaticResult> solve_static(const CheckedModel& checked, const std::optional<std::string>& output,
                                            int threads, bool keep_fields, bool ignore_memory,
                                            const py::object& progress) {

@@ -16,13 +16,13 @@ struct [[gnu::visibility("hidden")]] RunRecord {
   std::string summary;                   ///< content of summary.json
   std::optional<std::string> directory;  ///< where the results are written
   std::vector<std::string> warnings;     ///< one sentence each
-  py::object error = py::none();  ///< an exception of the callback, or KeyboardInterrupt
-  std::string why_not_solved;     ///< empty if solved
+  py::object error = py::none();         ///< an exception of the callback, or KeyboardInterrupt
+  std::string why_not_solved;            ///< empty if solved
 };
 
-/// Results of a static analysis. Increments are numbered from 0 in the order of the run, bodies and contacts in the order
-/// of the model. Arrays show the memory of the solution without a copy unless their docstring says so, and cannot be
-/// written.
+/// Results of a static analysis. Increments are numbered from 0 in the order of the run, bodies and contacts in the
+/// order of the model. Arrays show the memory of the solution without a copy unless their docstring says so, and cannot
+/// be written.
 struct [[gnu::visibility("hidden")]] StaticResult {
   analysis::StaticSolution solution;
   RunRecord record;  ///< summary, directory, warnings, and why the run ended

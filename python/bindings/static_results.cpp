@@ -25,8 +25,8 @@ const analysis::IncrementResult& increment_of(const StaticResult& solved, std::s
 
 /// The pairs of a contact after an increment, each column an array over the pairs: pair (number from 1), x, y (on A,
 /// length), normal_x, normal_y (out of A), gap (length, positive if open), slip (length, of B relative to A along t),
-/// normal_force (on B, compression positive), tangential_force (on B along t), pressure, shear (force / length^2), state (0
-/// open, 1 stick, 2 slip), and normal_displacement_a, tangential_displacement_a, normal_displacement_b,
+/// normal_force (on B, compression positive), tangential_force (on B along t), pressure, shear (force / length^2),
+/// state (0 open, 1 stick, 2 slip), and normal_displacement_a, tangential_displacement_a, normal_displacement_b,
 /// tangential_displacement_b (length, along n and t). Displacements and columns need the fields of the increment.
 py::dict pairs(const py::object& self, std::size_t increment, std::size_t contact) {
   const auto& solved = self.cast<const StaticResult&>();
@@ -112,10 +112,10 @@ py::array_t<double> columns(std::size_t points, int count) {
   return py::array_t<double>({static_cast<py::ssize_t>(points), static_cast<py::ssize_t>(count)});
 }
 
-/// Values at points (n, 2) of the undeformed shape, as new arrays: body (n; -1 outside), displacement (n, 2), stress (n,
-/// 4): xx, yy, xy, zz, positive in tension, strain (n, 3): xx, yy, gamma_xy, principal (n, 3), descending, principal_angle
-/// (n, from x, radians), von_mises (n), energy_density (n). `only`: the body that is meant, or -1. Points outside raise
-/// ValueError, or with `allow_outside` are not a number.
+/// Values at points (n, 2) of the undeformed shape, as new arrays: body (n; -1 outside), displacement (n, 2), stress
+/// (n, 4): xx, yy, xy, zz, positive in tension, strain (n, 3): xx, yy, gamma_xy, principal (n, 3), descending,
+/// principal_angle (n, from x, radians), von_mises (n), energy_density (n). `only`: the body that is meant, or -1.
+/// Points outside raise ValueError, or with `allow_outside` are not a number.
 py::dict values(const StaticResult& solved, std::size_t increment, const Numbers& at, int only, bool allow_outside) {
   const std::vector<Vec2> points = points_of(at);
   std::vector<result::PointResult> results;

@@ -19,7 +19,8 @@ namespace {
 
 using element::Ring;
 
-/// A super-element by itself. Displacements and forces of its boundary are x, y of node after node, n = 2 nodes of them.
+/// A super-element by itself. Displacements and forces of its boundary are x, y of node after node, n = 2 nodes of
+/// them.
 class SuperElement {
  public:
   SuperElement(const std::vector<Vec2>& nodes, const Vec2& centre, bool open, int order, double young, double poisson,
@@ -80,10 +81,10 @@ class SuperElement {
   std::unique_ptr<const element::ModalSolution> modes_;
 };
 
-/// Solves a super-element. `nodes`: its boundary, (nodes, 2), counter-clockwise, with the inner nodes of elements of this
-/// `order` at the Gauss-Lobatto-Legendre points; `centre`: scaling centre; `open`: the boundary does not close; `young`:
-/// force / length^2; `plane_strain`: else plane stress; `unbounded`: outside of the boundary. Raises ValueError for what
-/// cannot be solved.
+/// Solves a super-element. `nodes`: its boundary, (nodes, 2), counter-clockwise, with the inner nodes of elements of
+/// this `order` at the Gauss-Lobatto-Legendre points; `centre`: scaling centre; `open`: the boundary does not close;
+/// `young`: force / length^2; `plane_strain`: else plane stress; `unbounded`: outside of the boundary. Raises
+/// ValueError for what cannot be solved.
 std::shared_ptr<SuperElement> make(const Numbers& nodes, const std::array<double, 2>& centre, bool open, int order,
                                    double young, double poisson, bool plane_strain, double thickness, bool unbounded,
                                    int threads) {
@@ -104,8 +105,8 @@ py::tuple coefficients(const SuperElement& super_element) {
   return py::make_tuple(dense(found.E0), dense(found.E1), dense(found.E2));
 }
 
-/// All n exponents lambda of u ~ xi^lambda, complex, in ascending real part; exactly 0 for the two translations. Below 1:
-/// stress is infinite at the scaling centre. A copy.
+/// All n exponents lambda of u ~ xi^lambda, complex, in ascending real part; exactly 0 for the two translations. Below
+/// 1: stress is infinite at the scaling centre. A copy.
 py::array_t<std::complex<double>> exponents(SuperElement& super_element) {
   const std::vector<std::complex<double>>* const found = until_ctrl_c([&] { return &super_element.modes().exponents; });
   return py::array_t<std::complex<double>>(static_cast<py::ssize_t>(found->size()), found->data());

@@ -160,8 +160,8 @@ TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
   for (const double friction : {0.3, 0.6, 1.0}) holds({4, 4, friction}, 0.99, 10);
 }
 
-// Forces within the cones balance the push, so that it is no mechanism; but the equilibria that the push passes through end
-// at 0.93 of it (docs/methods/12), and no other was found.
+// Forces within the cones balance the push, so that it is no mechanism; but the equilibria that the push passes through
+// end at 0.93 of it (docs/methods/12), and no other was found.
 TEST(Wall, WithStrongFrictionFallsBeforeItsLimitLoad) {
   const Blocks blocks{8, 8, 1.0};
   EXPECT_EQ(run(model_of(blocks, 0.92 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::solved);
@@ -185,15 +185,16 @@ TEST(Wall, SlidesAtItsCollapsePush) {
   EXPECT_EQ(run(model_of(blocks, 1.01 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::mechanism);
 }
 
-// A block 4 x 0.5 m close below a ceiling. Forces of floor and ceiling, both pressed, could balance any push, but nothing
-// presses the block against the ceiling: it slides at mu times its weight, mu rho g 2 m^2 = 19,620 N.
+// A block 4 x 0.5 m close below a ceiling. Forces of floor and ceiling, both pressed, could balance any push, but
+// nothing presses the block against the ceiling: it slides at mu times its weight, mu rho g 2 m^2 = 19,620 N.
 TEST(Block, BelowACeilingSlidesAtTheFrictionLimitOfTheFloor) {
   const auto under = [](double traction) {
     return run(fmt::format(
         "scabo: 1\nmaterials: {{stone: {{young: 5e9, poisson: 0.2, density: 2000}}}}\nbodies:\n"
         "  floor: {{rigid: true, shape: {{rectangle: {{corner: [-2, -1], size: [8, 1]}}}}}}\n"
         "  ceiling: {{rigid: true, shape: {{rectangle: {{corner: [-2, 0.501], size: [8, 1]}}}}}}\n"
-        "  block: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [4, 0.5]}}}}, mesh: {{size: 0.25, order: "
+        "  block: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [4, 0.5]}}}}, mesh: {{size: 0.25, "
+        "order: "
         "1}}}}\n"
         "supports: [{{on: floor, fix: [x, y]}}, {{on: ceiling, fix: [x, y]}}]\n"
         "loads:\n  weight: {{gravity: [0, -9.81]}}\n  push: {{on: block.left, traction: [{}, 0]}}\n"

@@ -191,8 +191,8 @@ void expect_same(const analysis::StaticSolution& one, const analysis::StaticSolu
 
 // The same history in one step, and in several.
 TEST(CurveOverSteps, IsTheSameAsInOneStep) {
-  const std::string table = "table: [[2, 0], [4, 1], [8, -1], [10, 0.5]]", hold = "ramp: {from: 1, to: 2, begin: 0.25, end: 0.5}",
-                    steps = "steps: [{loads: {press: 1}}, ";
+  const std::string table = "table: [[2, 0], [4, 1], [8, -1], [10, 0.5]]",
+                    hold = "ramp: {from: 1, to: 2, begin: 0.25, end: 0.5}", steps = "steps: [{loads: {press: 1}}, ";
   expect_same(run(driven_block(1e6, "curves: {saw: {" + table + "}, rise: {" + hold + "}}\n" + steps +
                                         "{increments: 8, loads: {drive: saw, press: rise}}]\n")),
               run(driven_block(1e6, "curves: {saw: {" + table + ", over: {a: 1, b: 6, c: 1}}, rise: {" + hold +
@@ -200,16 +200,18 @@ TEST(CurveOverSteps, IsTheSameAsInOneStep) {
                                         "{name: a, loads: {drive: saw, press: rise}}, {name: b, increments: 6, loads: "
                                         "{drive: saw, press: rise}}, {name: c, loads: {drive: saw, press: rise}}]\n")));
   const std::string sine = "sine: {amplitude: 0.7, periods: 1.75, mean: 0}";
-  expect_same(run(driven_block(1e6, "curves: {wave: {" + sine + "}}\n" + steps + "{increments: 12, loads: {drive: wave}}]\n")),
-              run(driven_block(1e6, "curves: {wave: {" + sine + ", over: [a, b, c]}}\n" + steps +
-                                        "{name: a, increments: 4, loads: {drive: wave}}, {name: b, increments: 4, loads: "
-                                        "{drive: wave}}, {name: c, increments: 4, loads: {drive: wave}}]\n")));
+  expect_same(
+      run(driven_block(1e6, "curves: {wave: {" + sine + "}}\n" + steps + "{increments: 12, loads: {drive: wave}}]\n")),
+      run(driven_block(1e6, "curves: {wave: {" + sine + ", over: [a, b, c]}}\n" + steps +
+                                "{name: a, increments: 4, loads: {drive: wave}}, {name: b, increments: 4, loads: "
+                                "{drive: wave}}, {name: c, increments: 4, loads: {drive: wave}}]\n")));
 }
 
 // A rigid-like block that is driven to and fro: at the bound mu N all the while, with a friction that one of the steps
 // changes. The factor at every increment is that of the table at its time.
 TEST(CurveOverSteps, GivesTheFactorAtTheTimeOfItsSteps) {
-  const auto solution = run(driven_block(1e9, R"(curves: {tide: {table: [[0, 0], [1, 1], [4, -2], [5, 0]], over: {rise: 1, ebb: 4}}}
+  const auto solution =
+      run(driven_block(1e9, R"(curves: {tide: {table: [[0, 0], [1, 1], [4, -2], [5, 0]], over: {rise: 1, ebb: 4}}}
 steps:
   - {name: settle, loads: {press: 1}}
   - {name: rise, increments: 4, loads: {drive: tide}}

@@ -326,8 +326,9 @@ springs: [{{on: block.bottom, k_n: 4e6}}]
   }
 }
 
-// A bar E, A, L held at its left end, with a spring k at its right end whose far end moves by a: u = a k / (k + E A / L),
-// and the force of the spring is k (a - u). Steps and curves give the movement a factor; twice as much moves twice as far.
+// A bar E, A, L held at its left end, with a spring k at its right end whose far end moves by a: u = a k / (k + E A /
+// L), and the force of the spring is k (a - u). Steps and curves give the movement a factor; twice as much moves twice
+// as far.
 TEST(SpringsAtRest, PullABarByTheirStiffnessTimesWhatIsLeft) {
   const double E = 2e9, A = 0.5 * 0.2, L = 2.0, k = 3e8, a = 1e-3;
   for (const double scale : {1.0, 1e-3, 1e3}) {

@@ -46,8 +46,7 @@ std::unique_ptr<const Assembly> assemble(StaticSolution& solution,
   Timing& timing = solution.timing;
   stage("factorisation");
   system::Structure structure = timed(timing.factorise, [&] {
-    return system::make_structure(solution.model, solution.mesh, solution.cells, solution.threads,
-                                  solution.ranks);
+    return system::make_structure(solution.model, solution.mesh, solution.cells, solution.threads, solution.ranks);
   });
   timing.factorise -= structure.assembly_seconds;
   timing.assemble += structure.assembly_seconds;

@@ -31,8 +31,9 @@ bool in_resonance(const element::StressIntensity& factors, const std::vector<ele
   });
 }
 
-/// Cells at the tips of cracks whose faces are in contact or held, and the cracks. They are the innermost of many rings, so
-/// small that T is lost in the discretised singular field, and without the contact's tractions on their own faces.
+/// Cells at the tips of cracks whose faces are in contact or held, and the cracks. They are the innermost of many
+/// rings, so small that T is lost in the discretised singular field, and without the contact's tractions on their own
+/// faces.
 std::map<std::size_t, int> tips_in_rings(const StaticSolution& solution, std::size_t body) {
   std::map<std::size_t, int> cells;
   const std::vector<int> cracks = mesh::cracks_with_tractions(solution.model, static_cast<int>(body));

@@ -583,8 +583,8 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
     }
   }
   const system::Dofs& dofs = prepared.structure.dofs;
-  result.springs = system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u,
-                                             state.factors.loads);
+  result.springs =
+      system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u, state.factors.loads);
   result.fields.interior.resize(prepared.model.bodies.size());
   result.fields.initial.resize(prepared.model.bodies.size());
   for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {

@@ -396,8 +396,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
     return found;
   }
   mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(divided));
-  auto cells = timed(solution.timing.super_elements,
-                     [&] { return solved_cells(solution, mesh); });
+  auto cells = timed(solution.timing.super_elements, [&] { return solved_cells(solution, mesh); });
   std::swap(solution.mesh, mesh);
   std::swap(solution.cells, cells);
   struct Back {  // unless pairs are found, also if the analysis is ended here

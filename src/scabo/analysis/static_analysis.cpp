@@ -73,11 +73,13 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
 std::string describe_collapse(const Prepared& prepared, const contact::Solution& solution, double from, double to) {
   std::string text = "collapse: ";
   if (solution.held > 0.0)
-    text += fmt::format("equilibrium ends at {:.4g} of the increment, where the bodies move on without any further load",
-                        from + solution.held * (to - from));
+    text +=
+        fmt::format("equilibrium ends at {:.4g} of the increment, where the bodies move on without any further load",
+                    from + solution.held * (to - from));
   else
-    text += "no equilibrium was found, and on every path of equilibria that was followed the bodies in the end move on "
-            "without any further load";
+    text +=
+        "no equilibrium was found, and on every path of equilibria that was followed the bodies in the end move on "
+        "without any further load";
   return text + " (" + describe_motions(prepared, solution.motion) + ")";
 }
 

@@ -42,10 +42,10 @@ struct PairResult {
 struct ContactResult {
   std::string name;
   std::vector<PairResult> pairs;
-  double normal_force = 0.0;      ///< sum over the pairs
-  double tangential_force = 0.0;  ///< sum over the pairs
-  Vec2 force = Vec2::Zero();      ///< resultant on B
-  double moment = 0.0;            ///< of the forces on B about the contact's `about`, counter-clockwise
+  double normal_force = 0.0;               ///< sum over the pairs
+  double tangential_force = 0.0;           ///< sum over the pairs
+  Vec2 force = Vec2::Zero();               ///< resultant on B
+  double moment = 0.0;                     ///< of the forces on B about the contact's `about`, counter-clockwise
   std::optional<Vec2> centre_of_pressure;  ///< mean position of the pairs, weighted by their normal forces, if positive
   /// Sum over all pairs of the forces of pore pressure along n, on B; empty if none acts. Normal forces of the pairs
   /// are effective ones, and the total is the sum.
@@ -147,7 +147,7 @@ struct IncrementResult {
   int newton_iterations = 0;
   /// On the problems of fewer pairs from which the start was computed (contact/cold_start.hpp); not counted above.
   int coarse_iterations = 0;
-  int halvings = 0;  ///< number of times that the increment was halved
+  int halvings = 0;                       ///< number of times that the increment was halved
   std::optional<PairsFound> pairs_found;  ///< of a model with large slip
   double residual = 0.0;
   std::vector<ContactResult> contacts;
@@ -156,8 +156,8 @@ struct IncrementResult {
   /// One for each support of the model: moment on the body about the point of a support that prescribes a rotation.
   std::vector<std::optional<double>> moments;
   std::vector<EdgeForces> edges;  ///< one for each model::EdgeResultant of the history, in its order
-  std::vector<Vec2> springs;  ///< one for each of the model, in its order: force on the body
-  std::vector<int> absent;    ///< bodies that are not there: not yet added, or removed; ascending
+  std::vector<Vec2> springs;      ///< one for each of the model, in its order: force on the body
+  std::vector<int> absent;        ///< bodies that are not there: not yet added, or removed; ascending
   /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces.
   double largest_force = 0.0;
   contact::Certificate certificate;
@@ -212,8 +212,8 @@ struct StaticSolution {
   std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
   std::vector<Warning> warnings;
   Outcome outcome = Outcome::solved;
-  std::string reason;  ///< if not solved
-  int threads = 1;     ///< of the analysis; worthwhile for its fields as well
+  std::string reason;              ///< if not solved
+  int threads = 1;                 ///< of the analysis; worthwhile for its fields as well
   system::Ranks* ranks = nullptr;  ///< processes among which large bodies are divided; null: this one alone
   Timing timing;
 };
@@ -226,8 +226,8 @@ struct IncrementBegin {
   std::optional<int> increments;  ///< of the step; empty if their size is automatic
 };
 
-/// Thrown by Options::on_iteration, on_stage or at an interruption point (base/interruption.hpp) to end the analysis: it is
-/// then `interrupted`, and the finished increments are kept. `stop` must be set as well.
+/// Thrown by Options::on_iteration, on_stage or at an interruption point (base/interruption.hpp) to end the analysis:
+/// it is then `interrupted`, and the finished increments are kept. `stop` must be set as well.
 struct EndAtOnce {};
 
 struct Prepared;  // increment.hpp
@@ -240,8 +240,9 @@ struct Options {
   /// false: displacements, loads inside cells and pairs are kept of the last converged increment only, so that memory
   /// hardly grows with the number of increments; `on_increment` sees those of every increment.
   bool keep_fields = true;
-  int threads = 1;                          ///< upper limit, for BLAS and for distinct super-elements
-  /// Processes among which large bodies are divided; null: this one alone. Analyses on several meshes use only this one.
+  int threads = 1;  ///< upper limit, for BLAS and for distinct super-elements
+  /// Processes among which large bodies are divided; null: this one alone. Analyses on several meshes use only this
+  /// one.
   system::Ranks* ranks = nullptr;
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   std::function<void(const StaticSolution&, const IncrementResult&)> on_increment;  ///< after each increment
@@ -259,8 +260,8 @@ struct Options {
   const Continuation* from = nullptr;                      ///< continues from there; only for such analyses
   std::function<void(const StaticSolution&)> on_mesh;      ///< when super-elements and systems are ready
   std::function<void(const std::string& stage)> on_stage;  ///< current stage, for display of progress
-  /// Before each increment, and before `on_stage`. Not of analyses on several meshes, whose increments are reported together
-  /// at the end.
+  /// Before each increment, and before `on_stage`. Not of analyses on several meshes, whose increments are reported
+  /// together at the end.
   std::function<void(const IncrementBegin&)> on_increment_begin;
   /// Every iteration of the contact solver, within an increment; may throw EndAtOnce.
   std::function<void(const contact::Iteration&)> on_iteration;

@@ -47,8 +47,8 @@ double evaluate_normal(const Pair& pair, double tension, Branch& branch) {
   return std::min(pair.opening, strength);  // Zhu 2017, eq. (7)
 }
 
-/// Where p_t(r) = 0 within rounding and friction prevents slip in one direction only: p_t(r) is on the edge of the other
-/// side, whose bound is 0. Nothing where it is not.
+/// Where p_t(r) = 0 within rounding and friction prevents slip in one direction only: p_t(r) is on the edge of the
+/// other side, whose bound is 0. Nothing where it is not.
 std::optional<Vec2> evaluate_one_sided(const Pair& pair, const Problem& problem, Eigen::Index i, Branch& branch) {
   const double cohesion = problem.cohesion_of(i), forward = problem.mu_against(i, -1.0),
                backward = problem.mu_against(i, 1.0);

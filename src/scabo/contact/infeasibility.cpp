@@ -205,8 +205,8 @@ bool proves_no_motion(const Problem& problem, const Vector& r) {
   const Index d = problem.dimension;
   if (problem.G.cols() > 0 || r.size() != problem.q.size() || !r.allFinite()) return false;
   for (Index i = 0; i < problem.pairs(); ++i)
-    if (!(r[d * i] >= 0.0 && r.segment(d * i + 1, d - 1).norm() <=
-                                 problem.mu_against(i, r[d * i + 1]) * r[d * i] * (1.0 + 1e-12)))
+    if (!(r[d * i] >= 0.0 &&
+          r.segment(d * i + 1, d - 1).norm() <= problem.mu_against(i, r[d * i + 1]) * r[d * i] * (1.0 + 1e-12)))
       return false;
   const double work = -problem.q.dot(r), all = problem.q.cwiseAbs().dot(r.cwiseAbs());
   if (!(work > stands_out * all)) return false;

@@ -13,9 +13,9 @@
 // At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the
 // branches of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
 //
-// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Of more than 2,500
-// unknowns of a dense W the LU is one in single precision, which takes half the time and a quarter of the memory, and
-// GMRES with it as its preconditioner solves in double precision, by products with W itself. Without any LU the
+// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Of more than
+// 2,500 unknowns of a dense W the LU is one in single precision, which takes half the time and a quarter of the memory,
+// and GMRES with it as its preconditioner solves in double precision, by products with W itself. Without any LU the
 // preconditioner is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da =
 // ..., then y from D. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions GMRES
 // on the matrix itself.

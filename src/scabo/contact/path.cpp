@@ -378,7 +378,8 @@ class Path {
         meets(Limit::lower, forward * z_[normal] + z_[tangent], forward * dz_[normal] + dz_[tangent], still_force);
       } else {
         meets(Limit::force, z_[normal], dz_[normal], still_force);
-        if (may_stick(i)) meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], still_motion);
+        if (may_stick(i))
+          meets(Limit::slip, pair.side * motion_[tangent], pair.side * d_motion_[tangent], still_motion);
       }
     }
     return next;

@@ -28,15 +28,15 @@
 namespace scabo::contact {
 
 struct Problem {
-  int dimension = 2;  // d, 2 or 3
-  Delassus W;         // dN x dN, motion per force
-  Vector q;           // dN, motion without contact forces
-  Vector mu;          // N, coefficient of friction, >= 0; mu_f where it differs by direction
+  int dimension = 2;   // d, 2 or 3
+  Delassus W;          // dN x dN, motion per force
+  Vector q;            // dN, motion without contact forces
+  Vector mu;           // N, coefficient of friction, >= 0; mu_f where it differs by direction
   Vector mu_backward;  // N, mu_b, >= 0; empty: that of `mu`, as always with d = 3
-  Vector cohesion;    // N, >= 0, or empty: 0
-  Vector tension;     // N, >= 0, or empty: 0; infinity: bonded
-  RigidMap G;         // dN x m, motion of the pairs per unit rigid motion; m may be 0
-  Vector f;           // m, work of the applied loads per unit rigid motion
+  Vector cohesion;     // N, >= 0, or empty: 0
+  Vector tension;      // N, >= 0, or empty: 0; infinity: bonded
+  RigidMap G;          // dN x m, motion of the pairs per unit rigid motion; m may be 0
+  Vector f;            // m, work of the applied loads per unit rigid motion
 
   int pairs() const { return static_cast<int>(mu.size()); }
   double cohesion_of(Eigen::Index pair) const { return cohesion.size() > 0 ? cohesion[pair] : 0.0; }

@@ -35,8 +35,8 @@ Vector slide_of(const Problem& problem, const Vector& motion) {
 }
 
 /// Effects on the rigid motions of rays whose non-negative combinations hold all friction forces: in the plane the
-/// extreme rays n + mu_b t and n - mu_f t, in space those of a pyramid around the cone, so that a proof against it is one
-/// against the cone.
+/// extreme rays n + mu_b t and n - mu_f t, in space those of a pyramid around the cone, so that a proof against it is
+/// one against the cone.
 Matrix rays_of(const Problem& problem) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   constexpr int sides = 16;
@@ -53,7 +53,8 @@ Matrix rays_of(const Problem& problem) {
         const double angle = 2.0 * std::numbers::pi * k / sides,
                      reach = problem.mu[i] / std::cos(std::numbers::pi / sides);
         ray += reach *
-               (std::cos(angle) * problem.G.dense().row(3 * i + 1) + std::sin(angle) * problem.G.dense().row(3 * i + 2)).transpose();
+               (std::cos(angle) * problem.G.dense().row(3 * i + 1) + std::sin(angle) * problem.G.dense().row(3 * i + 2))
+                   .transpose();
       }
       rays.col(count * i + k) = ray;
     }
@@ -193,8 +194,8 @@ std::optional<Vector> mechanism_of(const Problem& problem) {
 
 namespace {
 
-/// An orthonormal basis of the v with H v = 0, H sparse with many columns: inverse iteration on H'H, whose block is made
-/// wider until it holds a vector that is not in the null space.
+/// An orthonormal basis of the v with H v = 0, H sparse with many columns: inverse iteration on H'H, whose block is
+/// made wider until it holds a vector that is not in the null space.
 Matrix sparse_null_space(const RigidMap::Sparse& H) {
   const Eigen::Index m = H.cols();
   RigidMap::Sparse B = H.transpose() * H;

@@ -25,10 +25,10 @@ struct Iteration {
 
 struct Solution {
   Status status = Status::not_converged;  ///< what the solver ended with
-  Vector p;                          ///< forces on B, d N numbers, pair by pair: normal (compression positive), tangential
-  Vector a;                          ///< rigid motions, m numbers
-  Vector gap;                        ///< normal gaps, N numbers, positive if open
-  Vector slip_increment;             ///< slip of B relative to A in this increment, (d - 1) N numbers
+  Vector p;               ///< forces on B, d N numbers, pair by pair: normal (compression positive), tangential
+  Vector a;               ///< rigid motions, m numbers
+  Vector gap;             ///< normal gaps, N numbers, positive if open
+  Vector slip_increment;  ///< slip of B relative to A in this increment, (d - 1) N numbers
   std::vector<ContactState> states;  ///< of the pairs, N: 0 open, 1 stick, 2 slip
   int iterations = 0;                ///< Newton iterations, all attempts together
   int coarse_iterations = 0;         ///< on problems of fewer pairs for the start; not counted above
@@ -37,9 +37,9 @@ struct Solution {
   double natural_map_residual = 0.0;  ///< residual of the natural map (contact/judge.hpp)
   double rounding = 0.0;              ///< estimated rounding of the motions, relative (contact/judge.hpp)
   Vector motion;  ///< with `mechanism`, the motion that is not restrained, with `collapse` that of the fall, m numbers
-  double held = 0.0;  ///< with `collapse`: part of the increment up to which there is equilibrium; 0: not known
-  Vector proof;                       ///< with `infeasible`, forces in equilibrium with themselves, d N numbers
-  Matrix undetermined;           ///< m x k: rigid motions not determined by contact and loads (solved nevertheless)
+  double held = 0.0;    ///< with `collapse`: part of the increment up to which there is equilibrium; 0: not known
+  Vector proof;         ///< with `infeasible`, forces in equilibrium with themselves, d N numbers
+  Matrix undetermined;  ///< m x k: rigid motions not determined by contact and loads (solved nevertheless)
   std::vector<Iteration> trace;  ///< every iteration of every stage
   std::string reason;            ///< why the problem was not solved, as a sentence
 };

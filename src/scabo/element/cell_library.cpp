@@ -220,7 +220,7 @@ const CornerAnalysis& SolvedSuperElement::corner() const {
 std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads,
                                      const std::vector<char>& elsewhere, const std::vector<SolvedCells>& before) {
   std::vector<std::shared_ptr<SolvedSuperElement>> distinct;
-  std::vector<char> here;  // for each of them
+  std::vector<char> here;                                   // for each of them
   std::unordered_multimap<std::size_t, std::size_t> known;  // hash to index in `distinct`
   std::vector<std::size_t> bodies;
   std::vector<SolvedCells> solved(model.bodies.size());

@@ -26,7 +26,7 @@ struct SolvedSuperElement {
 
   // Of a super-element that was not solved with the others (another process did), all are computed when first needed.
   const Matrix& K() const { return whole_ ? whole_->K : is_set() ? K_ : solution().K; }  ///< n x n, symmetric
-  double rounding() const { return is_set() ? rounding_ : solution().rounding; }         ///< SuperElementSolution::rounding
+  double rounding() const { return is_set() ? rounding_ : solution().rounding; }  ///< SuperElementSolution::rounding
   // Computed when first needed; these may be called from several threads.
   const SuperElementSolution& solution() const;
   const ModalSolution& modes() const;    ///< of the interior
@@ -54,7 +54,8 @@ std::vector<int> dofs_of(const mesh::Cell& cell);
 /// equal if their boundaries relative to the scaling centre, their elasticity and their thickness agree. Throws
 /// InputError for those that cannot be solved, and for finite elements that are folded. `elsewhere`: one for each body
 /// whose cells other processes solve, or empty; here they are solved when they are first needed. `before`: solutions on
-/// another mesh of the model; those of super-elements that are the same to the last bit are taken, which changes no result.
+/// another mesh of the model; those of super-elements that are the same to the last bit are taken, which changes no
+/// result.
 std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads,
                                      const std::vector<char>& elsewhere = {},
                                      const std::vector<SolvedCells>& before = {});

@@ -261,13 +261,12 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
                                     Between& between_of, double& reach) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(
-      report, entry.value,
-      {"between", "reach", "property", "friction", "gap", "fit_in", "cohesion", "tension", "bond", "shear_strength", "slip",
-       "about"},
-      contact_example,
-      {{"kind", "leave it out; every contact is node-to-node"},
-       {"penalty", "leave it out; the contact conditions are met without a penalty"}});
+  const MapReader map(report, entry.value,
+                      {"between", "reach", "property", "friction", "gap", "fit_in", "cohesion", "tension", "bond",
+                       "shear_strength", "slip", "about"},
+                      contact_example,
+                      {{"kind", "leave it out; every contact is node-to-node"},
+                       {"penalty", "leave it out; the contact conditions are met without a penalty"}});
   Contact contact;
   contact.name = entry.key;
   contact.source = entry.key_source;

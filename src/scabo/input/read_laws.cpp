@@ -51,8 +51,7 @@ void read_friction(Report& report, const Value& value, Contact& contact) {
   const auto along = map.get("along");
   if (map.has("forward") || map.has("backward")) {
     for (const char* other : {"static", "dynamic", "slip_distance", "along"})
-      if (map.has(other))
-        map.refuse(other, "cannot be combined with 'forward' and 'backward': leave one of them out");
+      if (map.has(other)) map.refuse(other, "cannot be combined with 'forward' and 'backward': leave one of them out");
     const auto [forward, backward] = read_directions(report, map);
     contact.friction = forward;
     contact.backward_friction = backward;

@@ -19,9 +19,12 @@ void read_analysis(Reading& reading, const Value& value) {
   bool type_known = true;
   if (const auto type = map.get("type")) {
     const std::string remedy = "write static";
-    const auto choice =
-        read_choice(reading.report, *type, {"static", "modal"},
-                    {{"dynamic", remedy}, {"harmonic", remedy}, {"buckling", remedy}, {"fracture", remedy}, {"axisymmetric", "write static, and see 'plane'"}});
+    const auto choice = read_choice(reading.report, *type, {"static", "modal"},
+                                    {{"dynamic", remedy},
+                                     {"harmonic", remedy},
+                                     {"buckling", remedy},
+                                     {"fracture", remedy},
+                                     {"axisymmetric", "write static, and see 'plane'"}});
     if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
     type_known = choice.has_value();
   }
@@ -34,9 +37,11 @@ void read_analysis(Reading& reading, const Value& value) {
   }
   if (const auto plane = map.get("plane")) {
     const auto choice =
-        read_choice(reading.report, *plane, {"stress", "strain"}, {{"axisymmetric", "model the section at right angles to the axis by stress or strain where load and shape do "
-                                              "not change along the axis; the section along the axis has no plane "
-                                              "equivalent (docs/model_file.md, Bodies of revolution)"}});
+        read_choice(reading.report, *plane, {"stress", "strain"},
+                    {{"axisymmetric",
+                      "model the section at right angles to the axis by stress or strain where load and shape do "
+                      "not change along the axis; the section along the axis has no plane "
+                      "equivalent (docs/model_file.md, Bodies of revolution)"}});
     if (choice && *choice == "strain") reading.model.analysis.plane = Plane::strain;
   }
   if (const auto thickness = map.get("thickness")) {
@@ -83,11 +88,11 @@ void check_version(Reading& reading, const MapReader& map) {
 
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
-  const MapReader map(reading.report, root,
-                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
-                       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance",
-                       "restart"},
-                      "'scabo: 1' and sections");
+  const MapReader map(
+      reading.report, root,
+      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
+       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance", "restart"},
+      "'scabo: 1' and sections");
   if (!map.is_map()) {
     reading.bodies_known = false;
     return;
@@ -134,7 +139,8 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
   std::vector<std::string> parts;
-  for (const char* section : {"loads", "contact_properties", "contacts", "curves", "restart", "steps", "solver", "output", "tolerance"}) {
+  for (const char* section :
+       {"loads", "contact_properties", "contacts", "curves", "restart", "steps", "solver", "output", "tolerance"}) {
     const MapEntry* entry = root.node->find(section);
     if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
   }
@@ -144,9 +150,8 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.mesh.tolerance.has_value(); }))
     parts.emplace_back("tolerances of the mesh");
-  if (std::any_of(model.springs.begin(), model.springs.end(), [](const Spring& spring) {
-        return spring.at_rest[0] != 0.0 || spring.at_rest[1] != 0.0;
-      }))
+  if (std::any_of(model.springs.begin(), model.springs.end(),
+                  [](const Spring& spring) { return spring.at_rest[0] != 0.0 || spring.at_rest[1] != 0.0; }))
     parts.emplace_back("displacements of springs at rest");
   if (!parts.empty()) {
     std::string list = parts.front();

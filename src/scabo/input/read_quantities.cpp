@@ -46,8 +46,7 @@ class QuantityReader {
     quantity_.source = value_.source();
     if (*text == "elastic_energy") return quantity_;
     if (for_history_ && (*text == "external_energy" || *text == "friction_energy")) {
-      quantity_.kind =
-          *text == "external_energy" ? Quantity::Kind::external_energy : Quantity::Kind::friction_energy;
+      quantity_.kind = *text == "external_energy" ? Quantity::Kind::external_energy : Quantity::Kind::friction_energy;
       return quantity_;
     }
     const auto dot = text->rfind('.');
@@ -138,7 +137,8 @@ class QuantityReader {
     const auto spring = std::find_if(springs.begin(), springs.end(), [&](const Spring& of) { return of.name == name; });
     if (spring == springs.end() || std::find(known.begin(), known.end(), name) != known.end())
       return find("support", name, known, reading_.conditions_known);
-    if (!for_history_) return refuse(fmt::format("the force of springs, here '{}', has no error bar: name a support", name));
+    if (!for_history_)
+      return refuse(fmt::format("the force of springs, here '{}', has no error bar: name a support", name));
     quantity_.kind = Quantity::Kind::spring_force;
     quantity_.index = static_cast<int>(spring - springs.begin());
     return quantity_;

@@ -28,7 +28,8 @@ bool read_stiffness(Reading& reading, const MapReader& map, const ReadPlace& pla
   }
   const char* keys[2] = {of_edge ? "k_n" : "k_x", of_edge ? "k_t" : "k_y"};
   // Springs act on no other places, which model/check_springs.cpp says.
-  const bool on_edge = place.place && (place.place->kind == Place::Kind::edge || place.place->kind == Place::Kind::face),
+  const bool on_edge =
+                 place.place && (place.place->kind == Place::Kind::edge || place.place->kind == Place::Kind::face),
              on_point =
                  place.place && (place.place->kind == Place::Kind::corner || place.place->kind == Place::Kind::near ||
                                  place.place->kind == Place::Kind::mouth);
@@ -45,11 +46,11 @@ bool read_stiffness(Reading& reading, const MapReader& map, const ReadPlace& pla
 /// `[normal, tangent]` on an edge, `[x, y]` on a point; null: none.
 void read_at_rest(Reading& reading, const Value& value, Spring& spring) {
   if (value.node->kind != Node::Kind::sequence || value.node->items.size() != 2) {
-    reading.report.error(value,
-                         fmt::format("must be [normal, tangent] on an edge, [x, y] on a point, with null for none, not {}",
-                                     value.node->kind == Node::Kind::sequence
-                                         ? fmt::format("a list of {}", value.node->items.size())
-                                         : describe(*value.node)));
+    reading.report.error(
+        value,
+        fmt::format("must be [normal, tangent] on an edge, [x, y] on a point, with null for none, not {}",
+                    value.node->kind == Node::Kind::sequence ? fmt::format("a list of {}", value.node->items.size())
+                                                             : describe(*value.node)));
     return;
   }
   for (std::size_t k = 0; k < 2; ++k)

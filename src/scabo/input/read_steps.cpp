@@ -67,8 +67,8 @@ std::optional<int> piece_for(Reading& reading, int curve, CurveOver& over, const
     reading.model.curves.push_back(std::move(piece));
     return part.piece;
   }
-  reading.report.error(value, fmt::format("curve '{}' does not run over step '{}': name the step in its 'over'",
-                                          whole.name, step.name));
+  reading.report.error(
+      value, fmt::format("curve '{}' does not run over step '{}': name the step in its 'over'", whole.name, step.name));
   return {};
 }
 

@@ -55,14 +55,14 @@ struct CurveOver {
 struct Reading {
   Report report;
   Model model;
-  std::vector<BodyState> bodies;            ///< as long as model.bodies
-  bool materials_known = true;              ///< false: the section is missing or broken; names cannot be checked
-  bool bodies_known = true;                 ///< false: a body is missing from model.bodies
-  bool places_known = true;                 ///< false: a support or contact refers to an unknown body
-  std::vector<std::string> load_names;      ///< all names of the section, broken loads included
-  Index index_of_body;                      ///< in model.bodies
-  Index index_of_material;                  ///< in model.materials
-  Index index_of_load;                      ///< in model.loads; -1 for a broken load
+  std::vector<BodyState> bodies;        ///< as long as model.bodies
+  bool materials_known = true;          ///< false: the section is missing or broken; names cannot be checked
+  bool bodies_known = true;             ///< false: a body is missing from model.bodies
+  bool places_known = true;             ///< false: a support or contact refers to an unknown body
+  std::vector<std::string> load_names;  ///< all names of the section, broken loads included
+  Index index_of_body;                  ///< in model.bodies
+  Index index_of_material;              ///< in model.materials
+  Index index_of_load;                  ///< in model.loads; -1 for a broken load
   /// Loads that act in a contact, by their index in model.loads, and its name: contacts are read after loads.
   std::vector<std::pair<std::size_t, Value>> loads_in_contacts;
   /// Indices in model.contacts of what every entry of the section gave.
@@ -72,11 +72,11 @@ struct Reading {
   bool conditions_known = true;             ///< false: a load, support or contact is broken
   bool rigid_known = true;                  ///< false: it is not known whether a body is rigid
 
-  Index index_of_curve;                     ///< in model.curves; not of pieces
-  std::map<int, CurveOver> curves_over;     ///< curves that run over several steps, by their index
-  bool curves_known = true;                 ///< false: a curve is broken
+  Index index_of_curve;                  ///< in model.curves; not of pieces
+  std::map<int, CurveOver> curves_over;  ///< curves that run over several steps, by their index
+  bool curves_known = true;              ///< false: a curve is broken
 
-  std::vector<Value> automatic_sizes;       ///< `size: auto` of meshes without a tolerance of their own
+  std::vector<Value> automatic_sizes;  ///< `size: auto` of meshes without a tolerance of their own
 
   bool steps_known = false;  ///< true: all steps have been read
   /// `fit_in` of contacts, by their entry: the names of steps, which are read after contacts.
@@ -122,7 +122,8 @@ std::optional<int> read_body_of(Reading& reading, const MapReader& map);
 
 /// Contact law: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
 void read_law(Reading& reading, const MapReader& map, Contact& contact);
-/// `0.3` or `{forward: 0.3, backward: 0.6}`: coefficients of friction against forward and backward slip; nothing if broken.
+/// `0.3` or `{forward: 0.3, backward: 0.6}`: coefficients of friction against forward and backward slip; nothing if
+/// broken.
 std::optional<std::pair<double, double>> read_coefficients(Report& report, const Value& value);
 
 /// A rectangle whose lower left corner is `a`, with its named edges and corners.
@@ -142,8 +143,8 @@ MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outli
 bool is_from_file(const std::optional<Value>& mesh);
 /// Shape, mesh and materials of an elastic body from a mesh file. `of_body`: the map of the body; `value`: its `mesh`.
 void read_imported_body(Reading& reading, const MapReader& of_body, const Value& value, Body& body, BodyState& state);
-/// `added` and `removed` of a body and its `copies` (0: none; with rows and columns `rows`, else 0): the names of steps.
-/// One state for each copy; nothing if they are broken.
+/// `added` and `removed` of a body and its `copies` (0: none; with rows and columns `rows`, else 0): the names of
+/// steps. One state for each copy; nothing if they are broken.
 std::optional<std::vector<BodyState>> read_stages(Reading& reading, const MapReader& map, const BodyState& state,
                                                   std::size_t copies, std::size_t rows);
 /// The steps in which bodies are added and removed, and over which interferences grow, by their names; after the steps.

@@ -1,5 +1,5 @@
-// Factorisation of a dense square matrix without symmetry in single precision: P A = L U by LAPACK. Half the time of one
-// in double precision; a preconditioner for iterations in double precision.
+// Factorisation of a dense square matrix without symmetry in single precision: P A = L U by LAPACK. Half the time of
+// one in double precision; a preconditioner for iterations in double precision.
 #pragma once
 
 #include <vector>

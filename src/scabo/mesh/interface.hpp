@@ -45,8 +45,8 @@ struct Joint {
   bool has_moved() const { return !moved[0].isZero(0.0) || !moved[1].isZero(0.0); }
 };
 inline Joint joint_of(const model::Contact& contact) {
-  const bool slides = contact.friction == 0.0 && !contact.backward_friction && contact.friction_along.empty() && contact.cohesion == 0.0 &&
-                      !contact.shear_strength && !contact.bond;
+  const bool slides = contact.friction == 0.0 && !contact.backward_friction && contact.friction_along.empty() &&
+                      contact.cohesion == 0.0 && !contact.shear_strength && !contact.bond;
   return {contact.a, contact.b, contact.gap, contact.source, slides};
 }
 inline Joint joint_of(const model::Tie& tie) { return {tie.a, tie.b, 0.0, tie.source, false}; }

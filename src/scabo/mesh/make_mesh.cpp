@@ -34,12 +34,12 @@ std::optional<Diagnostic> too_many_together(const model::Body& body, double node
                        : body.mesh.kind == model::MeshKind::fem ? count_grid_nodes(body)
                                                                 : count_boundary_nodes(body);
   if (nodes > model::limits::model_nodes || !(nodes_before + nodes > model::limits::model_nodes)) return {};
-  return Diagnostic{
-      body.mesh.source,
-      fmt::format("with body '{}' the model would have {}{} nodes, more than the {:.7g} allowed: use "
-                  "larger mesh sizes or fewer bodies",
-                  body.name, cells ? "about " : "",
-                  text_of_count(nodes_before + nodes, model::limits::model_nodes, cells ? 2 : 3), model::limits::model_nodes)};
+  return Diagnostic{body.mesh.source,
+                    fmt::format("with body '{}' the model would have {}{} nodes, more than the {:.7g} allowed: use "
+                                "larger mesh sizes or fewer bodies",
+                                body.name, cells ? "about " : "",
+                                text_of_count(nodes_before + nodes, model::limits::model_nodes, cells ? 2 : 3),
+                                model::limits::model_nodes)};
 }
 
 /// Reason why the body cannot be divided, found before memory is allocated.
@@ -51,9 +51,10 @@ std::vector<Diagnostic> obstacles(const model::Body& body) {
   }
   const double nodes = fem ? count_grid_nodes(body) : count_boundary_nodes(body);
   if (!(nodes <= model::limits::model_nodes)) {
-    return {{body.mesh.source,
-             fmt::format("size {:.6g} would give {} nodes, more than the {:.7g} allowed: use a larger 'size'",
-                         body.mesh.size, text_of_count(nodes, model::limits::model_nodes, 3), model::limits::model_nodes)}};
+    return {
+        {body.mesh.source,
+         fmt::format("size {:.6g} would give {} nodes, more than the {:.7g} allowed: use a larger 'size'",
+                     body.mesh.size, text_of_count(nodes, model::limits::model_nodes, 3), model::limits::model_nodes)}};
   }
   if (!body.mesh.refine.empty() && 2.0 * nodes > model::limits::superelement_dofs) {
     return {{body.mesh.refine.front().source,

@@ -109,10 +109,11 @@ bool check_place(Checking& checking, const std::string& path, const Place& place
 
 std::string undivided_face(const Model& model, const Place& place) {
   const Body& body = model.bodies[static_cast<std::size_t>(place.body)];
-  return fmt::format("'{}' is a side face, which has no nodes between its ends: {}, or name an edge, a corner or a point",
-                     text_of(model, place),
-                     body.cracks.empty() ? "leave out the scaling centre on its end"
-                                         : "write mesh: {kind: polygons, ...}, and give the crack as a path: [mouth, tip]");
+  return fmt::format(
+      "'{}' is a side face, which has no nodes between its ends: {}, or name an edge, a corner or a point",
+      text_of(model, place),
+      body.cracks.empty() ? "leave out the scaling centre on its end"
+                          : "write mesh: {kind: polygons, ...}, and give the crack as a path: [mouth, tip]");
 }
 
 std::string text_of(const Model& model, const Place& place) {

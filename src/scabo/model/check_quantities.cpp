@@ -122,8 +122,9 @@ void check_edge_resultant(Checking& checking, const std::string& path, const Edg
   check_result_axes(checking, path, edge.axes);
   if (!check_place(checking, path + ".edge", edge.on)) return;
   if (edge.on.kind != Place::Kind::edge)
-    checking.error(path, "edge", fmt::format("'{}' is no edge between two corners: name one, as in wall.bottom",
-                                             text_of(checking.model, edge.on)));
+    checking.error(path, "edge",
+                   fmt::format("'{}' is no edge between two corners: name one, as in wall.bottom",
+                               text_of(checking.model, edge.on)));
   else if (checking.body(edge.on.body).rigid)
     checking.error(path, "edge",
                    fmt::format("body '{}' is rigid: ask for the forces of its contacts or supports",

@@ -23,9 +23,10 @@ void check_springs(Checking& checking) {
           checking.sprung[static_cast<std::size_t>(spring.on.body)] = 1;
     const bool on_edge = acts_along(spring);
     if (good && spring.on.kind == Place::Kind::body) {
-      checking.error(path, "on",
-                     fmt::format("'{}' is a whole body: springs act on an edge, the face of a crack, a corner or a point",
-                                 text_of(model, spring.on)));
+      checking.error(
+          path, "on",
+          fmt::format("'{}' is a whole body: springs act on an edge, the face of a crack, a corner or a point",
+                      text_of(model, spring.on)));
       good = false;
     }
     if (good && spring.on.kind == Place::Kind::face && !has_divided_faces(checking.body(spring.on.body))) {

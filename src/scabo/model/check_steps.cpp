@@ -130,8 +130,8 @@ void check_friction_of_step(Checking& checking, const std::string& path, const S
     const std::string key = "friction." + model.contacts[c].name;
     const auto check = [&](const std::string& of, double coefficient) {
       if (checking.not_negative(path, of, coefficient) && coefficient > largest)
-        checking.error(
-            path, of, fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(coefficient)));
+        checking.error(path, of,
+                       fmt::format("a coefficient of friction must be at most 1e6, not {}", number_text(coefficient)));
     };
     const bool directional = step.friction[c] != step.backward_friction[c] &&
                              !(std::isnan(step.friction[c]) && std::isnan(step.backward_friction[c]));

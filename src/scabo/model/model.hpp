@@ -325,7 +325,7 @@ struct FrictionPoint {
 struct Contact {
   std::string name;
   Place a, b;
-  double friction = 0.0;                      ///< coefficient, >= 0; the static one if a dynamic one is given
+  double friction = 0.0;  ///< coefficient, >= 0; the static one if a dynamic one is given
   /// Coefficient against backward slip (slip < 0), where it differs; `friction` is then that against forward slip.
   std::optional<double> backward_friction;
   std::optional<double> dynamic_friction;     ///< coefficient, <= friction
@@ -339,8 +339,8 @@ struct Contact {
   /// Index into Model::steps of the step over which interferences, negative gaps, grow from 0 to their values; -1: they
   /// are there from the start.
   int fit_in = -1;
-  bool large_slip = false;                    ///< its pairs are found anew as its sides pass each other
-  Vec2 about = Vec2::Zero();                  ///< point to which the moment of the contact forces refers
+  bool large_slip = false;    ///< its pairs are found anew as its sides pass each other
+  Vec2 about = Vec2::Zero();  ///< point to which the moment of the contact forces refers
   Source source;
 };
 
@@ -439,15 +439,15 @@ struct OutputGrid {
 ///     n = t turned by +90 degrees, t = (to - from) / |to - from|
 ///     normal = int n . sigma n ds,  shear = int t . sigma n ds,  moment = int s (n . sigma n) ds
 ///
-/// times the thickness: the force of the side that n points to on the other side, tension positive, and its moment about
-/// the middle of the line, counter-clockwise.
+/// times the thickness: the force of the side that n points to on the other side, tension positive, and its moment
+/// about the middle of the line, counter-clockwise.
 struct Section {
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();
   int body = -1;  ///< only this body; -1: all elastic ones
 };
 
-/// Two directions at right angles along which results are given: x and y; turned by an angle; or the outward normal of a
-/// straight edge and the tangent a quarter turn counter-clockwise from it.
+/// Two directions at right angles along which results are given: x and y; turned by an angle; or the outward normal of
+/// a straight edge and the tangent a quarter turn counter-clockwise from it.
 struct ResultAxes {
   enum class Kind { xy, angle, edge };
   Kind kind = Kind::xy;

@@ -210,10 +210,11 @@ ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mes
   const Stopwatch writing(write_seconds_);
   std::error_code error;
   if (model.restart && fs::equivalent(model.restart->directory, path_, error))
-    throw InputError(model.file, {{model.restart->source,
-                                   fmt::format("{} is also the directory that this run writes to: choose another one by "
-                                               "-o",
-                                               path_.string())}});
+    throw InputError(
+        model.file,
+        {{model.restart->source, fmt::format("{} is also the directory that this run writes to: choose another one by "
+                                             "-o",
+                                             path_.string())}});
   lock_.emplace(prepare_directory(path_));
   analysis::StaticSolution start;
   start.model = model;
@@ -438,9 +439,8 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
     return increment.converged && !increment.fields.displacements.empty();
   });
   if (fields_written_ < finished_ && last != solution.increments.rend())
-    write_fields(
-        solution, *last,
-        fields_collection_ && !in_parts() ? std::optional(fields_of_bodies(solution, *last)) : std::nullopt);
+    write_fields(solution, *last,
+                 fields_collection_ && !in_parts() ? std::optional(fields_of_bodies(solution, *last)) : std::nullopt);
   if (fields_collection_ && last != solution.increments.rend() && has_many_cells(solution.mesh)) {
     const Stopwatch writing(write_seconds_);
     write_file(path_ / cells_name, vtu_content(cell_polygons(solution, last->fields), solution.threads));

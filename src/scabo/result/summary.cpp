@@ -163,8 +163,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
     json["springs"][model.springs[i].name] = {number_or_null(increment.springs[i].x()),
                                               number_or_null(increment.springs[i].y())};
   if (model::has_stages(model.bodies)) json["absent"] = Json::array();
-  for (const int body : increment.absent)
-    json["absent"].push_back(model.bodies[static_cast<std::size_t>(body)].name);
+  for (const int body : increment.absent) json["absent"].push_back(model.bodies[static_cast<std::size_t>(body)].name);
   for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
@@ -243,7 +242,8 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution) {
   }
   // Only an increment shows which pairs can move; of all but the last one, the totals remain. Bodies that are added
   // later have none in it.
-  if (!model::has_stages(solution.model.bodies) && !solution.increments.empty() && solution.increments.front().converged) {
+  if (!model::has_stages(solution.model.bodies) && !solution.increments.empty() &&
+      solution.increments.front().converged) {
     for (const analysis::ContactResult& contact : solution.increments.front().contacts)
       sizes.contact_pairs += contact.open + contact.stick + contact.slip;
   } else {

@@ -142,8 +142,8 @@ class ArrayNames {
   template <typename Value>
   void add_field(std::string_view name, int components, const std::vector<Value>&, std::string_view attributes = "") {
     const std::string number = components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
-    fmt::format_to(std::back_inserter(text_), "      <PDataArray type=\"{}\" Name=\"{}\"{}{}/>\n", name_of<Value>(), name,
-                   number, attributes);
+    fmt::format_to(std::back_inserter(text_), "      <PDataArray type=\"{}\" Name=\"{}\"{}{}/>\n", name_of<Value>(),
+                   name, number, attributes);
   }
   const std::string& text() const { return text_; }
 
@@ -237,8 +237,10 @@ std::string pvtu_content(const model::OutputFields& wanted, const std::vector<st
   add_fields(of_points, Fields(), wanted);
   body.add_field("body", 1, std::vector<std::int32_t>());
   node.add_field("node", 1, std::vector<std::int32_t>());
-  text += of_points.text() + body.text() + node.text() + "    </PPointData>\n    <PCellData>\n" + body.text() + "    </PCellData>\n" +
-          "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n";
+  text +=
+      of_points.text() + body.text() + node.text() + "    </PPointData>\n    <PCellData>\n" + body.text() +
+      "    </PCellData>\n" +
+      "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n";
   for (const std::string& part : parts) text += fmt::format("    <Piece Source=\"{}\"/>\n", part);
   return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }

@@ -22,8 +22,8 @@ inline constexpr std::string_view vtk_mark = "<!-- written by Scabo";
 
 /// Content of a .vtu file with the requested arrays, on up to `threads` threads; the content does not depend on them.
 /// `nodes`: of a part of the fields, the node of the body at every point, from 0, or -1; else empty.
-std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {},
-                        int threads = 1, const std::vector<std::int32_t>& nodes = {});
+std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {}, int threads = 1,
+                        const std::vector<std::int32_t>& nodes = {});
 std::string vtu_content(const ContactLines& lines);
 std::string vtu_content(const CellPolygons& polygons, int threads = 1);
 

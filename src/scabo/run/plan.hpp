@@ -2,8 +2,9 @@
 //
 // For a body of n degrees of freedom, b symmetry blocks, k components of its contacts, N pairs in all:
 //
-//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half as much for fields
-//     many cells          sparse_bytes n; mesh, cells and fields in a time proportional to n; more where no two cells
+//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half as much for
+//     fields many cells          sparse_bytes n; mesh, cells and fields in a time proportional to n; more where no two
+//     cells
 //                         are equal
 //     their factor        fill_bytes n log2(n); factor_seconds n^1.5             (nested dissection in the plane)
 //     condensation        dense: dense_seconds n^2 k; sparse: sweep_seconds n + condense_seconds k^2 n^0.5

@@ -35,7 +35,7 @@ struct StaticRun {
   double reading = 0.0;             ///< seconds for reading the model
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   int threads = 1;
-  system::Ranks* ranks = nullptr;  ///< analysis::Options::ranks
+  system::Ranks* ranks = nullptr;           ///< analysis::Options::ranks
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: end after the current increment
   bool keep_fields = false;                 ///< analysis::Options::keep_fields
   std::optional<Plan> plan = {};            ///< of a new run

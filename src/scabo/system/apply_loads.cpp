@@ -345,9 +345,8 @@ void add_pore_pressure(Structure& structure, const model::PorePressure& pores, c
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
                const std::vector<element::SolvedCells>& cells) {
   const bool of_bodies =
-      std::any_of(model.output.history.begin(), model.output.history.end(), [](const model::HistoryItem& item) {
-        return std::holds_alternative<model::EdgeResultant>(item.of);
-      });
+      std::any_of(model.output.history.begin(), model.output.history.end(),
+                  [](const model::HistoryItem& item) { return std::holds_alternative<model::EdgeResultant>(item.of); });
   for (const model::Load& load : model.loads) {
     if (of_bodies) structure.of_bodies.emplace_back(model.bodies.size());
     std::vector<Vector>& forces = structure.loads.emplace_back(structure.parts.size());

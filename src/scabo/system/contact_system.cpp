@@ -227,7 +227,7 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   Eigen::Index columns = 0;
   Vector diagonal = Vector::Zero(rows);
   double largest = 0.0, largest_on_springs = 0.0;  // of the diagonal; a soft spring says nothing of stiff bodies
-  std::vector<double> work;  // of a part, roughly
+  std::vector<double> work;                        // of a part, roughly
   for (std::size_t p = 0; p < structure.parts.size(); ++p)
     work.push_back(!structure.parts[p]->is_flexible()
                        ? 0.0

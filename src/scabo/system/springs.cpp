@@ -125,8 +125,7 @@ class Assembly {
     };
     if (!model::acts_along(spring)) {
       const Vec2 x = rigid_points(spring.on, body).front();
-      add(x, Vec2(spring.stiffness[0], spring.stiffness[1]).asDiagonal(),
-          Vec2(spring.at_rest[0], spring.at_rest[1]));
+      add(x, Vec2(spring.stiffness[0], spring.stiffness[1]).asDiagonal(), Vec2(spring.at_rest[0], spring.at_rest[1]));
       hold(spring, x, Vec2::UnitX(), held);
     } else {
       const EdgeElements edge = elements_of(*edge_of(spring));

@@ -6,8 +6,8 @@
 //     S = thickness * integral of N'(k_n n n' + k_t t t') N ds
 //
 // with the shape functions N of its elements (consistent matrix), or those of a rigid motion. At a point S has k_x and
-// k_y on its diagonal. The force on the body is -S u, which is zero at the start of the analysis. Springs that are at rest
-// at a displacement a along their axes (Spring::at_rest) have in addition, times the factor of their load,
+// k_y on its diagonal. The force on the body is -S u, which is zero at the start of the analysis. Springs that are at
+// rest at a displacement a along their axes (Spring::at_rest) have in addition, times the factor of their load,
 //
 //     f = thickness * integral of N'(k_n a_n n + k_t a_t t) ds
 //
@@ -30,7 +30,8 @@ struct ModelSprings {
 
 ModelSprings springs_of(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs);
 
-/// Forces [F_x, F_y] of each spring of the model on its body, for displacements u of the parts; `factors`: of the loads.
+/// Forces [F_x, F_y] of each spring of the model on its body, for displacements u of the parts; `factors`: of the
+/// loads.
 std::vector<Vec2> spring_resultants(const ModelSprings& springs, const model::Model& model, const Dofs& dofs,
                                     const std::vector<Vector>& u, const std::vector<double>& factors);
 

@@ -76,7 +76,8 @@ double violation(const contact::Problem& problem, const Vector& p, const Vector&
     const Vector slip = motion.segment(d * i + 1, d - 1), friction = p.segment(d * i + 1, d - 1);
     const double ds = slip.norm(), pt = friction.norm();
     worst = std::max({worst, -g, -pn, std::min(std::abs(g), std::abs(pn))});
-    if (problem.mu_backward.size() > 0) {  // -mu_f p_n <= p_t <= mu_b p_n, forward slip at the lower end, backward at the upper
+    if (problem.mu_backward.size() >
+        0) {  // -mu_f p_n <= p_t <= mu_b p_n, forward slip at the lower end, backward at the upper
       const double low = friction[0] + problem.mu[i] * pn, high = problem.mu_backward[i] * pn - friction[0];
       worst = std::max({worst, -low, -high, std::min(ds, std::abs(slip[0] > 0.0 ? low : high))});
       continue;

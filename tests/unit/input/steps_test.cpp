@@ -73,10 +73,11 @@ TEST(Steps, SupportsThatMoveAlikeDoNotConflict) {
 }
 
 TEST(Steps, FollowCurvesAndAreRepeated) {
-  const Model model = parse(block("curves: {wave: {sine: {amplitude: 2, periods: 1}}, up: {ramp: {to: 1, end: 0.5}}, "
-                                  "idle: {table: [[0, 0], [1, 1]]}}\n"
-                                  "steps: [{name: shake, increments: 3, cycles: 2, loads: {push: wave}}, "
-                                  "{loads: {push: up}}]\n"));
+  const Model model =
+      parse(block("curves: {wave: {sine: {amplitude: 2, periods: 1}}, up: {ramp: {to: 1, end: 0.5}}, "
+                  "idle: {table: [[0, 0], [1, 1]]}}\n"
+                  "steps: [{name: shake, increments: 3, cycles: 2, loads: {push: wave}}, "
+                  "{loads: {push: up}}]\n"));
   ASSERT_EQ(model.steps.size(), 3u);
   EXPECT_EQ(model.steps[0].name, "shake_1");
   EXPECT_EQ(model.steps[1].name, "shake_2");
@@ -90,8 +91,9 @@ TEST(Steps, FollowCurvesAndAreRepeated) {
 }
 
 TEST(Steps, CoefficientsOfFrictionStayUntilTheyAreChanged) {
-  const std::string text = block("contacts: {base: {between: [floor.top, block.bottom], friction: 0.5}}\n"
-                                 "steps: [{name: a}, {name: b, friction: {base: 0.2}}, {name: c, loads: {push: 2}}]\n");
+  const std::string text = block(
+      "contacts: {base: {between: [floor.top, block.bottom], friction: 0.5}}\n"
+      "steps: [{name: a}, {name: b, friction: {base: 0.2}}, {name: c, loads: {push: 2}}]\n");
   std::string with_floor = text;
   with_floor.replace(with_floor.find("supports:"), 0,
                      "  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}}\n");
@@ -101,7 +103,7 @@ TEST(Steps, CoefficientsOfFrictionStayUntilTheyAreChanged) {
   EXPECT_EQ(model.steps[0].friction, std::vector<double>{0.5});
   EXPECT_EQ(model.steps[1].friction, std::vector<double>{0.2});
   EXPECT_EQ(model.steps[1].backward_friction, std::vector<double>{0.2});  // in both directions
-  EXPECT_EQ(model.steps[1].load_factors, std::vector<double>{1.0});  // as they were
+  EXPECT_EQ(model.steps[1].load_factors, std::vector<double>{1.0});       // as they were
   EXPECT_EQ(model.steps[2].friction, std::vector<double>{0.2});
 }
 

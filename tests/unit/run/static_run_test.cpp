@@ -145,7 +145,8 @@ TEST(StaticRun, AnIncrementThatIsInterruptedWhileItIsWrittenIsNotFinished) {
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(finished, 2);
   ASSERT_EQ(solution.increments.size(), 2u);
-  EXPECT_EQ(rows_of(folder.path() / "contact.csv"), 2 * static_cast<int>(solution.increments.back().contacts[0].pairs.size()));
+  EXPECT_EQ(rows_of(folder.path() / "contact.csv"),
+            2 * static_cast<int>(solution.increments.back().contacts[0].pairs.size()));
   EXPECT_TRUE(fs::exists(folder.path() / "fields_0002.vtu"));
   EXPECT_FALSE(fs::exists(folder.path() / "fields_0003.vtu"));
   EXPECT_EQ(result::status_in(folder.path()), "interrupted");
@@ -178,7 +179,8 @@ TEST(StaticRun, EndsAtAnyInterruptionPoint) {
       const Interruptible here(&ask);
       const analysis::StaticSolution solution = solve(run);
       const bool ended = asked >= last;
-      EXPECT_EQ(solution.outcome == analysis::Outcome::interrupted, ended) << "at point " << last << ": " << solution.reason;
+      EXPECT_EQ(solution.outcome == analysis::Outcome::interrupted, ended)
+          << "at point " << last << ": " << solution.reason;
       if (ended) {
         EXPECT_EQ(result::status_in(folder.path()), "interrupted") << "at point " << last;
       }

@@ -1,5 +1,5 @@
-// A body whose stiffness is elsewhere behaves as one whose stiffness is here. Ranks are stood in for by one that has all
-// rows; real ones are compared in regression.cluster.
+// A body whose stiffness is elsewhere behaves as one whose stiffness is here. Ranks are stood in for by one that has
+// all rows; real ones are compared in regression.cluster.
 #include "scabo/system/ranks.hpp"
 
 #include <gtest/gtest.h>

@@ -291,7 +291,8 @@ std::string text_of(const Problem& problem) {
   if (problem.G.cols() > 0 || problem.cohesion.size() > 0 || problem.tension.size() > 0 ||
       problem.mu_backward.size() > 0)
     throw std::invalid_argument(
-        "the text layout cannot store rigid motions, cohesion, tension and coefficients that differ by direction: write "
+        "the text layout cannot store rigid motions, cohesion, tension and coefficients that differ by direction: "
+        "write "
         "the problem as HDF5");
   fmt::memory_buffer text;
   const auto to = std::back_inserter(text);

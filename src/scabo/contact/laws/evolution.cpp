@@ -28,8 +28,7 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
   for (Eigen::Index i = 0; i < N; ++i) {
     const ContactState state = solution.states[static_cast<std::size_t>(i)];
     const double slip = solution.slip_increment.segment((d - 1) * i, d - 1).norm();
-    const double strength =
-        problem.friction_bound(i, solution.p[d * i], solution.p[d * i + 1]) + problem.tension_of(i);
+    const double strength = problem.friction_bound(i, solution.p[d * i], solution.p[d * i + 1]) + problem.tension_of(i);
     const double opening = force(std::max(solution.gap[i], 0.0), diagonal[d * i]);
     const double sliding = force(slip, diagonal.segment(d * i + 1, d - 1).mean());
     if (std::isinf(strength)) continue;

@@ -84,8 +84,7 @@ CoarseProblem coarse_problem(const Problem& problem) {
     const Eigen::Index to = coarse.group[static_cast<std::size_t>(j)];
     const double share = coarse.share[j];
     small.mu[to] = std::min(small.mu[to], problem.mu[j]);
-    if (problem.mu_backward.size() > 0)
-      small.mu_backward[to] = std::min(small.mu_backward[to], problem.mu_backward[j]);
+    if (problem.mu_backward.size() > 0) small.mu_backward[to] = std::min(small.mu_backward[to], problem.mu_backward[j]);
     small.q.segment<components>(components * to) += share * problem.q.segment<components>(components * j);
     G_small.middleRows<components>(components * to) += share * problem.G.dense().middleRows<components>(components * j);
     for (Eigen::Index i = 0; i < N; ++i)

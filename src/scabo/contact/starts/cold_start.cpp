@@ -2,11 +2,11 @@
 
 #include <optional>
 
+#include "scabo/contact/newton.hpp"
+#include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/coarse_problem.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
-#include "scabo/contact/newton.hpp"
-#include "scabo/contact/rigid_motions.hpp"
 
 namespace scabo::contact {
 

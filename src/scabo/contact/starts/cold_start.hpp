@@ -10,11 +10,11 @@
 //                         3 iterations, until |H| <= 0.05 |p_c| of the start (largest components);
 //                         p = P p_c;  3 sweeps
 //
-// Where pairs are not coupled, 30 sweeps from zero replace the coarse problem. Bodies supported by contact alone (m > 0)
-// are held during sweeps by 0.7 of the mean stiffness of a pair, around the current a. With them at most 10 iterations
-// are made on fewer pairs, sweeps follow p = P p_c only up to 300 pairs, and where Newton does not reach its aim on the
-// fewest pairs it begins there from the forces of pairs that are all held (contact/bonded_start.hpp) as well. Nothing
-// here needs to converge: the last solve is always Newton on the original problem. Figures:
+// Where pairs are not coupled, 30 sweeps from zero replace the coarse problem. Bodies supported by contact alone (m >
+// 0) are held during sweeps by 0.7 of the mean stiffness of a pair, around the current a. With them at most 10
+// iterations are made on fewer pairs, sweeps follow p = P p_c only up to 300 pairs, and where Newton does not reach its
+// aim on the fewest pairs it begins there from the forces of pairs that are all held (contact/bonded_start.hpp) as
+// well. Nothing here needs to converge: the last solve is always Newton on the original problem. Figures:
 // docs/methods/12_contact_solver.md.
 #pragma once
 
