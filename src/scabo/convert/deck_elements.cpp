@@ -53,7 +53,7 @@ std::string material_line(const DeckMaterial& material, double angle, const std:
 
 }  // namespace
 
-std::optional<bool> plane_strainof(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks) {
+std::optional<bool> plane_strain_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks) {
   std::optional<bool> plane_strain;
   for (const auto& elements : deck.elements) {
     const std::string& type = elements.type;

@@ -38,10 +38,10 @@ struct CostConstants {
   double cell_seconds = 1e-6;       ///< for n
   double solve_seconds = 3.5e-9;    ///< for n log2(n) and one right-hand side
   double sweep_seconds = 1e-7;      ///< for n: the sweep over the factor that condenses
-  double condense_seconds = 4e-10;  ///< for k^2 n^0.5
+  double condense_seconds = 1e-10;  ///< for k^2 n^0.5
   double contact_bytes = 50.0;      ///< for k^2 of each body: W and matrices of Newton's method
-  double contact_seconds = 1e-9;    ///< for (2N)^2 k of an average body and one increment
-  double least_width = 300.0;       ///< least k there, of many bodies with few pairs each
+  double contact_seconds = 1e-10;   ///< for (2N)^2 k of an average body and one increment
+  double least_width = 3000.0;      ///< least k there, of many bodies with few pairs each
   double field_seconds = 6e-6;      ///< for n and one increment with fields
 };
 
