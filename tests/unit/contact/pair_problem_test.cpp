@@ -16,7 +16,7 @@ namespace {
 
 using Random = std::mt19937;
 
-struct Law {
+struct PairLaw {
   double mu, cohesion, tension;
 };
 
@@ -31,7 +31,7 @@ Matrix random_block(Random& random, int d) {
   return B * B.transpose();
 }
 
-Vector solved(const Matrix& W, const Vector& free, const Law& law) {
+Vector solved(const Matrix& W, const Vector& free, const PairLaw& law) {
   Vector p(free.size());
   if (free.size() == 2)
     PairProblem<2>(W.data(), {law.mu, law.mu}, law.cohesion, law.tension).solve(free.data(), p.data());
@@ -41,7 +41,7 @@ Vector solved(const Matrix& W, const Vector& free, const Law& law) {
 }
 
 /// How far p is from obeying the law, of 1.
-double broken(const Matrix& W, const Vector& free, const Law& law, const Vector& p) {
+double broken(const Matrix& W, const Vector& free, const PairLaw& law, const Vector& p) {
   const Vector u = free + W * p;
   const Eigen::Index t = free.size() - 1;
   const double length = free.norm() + W.norm() * p.norm(), force = length / W.norm();
@@ -54,7 +54,7 @@ double broken(const Matrix& W, const Vector& free, const Law& law, const Vector&
   return std::max(worst, (u.tail(t).norm() * bound + u.tail(t).dot(p.tail(t))) / (length * force));
 }
 
-int state(const Law& law, const Vector& p) {
+int state(const PairLaw& law, const Vector& p) {
   if (p[0] <= -law.tension) return 0;
   const double bound = law.cohesion + law.mu * std::max(p[0], 0.0);
   return p.tail(p.size() - 1).norm() < (1.0 - 1e-9) * bound ? 1 : 2;
@@ -66,7 +66,7 @@ TEST(PairProblem, ObeysCoulombsLaw) {
   for (int k = 0; k < 4000; ++k) {
     const int d = 2 + k % 2;
     const double unit = std::pow(10.0, k % 13 - 6);
-    const Law law{std::array{0.0, 0.1, 0.3, 0.6}[static_cast<std::size_t>(k) / 2 % 4], 0.0, 0.0};
+    const PairLaw law{std::array{0.0, 0.1, 0.3, 0.6}[static_cast<std::size_t>(k) / 2 % 4], 0.0, 0.0};
     const Matrix W = unit * random_block(random, d);
     const Vector free = random_vector(random, d) / unit, p = solved(W, free, law);
     EXPECT_LE(broken(W, free, law, p), 1e-12) << k;
@@ -82,7 +82,7 @@ TEST(PairProblem, ObeysItWithCohesionAndTensileStrength) {
   int pulled = 0;
   for (int k = 0; k < 8000; ++k) {
     const int d = 2 + k % 2;
-    const Law law{k / 2 % 3 == 0 ? 0.0 : 0.4, strength(random),
+    const PairLaw law{k / 2 % 3 == 0 ? 0.0 : 0.4, strength(random),
                   k / 6 % 3 == 0   ? 0.0
                   : k / 6 % 3 == 1 ? strength(random)
                                    : std::numeric_limits<double>::infinity()};
@@ -99,7 +99,7 @@ TEST(PairProblem, ObeysItWithCohesionAndTensileStrength) {
 TEST(PairProblem, TheForceOfTheTimeBeforeIsNoConditionOfTheNext) {
   Random random(11);
   const Matrix W = random_block(random, 3);
-  const Law law{0.5, 0.2, 0.1};
+  const PairLaw law{0.5, 0.2, 0.1};
   PairProblem<3> pair(W.data(), {law.mu, law.mu}, law.cohesion, law.tension);
   for (int k = 0; k < 500; ++k) {
     const Vector free = std::pow(10.0, k % 9 - 4) * random_vector(random, 3);
@@ -112,7 +112,7 @@ TEST(PairProblem, TheForceOfTheTimeBeforeIsNoConditionOfTheNext) {
 
 TEST(PairProblem, StaysFiniteWhereNothingMovesIt) {
   const Vector free = Vector::Constant(3, -1.0);
-  for (const Law& law : {Law{0.4, 0.0, 0.0}, Law{0.4, 0.3, 0.2}}) {
+  for (const PairLaw& law : {PairLaw{0.4, 0.0, 0.0}, PairLaw{0.4, 0.3, 0.2}}) {
     EXPECT_TRUE(solved(Matrix::Zero(3, 3), free, law).allFinite());
     EXPECT_TRUE(solved(Matrix::Ones(3, 3), free, law).allFinite());  // rank 1
     Matrix along_normal = Matrix::Zero(3, 3);
