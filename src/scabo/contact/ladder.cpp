@@ -25,6 +25,13 @@ NewtonEnd nothing() {
   return end;
 }
 
+/// Whether a path was followed to where bodies move on. Not if that is where the loads are reached but for rounding, as
+/// where all loads are taken away.
+bool tells_of_a_fall(const PathEnd& end) {
+  constexpr double rounding = 1e-6;
+  return end.how != PathEnd::How::broken && end.left > rounding;
+}
+
 }  // namespace
 
 Scaled scaled(const Problem& problem) {
@@ -106,12 +113,16 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (has_many_motions(problem_)) return best;
   }
   if (cold && better(may_sweep() ? without_history(p, a) : newton_alone(p, a, {"newton"}))) return best;
-  if (!many && may_follow_path(problem_)) {
-    if (!cold && better(along_loads(p, a))) return best;
-    const std::optional<BondedStart> start = bonded_start(problem_, touching);
-    if (start && (better(along_paths(*start, touching)) || collapse())) return best;
-  }
   const bool held = problem_.G.cols() == 0;
+  if (!many && (!held || may_follow_path(problem_))) {
+    const std::optional<BondedStart> start = bonded_start(problem_, touching);
+    // Bodies that friction alone keeps from turning have no direction where all pairs slip.
+    if (!held && start && better(bonded(*start))) return best;
+    if (may_follow_path(problem_)) {
+      if (!cold && better(along_loads(p, a))) return best;
+      if (start && (better(along_paths(*start, touching)) || collapse())) return best;
+    }
+  }
   if (!held && better(floating_proximal(p, a))) return best;
   if (held && may_sweep() && better(swept(p, 20, 1e-4))) return best;
   if (better(growing_friction(p, a))) return best;
@@ -138,7 +149,7 @@ NewtonEnd Ladder::along_loads(const Vector& p, const Vector& a) {
     start.states.push_back(p[2 * i] > 0.0 ? ContactState::stick : ContactState::open);
   PathEnd end = along_path(start);
   if (end.how == PathEnd::How::arrived) return arrived(std::move(end));
-  may_fall_ = end.how != PathEnd::How::broken;
+  may_fall_ = tells_of_a_fall(end);
   if (may_fall_) collapse_ = Collapse{std::move(end.motion), 1.0 - end.left};
   return nothing();
 }
@@ -156,7 +167,7 @@ NewtonEnd Ladder::along_paths(const BondedStart& bonded, const std::vector<bool>
       NewtonEnd found = arrived(std::move(end));
       if (found.converged) return found;
       may_fall_ = false;
-    } else if (end.how == PathEnd::How::broken) {
+    } else if (!tells_of_a_fall(end)) {
       may_fall_ = false;
     } else if (!collapse_) {
       collapse_ = Collapse{std::move(end.motion), 0.0};

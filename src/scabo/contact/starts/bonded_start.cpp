@@ -1,5 +1,7 @@
 #include "scabo/contact/starts/bonded_start.hpp"
 
+#include <algorithm>
+
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
@@ -9,9 +11,12 @@ namespace {
 
 constexpr double softness = 1e-3;  // eps
 constexpr double least_condition = 1e-12;
+constexpr double free_motion = 1e-6;  // delta
+constexpr double balance = 1e-4;      // of forces, relative to the largest
 
+/// `hold`: on the diagonal of the rows of balance.
 std::optional<Vector> solve_sparse(const Problem& problem, const std::vector<int>& place, Eigen::Index size,
-                                   const Vector& right) {
+                                   const Vector& right, double hold) {
   const Eigen::SparseMatrix<double>&W = problem.W.sparse(), &G = problem.G.sparse();
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(W.nonZeros() + 2 * G.nonZeros()));
@@ -28,6 +33,8 @@ std::optional<Vector> solve_sparse(const Problem& problem, const std::vector<int
         entries.emplace_back(i, size + k, it.value());
         entries.emplace_back(size + k, i, it.value());
       }
+  if (hold > 0.0)
+    for (Eigen::Index k = size; k < right.size(); ++k) entries.emplace_back(k, k, -hold);
   Eigen::SparseMatrix<double> A(right.size(), right.size());
   A.setFromTriplets(entries.begin(), entries.end());
   linalg::SparseGeneralSolver solver;
@@ -37,13 +44,15 @@ std::optional<Vector> solve_sparse(const Problem& problem, const std::vector<int
   return x;
 }
 
-std::optional<Vector> solve_dense(const Problem& problem, const std::vector<int>& rows, const Vector& right) {
+std::optional<Vector> solve_dense(const Problem& problem, const std::vector<int>& rows, const Vector& right,
+                                  double hold) {
   const Eigen::Index size = static_cast<Eigen::Index>(rows.size()), m = problem.G.cols();
   Matrix A = Matrix::Zero(size + m, size + m);
   A.topLeftCorner(size, size) = problem.W.dense()(rows, rows);
   A.diagonal().head(size) *= 1.0 + softness;
   A.topRightCorner(size, m) = problem.G.dense()(rows, Eigen::all);
   A.bottomLeftCorner(m, size) = A.topRightCorner(size, m).transpose();
+  A.diagonal().tail(m).setConstant(-hold);
   linalg::GeneralSolver solver;
   if (!solver.factorise(A, size + m) || !(solver.reciprocal_condition() > least_condition)) return std::nullopt;
   Vector x = right;
@@ -66,11 +75,18 @@ std::optional<BondedStart> bonded_start(const Problem& problem, const std::vecto
   const auto size = static_cast<Eigen::Index>(rows.size());
   Vector right(size + m);
   right << -problem.q(rows), -problem.f;
-  const std::optional<Vector> x =
-      problem.W.is_sparse() ? solve_sparse(problem, place, size, right) : solve_dense(problem, rows, right);
+  const auto solved = [&](double hold) {
+    return problem.W.is_sparse() ? solve_sparse(problem, place, size, right, hold)
+                                 : solve_dense(problem, rows, right, hold);
+  };
+  std::optional<Vector> x = solved(0.0);
+  if (!x && m > 0) x = solved(free_motion);
   if (!x || !x->allFinite()) return std::nullopt;
   BondedStart start{Vector::Zero(d * N), x->tail(m)};
   start.p(rows) = x->head(size);
+  const double force = std::max(start.p.lpNorm<Eigen::Infinity>(), m > 0 ? problem.f.lpNorm<Eigen::Infinity>() : 0.0);
+  if (m > 0 && !((problem.G.transpose() * start.p + problem.f).lpNorm<Eigen::Infinity>() <= balance * force))
+    return std::nullopt;
   return start;
 }
 
