@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "incline.hpp"
 #include "run.hpp"
 
 namespace scabo::verification {
@@ -92,21 +93,6 @@ steps: [{loads: {press: 1}}, {increments: 4, cycles: 3, loads: {drive: cycle}}]
   const double expected = (forward + backward) * N * (2.0 * amplitude - (forward + backward) * N / (G * 2.0));
   for (const std::size_t cycle : {3u, 4u})
     EXPECT_NEAR(dissipated[cycle] - dissipated[cycle - 1], expected, 1e-3 * expected);
-}
-
-std::string incline(double degrees, const std::string& friction, const std::string& rest = "") {
-  const double angle = degrees * std::numbers::pi / 180.0;
-  return fmt::format(R"(
-scabo: 1
-materials: {{m: {{young: 10e9, poisson: 0.3, density: 2000}}}}
-bodies:
-  block: {{material: m, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{size: 0.25}}}}
-  plane: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [4, 1]}}}}}}
-supports: [{{on: plane, fix: [x, y]}}]
-loads: {{weight: {{gravity: [{}, {}]}}}}
-contacts: {{joint: {{between: [plane.top, block.bottom], {}}}}}
-{})",
-                     10.0 * std::sin(angle), -10.0 * std::cos(angle), friction, rest);
 }
 
 TEST(FrictionByDirection, HoldsOnAnInclineByTheCoefficientDownhill) {

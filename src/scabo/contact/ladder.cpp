@@ -113,16 +113,12 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (has_many_motions(problem_)) return best;
   }
   if (cold && better(may_sweep() ? without_history(p, a) : newton_alone(p, a, {"newton"}))) return best;
-  const bool held = problem_.G.cols() == 0;
-  if (!many && (!held || may_follow_path(problem_))) {
+  if (!many && may_follow_path(problem_)) {
+    if (!cold && better(along_loads(p, a))) return best;
     const std::optional<BondedStart> start = bonded_start(problem_, touching);
-    // Bodies that friction alone keeps from turning have no direction where all pairs slip.
-    if (!held && start && better(bonded(*start))) return best;
-    if (may_follow_path(problem_)) {
-      if (!cold && better(along_loads(p, a))) return best;
-      if (start && (better(along_paths(*start, touching)) || collapse())) return best;
-    }
+    if (start && (better(along_paths(*start, touching)) || collapse())) return best;
   }
+  const bool held = problem_.G.cols() == 0;
   if (!held && better(floating_proximal(p, a))) return best;
   if (held && may_sweep() && better(swept(p, 20, 1e-4))) return best;
   if (better(growing_friction(p, a))) return best;
