@@ -61,6 +61,8 @@ void expect_solved_or_mechanism(const Problem& problem, Tally& tally, int k) {
         EXPECT_GE(problem.G.dense().row(2 * i).dot(solution.motion), -1e-9) << "problem " << k;
       break;
     case Status::not_converged:
+    case Status::collapse:
+    case Status::infeasible:
       ADD_FAILURE() << "problem " << k << ", " << problem.pairs() << " pairs, mu " << problem.mu[0] << ", "
                     << problem.G.cols() << " rigid motions: " << solution.reason << " after " << solution.iterations;
       break;
