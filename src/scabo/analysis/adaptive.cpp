@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "scabo/analysis/error_estimate.hpp"
+#include "scabo/analysis/frozen_elements.hpp"
 #include "scabo/analysis/refinement.hpp"
-#include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/two_orders.hpp"
-#include "scabo/mesh/crack_faces.hpp"
-#include "scabo/mesh/match.hpp"
+#include "scabo/mesh/matched_side.hpp"
 
 namespace scabo::analysis {
 
@@ -21,164 +18,8 @@ namespace {
 /// Fraction of the tolerance that the estimate must reach, because it is smaller than the error; 0.77 is the least
 /// effectivity measured on meshes produced by refinement.
 constexpr double aim = 0.7;
-/// Fraction of the largest nodal force below which a reaction is rounding.
-constexpr double some_reaction = 1e-6;
-
-using Flags = std::vector<std::vector<bool>>;  // [body][cell], or [body][boundary element of all cells, in their order]
-
-/// Displacements of a cell's own nodes.
-Vector displacement_of(const StaticSolution& solution, const IncrementResult& increment, std::size_t body,
-                       std::size_t cell) {
-  return increment.fields.displacements[body](element::dofs_of(solution.mesh.bodies[body].cells[cell]));
-}
-
-std::size_t boundary_elements(const mesh::BodyMesh& mesh) {
-  std::size_t count = 0;
-  for (const mesh::Cell& cell : mesh.cells) count += cell.boundary.size();
-  return count;
-}
-
-bool is_point(const model::Place& place) {
-  return place.kind == model::Place::Kind::corner || place.kind == model::Place::Kind::near;
-}
-
-/// Largest reaction of every support over all increments, and the largest force on a node.
-struct Reactions {
-  std::vector<double> largest;
-  double scale = 0.0;
-};
-Reactions reactions_of(const StaticSolution& solution) {
-  Reactions reactions;
-  reactions.largest.assign(solution.model.supports.size(), 0.0);
-  for (const IncrementResult& increment : solution.increments) {
-    for (std::size_t i = 0; i < increment.reactions.size(); ++i) {
-      reactions.largest[i] = std::max(reactions.largest[i], increment.reactions[i].norm());
-      reactions.scale = std::max(reactions.scale, increment.reactions[i].norm());
-    }
-    for (std::size_t b = 0; b < solution.cells.size(); ++b)
-      for (std::size_t c = 0; c < solution.cells[b].size(); ++c)
-        if (const auto& cell = solution.cells[b][c]) {
-          const Vector forces = cell->K() * displacement_of(solution, increment, b, c);
-          reactions.scale = std::max(reactions.scale, forces.lpNorm<Eigen::Infinity>());
-        }
-  }
-  return reactions;
-}
-
-/// Point forces, and similar places with infinite stress (adaptive.hpp).
-std::vector<model::Place> singular_places(const StaticSolution& solution) {
-  std::vector<model::Place> places;
-  for (const model::Load& load : solution.model.loads)
-    if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) places.push_back(*load.on);
-  for (const model::Spring& spring : solution.model.springs)
-    if (is_point(spring.on)) places.push_back(spring.on);
-  const Reactions reactions = reactions_of(solution);
-  for (std::size_t i = 0; i < solution.model.supports.size(); ++i) {
-    const model::Place& place = solution.model.supports[i].on;
-    if (place.kind == model::Place::Kind::near ||
-        (place.kind == model::Place::Kind::corner && reactions.largest[i] > some_reaction * reactions.scale))
-      places.push_back(place);
-  }
-  return places;
-}
-
-/// Length around a point force in which cells are left out, relative to the size of the first mesh.
-constexpr double spread_of_force = 0.15;
-
-/// Cells beside singular places, in bodies of many cells.
-Flags left_out_cells(const StaticSolution& solution) {
-  const mesh::Mesh& mesh = solution.mesh;
-  Flags left_out(mesh.bodies.size());
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) left_out[b].assign(mesh.bodies[b].cells.size(), false);
-  for (const model::Place& place : singular_places(solution)) {
-    const auto b = static_cast<std::size_t>(place.body);
-    const model::Body& body = solution.model.bodies[b];
-    if (!has_estimate(solution, b) || !model::is_divided_inside(body)) continue;
-    const double radius = body.mesh.tolerance ? spread_of_force * body.mesh.size : 0.0;
-    for (const int node : mesh::nodes_of(place, mesh).nodes) {
-      const Vec2 at = mesh.bodies[b].nodes[static_cast<std::size_t>(node)];
-      for (std::size_t c = 0; c < left_out[b].size(); ++c)
-        for (const mesh::LineElement& element : mesh.bodies[b].cells[c].boundary) {
-          const int first = element.nodes.front();
-          if (first == node || (mesh.bodies[b].nodes[static_cast<std::size_t>(first)] - at).norm() < radius)
-            left_out[b][c] = true;
-        }
-    }
-  }
-  return left_out;
-}
-
-/// Elements of the faces of cracks that face each other are frozen together where tip rings are added.
-void freeze_faces_alike(const model::Model& model, const mesh::Mesh& mesh, std::size_t body,
-                        std::vector<bool>& frozen) {
-  const std::vector<int> cracks = mesh::cracks_with_tractions(model, static_cast<int>(body));
-  if (cracks.empty() || frozen.empty()) return;
-  std::map<std::vector<int>, std::size_t>
-      number;  // of an element, by its nodes; faces run as the boundaries of cells do
-  for (const mesh::Cell& cell : mesh.bodies[body].cells)
-    for (const mesh::LineElement& element : cell.boundary) number.emplace(element.nodes, number.size());
-  for (const int crack : cracks) {
-    const auto& right = mesh.bodies[body].faces[static_cast<std::size_t>(2 * crack)];
-    const auto& left = mesh.bodies[body].faces[static_cast<std::size_t>(2 * crack + 1)];
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      const std::size_t a = number.at(left[k].nodes), b = number.at(right[right.size() - 1 - k].nodes);
-      frozen[a] = frozen[b] = frozen[a] || frozen[b];
-    }
-  }
-}
 
 }  // namespace
-
-bool has_estimate(const StaticSolution& solution, std::size_t body) { return !solution.cells[body].empty(); }
-
-namespace {
-
-/// frozen_elements() with the places beside which elements are frozen.
-Flags frozen_elements(const model::Model& model, const mesh::Mesh& mesh, const std::vector<model::Place>& singular) {
-  Flags frozen(mesh.bodies.size());
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
-    frozen[b].assign(boundary_elements(mesh.bodies[b]), false);  // none of a rigid body
-  for (const model::Place& place : singular) {
-    const auto b = static_cast<std::size_t>(place.body);
-    if (frozen[b].empty()) continue;
-    const std::vector<int> nodes = mesh::nodes_of(place, mesh).nodes;
-    std::size_t place_in_body = 0;
-    for (const mesh::Cell& cell : mesh.bodies[b].cells)
-      for (const mesh::LineElement& element : cell.boundary) {
-        for (const int node : element.nodes)
-          if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) frozen[b][place_in_body] = true;
-        ++place_in_body;
-      }
-  }
-  const mesh::PairedElements paired = mesh::paired_elements(model, mesh);
-  const auto flag = [&](const mesh::EdgeElement& at) -> std::vector<bool>::reference {
-    const auto b = static_cast<std::size_t>(at.body);
-    return frozen[b][static_cast<std::size_t>(mesh::boundary_element(mesh.bodies[b], at.edge, at.element))];
-  };
-  for (const mesh::EdgeElement& at : paired.alone)
-    if (!frozen[static_cast<std::size_t>(at.body)].empty()) flag(at) = true;
-  for (const auto& [a, b] : paired.alike) {
-    const bool divided_a = !frozen[static_cast<std::size_t>(a.body)].empty(),
-               divided_b = !frozen[static_cast<std::size_t>(b.body)].empty();
-    if (divided_a != divided_b)
-      flag(divided_a ? a : b) = true;  // the other body is rigid
-    else if (divided_a && (flag(a) || flag(b)))
-      flag(a) = flag(b) = true;
-  }
-  for (std::size_t b = 0; b < frozen.size(); ++b) freeze_faces_alike(model, mesh, b, frozen[b]);
-  return frozen;
-}
-
-}  // namespace
-
-Flags frozen_elements(const StaticSolution& solution, bool at_singular_places) {
-  return frozen_elements(solution.model, solution.mesh,
-                         at_singular_places ? singular_places(solution) : std::vector<model::Place>{});
-}
-
-mesh::Mesh raised(const model::Model& model, const mesh::Mesh& mesh) {
-  return mesh::enriched(model, mesh, frozen_elements(model, mesh, {}));
-}
 
 void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
   const auto hold = [&](model::Place& place) {
@@ -287,51 +128,6 @@ Judgement judge(const StaticSolution& solution) {
   return judgement;
 }
 
-/// The boundary and the stiffness of a cell, in the numbers of its own nodes; of a finite element, too.
-struct CellStiffness {
-  std::vector<mesh::LineElement> elements;
-  Matrix k;
-};
-CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::size_t c) {
-  if (const auto& cell = solution.cells[b][c]) return {cell->ring.elements, cell->K()};
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
-  const mesh::Cell& cell = mesh.cells[c];
-  std::map<int, int> own;
-  for (const int node : cell.nodes()) own.emplace(node, static_cast<int>(own.size()));
-  CellStiffness made{cell.boundary, Matrix::Zero(2 * static_cast<Eigen::Index>(own.size()),
-                                                 2 * static_cast<Eigen::Index>(own.size()))};
-  for (mesh::LineElement& element : made.elements)
-    for (int& node : element.nodes) node = own.at(node);
-  const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
-  const model::Material& material = solution.model.materials[static_cast<std::size_t>(cell.materials.front())];
-  const auto& analysis = solution.model.analysis;
-  const element::ElementMatrix k = element::finite_element_stiffness(
-      finite, element::elasticity_matrix(material, analysis.plane), analysis.thickness);
-  std::vector<int> dofs;
-  for (const int node : finite.nodes())
-    for (const int component : {0, 1}) dofs.push_back(static_cast<int>(place_of(own.at(node), component)));
-  made.k(dofs, dofs) = k;
-  return made;
-}
-
-/// Squared errors of the cells of a body, force times length; 0 for those left out.
-std::vector<double> squared_errors(const StaticSolution& solution, const IncrementResult& increment,
-                                   const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t b,
-                                   const std::vector<bool>& left_out) {
-  std::vector<double> squared;
-  for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
-    if (left_out[c]) {
-      squared.push_back(0.0);
-      continue;
-    }
-    // Loads inside a cell are not among the forces on its boundary.
-    const bool relaxed = element::loads_in(increment.fields.interior[b], c).loads.empty();
-    squared.push_back(squared_difference(solution, increment.fields.displacements[b], wider,
-                                         wider_increment.fields.displacements[b], b, c, relaxed));
-  }
-  return squared;
-}
-
 /// Parts that boundary elements, or cells, have in the sum in the worst increment.
 MeshErrors errors_of(const StaticSolution& solution, const StaticSolution& wider, std::size_t worst) {
   MeshErrors errors{solution.mesh, {}, frozen_elements(solution, true)};
@@ -385,84 +181,6 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh) {
              at.element + 1, edge)});
   }
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
-}
-
-namespace {
-
-ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
-                       const IncrementResult& wider_increment, const Flags& left_out) {
-  ErrorEstimate error;
-  error.bodies.resize(solution.model.bodies.size());
-  std::vector<double> squared(error.bodies.size(), 0.0);
-  double energy = 0.0;
-  for (std::size_t b = 0; b < error.bodies.size(); ++b) {
-    if (!has_estimate(solution, b)) continue;
-    for (const double of_cell : squared_errors(solution, increment, wider, wider_increment, b, left_out[b]))
-      squared[b] += of_cell;
-    for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
-      const Vector U = displacement_of(wider, wider_increment, b, c);
-      energy += U.dot(wider.cells[b][c]->K() * U);
-    }
-  }
-  // Loads inside have energy too.
-  energy = std::max(energy, 2.0 * wider_increment.energy.elastic);
-  const double norm = std::sqrt(energy);
-  const auto relative = [&](double square) { return norm > 0.0 ? std::sqrt(square) / norm : 0.0; };
-  error.relative = relative(std::accumulate(squared.begin(), squared.end(), 0.0));
-  for (std::size_t b = 0; b < error.bodies.size(); ++b)
-    if (has_estimate(solution, b)) error.bodies[b] = BodyError{std::sqrt(squared[b]), relative(squared[b])};
-  return error;
-}
-
-void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
-  const Flags left_out = left_out_cells(solution);
-  for (std::size_t i = 0; i < std::min(solution.increments.size(), wider.increments.size()); ++i)
-    if (solution.increments[i].converged && wider.increments[i].converged)
-      solution.increments[i].error = estimate(solution, solution.increments[i], wider, wider.increments[i], left_out);
-}
-
-}  // namespace
-
-double squared_difference(const StaticSolution& solution, const Vector& u, const StaticSolution& wider, const Vector& U,
-                          std::size_t body, std::size_t cell, bool relaxed) {
-  const CellStiffness narrow = stiffness_of(solution, body, cell);
-  const element::SolvedSuperElement& wide = *wider.cells[body][cell];
-  return element::squared_difference({narrow.elements, narrow.k,
-                                      u(element::dofs_of(solution.mesh.bodies[body].cells[cell])), wide.ring.elements,
-                                      wide.K(), U(element::dofs_of(wider.mesh.bodies[body].cells[cell])), relaxed});
-}
-
-ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
-                       const IncrementResult& wider_increment) {
-  return estimate(solution, increment, wider, wider_increment, left_out_cells(solution));
-}
-
-std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment,
-                                   const StaticSolution& wider, const IncrementResult& wider_increment,
-                                   std::size_t body) {
-  std::vector<double> errors;
-  for (std::size_t c = 0; c < solution.cells[body].size(); ++c) {
-    const element::SolvedSuperElement &narrow = *solution.cells[body][c], &wide = *wider.cells[body][c];
-    const Vector u = displacement_of(solution, increment, body, c),
-                 U = displacement_of(wider, wider_increment, body, c);
-    for (const double error :
-         element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), u},
-                                     {wide.ring, wide.solution(), wide.modes(), U}, wide.sectors.D))
-      errors.push_back(error);
-  }
-  const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
-  for (double& error : errors)
-    error = sum > 0.0 ? increment.error->bodies[body]->relative * std::sqrt(error / sum) : 0.0;
-  return errors;
-}
-
-std::vector<double> cell_errors(const StaticSolution& solution, const IncrementResult& increment,
-                                const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t body) {
-  const BodyError& whole = *increment.error->bodies[body];
-  std::vector<double> errors =
-      squared_errors(solution, increment, wider, wider_increment, body, left_out_cells(solution)[body]);
-  for (double& error : errors) error = error > 0.0 ? std::sqrt(error) * whole.relative / whole.absolute : 0.0;
-  return errors;
 }
 
 StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options) {

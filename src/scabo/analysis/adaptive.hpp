@@ -49,20 +49,6 @@ struct RefinementLimits {
 /// within the limits does, the outcome is not_converged, with the results of the last mesh.
 StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits = {});
 
-/// Estimated error of an increment: `increment` on the mesh of `solution`, `wider` on the mesh of higher order.
-ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
-                       const IncrementResult& wider_increment);
-
-/// Errors of the boundary elements of a body with an estimated error, relative like that of the body; the sum of their
-/// squares is the square of the error of the body.
-std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment,
-                                   const StaticSolution& wider, const IncrementResult& wider_increment,
-                                   std::size_t body);
-
-/// Errors of the cells of a body with an estimated error, in the same way.
-std::vector<double> cell_errors(const StaticSolution& solution, const IncrementResult& increment,
-                                const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t body);
-
 // Steps that goal.hpp shares.
 
 /// Replaces `near` places by the position of their nodes on this mesh, so that they refer to the same point on the next
@@ -72,18 +58,5 @@ void hold_near_places(model::Model& model, const mesh::Mesh& mesh);
 Options quiet(const Options& options, const std::string& what);
 /// Reports a complete solution as if its increments were computed one by one.
 void replay(StaticSolution& solution, const Options& options);
-/// Whether the error of the body is estimated: it is elastic. The wider displacement of finite elements is that of
-/// super-elements of the next order in their place.
-bool has_estimate(const StaticSolution& solution, std::size_t body);
-/// [body][boundary element of all cells]: elements that cannot be changed without separating pairs of nodes and, if
-/// `at_singular_places`, those beside point forces and the like.
-std::vector<std::vector<bool>> frozen_elements(const StaticSolution& solution, bool at_singular_places);
-/// The mesh with all sides of cells one order higher, except where that would separate pairs of nodes; finite elements
-/// become super-elements. Sides keep their curves.
-mesh::Mesh raised(const model::Model& model, const mesh::Mesh& mesh);
-/// Squared error in the energy norm of a cell, force times length, of displacements `u` of its body against `U` on the
-/// mesh of higher order. `relaxed`: whether no loads act inside the cell.
-double squared_difference(const StaticSolution& solution, const Vector& u, const StaticSolution& wider, const Vector& U,
-                          std::size_t body, std::size_t cell, bool relaxed);
 
 }  // namespace scabo::analysis

@@ -8,6 +8,8 @@
 #include <memory>
 #include <numeric>
 
+#include "scabo/analysis/error_estimate.hpp"
+#include "scabo/analysis/frozen_elements.hpp"
 #include "scabo/analysis/quantities.hpp"
 #include "scabo/analysis/refinement.hpp"
 #include "scabo/element/two_orders.hpp"

@@ -23,23 +23,6 @@ using files::DeckLine;
 using files::DeckPlace;
 using files::upper;
 
-struct Amplitude {
-  std::vector<std::pair<double, double>> points;  // time, value
-  bool total_time = false, absolute = false;
-  DeckPlace at;
-
-  double value(double time) const {
-    if (time <= points.front().first) return points.front().second;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (time <= points[i].first) {
-        const auto& [t0, v0] = points[i - 1];
-        const auto& [t1, v1] = points[i];
-        return t1 > t0 ? v0 + (v1 - v0) * (time - t0) / (t1 - t0) : v1;
-      }
-    return points.back().second;
-  }
-};
-
 /// One load or prescribed displacement while the deck is read.
 struct Growing {
   Given given;
@@ -60,7 +43,6 @@ class ContentReader {
   }
 
   DeckContent read() {
-    read_amplitudes();
     for (const DeckBlock& block : deck_.blocks) keyword(block);
     if (in_step_) end_step();
     for (auto* table : {&displacements_, &forces_, &pressures_}) {
@@ -152,17 +134,8 @@ class ContentReader {
   Leg leg_of(const Growing& growing, double before) {
     if (growing.amplitude.empty()) return {growing.value, {}};
     const Amplitude& amplitude = amplitudes_.at(growing.amplitude);
-    const double period = content_.steps.back().period, start = amplitude.total_time ? total_time_ : 0.0;
     const double factor = amplitude.absolute ? 1.0 : growing.value;
-    Leg leg;
-    leg.table.emplace_back(0.0, factor * amplitude.value(start));
-    for (const auto& [time, value] : amplitude.points) {
-      const double part = (time - start) / period;
-      if (part > 1e-12 && part < 1.0 - 1e-12 && part > leg.table.back().first)
-        leg.table.emplace_back(part, factor * value);
-    }
-    leg.end = factor * amplitude.value(start + period);
-    leg.table.emplace_back(1.0, leg.end);
+    Leg leg = leg_along(amplitude, factor, amplitude.total_time ? total_time_ : 0.0, content_.steps.back().period);
     const double first = leg.table.front().second;
     if (std::abs(first - before) > 1e-9 * std::max({std::abs(first), std::abs(before), std::abs(factor)}))
       remarks_.essential(
@@ -386,42 +359,7 @@ class ContentReader {
     return in_step_;
   }
 
-  // ---- amplitudes and keywords
-
-  void read_amplitudes() {
-    for (const DeckBlock& block : deck_.blocks) {
-      if (block.name != "AMPLITUDE") continue;
-      Amplitude amplitude;
-      amplitude.at = block.at;
-      amplitude.total_time = upper(parameter(block, "TIME")).starts_with("TOTAL");
-      amplitude.absolute = upper(parameter(block, "VALUE")).starts_with("ABS");
-      const std::string definition = upper(parameter(block, "DEFINITION", "TABULAR"));
-      const std::string name = upper(parameter(block, "NAME"));
-      bool usable = definition == "TABULAR" && !name.empty();
-      for (const char* unread : {"SHIFTX", "SHIFTY", "USER", "SMOOTH"})
-        usable = usable && !block.parameters.contains(unread);
-      if (!usable) {
-        remarks_.essential(block.at,
-                           "only an *AMPLITUDE with a name and a table of times and values is taken; write one");
-        continue;
-      }
-      std::vector<double> numbers;
-      for (const DeckLine& line : block.lines)
-        for (std::size_t k = 0; usable && k < line.fields.size(); ++k) {
-          const auto value = number(remarks_, line, k, "a number of *AMPLITUDE");
-          usable = value.has_value();
-          numbers.push_back(value.value_or(0.0));
-        }
-      for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) amplitude.points.emplace_back(numbers[k], numbers[k + 1]);
-      const bool ascending = std::is_sorted(amplitude.points.begin(), amplitude.points.end(),
-                                            [](const auto& x, const auto& y) { return x.first <= y.first; });
-      if (usable && (amplitude.points.empty() || numbers.size() % 2 == 1 || !ascending)) {
-        remarks_.essential(block.at, "an *AMPLITUDE needs pairs of time and value, the times ascending; correct it");
-        usable = false;
-      }
-      if (usable) amplitudes_[name] = std::move(amplitude);
-    }
-  }
+  // ---- keywords
 
   void keyword(const DeckBlock& block) {
     const std::string& name = block.name;
@@ -474,7 +412,7 @@ class ContentReader {
   std::unordered_map<std::int64_t, int> node_of_;
   std::unordered_map<std::string, const files::NodeSet*> node_sets_;
   std::unordered_map<std::string, const files::FacetSet*> facet_sets_;
-  std::map<std::string, Amplitude> amplitudes_;
+  const std::map<std::string, Amplitude> amplitudes_ = read_amplitudes(deck_, remarks_);
   std::map<std::string, std::vector<const DeckBlock*>> left_out_;
   DeckContent content_;
   Table displacements_, forces_, pressures_;
@@ -499,32 +437,6 @@ const Set* set_named(const std::vector<Set>& sets, const std::string& name) {
 }
 
 }  // namespace
-
-bool is_zero(const Course& course) {
-  for (const Leg& leg : course) {
-    if (leg.end != 0.0) return false;
-    for (const auto& [part, value] : leg.table)
-      if (value != 0.0) return false;
-  }
-  return true;
-}
-
-double scale_of(const Course& course) {
-  for (const Leg& leg : course)
-    if (leg.end != 0.0) return leg.end;
-  for (const Leg& leg : course)
-    for (const auto& [part, value] : leg.table)
-      if (value != 0.0) return value;
-  return 1.0;
-}
-
-Course scaled(Course course, double factor) {
-  for (Leg& leg : course) {
-    leg.end *= factor;
-    for (auto& [part, value] : leg.table) value *= factor;
-  }
-  return course;
-}
 
 DeckContent read_content(const files::AbaqusDeck& deck, Remarks& remarks) {
   return ContentReader(deck, remarks).read();

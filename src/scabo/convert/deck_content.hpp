@@ -12,25 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "scabo/convert/deck_course.hpp"
 #include "scabo/convert/remark.hpp"
 #include "scabo/files/abaqus.hpp"
 
 namespace scabo::convert {
-
-/// A value over one step: linear to `end`, or by `table` of [part of the step, value] from 0 to 1.
-struct Leg {
-  double end = 0.0;
-  std::vector<std::pair<double, double>> table = {};
-  friend bool operator==(const Leg&, const Leg&) = default;
-  friend auto operator<=>(const Leg&, const Leg&) = default;
-};
-using Course = std::vector<Leg>;  ///< one for each step
-
-/// True if the value is 0 all the time.
-bool is_zero(const Course& course);
-/// A value by which a course becomes factors: its first end that is not 0, or else such a value of a table.
-double scale_of(const Course& course);
-Course scaled(Course course, double factor);
 
 struct Given {
   Course course;

@@ -5,85 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <unordered_map>
 
+#include "scabo/files/abaqus_element.hpp"
 #include "scabo/files/abaqus_lines.hpp"
+#include "scabo/files/abaqus_sets.hpp"
 #include "scabo/files/mesh_builder.hpp"
 
 namespace scabo::files {
 
 namespace {
-
-enum class ElementFamily { cell, shell, line };  // a shell or membrane has two faces, sides count after them
-
-struct AbaqusElement {
-  ElementFamily family = ElementFamily::cell;
-  int nodes = 0;
-};
-
-/// Nothing for a type that is not read.
-std::optional<AbaqusElement> abaqus_element(const std::string& type) {
-  for (const char* line : {"T2D", "T3D"}) {
-    if (type.rfind(line, 0) == 0) {
-      if (type.substr(3, 1) == "2") return AbaqusElement{ElementFamily::line, 2};
-      if (type.substr(3, 1) == "3") return AbaqusElement{ElementFamily::line, 3};
-      return std::nullopt;
-    }
-  }
-  for (const char* beam : {"B2", "B3"}) {
-    if (type.rfind(beam, 0) == 0) {
-      if (type.substr(2, 1) == "1") return AbaqusElement{ElementFamily::line, 2};
-      if (type.substr(2, 1) == "2") return AbaqusElement{ElementFamily::line, 3};
-      return std::nullopt;
-    }
-  }
-  for (const std::string prefix : {"CPS", "CPE", "M3D", "STRI", "S"}) {
-    if (type.rfind(prefix, 0) != 0) continue;
-    const std::string rest = type.substr(prefix.size());
-    if (rest.empty()) return std::nullopt;
-    const ElementFamily family = prefix[0] == 'C' ? ElementFamily::cell : ElementFamily::shell;
-    if (rest == "65" && prefix == "STRI") return AbaqusElement{family, 6};
-    const int nodes = rest[0] - '0';
-    const std::string options = rest.substr(1);  // R, I, H, M, T, ...; R5 of shells
-    const bool known = options.find_first_of("0123456789") == std::string::npos || options == "R5";
-    if (!known || (nodes != 3 && nodes != 4 && nodes != 6 && nodes != 8 && nodes != 9)) return std::nullopt;
-    return AbaqusElement{family, nodes};
-  }
-  return std::nullopt;
-}
-
-CellKind kind_of_cell(int nodes) {
-  switch (nodes) {
-    case 3:
-      return CellKind::triangle3;
-    case 4:
-      return CellKind::quad4;
-    case 6:
-      return CellKind::triangle6;
-    default:
-      return CellKind::quad8;  // 9: without its centre node
-  }
-}
-
-/// Springs, dashpots, gaps, masses: they join nodes or load them.
-bool is_discrete(const std::string& type) {
-  for (const char* start : {"SPRING", "DASHPOT", "GAP", "MASS", "DCOUP"}) {
-    if (type.rfind(start, 0) == 0) return true;
-  }
-  return false;
-}
-
-/// Why a type is not read.
-std::string abaqus_refusal(const std::string& type) {
-  const auto starts = [&type](std::string_view with) { return type.rfind(with, 0) == 0; };
-  if (starts("C3D") || starts("SC") || starts("F3D") || starts("DC3D") || starts("AC3D")) {
-    return "is three-dimensional; Scabo's bodies are plane: mesh the plane section with CPS or CPE elements";
-  }
-  if (starts("CAX") || starts("SAX") || starts("DCAX") || starts("MAX")) {
-    return "is axisymmetric; Scabo's bodies are plane: use CPS or CPE elements";
-  }
-  return "is not read; use plane elements with 3, 4, 6 or 8 nodes (CPS, CPE, S, M3D) and take others out of the file";
-}
 
 class AbaqusReader {
  public:
@@ -96,16 +26,6 @@ class AbaqusReader {
   AbaqusDeck read_deck();
 
  private:
-  /// Numbers of nodes or elements.
-  struct NumberSet {
-    std::string name;  // as first written
-    std::vector<std::int64_t> numbers;
-    bool of_element_line = false;
-  };
-  struct NumberSets {
-    std::vector<NumberSet> all;
-    std::unordered_map<std::string, std::size_t> by_name;  // in upper case
-  };
   /// A number that a set names; those of GENERATE need not exist.
   struct Listed {
     std::int64_t number;
@@ -133,8 +53,8 @@ class AbaqusReader {
   void keyword(const AbaqusKeyword& key);
   void nodes(const AbaqusKeyword& key);
   void elements(const AbaqusKeyword& key);
-  void set(const AbaqusKeyword& key, NumberSets& sets, const char* parameter);
-  void generate(NumberSet& target);
+  void set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter);
+  void generate(AbaqusSet& target);
   void surface(const AbaqusKeyword& key);
   void section(const AbaqusKeyword& key);
   void instance(const AbaqusKeyword& key);
@@ -143,10 +63,8 @@ class AbaqusReader {
 
   std::int64_t integer(std::string_view field, const char* what) const;
   double real(std::string_view field, const char* what) const;
-  NumberSet& set_named(NumberSets& sets, const std::string& name);
-  const NumberSet* find_set(const NumberSets& sets, std::string name) const;
-  void add_numbers(NumberSet& target, const std::vector<std::int64_t>& numbers);
-  void add_listed(NumberSet& target, std::int64_t number, bool node);
+  void add_numbers(AbaqusSet& target, const std::vector<std::int64_t>& numbers);
+  void add_listed(AbaqusSet& target, std::int64_t number, bool node);
   void count_entries(std::int64_t count);
 
   // `elements` gives positions: cells first, then lines.
@@ -162,7 +80,7 @@ class AbaqusReader {
   std::vector<bool> shell_;  // per cell
   std::vector<LineElement> line_elements_;
   std::vector<std::int64_t> discrete_;
-  NumberSets node_sets_, element_sets_;
+  AbaqusSets node_sets_, element_sets_;
   std::vector<Listed> listed_;
   std::vector<Surface> surfaces_;
   std::vector<Section> sections_;
@@ -186,33 +104,19 @@ double AbaqusReader::real(std::string_view field, const char* what) const {
   return value;
 }
 
-AbaqusReader::NumberSet& AbaqusReader::set_named(NumberSets& sets, const std::string& name) {
-  const auto [entry, is_new] = sets.by_name.try_emplace(upper(name), sets.all.size());
-  if (is_new) sets.all.push_back({name, {}, false});
-  return sets.all[entry->second];
-}
-
-const AbaqusReader::NumberSet* AbaqusReader::find_set(const NumberSets& sets, std::string name) const {
-  name = upper(name);
-  auto found = sets.by_name.find(name);
-  const auto dot = name.rfind('.');  // Instance-1.Set-1
-  if (found == sets.by_name.end() && dot != std::string::npos) found = sets.by_name.find(name.substr(dot + 1));
-  return found == sets.by_name.end() ? nullptr : &sets.all[found->second];
-}
-
 void AbaqusReader::count_entries(std::int64_t count) {
   const bool too_many = count > most_entries_ - entries_;
   entries_ += too_many ? 0 : count;
   if (too_many) builder_.fail(lines_.at(), "the sets of the file are too many and too large to be meant");
 }
 
-void AbaqusReader::add_listed(NumberSet& target, std::int64_t number, bool node) {
+void AbaqusReader::add_listed(AbaqusSet& target, std::int64_t number, bool node) {
   count_entries(1);
   target.numbers.push_back(number);
   listed_.push_back({number, lines_.at(), node});
 }
 
-void AbaqusReader::add_numbers(NumberSet& target, const std::vector<std::int64_t>& numbers) {
+void AbaqusReader::add_numbers(AbaqusSet& target, const std::vector<std::int64_t>& numbers) {
   count_entries(static_cast<std::int64_t>(numbers.size()));
   const std::vector<std::int64_t> copy = numbers;  // a set may name itself
   target.numbers.insert(target.numbers.end(), copy.begin(), copy.end());
@@ -224,7 +128,7 @@ void AbaqusReader::nodes(const AbaqusKeyword& key) {
   }
   if (key.has("INPUT")) lines_.insert(key);
   const std::string name = key.value("NSET");
-  if (key.has("NSET")) set_named(node_sets_, name);
+  if (key.has("NSET")) node_sets_.named(name);
   std::vector<std::string_view> fields;
   std::vector<std::int64_t> numbers;
   while (lines_.next_data(fields)) {
@@ -235,14 +139,14 @@ void AbaqusReader::nodes(const AbaqusKeyword& key) {
     builder_.add_node(number, x[0] + shift_.x(), x[1] + shift_.y(), x[2], lines_.at());
     if (key.has("NSET")) numbers.push_back(number);
   }
-  if (key.has("NSET")) add_numbers(set_named(node_sets_, name), numbers);
+  if (key.has("NSET")) add_numbers(node_sets_.named(name), numbers);
 }
 
 void AbaqusReader::elements(const AbaqusKeyword& key) {
   const std::string type = upper(key.value("TYPE"));
   if (type.empty()) builder_.fail(key.at, "*ELEMENT has no TYPE; write for example TYPE=CPS4");
   const std::string name = key.value("ELSET");
-  if (key.has("ELSET")) set_named(element_sets_, name).of_element_line = true;
+  if (key.has("ELSET")) element_sets_.named(name).of_element_line = true;
   if (key.has("INPUT")) lines_.insert(key);
   const std::optional<AbaqusElement> element = abaqus_element(type);
   if (whole_) deck_.elements.push_back({type, place_of(key.at)});
@@ -252,7 +156,7 @@ void AbaqusReader::elements(const AbaqusKeyword& key) {
     if (fields.empty()) continue;
     const FilePlace at = lines_.at();
     const std::int64_t number = integer(fields[0], "the number of an element");
-    if (!element && is_discrete(type)) {
+    if (!element && is_discrete_abaqus_element(type)) {
       if (numbers.empty()) {
         builder_.remark(at, fmt::format("elements of type {} have no area and are left out", printable(type)));
       }
@@ -286,16 +190,16 @@ void AbaqusReader::elements(const AbaqusKeyword& key) {
       line_elements_.push_back({number, {nodes.front(), nodes.back(), wanted == 3 ? nodes[1] : -1}});
     } else {
       if (wanted == 9) nodes.pop_back();
-      builder_.add_cell(kind_of_cell(element->nodes), number, nodes, 0, at);
+      builder_.add_cell(abaqus_cell_kind(element->nodes), number, nodes, 0, at);
       cell_numbers_.push_back(number);
       if (whole_) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
       shell_.push_back(element->family == ElementFamily::shell);
     }
   }
-  if (key.has("ELSET")) add_numbers(set_named(element_sets_, name), numbers);
+  if (key.has("ELSET")) add_numbers(element_sets_.named(name), numbers);
 }
 
-void AbaqusReader::generate(NumberSet& target) {
+void AbaqusReader::generate(AbaqusSet& target) {
   std::vector<std::string_view> fields;
   while (lines_.next_data(fields)) {
     if (fields.empty()) continue;
@@ -315,18 +219,18 @@ void AbaqusReader::generate(NumberSet& target) {
   }
 }
 
-void AbaqusReader::set(const AbaqusKeyword& key, NumberSets& sets, const char* parameter) {
+void AbaqusReader::set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter) {
   const std::string name = key.value(parameter);
   if (name.empty())
     builder_.fail(key.at, fmt::format("*{} has no name; write *{}, {}=name", parameter, parameter, parameter));
   if (key.has("INPUT")) lines_.insert(key);
-  set_named(sets, name);
+  sets.named(name);
   if (key.has("GENERATE")) {
-    generate(set_named(sets, name));
+    generate(sets.named(name));
     return;
   }
   if (key.has("ELSET") && parameter == std::string("NSET")) {
-    const NumberSet* of = find_set(element_sets_, key.value("ELSET"));
+    const AbaqusSet* of = element_sets_.find(key.value("ELSET"));
     if (of == nullptr) {
       builder_.fail(key.at,
                     fmt::format("there is no element set '{}' before this line", printable(key.value("ELSET"))));
@@ -339,7 +243,7 @@ void AbaqusReader::set(const AbaqusKeyword& key, NumberSets& sets, const char* p
       const auto nodes = builder_.cell_nodes(cell);
       numbers.insert(numbers.end(), nodes.begin(), nodes.end());
     }
-    add_numbers(set_named(sets, name), numbers);
+    add_numbers(sets.named(name), numbers);
     return;
   }
   std::vector<std::string_view> fields;
@@ -347,10 +251,10 @@ void AbaqusReader::set(const AbaqusKeyword& key, NumberSets& sets, const char* p
     for (const std::string_view field : fields) {
       if (field.empty()) continue;
       std::int64_t number = 0;
-      NumberSet& target = set_named(sets, name);
+      AbaqusSet& target = sets.named(name);
       if (parse_number(field, number)) {
         add_listed(target, number, &sets == &node_sets_);
-      } else if (const NumberSet* other = find_set(sets, std::string(field))) {
+      } else if (const AbaqusSet* other = sets.find(std::string(field))) {
         add_numbers(target, other->numbers);
       } else {
         builder_.fail(lines_.at(),
@@ -366,14 +270,14 @@ void AbaqusReader::surface(const AbaqusKeyword& key) {
   const std::string type = upper(key.value("TYPE"));
   std::vector<std::string_view> fields;
   if (type == "NODE") {
-    set_named(node_sets_, name);
+    node_sets_.named(name);
     while (lines_.next_data(fields)) {
       if (fields.empty()) continue;
       std::int64_t number = 0;
-      NumberSet& target = set_named(node_sets_, name);
+      AbaqusSet& target = node_sets_.named(name);
       if (parse_number(fields[0], number)) {
         add_listed(target, number, true);
-      } else if (const NumberSet* other = find_set(node_sets_, std::string(fields[0]))) {
+      } else if (const AbaqusSet* other = node_sets_.find(std::string(fields[0]))) {
         add_numbers(target, other->numbers);
       } else {
         builder_.fail(lines_.at(), fmt::format("surface '{}': there is no node set '{}' before this line",
@@ -460,7 +364,7 @@ void AbaqusReader::keyword(const AbaqusKeyword& key) {
 void AbaqusReader::resolve_regions(const NumberIndex& elements) {
   const int cells = static_cast<int>(cell_numbers_.size());
   std::vector<int> regions(cell_numbers_.size(), -1);
-  const auto assign = [&](const NumberSet& set, bool replace) {
+  const auto assign = [&](const AbaqusSet& set, bool replace) {
     int region = -1;
     for (const std::int64_t number : set.numbers) {
       const int at = elements.find(number);
@@ -471,12 +375,12 @@ void AbaqusReader::resolve_regions(const NumberIndex& elements) {
     return region;
   };
   for (const bool of_element_line : {true, false}) {
-    for (const NumberSet& set : element_sets_.all) {
+    for (const AbaqusSet& set : element_sets_.all()) {
       if (set.of_element_line == of_element_line) assign(set, false);
     }
   }
   for (const Section& section : sections_) {
-    const NumberSet* set = find_set(element_sets_, section.set);
+    const AbaqusSet* set = element_sets_.find(section.set);
     if (set == nullptr) {
       builder_.fail(section.at, fmt::format("*{}: there is no element set '{}'; correct its name", section.keyword,
                                             printable(section.set)));
@@ -499,7 +403,7 @@ void AbaqusReader::resolve_regions(const NumberIndex& elements) {
 
 void AbaqusReader::resolve_sets(const NumberIndex& elements) {
   const int cells = static_cast<int>(cell_numbers_.size());
-  for (const NumberSet& set : element_sets_.all) {
+  for (const AbaqusSet& set : element_sets_.all()) {
     int cell_set = -1, facet_set = -1;
     for (const std::int64_t number : set.numbers) {
       const int at = elements.find(number);
@@ -513,7 +417,7 @@ void AbaqusReader::resolve_sets(const NumberIndex& elements) {
       }
     }
   }
-  for (const NumberSet& set : node_sets_.all) {
+  for (const AbaqusSet& set : node_sets_.all()) {
     const int node_set = builder_.node_set(set.name);
     for (const std::int64_t number : set.numbers) builder_.add_node_to_set(node_set, number);
   }
@@ -538,7 +442,7 @@ void AbaqusReader::resolve_surfaces(const NumberIndex& elements) {
       std::int64_t number = 0;
       if (parse_number(entry.of, number)) {
         one.push_back(number);
-      } else if (const NumberSet* of = find_set(element_sets_, entry.of)) {
+      } else if (const AbaqusSet* of = element_sets_.find(entry.of)) {
         numbers = &of->numbers;
       } else {
         builder_.fail(entry.at, fmt::format("surface '{}': there is no element set '{}'; correct its name",

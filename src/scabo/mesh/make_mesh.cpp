@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scabo/mesh/approximate_nodes.hpp"
+#include "scabo/mesh/close_mouths.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/division.hpp"

@@ -32,13 +32,4 @@ namespace scabo::mesh {
 std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, const std::vector<BodyMesh>& bodies,
                                                  const Placement& placement = {});
 
-/// Crack mouths that lie opposite another one, or opposite the end of the other edge, almost but not exactly: nearer
-/// than 1e-5 of the adjacent elements, farther than 1e-9. The sides are then joined as if there were no crack, by
-/// elements that are too short, or by nodes that are not in one place, whose forces are not in equilibrium.
-std::vector<Diagnostic> close_mouths(const model::Model& model, const std::vector<BodyMesh>& bodies);
-
-/// Whether refinement changes the elements of both sides of a contact or tie alike, so that they must match from the
-/// beginning: both bodies are one super-element with a mesh.tolerance.
-bool is_refined_alike(const model::Model& model, const Joint& joint);
-
 }  // namespace scabo::mesh

@@ -1,0 +1,23 @@
+#include "scabo/files/abaqus_sets.hpp"
+
+#include <utility>
+
+#include "scabo/files/abaqus_lines.hpp"
+
+namespace scabo::files {
+
+AbaqusSet& AbaqusSets::named(const std::string& name) {
+  const auto [entry, is_new] = by_name_.try_emplace(upper(name), all_.size());
+  if (is_new) all_.push_back({name, {}, false});
+  return all_[entry->second];
+}
+
+const AbaqusSet* AbaqusSets::find(std::string name) const {
+  name = upper(name);
+  auto found = by_name_.find(name);
+  const auto dot = name.rfind('.');
+  if (found == by_name_.end() && dot != std::string::npos) found = by_name_.find(name.substr(dot + 1));
+  return found == by_name_.end() ? nullptr : &all_[found->second];
+}
+
+}  // namespace scabo::files
