@@ -48,6 +48,13 @@ void pack(Packer& packer, const element::InteriorLoads& loads) {
     packer.add(load.g);
     packer.add(load.c);
   }
+  packer.add(loads.remainders.size());
+  for (const element::TemperatureRemainder& remainder : loads.remainders) {
+    for (const Vec2& vector : {remainder.direction(), remainder.motion()})
+      for (const double value : vector) packer.add(value);
+    packer.add_list(remainder.places());
+    packer.add_list(remainder.values());
+  }
 }
 element::InteriorLoads interior_loads(Unpacker& unpacker) {
   element::InteriorLoads loads;
@@ -57,6 +64,14 @@ element::InteriorLoads interior_loads(Unpacker& unpacker) {
     load.power = unpacker.get<double>();
     load.g = unpacker.get_vector();
     load.c = unpacker.get_vector();
+  }
+  const auto remainders = unpacker.get<std::size_t>();
+  for (std::size_t i = 0; i < remainders; ++i) {
+    Vec2 direction, motion;
+    for (Vec2* vector : {&direction, &motion})
+      for (double& value : *vector) value = unpacker.get<double>();
+    std::vector<double> places = unpacker.get_list<double>(), values = unpacker.get_list<double>();
+    loads.remainders.emplace_back(direction, motion, std::move(places), std::move(values));
   }
   return loads;
 }
@@ -91,7 +106,7 @@ Bytes pack_state(const analysis::StaticSolution& solution, const analysis::Incre
 /// Sums at points of nodes that several ranks have.
 struct SharedSum {
   int number = 0, material = 0, cells = 0;
-  double stress[3] = {0.0, 0.0, 0.0};
+  double values[4] = {0.0, 0.0, 0.0, 0.0};  // stress, temperature
 };
 
 }  // namespace
@@ -213,7 +228,7 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
   std::vector<std::vector<int>> of_points(
       of.model.bodies.size());  // [body]: own node of each point on the sides of cells
   const auto complete = [&](std::size_t body, const std::vector<int>& nodes, const std::vector<int>& materials,
-                            Eigen::Matrix3Xd& sums, std::vector<int>& cells) {
+                            result::SharedValues& sums, std::vector<int>& cells) {
     if (!own_fields_->divided[body]) return;
     of_points[body] = nodes;
     const std::vector<int>& numbers = own_fields_->numbers[body];
@@ -223,8 +238,10 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
       const auto node = static_cast<std::size_t>(nodes[point]);
       if (!own_fields_->is_shared[body][node]) continue;
       const auto column = static_cast<Eigen::Index>(point);
-      mine.push_back(
-          {numbers[node], materials[point], cells[point], {sums(0, column), sums(1, column), sums(2, column)}});
+      mine.push_back({numbers[node],
+                      materials[point],
+                      cells[point],
+                      {sums(0, column), sums(1, column), sums(2, column), sums(3, column)}});
       point_of[{numbers[node], materials[point]}] = point;
       sums.col(column).setZero();
       cells[point] = 0;
@@ -236,7 +253,7 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
       for (const SharedSum& sum : of_rank.get_list<SharedSum>()) {
         const auto found = point_of.find({sum.number, sum.material});
         if (found == point_of.end()) continue;
-        sums.col(static_cast<Eigen::Index>(found->second)) += Eigen::Map<const Eigen::Vector3d>(sum.stress);
+        sums.col(static_cast<Eigen::Index>(found->second)) += Eigen::Map<const Eigen::Vector4d>(sum.values);
         cells[found->second] += sum.cells;
       }
     }

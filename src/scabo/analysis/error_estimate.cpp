@@ -51,7 +51,7 @@ std::vector<double> squared_errors(const StaticSolution& solution, const Increme
       continue;
     }
     // Loads inside a cell are not among the forces on its boundary.
-    const bool relaxed = element::loads_in(increment.fields.interior[b], c).loads.empty();
+    const bool relaxed = !element::loads_in(increment.fields.interior[b], c).acts();
     squared.push_back(squared_difference(solution, increment.fields.displacements[b], wider,
                                          wider_increment.fields.displacements[b], b, c, relaxed));
   }

@@ -278,7 +278,7 @@ std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b,
   const bool in_cells = model::is_divided_inside(solution.model.bodies[b]);
   std::vector<double> squared;
   for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
-    const bool relaxed = !loaded || element::loads_in(solution.increments.back().fields.interior[b], c).loads.empty();
+    const bool relaxed = !loaded || !element::loads_in(solution.increments.back().fields.interior[b], c).acts();
     const double whole = squared_difference(solution, u, *pass.wider, U, b, c, relaxed);
     if (in_cells) {
       squared.push_back(whole);

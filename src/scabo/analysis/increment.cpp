@@ -310,12 +310,7 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
 
 void add(element::CellLoads& to, const element::CellLoads& loads, double factor) {
   if (to.size() < loads.size()) to.resize(loads.size());
-  for (std::size_t c = 0; c < loads.size(); ++c) {
-    element::add_radial_loads(to[c].loads, loads[c].loads, factor);
-    to[c].temperature.constant += factor * loads[c].temperature.constant;
-    to[c].temperature.per_x += factor * loads[c].temperature.per_x;
-    to[c].temperature.per_y += factor * loads[c].temperature.per_y;
-  }
+  for (std::size_t c = 0; c < loads.size(); ++c) element::add(to[c], loads[c], factor);
 }
 
 /// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without

@@ -34,13 +34,19 @@ bool is_named(const std::string& tip, const model::Model& model, const model::Qu
 
 /// Displacement of a place in a cell, for displacements of the nodes of the cell.
 Vec2 displacement_at(const StaticSolution& solution, std::size_t b, const element::CellPlace& place, const Vector& u,
-                     const std::vector<element::RadialLoad>& loads) {
+                     const element::InteriorLoads& interior) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
   if (const auto& cell = solution.cells[b][place.cell]) {
-    const element::RadialField field(cell->solution(), cell->modes(), u, loads);
-    return element::point_values(cell->ring, field.at(place.scaled.xi), cell->sectors.D, place.scaled.element,
-                                 place.scaled.eta)
-        .displacement;
+    const Vec2& centre = mesh.cells[place.cell].centre;
+    const element::RadialField field(cell->solution(), cell->modes(),
+                                     interior.without_particular(cell->ring, centre, u), interior.loads);
+    const Vec2 relative = element::point_values(cell->ring, field.at(place.scaled.xi), cell->sectors.D,
+                                                place.scaled.element, place.scaled.eta)
+                              .displacement;
+    if (interior.remainders.empty()) return relative;
+    const Vec2 x = centre + place.scaled.xi *
+                                element::boundary_position(cell->ring, place.scaled.element, place.scaled.eta);
+    return relative + interior.particular_displacement(x);
   }
   const element::FiniteElement of = element::finite_element_of(mesh.cells[place.cell], mesh.nodes);
   return element::finite_element_values(of, u, element::Mat3::Identity(), place.natural).displacement;
@@ -65,7 +71,7 @@ std::optional<double> displacement_of_point(const StaticSolution& solution, cons
   } else {
     const auto place = element::CellLocator(solution.mesh.bodies[b], solution.cells[b]).nearest(quantity.at);
     at = displacement_at(solution, b, place, u(dofs_at(solution, b, place.cell)),
-                         element::loads_in(increment.fields.interior[b], place.cell).loads);
+                         element::loads_in(increment.fields.interior[b], place.cell));
   }
   return (at - increment.fields.reference_displacement)[quantity.component];
 }

@@ -192,8 +192,7 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
     const auto& initial = structure.initial[load];
     bool inside = std::any_of(initial.begin(), initial.end(), [](const auto& body) { return !body.is_zero(); });
     for (const element::CellLoads& body : structure.interior[load])
-      for (const element::InteriorLoads& cell : body)
-        inside = inside || !cell.loads.empty() || !cell.temperature.is_zero();
+      for (const element::InteriorLoads& cell : body) inside = inside || !cell.is_zero();
     for (std::size_t p = 0; p < structure.parts.size(); ++p) {
       Vector forces = structure.loads[load][p];
       if (forces.size() == 0) continue;

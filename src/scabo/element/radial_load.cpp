@@ -85,6 +85,40 @@ std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, con
   return loads;
 }
 
+double InteriorLoads::temperature_at(const Vec2& x) const {
+  double T = temperature.at(x);
+  for (const TemperatureRemainder& remainder : remainders) T += remainder.at(x);
+  return T;
+}
+
+Vec2 InteriorLoads::particular_displacement(const Vec2& x) const {
+  Vec2 u = Vec2::Zero();
+  for (const TemperatureRemainder& remainder : remainders) u += remainder.displacement(x);
+  return u;
+}
+
+Vec3 InteriorLoads::particular_strain(const Vec2& x) const {
+  Vec3 strain = Vec3::Zero();
+  for (const TemperatureRemainder& remainder : remainders) strain += remainder.strain(x);
+  return strain;
+}
+
+Vector InteriorLoads::without_particular(const Ring& ring, const Vec2& centre, Vector u) const {
+  if (remainders.empty()) return u;
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i)
+    u.segment<2>(place_of(i)) -= particular_displacement(centre + ring.nodes[i]);
+  return u;
+}
+
+void add(InteriorLoads& to, const InteriorLoads& loads, double factor) {
+  add_radial_loads(to.loads, loads.loads, factor);
+  to.temperature.constant += factor * loads.temperature.constant;
+  to.temperature.per_x += factor * loads.temperature.per_x;
+  to.temperature.per_y += factor * loads.temperature.per_y;
+  if (factor == 0.0) return;
+  for (const TemperatureRemainder& remainder : loads.remainders) to.remainders.push_back(remainder.times(factor));
+}
+
 const InteriorLoads& loads_in(const CellLoads& loads, std::size_t cell) {
   static const InteriorLoads none;
   return loads.empty() ? none : loads[cell];

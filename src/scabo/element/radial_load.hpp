@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "scabo/element/coefficient_matrices.hpp"
+#include "scabo/element/temperature_table.hpp"
 
 namespace scabo::element {
 
@@ -21,13 +22,6 @@ struct RadialLoad {
   double power = 0.0;  ///< j > 0
   Vector g;            // n, force
   Vector c;            // n, force; empty: 0
-};
-
-/// A quantity that is linear in x and y.
-struct LinearField {
-  double constant = 0.0, per_x = 0.0, per_y = 0.0;
-  double at(const Vec2& x) const { return constant + per_x * x.x() + per_y * x.y(); }
-  bool is_zero() const { return constant == 0.0 && per_x == 0.0 && per_y == 0.0; }
 };
 
 /// Body force, force / length^3, as a function of (x, y) relative to the scaling centre, times `density`: one for all
@@ -51,15 +45,30 @@ std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, con
 
 /// Everything that acts inside a body and is needed, in addition to its nodal forces, to recover its interior.
 struct InteriorLoads {
-  std::vector<RadialLoad> loads;  ///< of a super-element
-  LinearField temperature;        ///< change of temperature as a function of absolute (x, y)
+  std::vector<RadialLoad> loads;                 ///< of a super-element
+  LinearField temperature;                       ///< change of temperature as a function of absolute (x, y)
+  std::vector<TemperatureRemainder> remainders;  ///< what tables add to it in a super-element of one material
+
+  /// The whole change of temperature.
+  double temperature_at(const Vec2& x) const;
+  // Sums of the particular solutions, temperature_table.hpp (1); absolute (x, y).
+  Vec2 particular_displacement(const Vec2& x) const;
+  Vec3 particular_strain(const Vec2& x) const;
+  /// Displacements `u` of the nodes of a super-element, without those of the particular solutions.
+  Vector without_particular(const Ring& ring, const Vec2& centre, Vector u) const;
+
+  /// Whether loads act inside of which its displacements at the boundary do not know.
+  bool acts() const { return !loads.empty() || !remainders.empty(); }
+  bool is_zero() const { return !acts() && temperature.is_zero(); }
 };
 
 /// Loads inside the cells of a body, one entry for each cell; empty: none.
 using CellLoads = std::vector<InteriorLoads>;
 const InteriorLoads& loads_in(const CellLoads& loads, std::size_t cell);
 
-/// Adds `factor` times `loads` to `to`, combining loads of equal power.
+/// Adds `factor` times `loads` to `to`.
+void add(InteriorLoads& to, const InteriorLoads& loads, double factor);
+/// The same, combining loads of equal power.
 void add_radial_loads(std::vector<RadialLoad>& to, const std::vector<RadialLoad>& loads, double factor);
 
 }  // namespace scabo::element

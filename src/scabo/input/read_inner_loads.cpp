@@ -216,6 +216,72 @@ std::optional<decltype(Load::kind)> read_field(Reading& reading, const Value& va
   return kind;
 }
 
+namespace {
+
+/// Points `[x, y]` on a straight line, in order, become places along it.
+void read_points_on_a_line(Reading& reading, const std::vector<Value>& items, TemperatureTable& table) {
+  const std::size_t before = reading.report.count();
+  std::vector<Vec2> points;
+  for (const Value& item : items) {
+    if (item.node->kind == Node::Kind::scalar) {
+      reading.report.error(item, "must be a point [x, y]; for a table over a coordinate, add over: x or over: y");
+      return;
+    }
+    points.push_back(read_vector(reading.report, item).value_or(Vec2::Zero()));
+  }
+  if (reading.report.count() > before || points.size() < 2) return;
+  const Vec2 from = points.front(), line = points.back() - from;
+  if (!(line.norm() > 0.0)) {
+    reading.report.error(items.back(), "is the first place again, so that there is no line: end at another one");
+    return;
+  }
+  table.along = line.stableNormalized();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double distance = std::abs(cross(table.along, Vec2(points[i] - from)));
+    if (distance > 1e-6 * line.norm()) {
+      reading.report.error(items[i], fmt::format("is {:.3g} away from the straight line from the first to the last "
+                                                 "place, along which the temperature changes: move it there",
+                                                 distance));
+      return;
+    }
+    table.points[i].at = table.along.dot(points[i]);
+    if (i == 0 || table.points[i].at > table.points[i - 1].at) continue;
+    reading.report.error(items[i], "does not lie beyond the place before it: give places in their order on the line");
+    return;
+  }
+}
+
+/// `{at, values}` with points, or `{over, at, values}` with coordinates.
+std::optional<TemperatureTable> read_temperature_table(Reading& reading, const MapReader& map) {
+  Report& report = reading.report;
+  const std::size_t before = report.count();
+  for (const char* key : {"constant", "x", "y"})
+    map.refuse(key, "does not go together with a table: leave it out, or give it as a load of its own");
+  const auto over = map.get("over");
+  TemperatureTable table;
+  if (over)
+    if (read_choice(report, *over, {"x", "y"}).value_or("x") == "y") table.along = Vec2(0.0, 1.0);
+  const auto at = map.need("at"), values = map.need("values");
+  const auto places = at ? read_list(report, *at, over ? "[0, 10, 40]" : "[[0, 0], [0, 40]]") : std::nullopt;
+  const auto given = values ? read_list(report, *values, "[4, 12, 18.5]") : std::nullopt;
+  if (report.count() > before || !places || !given) return {};
+  if (places->size() != given->size()) {
+    report.error(*values, fmt::format("has {} value{} for {} place{} of at: give one for each", given->size(),
+                                      given->size() == 1 ? "" : "s", places->size(), places->size() == 1 ? "" : "s"));
+    return {};
+  }
+  table.points.resize(places->size());
+  for (std::size_t i = 0; i < places->size(); ++i) {
+    table.points[i].change = read_number(report, (*given)[i]).value_or(0.0);
+    if (over) table.points[i].at = read_number(report, (*places)[i]).value_or(0.0);
+  }
+  if (!over && report.count() == before) read_points_on_a_line(reading, *places, table);
+  if (report.count() > before) return {};
+  return table;
+}
+
+}  // namespace
+
 std::optional<Temperature> read_temperature(Reading& reading, const Value& value) {
   Temperature temperature;
   if (value.node->kind != Node::Kind::map) {
@@ -225,13 +291,22 @@ std::optional<Temperature> read_temperature(Reading& reading, const Value& value
     return temperature;
   }
   const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"constant", "x", "y"}, "{constant: 20, x: 0, y: -2.5}");
+  const MapReader map(reading.report, value, {"constant", "x", "y", "over", "at", "values"},
+                      "{constant: 20, x: 0, y: -2.5} or {over: y, at: [0, 10], values: [4, 12]}",
+                      {{"along", "write over: x or over: y, or give points [x, y] in at"},
+                       {"length", "write over: x or over: y, or give points [x, y] in at"}});
+  if (map.has("at") || map.has("values") || map.has("over")) {
+    temperature.table = read_temperature_table(reading, map);
+    if (!temperature.table || reading.report.count() > before) return {};
+    return temperature;
+  }
   const auto part = [&](const char* key) {
     const auto at = map.get(key);
     return at ? read_number(reading.report, *at).value_or(0.0) : 0.0;
   };
   temperature.change = {part("constant"), part("x"), part("y")};
-  if (map.is_map() && value.node->entries.empty()) reading.report.error(value, "needs constant, x or y");
+  if (map.is_map() && value.node->entries.empty())
+    reading.report.error(value, "needs constant, x or y, or a table: over, at and values");
   if (reading.report.count() > before) return {};
   return temperature;
 }

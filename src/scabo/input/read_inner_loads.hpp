@@ -12,9 +12,10 @@ std::optional<FaceTraction> read_face_traction(Reading& reading, const Value& va
 /// `[bx, by]` or {constant: [...], x: [...], y: [...]}.
 std::optional<BodyForce> read_body_force(Reading& reading, const Value& value);
 
-/// A number or {constant: ..., x: ..., y: ...}.
 /// `field: {stress: [sxx, syy, sxy]}` or `{vertical: {...}, K0: 0.5}`.
 std::optional<decltype(Load::kind)> read_field(Reading& reading, const Value& value);
+
+/// A number, {constant: ..., x: ..., y: ...} or {over: y, at: [...], values: [...]}.
 std::optional<Temperature> read_temperature(Reading& reading, const Value& value);
 
 }  // namespace scabo::input

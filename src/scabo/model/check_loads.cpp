@@ -142,6 +142,55 @@ bool check_linear(Checking& checking, const std::string& path, const std::string
          checking.number(path, kind + ".x", linear.per_x) && checking.number(path, kind + ".y", linear.per_y);
 }
 
+bool check_temperatures(Checking& checking, const std::string& path, const TemperatureTable& table) {
+  constexpr std::size_t most_points = 10000;
+  const std::size_t count = table.points.size();
+  if (count < 2 || count > most_points) {
+    checking.error(path, "temperature.at",
+                   count < 2 ? fmt::format("needs two or more places, not {}", count)
+                             : fmt::format("must have at most {} places, not {}: leave out those between which the "
+                                           "temperature is nearly linear",
+                                           most_points, count));
+    return false;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!checking.number(path, fmt::format("temperature.at.{}", i), table.points[i].at) ||
+        !checking.number(path, fmt::format("temperature.values.{}", i), table.points[i].change))
+      return false;
+    if (i == 0 || table.points[i].at > table.points[i - 1].at) continue;
+    checking.error(path, fmt::format("temperature.at.{}", i),
+                   fmt::format("must be greater than the place before it, {}: give places in ascending order, each once",
+                               number_text(table.points[i - 1].at)));
+    return false;
+  }
+  if (std::abs(table.along.norm() - 1.0) <= 1e-9) return true;
+  checking.error(path, "temperature", "has a direction that is no unit vector");
+  return false;
+}
+
+/// One super-element takes a table inside if it has one material and no side faces (element/temperature_table.hpp); of
+/// a cell among others, the nearest linear field is good enough.
+void check_linear_in_bodies(Checking& checking, const std::string& path, const Load& load,
+                            const TemperatureTable& table) {
+  for (std::size_t b = 0; b < checking.model.bodies.size(); ++b) {
+    const Body& body = checking.model.bodies[b];
+    if (body.rigid || body.outside || (load.on && load.on->body != static_cast<int>(b))) continue;
+    if (!checking.sound_shape(static_cast<int>(b))) continue;
+    const bool one = body.mesh.kind == MeshKind::superelement,
+               large = one || (body.mesh.kind == MeshKind::parts && !body.cracks.empty());
+    const bool several = std::any_of(body.sector_materials.begin(), body.sector_materials.end(),
+                                     [&](int material) { return material != body.sector_materials.front(); });
+    if (!large || !(body.open() || several || !body.cracks.empty() || (one && !body.regions.empty())) ||
+        is_linear_over(table, body.outline))
+      continue;
+    checking.error(path, "temperature",
+                   fmt::format("bends inside body '{}', a super-element with {}, which takes only a temperature that is "
+                               "linear: give the body a mesh of kind polygons, quadtree or fem",
+                               body.name, several || !body.regions.empty() ? "several materials" : "side faces"));
+    return;
+  }
+}
+
 bool check_table(Checking& checking, const std::string& path, const std::string& kind, const EdgeTable& table) {
   if (table.points.size() < 2) {
     checking.error(path, kind + ".at", fmt::format("needs two or more places, not {}", table.points.size()));
@@ -232,7 +281,10 @@ bool check_values(Checking& checking, const std::string& path, const Load& load)
             [&](const BodyForce& force) {
               return check_linear(checking, path, kind, force.x) && check_linear(checking, path, kind, force.y);
             },
-            [&](const Temperature& temperature) { return check_linear(checking, path, kind, temperature.change); },
+            [&](const Temperature& temperature) {
+              return temperature.table ? check_temperatures(checking, path, *temperature.table)
+                                       : check_linear(checking, path, kind, temperature.change);
+            },
             [&](const EdgeTable& table) { return check_table(checking, path, kind, table); },
             [&](const Water& water) { return check_water(checking, path, water); },
             [&](const UniformStress& stress) { return check_uniform(checking, path, stress); },
@@ -320,6 +372,8 @@ void check_loads(Checking& checking) {
     if (supports.contains(load.name)) checking.error_of_key(path, "", named_like_a_support(load.name));
     const bool on = check_on(checking, path, load);
     checking.load[i] = check_values(checking, path, load) && on;
+    if (const auto* temperature = std::get_if<Temperature>(&load.kind); temperature && temperature->table)
+      if (checking.load[i]) check_linear_in_bodies(checking, path, load, *temperature->table);
     if (!checking.load[i]) checking.gaps.conditions = true;
   }
   checking.gaps.places = places;

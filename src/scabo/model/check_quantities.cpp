@@ -172,6 +172,31 @@ void check_tolerance(Checking& checking, const QuantityTolerance& tolerance) {
                           "the bar alone with output: {error_of: [...]}");
 }
 
+/// Finite elements take the nearest linear temperature each, on the mesh and on that of one order more: what this
+/// leaves out is in no estimate.
+void check_tables_with_bars(Checking& checking) {
+  const Model& model = checking.model;
+  const bool all = model.tolerance || model.output.error || !model.output.error_of.empty();
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    const auto* temperature = std::get_if<Temperature>(&load.kind);
+    if (!temperature || !temperature->table || !checking.load[i]) continue;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const Body& body = model.bodies[b];
+      if (body.rigid || body.outside || !checking.sound_shape(static_cast<int>(b))) continue;
+      if (load.on && load.on->body != static_cast<int>(b)) continue;
+      if (body.mesh.kind != MeshKind::fem) continue;
+      if (!(all || body.mesh.tolerance) || is_linear_over(*temperature->table, body.outline)) continue;
+      checking.enter(load.source);
+      checking.error(path_of_load(load, i), "temperature",
+                     fmt::format("bends inside body '{}', whose finite elements take it as linear each, which no error "
+                                 "bar contains: give the body a mesh of kind polygons or quadtree, or ask for no error",
+                                 body.name));
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 void check_quantities(Checking& checking) {
@@ -187,6 +212,7 @@ void check_quantities(Checking& checking) {
     check_quantity(checking, "tolerance.of", model.tolerance->of, true);
     check_tolerance(checking, *model.tolerance);
   }
+  check_tables_with_bars(checking);
 }
 
 }  // namespace scabo::model

@@ -249,9 +249,27 @@ struct FaceTraction {
 struct BodyForce {
   Linear x, y;
 };  ///< force / length^3 on a body, absolute coordinates
+
+/// Change of temperature by a table along a direction: linear between its points, constant before the first and beyond
+/// the last, the same across the direction.
+struct TemperatureTable {
+  struct Point {
+    double at = 0.0;      ///< along . x
+    double change = 0.0;  ///< of temperature
+  };
+  Vec2 along = Vec2(1.0, 0.0);  ///< unit vector
+  std::vector<Point> points;    ///< two or more, their places ascending, no two the same
+
+  double at(double place) const;
+};
+/// Whether a table is linear over the outline of a body: it bends nowhere inside.
+bool is_linear_over(const TemperatureTable& table, const Outline& outline);
+
+/// Change of temperature of a body, absolute coordinates.
 struct Temperature {
-  Linear change;
-};  ///< change of temperature of a body, absolute coordinates
+  Linear change;                          ///< without a table
+  std::optional<TemperatureTable> table;  ///< instead
+};
 
 /// A traction or pressure on an edge: linear between the points of a table, zero before the first and after the last.
 struct EdgeTable {

@@ -122,7 +122,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
     const element::SolvedSuperElement* super_element =
         group.infinite.empty() ? nullptr : solution.cells[b][group.cell].get();
     const element::InteriorLoads& interior = element::loads_in(increment.fields.interior[b], group.cell);
-    const bool condensed = !group.operators.empty() && interior.loads.empty();
+    const bool condensed = !group.operators.empty() && !interior.acts();
     std::optional<Probe> probe;
     Vector u;
     if (condensed)
@@ -148,7 +148,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       }
       result.has_stress = !named.rigid && !(super_element && group.infinite[i]);
       if (!result.has_stress) continue;
-      const double temperature = element::loads_in(increment.fields.interior[b], place.cell).temperature.at(x);
+      const double temperature = element::loads_in(increment.fields.interior[b], place.cell).temperature_at(x);
       int material = solution.mesh.bodies[b].cells[place.cell].materials.front();
       element::Vec3 elastic = result.values.strain;
       if (super_element) {

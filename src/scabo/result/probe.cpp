@@ -22,7 +22,8 @@ Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
 }
 
 FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution, const analysis::FieldState& state,
-                                       std::size_t body, std::size_t cell) {
+                                       std::size_t body, std::size_t cell)
+    : interior_(element::loads_in(state.interior[body], cell)) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   element_ = element::finite_element_of(mesh.cells[cell], mesh.nodes);
   u_ = state.displacements[body](element::dofs_of(element_));
@@ -30,11 +31,10 @@ FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution,
       solution.model.materials[static_cast<std::size_t>(mesh.cells[cell].materials.front())];
   D_ = element::elasticity_matrix(material, solution.model.analysis.plane);
   unit_strain_ = element::thermal_strain(material, solution.model.analysis.plane);
-  temperature_ = element::loads_in(state.interior[body], cell).temperature;
 }
 
 element::PointValues FiniteElementState::at(const Vec2& natural) const {
-  const element::Vec3 free = unit_strain_ * temperature_.at(element::position_in(element_, natural));
+  const element::Vec3 free = unit_strain_ * interior_.temperature_at(element::position_in(element_, natural));
   return element::finite_element_values(element_, u_, D_, natural, free);
 }
 
@@ -66,7 +66,10 @@ Probe::CellField& Probe::field_of(std::size_t cell) const {
   if (!field) {
     const element::SolvedSuperElement& super_element = *solution_.cells[body_][cell];
     const std::vector<int> dofs = element::dofs_of(solution_.mesh.bodies[body_].cells[cell]);
-    field = std::make_unique<CellField>(super_element, u_(dofs), element::loads_in(interior_, cell).loads);
+    const element::InteriorLoads& loads = element::loads_in(interior_, cell);
+    const Vec2& centre = solution_.mesh.bodies[body_].cells[cell].centre;
+    field = std::make_unique<CellField>(
+        super_element, loads.without_particular(super_element.ring, centre, u_(dofs)), loads.loads);
     if (many_) field->table.emplace(field->radial, element::fastest_of(super_element.modes()));
   }
   return *field;
@@ -95,10 +98,15 @@ element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
   if (const auto& super_element = solution_.cells[body_][place.cell]) {
     CellField& field = field_of(place.cell);
     const element::ScaledPoint& at = place.scaled;
-    const element::Vec3 free = super_element->sectors.unit_strain_of(static_cast<std::size_t>(at.element)) *
-                               element::loads_in(interior_, place.cell).temperature.at(x);
+    const element::InteriorLoads& loads = element::loads_in(interior_, place.cell);
+    const element::Vec3 free =
+                            super_element->sectors.unit_strain_of(static_cast<std::size_t>(at.element)) *
+                            loads.temperature_at(x),
+                        particular = loads.particular_strain(x);
     values = element::point_values(super_element->ring, field.table ? field.table->at(at.xi) : field.radial.at(at.xi),
-                                   super_element->sectors.D, at.element, at.eta, free);
+                                   super_element->sectors.D, at.element, at.eta, free - particular);
+    values.strain += particular;
+    values.displacement += loads.particular_displacement(x);
   } else {
     values = FiniteElementState(solution_, state_, body_, place.cell).at(place.natural);
   }

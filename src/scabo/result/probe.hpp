@@ -71,7 +71,7 @@ class FiniteElementState {
   element::ElementVector u_;
   element::Mat3 D_;
   element::Vec3 unit_strain_;
-  element::LinearField temperature_;
+  const element::InteriorLoads& interior_;
 };
 
 /// Displacement of a point of a rigid body at `arm` from its centroid; `motion` = [u_x, u_y, rotation], small.

@@ -197,13 +197,14 @@ RigidBody add_rigid(Grid& grid, const model::Outline& outline, std::int32_t numb
 /// Stresses of every point of the ring at xi: the mean of the boundary elements that meet at it.
 Eigen::Matrix3Xd ring_stresses(const element::SolvedSuperElement& super_element, const RingSampling& sampling,
                                const element::RadialField::Values& values, const Vec2& centre, double xi,
-                               const element::LinearField& temperature) {
+                               const element::InteriorLoads& interior) {
   Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(sampling.nodes.size()));
   for (const RingSampling::Sample& sample : sampling.samples) {
     const auto point = static_cast<std::size_t>(sample.point);
     const std::vector<int>& nodes = super_element.ring.elements[sample.element].nodes;
-    element::Vec3 strain = -super_element.sectors.unit_strain_of(sample.element) *
-                           temperature.at(centre + xi * super_element.ring.node(sampling.nodes[point]));
+    const Vec2 x = centre + xi * super_element.ring.node(sampling.nodes[point]);
+    element::Vec3 strain = interior.particular_strain(x) -
+                           super_element.sectors.unit_strain_of(sample.element) * interior.temperature_at(x);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto local = place_of(i), global = place_of(nodes[i]);
       strain.noalias() += sample.B1.middleCols<2>(local) * values.u_xi.segment<2>(global);
@@ -215,24 +216,25 @@ Eigen::Matrix3Xd ring_stresses(const element::SolvedSuperElement& super_element,
 }
 
 /// Values inside a super-element, `set(u, stress, material, x)` for each point in turn: at the rings from `first_level`
-/// on, then at the centre. x is relative to the scaling centre.
+/// on, then at the centre. x is relative to the scaling centre. `field`: without particular solutions.
 template <typename Set>
 void values_inside(const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
-                   const element::RadialField& field, const element::LinearField& temperature, std::size_t first_level,
+                   const element::RadialField& field, const element::InteriorLoads& interior, std::size_t first_level,
                    const Set& set) {
   for (std::size_t level = first_level; level < sampling.levels.size(); ++level) {
     const double xi = sampling.levels[level];
     const element::RadialField::Values values = field.at(xi);
-    const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, xi, temperature);
-    for (std::size_t i = 0; i < sampling.nodes.size(); ++i)
-      set(Vec2(values.u.segment<2>(place_of(sampling.nodes[i]))),
+    const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, xi, interior);
+    for (std::size_t i = 0; i < sampling.nodes.size(); ++i) {
+      const Vec2 x = xi * super_element.ring.node(sampling.nodes[i]);
+      set(Vec2(values.u.segment<2>(place_of(sampling.nodes[i])) + interior.particular_displacement(centre + x)),
           element::Vec3(stresses.col(static_cast<Eigen::Index>(i))),
-          super_element.sectors.material_of(sampling.sectors[i]),
-          Vec2(xi * super_element.ring.node(sampling.nodes[i])));
+          super_element.sectors.material_of(sampling.sectors[i]), x);
+    }
   }
   if (super_element.domain.unbounded) return;
   const element::RadialField::Values values = field.at(0.0);
-  const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, 0.0, temperature);
+  const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, 0.0, interior);
   for (int c = 0; c <= sampling.centre.back(); ++c) {  // the mean of the sectors of one material
     element::Vec3 stress = element::Vec3::Zero();
     int count = 0, material = 0;
@@ -242,18 +244,18 @@ void values_inside(const element::SolvedSuperElement& super_element, const Vec2&
       for (const int i : sampling.points[e]) stress += stresses.col(i), ++count;
     }
     stress /= count;
-    set(Vec2(values.u.head<2>()), stress, material, Vec2::Zero());
+    set(Vec2(values.u.head<2>() + interior.particular_displacement(centre)), stress, material, Vec2::Zero());
   }
 }
 
 void recover_inside(Fields& fields, std::size_t point, const analysis::StaticSolution& solution,
                     const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
-                    const element::RadialField& field, const element::LinearField& temperature,
+                    const element::RadialField& field, const element::InteriorLoads& interior,
                     const element::InitialStress& initial, std::size_t first_level) {
-  values_inside(super_element, centre, sampling, field, temperature, first_level,
+  values_inside(super_element, centre, sampling, field, interior, first_level,
                 [&](const Vec2& u, const element::Vec3& stress, int material, const Vec2& x) {
-                  set_values(fields, point++, u, stress, centre + x, solution, material, temperature.at(centre + x),
-                             initial);
+                  set_values(fields, point++, u, stress, centre + x, solution, material,
+                             interior.temperature_at(centre + x), initial);
                 });
 }
 
@@ -263,10 +265,10 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
   const Vec2& centre = solution.mesh.bodies[body].cells.front().centre;
   const Vector& boundary = state.displacements[body];
   const element::InteriorLoads& interior = element::loads_in(state.interior[body], 0);
-  const element::RadialField field(super_element.solution(), super_element.modes(), boundary, interior.loads);
+  const element::RadialField field(super_element.solution(), super_element.modes(),
+                                   interior.without_particular(super_element.ring, centre, boundary), interior.loads);
   const std::size_t first = point;
-  recover_inside(fields, first, solution, super_element, centre, sampling, field, interior.temperature,
-                 state.initial_of(body), 0);
+  recover_inside(fields, first, solution, super_element, centre, sampling, field, interior, state.initial_of(body), 0);
   for (std::size_t i = 0; i < sampling.nodes.size(); ++i)  // exactly, without the field
     fields.set_displacement(first + i, boundary.segment<2>(place_of(sampling.nodes[i])));
 }
@@ -292,40 +294,59 @@ Eigen::Matrix3Xd recover_mapped_cell(Fields& fields, std::size_t point, const an
   return values.tail(3 * outer).reshaped(3, outer);
 }
 
-/// Values inside cell `c` into `fields`; the stresses of its points on the sides are returned.
-Eigen::Matrix3Xd recover_cell(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
+/// Stresses and temperatures of points on the sides of cells.
+SharedValues with_temperatures(const Eigen::Matrix3Xd& stresses, const std::function<double(Eigen::Index)>& of_point) {
+  SharedValues values(4, stresses.cols());
+  values.topRows<3>() = stresses;
+  for (Eigen::Index i = 0; i < stresses.cols(); ++i) values(3, i) = of_point(i);
+  return values;
+}
+
+/// Values inside cell `c` into `fields`; those of its points on the sides are returned.
+SharedValues recover_cell(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
                               const analysis::FieldState& state, std::size_t body, std::size_t c,
                               const CellsBody::OfCell& of_cell, const Grid& grid) {
   const auto& super_element = solution.cells[body][c];
+  const element::InteriorLoads& interior = element::loads_in(state.interior[body], c);
   if (!super_element) {
     const FiniteElementState finite(solution, state, body, c);
     const auto natural = element::natural_nodes(finite.element().kind);
     Eigen::Matrix3Xd stresses(3, static_cast<Eigen::Index>(natural.size()));
     for (std::size_t i = 0; i < natural.size(); ++i)
       stresses.col(static_cast<Eigen::Index>(i)) = finite.at(natural[i]).stress;
-    return stresses;
+    return with_temperatures(stresses, [&](Eigen::Index i) {
+      return interior.temperature_at(finite.element().x[static_cast<std::size_t>(i)]);
+    });
   }
   const mesh::Cell& cell = solution.mesh.bodies[body].cells[c];
-  const element::InteriorLoads& interior = element::loads_in(state.interior[body], c);
   const std::size_t inner = first + static_cast<std::size_t>(of_cell.inner);
   Vector own = state.displacements[body](element::dofs_of(cell));
-  if (of_cell.sampling->map && interior.loads.empty() && interior.temperature.is_zero())
-    return recover_mapped_cell(fields, inner, solution, of_cell, std::move(own), grid, state.initial_of(body));
-  const element::RadialField field(super_element->solution(), super_element->modes(), own, interior.loads);
-  recover_inside(fields, inner, solution, *super_element, cell.centre, *of_cell.sampling, field, interior.temperature,
+  if (of_cell.sampling->map && interior.is_zero())
+    return with_temperatures(
+        recover_mapped_cell(fields, inner, solution, of_cell, std::move(own), grid, state.initial_of(body)),
+        [](Eigen::Index) { return 0.0; });
+  const element::RadialField field(super_element->solution(), super_element->modes(),
+                                   interior.without_particular(super_element->ring, cell.centre, std::move(own)),
+                                   interior.loads);
+  recover_inside(fields, inner, solution, *super_element, cell.centre, *of_cell.sampling, field, interior,
                  state.initial_of(body), 1);
-  return ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior.temperature);
+  return with_temperatures(
+      ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior),
+      [&](Eigen::Index i) {
+        return interior.temperature_at(
+            cell.centre + super_element->ring.node(of_cell.sampling->nodes[static_cast<std::size_t>(i)]));
+      });
 }
 
-/// Stress on the sides of cells is the mean of the cells that share the point.
+/// Stress and temperature on the sides of cells are the means of the cells that share the point.
 void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
                    const analysis::FieldState& state, std::size_t body, const CellsBody& made, const Grid& grid,
                    const CompleteSums& complete) {
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
-  Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(made.nodes.size()));
+  SharedValues sums = SharedValues::Zero(4, static_cast<Eigen::Index>(made.nodes.size()));
   std::vector<int> cells_at(made.nodes.size(), 0);
   constexpr std::size_t at_once = 4096;  // the sums are made in the order of the cells, whatever the threads
-  std::vector<Eigen::Matrix3Xd> of_part(std::min(at_once, mesh.cells.size()));
+  std::vector<SharedValues> of_part(std::min(at_once, mesh.cells.size()));
   for (std::size_t begin = 0; begin < mesh.cells.size(); begin += at_once) {
     const std::size_t count = std::min(at_once, mesh.cells.size() - begin);
     linalg::parallel_for(static_cast<int>(count), solution.threads, [&](int k) {
@@ -335,22 +356,19 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
     for (std::size_t k = 0; k < count; ++k) {
       const std::vector<std::int32_t>& outer = made.cells[begin + k].outer;
       for (std::size_t i = 0; i < outer.size(); ++i) {
-        stresses.col(outer[i]) += of_part[k].col(static_cast<Eigen::Index>(i));
+        sums.col(outer[i]) += of_part[k].col(static_cast<Eigen::Index>(i));
         ++cells_at[static_cast<std::size_t>(outer[i])];
       }
     }
   }
-  if (complete) complete(body, made.nodes, made.materials, stresses, cells_at);
+  if (complete) complete(body, made.nodes, made.materials, sums, cells_at);
   const Vector& u = state.displacements[body];
-  // The temperature is the same in all cells of a body.
-  const element::LinearField temperature =
-      mesh.cells.empty() ? element::LinearField() : element::loads_in(state.interior[body], 0).temperature;
   for (std::size_t point = 0; point < made.nodes.size(); ++point) {
     const int node = made.nodes[point];
-    const element::Vec3 stress = stresses.col(static_cast<Eigen::Index>(point)) / cells_at[point];
-    const Vec2& x = mesh.nodes[static_cast<std::size_t>(node)];
-    set_values(fields, first + point, u.segment<2>(place_of(node)), stress, x, solution, made.materials[point],
-               temperature.at(x), state.initial_of(body));
+    const Eigen::Vector4d values = sums.col(static_cast<Eigen::Index>(point)) / cells_at[point];
+    set_values(fields, first + point, u.segment<2>(place_of(node)), values.head<3>(),
+               mesh.nodes[static_cast<std::size_t>(node)], solution, made.materials[point], values[3],
+               state.initial_of(body));
   }
 }
 

@@ -77,12 +77,15 @@ class SamplingLibrary {
   std::unordered_map<const element::SolvedSuperElement*, std::shared_ptr<const RingSampling>> known_, known_cells_;
 };
 
-/// Stresses at the points that the cells of a body share are sums over these cells, divided by their number. Where
-/// other processes have cells of the body, it adds what they have: `nodes` and `materials` of every point, the sums (3
-/// x points) and the numbers of cells.
+/// Stress and temperature at points on the sides of cells, 4 x points.
+using SharedValues = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+
+/// Values at the points that the cells of a body share are sums over these cells, divided by their number. Where other
+/// processes have cells of the body, it adds what they have: `nodes` and `materials` of every point, the sums and the
+/// numbers of cells.
 using CompleteSums =
     std::function<void(std::size_t body, const std::vector<int>& nodes, const std::vector<int>& materials,
-                       Eigen::Matrix3Xd& sums, std::vector<int>& cells)>;
+                       SharedValues& sums, std::vector<int>& cells)>;
 
 /// Created once for a mesh; gives the fields of any state.
 class Recovery {

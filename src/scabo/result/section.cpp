@@ -31,6 +31,14 @@ class Cuts {
     if (t > 0.0 && t < 1.0 && s >= -slack && s <= 1.0 + slack) at_.push_back(t);
   }
 
+  /// Adds the crossing with the line on which direction . x is `place`.
+  void add(const Vec2& direction, double place) {
+    const double slope = direction.dot(along_);
+    if (std::abs(slope) <= 1e-14 * along_.norm()) return;
+    const double t = (place - direction.dot(from_)) / slope;
+    if (t > 0.0 && t < 1.0) at_.push_back(t);
+  }
+
   /// 0, the crossings in ascending order, 1.
   std::vector<double> sorted() {
     at_.push_back(0.0), at_.push_back(1.0);
@@ -65,6 +73,11 @@ std::vector<std::pair<double, double>> parts_in(const analysis::StaticSolution& 
   const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
   Cuts cuts(section.from, section.to);
   for (const mesh::Cell& cell : mesh.cells) add_cell(mesh, cell, cuts);
+  for (const model::Load& load : solution.model.loads) {  // the stress bends where a table of temperatures does
+    const auto* temperature = std::get_if<model::Temperature>(&load.kind);
+    if (!temperature || !temperature->table || (load.on && load.on->body != static_cast<int>(body))) continue;
+    for (const auto& point : temperature->table->points) cuts.add(temperature->table->along, point.at);
+  }
   const std::vector<double> at = cuts.sorted();
   std::vector<std::pair<double, double>> parts;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {

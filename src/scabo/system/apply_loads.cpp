@@ -116,6 +116,7 @@ class Applied {
   }
 
   void operator()(const model::Temperature& temperature) {
+    if (temperature.table) return apply(*temperature.table);
     const model::Linear& change = temperature.change;
     for_each_cell(
         [&](const element::SolvedSuperElement& cell, const Vec2& centre, element::InteriorLoads& loads) {
@@ -153,6 +154,72 @@ class Applied {
   void operator()(const model::GroundStress& ground) { apply(element::initial_stress(ground)); }
 
  private:
+  /// Every cell takes the nearest linear field; a super-element of one material, without side faces, also the remainder.
+  void apply(const model::TemperatureTable& table) {
+    const model::Plane plane = model_.analysis.plane;
+    for_each_cell(
+        [&](const element::SolvedSuperElement& cell, const Vec2& centre, element::InteriorLoads& loads) {
+          element::TableInCell in_cell = element::in_cell(table, polygon_of(cell, centre));
+          loads.temperature = in_cell.linear;
+          const element::LinearField& T = in_cell.linear;
+          loads.loads = element::thermal_loads(cell.ring, cell.sectors.D, cell.sectors.unit_strain,
+                                               {T.at(centre), T.per_x, T.per_y}, thickness());
+          if (in_cell.r.empty() || cell.ring.is_open() || cell.sectors.materials.size() > 1) return;
+          const Vec2 motion =
+              element::particular_motion(cell.sectors.D.of(0), cell.sectors.unit_strain_of(0), table.along);
+          loads.remainders.emplace_back(table.along, motion, std::move(in_cell.s), std::move(in_cell.r));
+        },
+        [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads& loads) {
+          std::vector<Vec2> polygon;  // corners and, between them, the middles of the sides
+          for (int corner = 0; corner < cell.corners(); ++corner) {
+            polygon.push_back(cell.x[static_cast<std::size_t>(corner)]);
+            if (cell.size() > cell.corners())
+              polygon.push_back(cell.x[static_cast<std::size_t>(corner + cell.corners())]);
+          }
+          loads.temperature = element::in_cell(table, polygon).linear;
+          return element::finite_element_thermal_force(cell, element::elasticity_matrix(material, plane),
+                                                       element::thermal_strain(material, plane), loads.temperature,
+                                                       thickness());
+        });
+    for (std::size_t c = 0; c < interior.size(); ++c)
+      for (const element::TemperatureRemainder& remainder : interior[c].remainders)
+        nodal(element::dofs_of(body_mesh_.cells[c])) +=
+            forces_of(remainder, *cells_[c], body_mesh_.cells[c].centre);
+  }
+
+  /// The nodes of a super-element along its boundary, with the scaling centre of an open one; absolute.
+  static std::vector<Vec2> polygon_of(const element::SolvedSuperElement& cell, const Vec2& centre) {
+    std::vector<Vec2> polygon;
+    for (const mesh::LineElement& element : cell.ring.elements)
+      for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
+        polygon.push_back(centre + cell.ring.node(element.nodes[i]));
+    if (cell.ring.is_open()) {
+      polygon.push_back(centre + cell.ring.node(cell.ring.last_node()));
+      polygon.push_back(centre);
+    }
+    return polygon;
+  }
+
+  /// Equivalent nodal forces of a remainder, temperature_table.hpp (3).
+  Vector forces_of(const element::TemperatureRemainder& remainder, const element::SolvedSuperElement& cell,
+                   const Vec2& centre) const {
+    std::vector<Vec2> nodes;
+    for (const Vec2& x : cell.ring.nodes) nodes.push_back(centre + x);
+    Vector u(places_of(nodes.size()));
+    const Vec2 at_centre = remainder.displacement(centre);  // its own translation would only leave rounding
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      u.segment<2>(place_of(i)) = remainder.displacement(nodes[i]) - at_centre;
+    const element::Vec3 stress = element::particular_stress(cell.sectors.D.of(0), cell.sectors.unit_strain_of(0),
+                                                            remainder.direction(), remainder.motion());
+    const Breaks breaks{[&](const Vec2& x) { return remainder.direction().dot(x); }, remainder.places()};
+    return cell.K() * u - traction_forces(
+                              cell.ring.elements, nodes, thickness(),
+                              [&](const Vec2& x, const Vec2& n) {
+                                return Vec2(element::traction_of(stress, n) * remainder.at(x));
+                              },
+                              breaks);
+  }
+
   /// A stress in equilibrium with the weight that belongs to it does not deform a body on whose boundary the tractions
   /// act that it has there. What is not there acts as a load: -n sigma on the boundary. On the sides between cells the
   /// two cells cancel each other; they are left out.
