@@ -201,7 +201,7 @@ def main():
     runs += here
     text = HEADER.read_text(encoding="utf-8")
     costs = constants_in(text)
-    check_formulas(runs, costs)
+    check_formulas(here, costs)  # kept runs may be of a program with other constants
     print_table(runs, costs, "Estimate / measured:")
     if options.fit:
         found = fitted(runs, costs)
