@@ -186,7 +186,9 @@ def main():
     options = options.parse_args()
     runs = []
     for path in options.runs:
-        runs += [{"name": run.get("name") or f"{run['kind']}, order 2", **run} for run in json.loads(path.read_text())]
+        for run in json.loads(path.read_text(encoding="utf-8")):
+            if len(run["iterations"]) == 1:  # of several increments `newton` is not known
+                runs.append({**run, "name": run["name"] if isinstance(run["name"], str) else f"{run['kind']}, order 2"})
     here = []
     for dofs, kind, mesh, width in MESHES:
         if dofs > options.largest:

@@ -107,15 +107,20 @@ def run(scabo, text, threads=1, seconds=300.0, gigabytes=10.0, words=()):
             watch = Watch(process, begin)
             watch.start()
             samples, clock = [(0.0, 0.0)], clock_of(process.pid)
-            while True:
-                pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-                if pid:
-                    break
-                try:
-                    samples.append((time.monotonic() - begin, time.clock_gettime(clock)))
-                except OSError:
-                    pass
-                time.sleep(INTERVAL)
+            try:
+                while True:
+                    pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+                    if pid:
+                        break
+                    try:
+                        samples.append((time.monotonic() - begin, time.clock_gettime(clock)))
+                    except OSError:
+                        pass
+                    time.sleep(INTERVAL)
+            except KeyboardInterrupt:
+                process.kill()
+                process.wait()
+                raise
         wall = time.monotonic() - begin
         watch.join()
         process.stdout.close()

@@ -13,7 +13,12 @@ of the factorisation: the one that `large_sparse` measures here for the same num
 builds it), or without it that of an earlier measurement (SOLVE).
 
 No run holds up the others: each has a limit of processor time and memory (--seconds, --gigabytes), all together one of processor time
-(--total). What was left out for it is named. After every run --output holds runs.json (all figures of all runs) and table.md.
+(--total). What was left out for it is named. After every run --output holds runs.json (all figures of all runs) and table.md; --resume
+takes the runs that are there, so that a benchmark that was interrupted goes on.
+
+Assembly and factorisation take turns, body by body. The processor seconds of both together are measured; their shares are known only by
+their wall seconds, which other work on the machine falsifies. Assembly is therefore taken as the median, over the runs of one kind of mesh
+with 1e6 degrees of freedom and more (or all, if there are none), of its seconds for a degree of freedom.
 """
 import argparse
 import datetime
@@ -61,6 +66,22 @@ def solves(sparse, sizes):
         found.append((float(words[0]), solve / factorise))
         print(f"large_sparse: {words[0]} degrees of freedom, factorise {factorise:.3f} s, solve {solve:.4f} s, {solve / factorise:.3f}", flush=True)
     return found
+
+
+def settle(runs):
+    """Shares of assembly and factorisation; see the head of this file. `runs`: [(kind, result)]."""
+    for kind in {kind for kind, _ in runs}:
+        of_kind = [result for k, result in runs if k == kind]
+        for result in of_kind:
+            of = result["processor_of"]
+            result.setdefault("assemble_and_factorise", of["assemble"] + of["factorise"])
+            result.setdefault("share", of["assemble"] / max(result["assemble_and_factorise"], 1e-9))
+        large = [result for result in of_kind if result["model"]["dofs"] > 8e5] or of_kind
+        rate = numpy.median([result["share"] * result["assemble_and_factorise"] / result["model"]["dofs"] for result in large])
+        for result in of_kind:
+            both = result["assemble_and_factorise"]
+            result["processor_of"]["assemble"] = min(rate * result["model"]["dofs"], 0.9 * both)
+            result["processor_of"]["factorise"] = both - result["processor_of"]["assemble"]
 
 
 def x_of(result, ratios):
@@ -118,7 +139,7 @@ def verdicts(runs, increments, ratios):
         if dofs == 1e6 and pairs == 300:
             add("wall seconds, files included", where, result["wall"], 60, f"{result['wall']:.1f}")
             add("peak memory, GB", where, result["peak"] / 1e9, 8, f"{result['peak'] / 1e9:.2f}")
-    for (kind, dofs, what), result in increments.items():
+    for (kind, _, _, what), result in increments.items():
         next_one = numpy.mean(result["of_increments"][1:]) / result["processor_of"]["factorise"]
         add(f"a next increment / factorise, {what}", f"{kind}, {result['model']['dofs']:,}, {result['model']['contact_pairs']:,} pairs",
             next_one, 0.3, f"{next_one:.2f} ({numpy.mean(result['of_increments'][1:]):.3f} s)")
@@ -138,6 +159,7 @@ def arguments_of():
     parser.add_argument("--gigabytes", type=float, default=10, help="limit of a run, address space")
     parser.add_argument("--total", type=float, default=1500, help="no run begins after so many processor seconds of all")
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "build" / "bench-large")
+    parser.add_argument("--resume", action="store_true", help="take the runs that --output holds")
     parser.add_argument("--model", help="write the model of one run to this file instead of running it")
     return parser.parse_args()
 
@@ -151,69 +173,79 @@ def cases(options):
                     yield kind, dofs, pairs
 
 
+def slender_last(case):
+    """Layers of few rows of elements have an ill-conditioned W, and may take long."""
+    return case[1] < 50 * case[2]
+
+
 def next_increments(options):
     """Models of several increments: with fields of every increment, and of the last one alone."""
     for dofs in (1e5, 1e6):
         if options.least <= dofs <= options.most and "fem" in options.kinds and "300" in options.pairs.split(","):
             count = INCREMENTS if dofs < 1e6 else 4
             steps = f"steps: [{{increments: {count}}}]\n"
-            yield ("fem", dofs, "with its files"), model_of("fem", dofs, 300, more=steps)
-            yield ("fem", dofs, "tables only"), model_of("fem", dofs, 300, more=steps + "output: {fields: []}\n")
+            yield ("fem", dofs, 300, "with its files"), model_of("fem", dofs, 300, more=steps)
+            yield ("fem", dofs, 300, "tables only"), model_of("fem", dofs, 300, more=steps + "output: {fields: []}\n")
 
 
 def main():
     options = arguments_of()
-    todo = list(cases(options))
+    todo = sorted(cases(options), key=slender_last)  # otherwise in their order
     if not todo:
         sys.exit("no run is left: see --least, --most, --pairs")
     if options.model:
         pathlib.Path(options.model).write_text(model_of(*todo[0]), encoding="utf-8")
         return
     options.output.mkdir(parents=True, exist_ok=True)
-    lines, runs, increments, left_out, spent = [], {}, {}, [], 0.0
-
-    def say(text):
-        print(text, flush=True)
-        lines.append(text)
-        (options.output / "table.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    store = options.output / "runs.json"
+    kept = {tuple(run["name"]): run for run in json.loads(store.read_text())} if options.resume and store.exists() else {}
+    done, left_out, spent = {}, [], 0.0
 
     def attempt(name, text):
+        """name: kind, degrees of freedom, pairs, "" or what is special."""
         nonlocal spent
+        if name in kept:
+            done[name] = kept[name]
+            return
         if spent > options.total:
             left_out.append(f"{name}: not begun, {options.total:.0f} s of processor time were spent")
-            return None
+            return
         try:
-            result = measure.run(options.scabo, text, options.threads, options.seconds, options.gigabytes)
+            done[name] = {"name": name, "kind": name[0], **measure.run(options.scabo, text, options.threads, options.seconds, options.gigabytes)}
         except measure.Failure as failure:
             spent += failure.processor
-            left_out.append(f"{name}: {failure}")
-            return None
-        spent += result["processor"]
-        return result
+            left_out.append(f"{name[0]}, {name[1]:.0e} degrees of freedom, {name[2]} pairs {name[3]}: {failure}")
+            print(left_out[-1], flush=True)
+            return
+        spent += done[name]["processor"]
+        store.write_text(json.dumps([*done.values(), *(run for other, run in kept.items() if other not in done)], indent=1), encoding="utf-8")
+        if not name[3]:
+            print("| " + " | ".join(row_of(name[0], done[name], ratios)) + " |", flush=True)
 
-    say(f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC; threads: {options.threads}, cores: {os.cpu_count()}, load of the "
-        f"machine before: {os.getloadavg()[0]:.1f}\n")
+    before = f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC; threads: {options.threads}, cores: {os.cpu_count()}, load before: {os.getloadavg()[0]:.1f}"
     sizes = [n for n in DOFS if n <= options.most]
     ratios = solves(options.sparse, sizes) if options.sparse else SOLVE
-    say(f"solve / factorise, {'of large_sparse' if options.sparse else 'measured before'}: "
-        + ", ".join(f"{ratio:.3f} at {dofs:,.0f}" for dofs, ratio in ratios) + "\n")
-    say(measure.table(HEAD, []))
-    for kind, dofs, pairs in todo:
-        result = attempt(f"{kind}, {dofs:.0e} degrees of freedom, {pairs} pairs", model_of(kind, dofs, pairs))
-        if result:
-            say("| " + " | ".join(row_of(kind, result, ratios)) + " |")
-            runs[kind, dofs, pairs] = result
-            (options.output / "runs.json").write_text(
-                json.dumps([{"kind": k, "wanted_dofs": n, "wanted_pairs": p, **r} for (k, n, p), r in runs.items()], indent=1))
-    for name, text in next_increments(options):
-        result = attempt(f"{name[0]}, {name[1]:.0e} degrees of freedom, several increments", text)
-        if result:
-            increments[name] = result
-    say("\nExponents of growth with the degrees of freedom:\n\n" + exponents(runs))
-    say("\n" + verdicts(runs, increments, ratios))
+    print(before + "\n\n" + measure.table(HEAD, []), flush=True)
+    try:
+        for case in todo:
+            attempt((*case, ""), model_of(*case))
+        for name, text in next_increments(options):
+            attempt(name, text)
+    except KeyboardInterrupt:
+        left_out.append("interrupted: what follows was not begun")
+
+    settle([(name[0], run) for name, run in done.items()])
+    runs = {name[:3]: run for name, run in done.items() if not name[3]}
+    increments = {name: run for name, run in done.items() if name[3]}
+    text = [before, f"solve / factorise, {'of large_sparse' if options.sparse else 'measured before'}: "
+            + ", ".join(f"{ratio:.3f} at {dofs:,.0f}" for dofs, ratio in ratios),
+            measure.table(HEAD, [row_of(name[0], run, ratios) for name, run in runs.items()]),
+            "Exponents of growth with the degrees of freedom:", exponents(runs), verdicts(runs, increments, ratios)]
     if left_out:
-        say("\nNot run to the end:\n\n- " + "\n- ".join(left_out))
-    say(f"\n{len(runs) + len(increments)} runs, {spent:.0f} s of processor time; load of the machine after: {os.getloadavg()[0]:.1f}")
+        text.append("Not run to the end:\n\n- " + "\n- ".join(left_out))
+    text.append(f"{len(done)} runs, {spent:.0f} s of processor time here; load after: {os.getloadavg()[0]:.1f}")
+    (options.output / "table.md").write_text("\n\n".join(part for part in text if part) + "\n", encoding="utf-8")
+    print("\n" + (options.output / "table.md").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":
