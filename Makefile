@@ -8,7 +8,9 @@
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
 #   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
-#   make bench-large   1e4 to 2e6 degrees of freedom, 32 to 3,000 contact pairs; some minutes and 9 GB
+#   make bench-large   1e4 to 2e6 degrees of freedom, 32 to 3,000 contact pairs, cyclic loads, a thousand bodies; up to 45 minutes and 10 GB
+#   make bench-sizes   Scabo, CalculiX and GetFEM at equal error, to 1e5 degrees of freedom of theirs; half an hour
+#   make bench-kills   a run killed at 50 random moments and resumed: the same bits
 #   make bench-elements  super-elements against the eigenvector route, one thread
 #   make bench-python    the Python package against the program
 #   make format      lay the sources out by .clang-format
@@ -29,7 +31,7 @@ configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 report = $(shell command -v npm >/dev/null 2>&1 || echo report)
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build python report wheel test test-release test-asan fuzz bench bench-contact bench-large bench-elements bench-python docs format packages install package clean
+.PHONY: help demo build python report wheel test test-release test-asan fuzz bench bench-contact bench-large bench-sizes bench-kills bench-elements bench-python docs format packages install package clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -90,8 +92,21 @@ bench-contact:
 bench-large:
 	@cmake/install_packages.sh build bench
 	@$(MAKE) --no-print-directory build
-	@/usr/bin/python3 benchmarks/large/run.py --scabo build/bin/scabo --most 2e6
+	@$(configure) release -DSCABO_BENCHMARKS=ON
+	@cmake --build --preset release --target large_sparse --parallel $(JOBS)
+	@/usr/bin/python3 benchmarks/large/run.py --scabo build/bin/scabo --sparse build/bin/large_sparse --most 2e6 --output build/bench-large
+	@/usr/bin/python3 benchmarks/plan.py --scabo build/bin/scabo --runs build/bench-large/runs.json
+	@/usr/bin/python3 benchmarks/large/cycles.py --scabo build/bin/scabo
 	@/usr/bin/python3 benchmarks/large/bodies.py --scabo build/bin/scabo
+
+bench-sizes:
+	@cmake/install_packages.sh build bench
+	@$(MAKE) --no-print-directory build
+	@$(with_python) benchmarks/peers/sizes.py --scabo build/bin/scabo
+
+bench-kills:
+	@$(MAKE) --no-print-directory build
+	@export SCABO_KILLS=50 && $(with_python) tests/regression/resume_test.py build/bin/scabo Resume.test_killed_at_random_moments
 
 bench-elements:
 	@cmake/install_packages.sh build bench

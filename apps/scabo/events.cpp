@@ -112,6 +112,13 @@ void Events::plan(const run::Plan& plan) {
                  {"increments", plan.increments},
                  {"bytes", plan.bytes},
                  {"seconds", plan.seconds()},
+                 {"stages",
+                  {{"mesh", plan.mesh},
+                   {"super_elements", plan.cells},
+                   {"factorise", plan.factorise},
+                   {"condense", plan.condense},
+                   {"increments", plan.contact},
+                   {"fields", plan.fields}}},
                  {"first_mesh_only", plan.first_mesh_only}}));
 }
 

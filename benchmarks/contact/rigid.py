@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Stacks of rigid bodies (stacks.py): Scabo's contact solver beside Siconos's NSGS, 34 seeded problems.
 
-    rigid.py [--scabo PATH] [--seconds 20] [--only WORD] [--folder FOLDER] [--hard FOLDER] [--alone] [--output FILE]
+    rigid.py [--scabo PATH] [--seconds 20] [--only WORD] [--folder FOLDER] [--hard FOLDER] [--with scabo,nsgs] [--keep FILE] [--output FILE]
 
 Towers, walls in running bond and piles, 112 to 2,286 contacts, mu 0.1 to 1.5, ratio of masses to 1000. One process and one thread a
 problem; solved: a scaled natural map of at most 5e-9 (W and q times 1 / mean W_ii), recomputed from r by problems.natural_map, in
 `seconds` of processor time. With --hard, a folder of further problem files. The table, the share solved and the names of the rest are
-printed and, with --output, written after every problem.
+printed and, with --output, written after every problem. --keep holds what has been measured, which is not measured again: the two
+programs may run one after the other (--with scabo, then --with nsgs).
 """
 import argparse
 import json
@@ -57,7 +58,7 @@ def with_nsgs(arguments, path, problem):
 
 def text_of(cell):
     if cell is None:
-        return "", ""
+        return "not run", ""
     residual = "" if cell["residual"] is None else f"{cell['residual']:.1e}"
     return (f"{cell['seconds']:.3g}" if cell["solved"] else "-"), residual
 
@@ -66,15 +67,17 @@ def table(rows):
     lines = ["| problem | contacts | mu | Scabo, s | residual | Newton iterations | Siconos NSGS, s | residual |", "|---|---|---|---|---|---|---|---|"]
     for row in rows:
         ours, theirs = text_of(row["scabo"]), text_of(row["nsgs"])
-        lines.append(f"| {row['name']} | {row['contacts']} | {row['mu']:g} | {ours[0]} | {ours[1]} | {row['scabo']['how']} | {theirs[0]} | {theirs[1]} |")
-    solved = [row for row in rows if row["scabo"]["solved"]]
-    lines += ["", f"Scabo: {len(solved)} of {len(rows)}."]
-    rest = [row["name"] for row in rows if not row["scabo"]["solved"]]
+        lines.append(f"| {row['name']} | {row['contacts']} | {row['mu']:g} | {ours[0]} | {ours[1]} | {row['scabo']['how'] if row['scabo'] else ''} | {theirs[0]} | {theirs[1]} |")
+    ours = [row for row in rows if row["scabo"]]
+    solved = [row for row in ours if row["scabo"]["solved"]]
+    lines += ["", f"Scabo: {len(solved)} of {len(ours)}."]
+    rest = [row["name"] for row in ours if not row["scabo"]["solved"]]
     if rest:
         lines.append("Not solved: " + ", ".join(rest) + ".")
     if any(row["nsgs"] for row in rows):
-        lines.append(f"Siconos NSGS: {sum(bool(row['nsgs'] and row['nsgs']['solved']) for row in rows)} of {len(rows)}.")
-        slower = [row["name"] for row in rows if row["nsgs"] and row["nsgs"]["solved"]
+        theirs = [row for row in rows if row["nsgs"]]
+        lines.append(f"Siconos NSGS: {sum(row['nsgs']['solved'] for row in theirs)} of {len(theirs)}.")
+        slower = [row["name"] for row in ours if row["nsgs"] and row["nsgs"]["solved"]
                   and not (row["scabo"]["solved"] and row["scabo"]["seconds"] <= row["nsgs"]["seconds"])]
         lines.append("Slower than NSGS, or not solved where NSGS is: " + (", ".join(slower) or "none") + ".")
     return "\n".join(lines)
@@ -87,12 +90,18 @@ def main():
     parser.add_argument("--only", default="", help="problems with this word in their names")
     parser.add_argument("--folder", type=pathlib.Path, help="where the problems are kept; made again where it is empty")
     parser.add_argument("--hard", type=pathlib.Path, help="further problem files")
-    parser.add_argument("--alone", action="store_true", help="without Siconos, whose 20 s on most problems take most of the time")
+    parser.add_argument("--with", dest="programs", default="scabo,nsgs", help="NSGS's 20 s on most problems take most of the time")
+    parser.add_argument("--keep", type=pathlib.Path, help="JSON")
     parser.add_argument("--output", type=pathlib.Path)
     arguments = parser.parse_args()
     if not shutil.which(str(arguments.scabo)):
         sys.exit(f"{arguments.scabo} is missing: make build")
-    siconos = not arguments.alone and subprocess.run([sys.executable, "-c", "import siconos.numerics"], capture_output=True).returncode == 0
+    programs = {"scabo": with_scabo, "nsgs": with_nsgs}
+    wanted = [name for name in arguments.programs.split(",") if name in programs]
+    if "nsgs" in wanted and subprocess.run([sys.executable, "-c", "import siconos.numerics"], capture_output=True).returncode != 0:
+        print("Siconos is missing (package python3-siconos): Scabo runs alone", file=sys.stderr)
+        wanted.remove("nsgs")
+    kept = json.loads(arguments.keep.read_text()) if arguments.keep and arguments.keep.exists() else {}
     rows = []
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.folder or pathlib.Path(scratch)
@@ -103,8 +112,15 @@ def main():
             if arguments.only not in path.stem:
                 continue
             problem = problems.read(path)
+            # A further file may have the name of a seeded problem: pile60x4_mu0.4 and others.
+            cells = kept.setdefault(f"{problem.name}, {problem.contacts}", {})
+            for name in wanted:
+                if name not in cells:
+                    cells[name] = programs[name](arguments, path, problem)
+            if arguments.keep:
+                arguments.keep.write_text(json.dumps(kept, indent=1))
             rows.append({"name": problem.name, "contacts": problem.contacts, "mu": float(problem.mu.max()) if problem.contacts else 0.0,
-                         "scabo": with_scabo(arguments, path, problem), "nsgs": with_nsgs(arguments, path, problem) if siconos else None})
+                         **{name: cells.get(name) for name in programs}})
             print(table(rows[-1:]).splitlines()[2], file=sys.stderr, flush=True)
             if arguments.output:
                 arguments.output.write_text(table(rows) + "\n")

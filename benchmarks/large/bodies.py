@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
 """One body of many degrees of freedom against as many degrees of freedom in many bodies: time of every stage and memory.
 
-    benchmarks/large/bodies.py [--columns 40] [--courses 25] [--threads 2] [--only one|many]
+    benchmarks/large/bodies.py [--columns 40] [--courses 25] [--threads 1] [--only one|many] [--seconds 900]
 
 Many: a wall in running bond on a foundation, its own weight and a push of a tenth of it, every block some 1e3 degrees of
 freedom, with a coarse boundary and a fine interior. One: a single body of the size of the wall, on the same
-foundation, under the same loads and with as many degrees of freedom. Both are quadtrees of order 1. Wall seconds by
-stage, as in summary.json; processor seconds of the whole process.
+foundation, under the same loads and with as many degrees of freedom. Both are quadtrees of order 1. Processor seconds by stage
+(measure.py); each run is ended after --seconds of processor time.
 """
 import argparse
-import os
 import pathlib
 import sys
 
-import run
+import measure
+from measure import seconds_text
+from run import STAGES
 
 HEAD = """scabo: 1
 analysis: {{plane: strain}}
@@ -66,7 +67,8 @@ def main():
     options.add_argument("--courses", type=int, default=25)
     options.add_argument("--fine", type=float, default=1 / 128, help="size of the cells in the middle of a block, m")
     options.add_argument("--size", type=float, default=1 / 32, help="size of the cells of the single body, m")
-    options.add_argument("--threads", type=int, default=os.cpu_count())
+    options.add_argument("--threads", type=int, default=1)
+    options.add_argument("--seconds", type=float, default=900, help="limit of a run, processor seconds")
     options.add_argument("--only", choices=["one", "many"])
     options.add_argument("--model", help="write the model of one run to this file instead of running it")
     options = options.parse_args()
@@ -75,21 +77,21 @@ def main():
     if options.model:
         pathlib.Path(options.model).write_text(models[options.only or "many"], encoding="utf-8")
         return 0
-    head = ["bodies", "degrees of freedom", "pairs", "iterations", *(s.replace("_", "-") for s in run.STAGES), "total, wall",
-            "processor", "memory, GB", "files, MB"]
-    print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
+    head = ["bodies", "degrees of freedom", "pairs", "iterations", *(stage.replace("_", "-") for stage in STAGES), "all, processor s", "wall, s",
+            "memory, GB", "files, MB", "certificate"]
+    print(measure.table(head, []))
     failed = False
     for name in [options.only] if options.only else models:
-        summary, reason = run.run(options.scabo, models[name], options.threads)
-        if summary is None:
-            print(f"| {name} | {reason} |", flush=True)
+        try:
+            result = measure.run(options.scabo, models[name], options.threads, options.seconds)
+        except measure.Failure as failure:
+            print(f"| {name} | {failure}, {failure.processor:.0f} s of processor time |", flush=True)
             failed = True
             continue
-        timing, model = summary["timing"], summary["model"]
-        row = [len(model["bodies"]), model["dofs"], model["contact_pairs"],
-               sum(increment["newton_iterations"] for increment in summary["increments"]),
-               *(run.seconds(timing[s]) for s in run.STAGES), run.seconds(timing["total"]), run.seconds(summary["processor"]),
-               f"{summary['peak_memory_bytes'] / 1e9:.2f}", f"{summary['written'] / 1e6:.0f}"]
+        model = result["model"]
+        row = [f"{len(result['nodes_of_bodies']):,}", f"{model['dofs']:,}", f"{model['contact_pairs']:,}", sum(result["iterations"]),
+               *(seconds_text(result["processor_of"][stage]) for stage in STAGES), seconds_text(result["processor"]),
+               seconds_text(result["wall"]), f"{result['peak'] / 1e9:.2f}", f"{result['files'] / 1e6:.0f}", f"{result['certificate']:.0e}"]
         print("| " + " | ".join(str(entry) for entry in row) + " |", flush=True)
     return 1 if failed else 0
 

@@ -11,7 +11,7 @@ KEYS = {
     "start": {"schema", "version", "command", "pid"},
     "model": {"model", "directory", "analysis"},
     "plan": {"bodies", "nodes", "dofs", "super_elements", "finite_elements", "contact_pairs", "increments", "bytes",
-             "seconds", "first_mesh_only"},
+             "seconds", "stages", "first_mesh_only"},
     "stage_begin": {"stage"},
     "stage_end": {"stage", "seconds"},
     "increment_begin": {"step", "step_name", "increment", "increments"},
@@ -66,7 +66,9 @@ class Events(support.InTemporaryDirectory):
         self.assertIn("solved and certified", run.stderr)  # the summary, for people
         events = self.events(run.stdout)
         summary = support.summary_of(self.directory / "results")
-        self.assertEqual(self.of_kind(events, "plan")[0]["dofs"], summary["model"]["dofs"])
+        plan = self.of_kind(events, "plan")[0]
+        self.assertEqual(plan["dofs"], summary["model"]["dofs"])
+        self.assertAlmostEqual(sum(plan["stages"].values()), plan["seconds"], delta=1e-9 * plan["seconds"])
         stages = [event["stage"] for event in self.of_kind(events, "stage_end")]
         self.assertEqual(stages, ["reading", "checking", "mesh", "super-elements", "factorisation",
                                   "condensation to the contact pairs"])

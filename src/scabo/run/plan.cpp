@@ -138,7 +138,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       }
       plan.mesh += costs.mesh_seconds * n;
       plan.cells += costs.cell_seconds * n;
-      plan.factorise += costs.factor_seconds * std::pow(n, 1.5);
+      plan.factorise += costs.order_seconds * n * log2_of(n) + costs.factor_seconds * std::pow(n, 1.5);
       if (k > 0.0) plan.condense += costs.sweep_seconds * n + costs.condense_seconds * k * k * std::sqrt(n);
       plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
     }

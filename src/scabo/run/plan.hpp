@@ -2,11 +2,11 @@
 //
 // For a body of n degrees of freedom, b symmetry blocks, k components of its contacts, N pairs in all:
 //
-//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half as much for
-//     fields many cells          sparse_bytes n; mesh, cells and fields in a time proportional to n; more where no two
-//     cells
-//                         are equal
-//     their factor        fill_bytes n log2(n); factor_seconds n^1.5             (nested dissection in the plane)
+//     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness, half of it for fields
+//     many cells          sparse_bytes n; mesh, cells and fields in times proportional to n;
+//                         more bytes and seconds where no two cells are equal
+//     their factor        fill_bytes n log2(n); order_seconds n log2(n) + factor_seconds n^1.5
+//                         (nested dissection in the plane)
 //     condensation        dense: dense_seconds n^2 k; sparse: sweep_seconds n + condense_seconds k^2 n^0.5
 //     contact             contact_bytes k^2; contact_seconds (2N)^2 k for each increment, k averaged
 //
@@ -23,7 +23,8 @@
 
 namespace scabo::run {
 
-/// Measured on one thread of a Xeon with AVX-512 (family 6, model 207). Bytes, or seconds.
+/// Measured on one thread of a Xeon with AVX-512 (family 6, model 207). Bytes, or seconds. `benchmarks/plan.py --fit`
+/// finds them from measured runs and writes them here.
 struct CostConstants {
   double base_bytes = 25e6;         ///< of the program itself
   double block_bytes = 88.0;        ///< for n^2 / b of a super-element: eleven matrices of ring doubling and modes
@@ -33,7 +34,8 @@ struct CostConstants {
   double own_cell_bytes = 3000.0;   ///< for n of polygons and cells of a file, which are all different
   double own_cell_seconds = 2e-5;   ///< for n of them
   double fill_bytes = 150.0;        ///< for n log2(n): the factor and what its computation needs
-  double factor_seconds = 1e-8;     ///< for n^1.5
+  double order_seconds = 0.0;       ///< for n log2(n): order of elimination, entries of the factor
+  double factor_seconds = 1e-8;     ///< for n^1.5: its operations
   double mesh_seconds = 1e-6;       ///< for n
   double cell_seconds = 1e-6;       ///< for n
   double solve_seconds = 3.5e-9;    ///< for n log2(n) and one right-hand side
