@@ -136,6 +136,13 @@ Bytes pack_share(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t p
       packer.add(cell.centre.x());
       packer.add(cell.centre.y());
       packer.add_list(cell.materials);
+      packer.add(cell.scale);
+      std::vector<double> held;  // face, x and y of every direction
+      for (const std::size_t face : {0u, 1u})
+        for (const Vec2& along : cell.held ? cell.held->along[face] : std::vector<Vec2>{})
+          held.insert(held.end(), {static_cast<double>(face), along.x(), along.y()});
+      packer.add_list(held);
+      packer.add(cell.held ? cell.held->mirror : -1);
       packer.add(cell.boundary.size());
       for (const mesh::LineElement& element : cell.boundary) {
         std::vector<int> own = element.nodes;
@@ -171,6 +178,13 @@ Share unpack_share(const Bytes& message, std::size_t bodies) {
       cell.centre.x() = unpacker.get<double>();
       cell.centre.y() = unpacker.get<double>();
       cell.materials = unpacker.get_list<int>();
+      cell.scale = unpacker.get<double>();
+      const std::vector<double> directions = unpacker.get_list<double>();
+      mesh::HeldFaces held;
+      for (std::size_t i = 0; i + 2 < directions.size(); i += 3)
+        held.along[directions[i] == 0.0 ? 0 : 1].emplace_back(directions[i + 1], directions[i + 2]);
+      held.mirror = unpacker.get<int>();
+      if (!directions.empty()) cell.held = std::make_shared<const mesh::HeldFaces>(held);
       cell.boundary.resize(unpacker.get<std::size_t>());
       for (mesh::LineElement& element : cell.boundary) element.nodes = unpacker.get_list<int>();
     }

@@ -160,7 +160,7 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
       const std::vector<element::RadialLoad>& loads = element::loads_in(increment.fields.interior[b], c).loads;
       const Vector u = increment.fields.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
       results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre),
-                         super_element->corner().of(u, loads)});
+                         super_element->factors(u, loads)});
       element::StressIntensity& factors = results.back().factors;
       if (!increment.fields.initial_of(b).is_zero()) factors.T_left.reset(), factors.T_right.reset();
       if (const auto tip = touching.find(c); tip != touching.end()) {
@@ -169,7 +169,8 @@ std::vector<CrackResult> crack_results(const StaticSolution& solution, const Inc
         const Vec2& end = solution.mesh.bodies[b].nodes[static_cast<std::size_t>(cell.boundary.back().nodes.back())];
         add_innermost_tractions(factors, traction_at(solution, increment, b, tip->second, cell.centre),
                                 (end - cell.centre).norm());
-        results.back().held = std::find(held.begin(), held.end(), tip->second) != held.end();
+        const bool symmetric = super_element->held && super_element->held->mirror >= 0;
+        results.back().held = !symmetric && std::find(held.begin(), held.end(), tip->second) != held.end();
         if (results.back().held) take_back(factors);
       }
       if (in_resonance(factors, loads)) take_back(factors);

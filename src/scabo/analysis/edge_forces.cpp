@@ -102,8 +102,9 @@ class SumOverEdge {
   /// A place of the same body whose forces do not act through the edge.
   bool is_elsewhere(const model::Place& place) const {
     using Kind = model::Place::Kind;
-    return place.kind == Kind::body || place.kind == Kind::face ||
-           (place.kind == Kind::edge && place.index != edge_.on.index);
+    if (place.kind == Kind::edge || place.kind == Kind::face)
+      return place.kind != edge_.on.kind || place.index != edge_.on.index;
+    return place.kind == Kind::body;
   }
 
   /// Nodes that another edge of the body shares with a tied body, and this one does not.

@@ -26,13 +26,14 @@ bool is_defective(const element::SuperElementSolution& solution, std::complex<do
   return false;
 }
 
-void explain(Exponent& exponent, bool open, bool unbounded) {
+void explain(Exponent& exponent, const element::SolvedSuperElement& of) {
+  const bool unbounded = of.domain.unbounded, open = of.ring.is_open();
   const auto add = [&](const char* words) {
     exponent.meaning += (exponent.meaning.empty() ? "" : ", ") + std::string(words);
   };
-  if (exponent.value == 0.0) return add("translations");
+  if (exponent.value == 0.0) return add(of.held ? "translation" : "translations");
   if (unbounded) return;
-  if (std::abs(exponent.value - 1.0) <= alike)
+  if (std::abs(exponent.value - 1.0) <= alike && !of.held)
     add(open ? (exponent.multiplicity > 1 ? "rotation, T-stress" : "rotation") : "rotation, constant strains");
   if (exponent.singular) add("singular");
   if (exponent.singular && exponent.value.imag() != 0.0) add("oscillating");
@@ -42,9 +43,13 @@ void explain(Exponent& exponent, bool open, bool unbounded) {
 BodyExponents of_super_element(const element::SolvedSuperElement& super_element) {
   BodyExponents found;
   const bool unbounded = super_element.domain.unbounded, open = super_element.ring.is_open();
-  found.kind = unbounded ? "outside" : open ? "open" : "closed";
+  found.kind = unbounded ? "outside" : super_element.held ? "open, held" : open ? "open" : "closed";
   found.dofs = static_cast<int>(super_element.K().rows());
-  std::vector<std::complex<double>> values = super_element.modes().exponents;
+  std::vector<std::complex<double>> values =
+      super_element.held ? element::solve_held(super_element.ring, super_element.sectors.D, super_element.thickness,
+                                               *super_element.held)
+                               .exponents
+                         : super_element.modes().exponents;
   const std::vector<int> cluster = linalg::clusters(values, alike);
   for (int c = 0, found_in = 1; found_in > 0; ++c) {
     std::complex<double> sum = 0.0;
@@ -63,9 +68,9 @@ BodyExponents of_super_element(const element::SolvedSuperElement& super_element)
     if (!pairs) exponent.value = exponent.value.real();
     exponent.multiplicity = pairs ? upper : found_in;
     exponent.singular = !unbounded && exponent.value.real() > 0.0 && exponent.value.real() < 1.0 - 1e-4;
-    if (exponent.value != 0.0 && exponent.multiplicity > 1)
+    if (exponent.value != 0.0 && exponent.multiplicity > 1 && !super_element.held)
       exponent.defective = is_defective(super_element.solution(), exponent.value);
-    explain(exponent, open, unbounded);
+    explain(exponent, super_element);
     found.exponents.push_back(std::move(exponent));
   }
   return found;

@@ -23,7 +23,7 @@ struct Exponent {
 
 struct BodyExponents {
   int body = -1;     ///< index into Model::bodies
-  std::string kind;  ///< `closed`, `open` (with side faces) or `outside`
+  std::string kind;  ///< `closed`, `open` (with side faces), `open, held` (supports hold a side face) or `outside`
   int dofs = 0;
   std::vector<Exponent> exponents;  ///< ascending real part
 };

@@ -231,7 +231,7 @@ void add_stress_intensity(const Prepared& prepared, const StaticSolution& soluti
     Vector unit = Vector::Zero(static_cast<Eigen::Index>(dofs.size()));
     for (Eigen::Index k = 0; k < unit.size(); ++k) {
       unit[k] = 1.0;
-      const element::StressIntensity factors = cell->corner().of(unit);
+      const element::StressIntensity factors = cell->factors(unit);
       c_part[dofs[static_cast<std::size_t>(k)]] += quantity.component == 0 ? factors.K_I : factors.K_II;
       unit[k] = 0.0;
     }

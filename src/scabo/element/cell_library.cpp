@@ -22,7 +22,8 @@ namespace {
 
 /// `rounding`: of the coordinates from which both were made.
 bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b, double rounding) {
-  if (a.thickness != b.thickness || a.domain != b.domain || a.sectors.materials != b.sectors.materials ||
+  const bool held_alike = a.held == b.held || (a.held && b.held && *a.held == *b.held);
+  if (a.thickness != b.thickness || a.domain != b.domain || !held_alike || a.scale != b.scale || a.sectors.materials != b.sectors.materials ||
       a.sectors.D != b.sectors.D || a.ring.nodes.size() != b.ring.nodes.size() ||
       a.ring.elements.size() != b.ring.elements.size())
     return false;
@@ -61,7 +62,8 @@ constexpr std::size_t fewest_of_a_batch = 4096, most_of_a_batch = 16384;
 std::vector<std::size_t> solve_in_batches(const std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
                                           int threads) {
   std::vector<std::size_t> suitable, others;
-  for (std::size_t i = 0; i < distinct.size(); ++i) (distinct[i]->domain.unbounded ? others : suitable).push_back(i);
+  for (std::size_t i = 0; i < distinct.size(); ++i)
+    (distinct[i]->domain.unbounded || distinct[i]->held ? others : suitable).push_back(i);
   if (suitable.size() < fewest_of_a_batch) {
     others.insert(others.end(), suitable.begin(), suitable.end());
     return others;
@@ -92,6 +94,11 @@ void solve_all(const model::Model& model, const std::vector<std::shared_ptr<Solv
     const std::size_t at = others[static_cast<std::size_t>(i)];
     SolvedSuperElement& super_element = *distinct[at];
     try {
+      if (super_element.held) {
+        HeldSolution held =
+            solve_held(super_element.ring, super_element.sectors.D, super_element.thickness, *super_element.held);
+        if (held.K) return super_element.set(*std::move(held.K), held.rounding);
+      }
       super_element.set(solve_super_element(super_element.ring, super_element.sectors.D, super_element.thickness,
                                             many ? 1 : threads, super_element.domain));
     } catch (const IllPosed& error) {
@@ -213,8 +220,30 @@ const ModalSolution& SolvedSuperElement::modes() const {
 }
 
 const CornerAnalysis& SolvedSuperElement::corner() const {
-  std::call_once(corner_flag_, [&] { corner_ = std::make_unique<const CornerAnalysis>(ring, sectors.D, solution()); });
+  std::call_once(corner_flag_, [&] {
+    const Ring* of = &ring;
+    const Elasticity* D = &sectors.D;
+    const SuperElementSolution* solved = &solution();
+    if (held && held->mirror >= 0) {
+      const auto face = static_cast<std::size_t>(held->mirror);
+      both_ = std::make_unique<const Mirrored>(
+          with_image(ring, sectors.D, face == 0 ? Face::first : Face::last, held->along[face].front()));
+      of = &both_->ring;
+      D = &both_->D;
+      solution_of_both_ = std::make_unique<const SuperElementSolution>(solve_super_element(*of, *D, thickness, threads));
+      solved = solution_of_both_.get();
+    }
+    corner_ = std::make_unique<const CornerAnalysis>(*of, *D, *solved);
+    if (scale == 1.0 || corner_->kind() == CornerKind::crack) return;
+    const double own = corner_->of(Vector::Zero(places_of(of->nodes.size()))).reference_length;
+    corner_ = std::make_unique<const CornerAnalysis>(*of, *D, *solved, own / scale);
+  });
   return *corner_;
+}
+
+StressIntensity SolvedSuperElement::factors(const Vector& u, const std::vector<RadialLoad>& loads) const {
+  const CornerAnalysis& analysis = corner();
+  return both_ ? analysis.of(both_->displacement(u), both_->loads(loads)) : analysis.of(u, loads);
 }
 
 std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads,
@@ -241,6 +270,8 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
       wanted->domain = domain_of(model.bodies[b], wanted->ring);
       wanted->thickness = model.analysis.thickness;
       wanted->threads = threads;
+      wanted->held = cell.held;
+      wanted->scale = cell.scale;
       const bool is_here = elsewhere.empty() || elsewhere[b] == 0;
       const std::size_t hash = hash_of(*wanted);
       const auto [first, last] = known.equal_range(hash);

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "scabo/element/held_faces.hpp"
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/element/sectors.hpp"
 #include "scabo/element/stress_intensity.hpp"
@@ -18,10 +19,13 @@ struct SolvedSuperElement {
   double thickness = 1.0;
   Domain domain;
   int threads = 1;  ///< number of threads for its modes
+  std::shared_ptr<const mesh::HeldFaces> held = {};  ///< null: its side faces are free
+  double scale = 1.0;                                ///< mesh::Cell::scale
 
   /// Its stiffness comes from `solution`.
   void set(SuperElementSolution solution);
-  /// Its stiffness comes from a batch, with SuperElementSolution::rounding; the rest is solved when first needed.
+  /// Its stiffness comes from a batch, or from held faces, with SuperElementSolution::rounding; the rest is solved when
+  /// first needed, as if all faces were free.
   void set(Matrix K, double rounding);
 
   // Of a super-element that was not solved with the others (another process did), all are computed when first needed.
@@ -31,6 +35,9 @@ struct SolvedSuperElement {
   const SuperElementSolution& solution() const;
   const ModalSolution& modes() const;    ///< of the interior
   const CornerAnalysis& corner() const;  ///< of its crack or corner; the ring must be open
+  /// Of its crack or corner, which for a super-element on a line of symmetry is that of both halves together. Lengths
+  /// that factors refer to are those of the body from which rings have left this cell.
+  StressIntensity factors(const Vector& u, const std::vector<RadialLoad>& loads = {}) const;
 
  private:
   bool is_set() const { return whole_ || K_.size() > 0; }
@@ -42,6 +49,8 @@ struct SolvedSuperElement {
   mutable std::unique_ptr<const SuperElementSolution> solution_;  // where K_ is from a batch
   mutable std::unique_ptr<const ModalSolution> modes_;
   mutable std::unique_ptr<const CornerAnalysis> corner_;
+  mutable std::unique_ptr<const Mirrored> both_;  // halves: of held->mirror
+  mutable std::unique_ptr<const SuperElementSolution> solution_of_both_;
 };
 
 /// Of one body, for each cell; null for finite elements. Empty for a rigid body.

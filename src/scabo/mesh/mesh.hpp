@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,6 +20,16 @@ struct LineElement {
 
 enum class CellKind { superelement, finite_element };
 
+/// How supports hold the two side faces of an open super-element, each as a whole: 0 is the first face, 1 the last.
+struct HeldFaces {
+  /// Unit vectors along which a face is held: none, one, or two at right angles.
+  std::array<std::vector<Vec2>, 2> along;
+  /// The face that lies on a line of symmetry: it is held along its normal, at 0, and nothing else acts on it, and the
+  /// other face is free; -1: none.
+  int mirror = -1;
+  bool operator==(const HeldFaces&) const = default;
+};
+
 /// A part of a body whose stiffness is computed as a whole, from its boundary. A super-element has a boundary of any
 /// number of line elements of any order. A finite element has three or four sides of order 1 or 2, and no other nodes.
 ///
@@ -29,6 +40,10 @@ struct Cell {
   Vec2 centre = Vec2::Zero();         ///< scaling centre, from which the whole boundary is visible
   std::vector<LineElement> boundary;  ///< counter-clockwise; each begins where the one before ends
   std::vector<int> materials;         ///< indices into Model::materials: one, or one for each boundary element
+  std::shared_ptr<const HeldFaces> held = {};  ///< open super-element: null if no support holds its side faces
+  /// Size relative to the body, where the cell is what rings have left of a body that was one super-element
+  /// (tip_rings.hpp).
+  double scale = 1.0;
 
   bool is_open() const { return boundary.front().nodes.front() != boundary.back().nodes.back(); }
   /// Numbers in the body of the cell's own nodes 0, 1, 2 ...: those along its boundary, each once.
@@ -45,7 +60,8 @@ struct BodyMesh {
   std::vector<std::vector<LineElement>> edges;
   /// The elements of the two faces of every crack between cells, face 2 k on the right of crack k and 2 k + 1 on its
   /// left; they run as a boundary does, the left face along the path of the crack and the right one against it.
-  /// (crack_faces.hpp)
+  /// (crack_faces.hpp) Of a body that is one super-element: its side faces 0 and 1, if something holds them
+  /// (tip_rings.hpp), otherwise none.
   std::vector<std::vector<LineElement>> faces;
   std::vector<int> corners;          ///< node of every corner of the outline; -1 at the scaling centre
   std::array<int, 2> mouth{-1, -1};  ///< the nodes of an open super-element at its first and last side face

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/crack_faces.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::mesh {
 
@@ -17,53 +20,119 @@ struct DividedTip {
   Cell innermost;
   std::vector<Cell> cells;
   std::vector<LineElement> first, last;
+  int rings = 0;
+};
+
+/// Boundary elements that have one element in the copies.
+struct Sector {
+  std::size_t first = 0, count = 1;
+  std::vector<Vec2> arms;  // from the tip to the points of that element at the size of the boundary
 };
 
 LineElement inverted(const LineElement& element) { return {{element.nodes.rbegin(), element.nodes.rend()}}; }
 
-/// The points of an element of the boundary from the tip, at the nodes of a higher order on the same curve.
-std::vector<Vec2> raised_arms(const LineElement& element, const std::vector<Vec2>& nodes, const Vec2& tip, int order) {
-  const int own = static_cast<int>(element.nodes.size()) - 1;
-  const Matrix N = geometry::LineBasis::of_order(own).values_at(geometry::lobatto_points(order));
+int polynomial_order(const LineElement& element) { return static_cast<int>(element.nodes.size()) - 1; }
+
+/// The elements of the boundary from the tip, as one element of a higher order through their curve. Several elements
+/// follow each other by the lengths of their chords.
+std::vector<Vec2> raised_arms(const LineElement* elements, std::size_t count, const std::vector<Vec2>& nodes,
+                              const Vec2& tip, int order) {
+  const auto at = [&](int node) -> const Vec2& { return nodes[static_cast<std::size_t>(node)]; };
+  std::vector<double> ends{0.0};
+  for (std::size_t e = 0; e < count; ++e)
+    ends.push_back(ends.back() + (at(elements[e].nodes.back()) - at(elements[e].nodes.front())).norm());
+  const std::vector<double> points = geometry::lobatto_points(order);
   std::vector<Vec2> arms;
-  for (Eigen::Index k = 0; k < N.rows(); ++k) {
+  for (const double point : points) {
+    std::size_t e = 0;
+    double eta = point;
+    if (count > 1) {
+      const double s = 0.5 * (1.0 + point) * ends.back();
+      while (e + 1 < count && s > ends[e + 1]) ++e;
+      eta = std::clamp(2.0 * (s - ends[e]) / (ends[e + 1] - ends[e]) - 1.0, -1.0, 1.0);
+    }
+    const Vector N = geometry::LineBasis::of_order(polynomial_order(elements[e])).values(eta);
     Vec2 arm = Vec2::Zero();
-    for (std::size_t j = 0; j < element.nodes.size(); ++j)
-      arm += N(k, static_cast<Eigen::Index>(j)) * (nodes[static_cast<std::size_t>(element.nodes[j])] - tip);
+    for (std::size_t j = 0; j < elements[e].nodes.size(); ++j)
+      arm += N[static_cast<Eigen::Index>(j)] * (at(elements[e].nodes[j]) - tip);
     arms.push_back(arm);
   }
   // Without rounding, because the two faces of a crack begin and end at the same places.
-  arms.front() = nodes[static_cast<std::size_t>(element.nodes.front())] - tip;
-  arms.back() = nodes[static_cast<std::size_t>(element.nodes.back())] - tip;
+  arms.front() = at(elements[0].nodes.front()) - tip;
+  arms.back() = at(elements[count - 1].nodes.back()) - tip;
   return arms;
 }
 
+/// `line`: of each boundary element, equal for those that may be joined; -1: none.
+std::vector<Sector> sectors_of(const Cell& tip, const std::vector<Vec2>& nodes, const TipRings& rings,
+                               const std::vector<int>& line) {
+  const auto at = [&](int node) -> const Vec2& { return nodes[static_cast<std::size_t>(node)]; };
+  const auto distance = [&](std::size_t e) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int node : tip.boundary[e].nodes) least = std::min(least, (at(node) - tip.centre).norm());
+    return least;
+  };
+  std::vector<Sector> sectors;
+  double least = 0.0;
+  for (std::size_t e = 0; e < tip.boundary.size(); ++e) {
+    const bool may_join = e > 0 && rings.joined > 0.0 && line[e] >= 0 && line[e] == line[e - 1] &&
+                          (tip.materials.size() < 2 || tip.materials[e] == tip.materials[e - 1]);
+    if (may_join) {
+      Sector& sector = sectors.back();
+      const double nearer = std::min(least, distance(e));
+      const Vec2 chord = at(tip.boundary[e].nodes.back()) - at(tip.boundary[sector.first].nodes.front());
+      if (chord.norm() < std::min(rings.joined * nearer, rings.longest)) {
+        ++sector.count;
+        least = nearer;
+        continue;
+      }
+    }
+    sectors.push_back({e, 1, {}});
+    least = distance(e);
+  }
+  for (Sector& sector : sectors) {
+    int order = rings.order;
+    for (std::size_t e = 0; e < sector.count; ++e)
+      order = std::max(order, polynomial_order(tip.boundary[sector.first + e]));
+    sector.arms = raised_arms(&tip.boundary[sector.first], sector.count, nodes, tip.centre, order);
+  }
+  return sectors;
+}
+
 /// `smallest`: the innermost copy is no smaller than this.
-DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings& rings, double smallest) {
+DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings& rings, double smallest,
+                       const std::vector<int>& line = {}) {
   DividedTip made;
   made.innermost = tip;
-  std::vector<std::vector<Vec2>> arms;  // of every boundary element, for the copies
-  std::vector<std::vector<int>> outer;  // nodes of every boundary element of the last copy
+  const std::vector<Sector> sectors = sectors_of(tip, nodes, rings, line);
+  std::vector<std::vector<LineElement>> outer;  // of every sector, the elements of the last copy
   double shortest = std::numeric_limits<double>::infinity();
-  for (const LineElement& element : tip.boundary) {
-    const int order = static_cast<int>(element.nodes.size()) - 1;
-    arms.push_back(raised_arms(element, nodes, tip.centre, std::max(order, rings.order)));
-    outer.push_back(element.nodes);
-    for (const Vec2& arm : arms.back()) shortest = std::min(shortest, arm.norm());
+  for (const Sector& sector : sectors) {
+    const auto from = tip.boundary.begin() + static_cast<std::ptrdiff_t>(sector.first);
+    outer.emplace_back(from, from + static_cast<std::ptrdiff_t>(sector.count));
+    for (const Vec2& arm : sector.arms) shortest = std::min(shortest, arm.norm());
   }
+  const auto material_of = [&](const Sector& sector) {
+    return tip.materials.size() > 1 ? tip.materials[sector.first] : tip.materials.front();
+  };
   const auto add = [&](const Vec2& arm, double xi) {
     nodes.push_back(tip.centre + xi * arm);
     return static_cast<int>(nodes.size()) - 1;
   };
   double xi = 1.0;
-  for (int ring = 0; ring < rings.count; ++ring) {
-    const double next = xi * rings.ratio;
+  for (int graded = 0; graded < rings.count;) {
+    const bool by_step = xi - rings.step > xi * rings.ratio;
+    if (!by_step) ++graded;
+    const double next = by_step ? xi - rings.step : xi * rings.ratio;
     if (next * shortest < smallest) break;
-    std::vector<std::vector<int>> inner;
-    for (const std::vector<Vec2>& of_element : arms) {
-      std::vector<int>& copy = inner.emplace_back();
-      for (std::size_t k = 0; k < of_element.size(); ++k)
-        copy.push_back(k == 0 && inner.size() > 1 ? inner[inner.size() - 2].back() : add(of_element[k], next));
+    ++made.rings;
+    made.innermost.scale = next;
+    std::vector<LineElement> inner;
+    for (const Sector& sector : sectors) {
+      LineElement copy;
+      for (std::size_t k = 0; k < sector.arms.size(); ++k)
+        copy.nodes.push_back(k == 0 && !inner.empty() ? inner.back().nodes.back() : add(sector.arms[k], next));
+      inner.push_back(std::move(copy));
     }
     // Sides from the outer copy to the inner one.
     const auto side = [&](int from, int to, const Vec2& arm, std::size_t order) {
@@ -75,24 +144,57 @@ DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings
       return element;
     };
     LineElement before;
-    for (std::size_t e = 0; e < tip.boundary.size(); ++e) {
-      const std::size_t order = arms[e].size() - 1;
-      if (e == 0) made.first.push_back(before = side(outer[0].front(), inner[0].front(), arms[0].front(), order));
-      const LineElement after = side(outer[e].back(), inner[e].back(), arms[e].back(), order);
-      const LineElement in = inverted({inner[e]});
+    made.innermost.boundary.clear();
+    made.innermost.materials.clear();
+    for (std::size_t s = 0; s < sectors.size(); ++s) {
+      const std::vector<Vec2>& arms = sectors[s].arms;
+      const std::size_t order = arms.size() - 1;
+      if (s == 0)
+        made.first.push_back(before =
+                                 side(outer[0].front().nodes.front(), inner[0].nodes.front(), arms.front(), order));
+      const LineElement after = side(outer[s].back().nodes.back(), inner[s].nodes.back(), arms.back(), order);
       Cell& cell = made.cells.emplace_back();
-      cell.boundary = {{outer[e]}, after, in, inverted(before)};
-      for (const LineElement& element : cell.boundary)
-        cell.centre += 0.25 * nodes[static_cast<std::size_t>(element.nodes.front())];
-      cell.materials = {tip.materials.size() > 1 ? tip.materials[e] : tip.materials.front()};
-      made.innermost.boundary[e] = {inner[e]};
+      cell.boundary = outer[s];
+      cell.boundary.push_back(after);
+      cell.boundary.push_back(inverted(inner[s]));
+      cell.boundary.push_back(inverted(before));
+      for (const int corner :
+           {outer[s].front().nodes.front(), after.nodes.front(), after.nodes.back(), before.nodes.back()})
+        cell.centre += 0.25 * nodes[static_cast<std::size_t>(corner)];
+      cell.materials = {material_of(sectors[s])};
+      made.innermost.boundary.push_back(inner[s]);
+      if (tip.materials.size() > 1) made.innermost.materials.push_back(material_of(sectors[s]));
       before = after;
     }
+    if (tip.materials.size() == 1) made.innermost.materials = tip.materials;
     made.last.push_back(before);
-    outer = inner;
+    for (std::size_t s = 0; s < sectors.size(); ++s) outer[s] = {inner[s]};
     xi = next;
   }
   return made;
+}
+
+/// The smallest copy that coordinates have the digits for.
+double smallest_copy(const BodyMesh& mesh) {
+  double farthest = 0.0;
+  for (const Vec2& x : mesh.nodes) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
+  const double rounding = std::numeric_limits<double>::epsilon() * farthest;  // of coordinates
+  return 1e5 * rounding;
+}
+
+/// For each boundary element of a body that is one super-element, the edge of the outline that it belongs to; -1 of
+/// edges that may have corners of their own.
+std::vector<int> edges_of(const BodyMesh& mesh, const model::Body& body) {
+  std::map<std::vector<int>, int> edge_of;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    for (const LineElement& element : mesh.edges[e])
+      edge_of[element.nodes] = body.outline.edges[e].is_chain() ? -1 : static_cast<int>(e);
+  std::vector<int> lines;
+  for (const LineElement& element : mesh.cells.front().boundary) {
+    const auto found = edge_of.find(element.nodes);
+    lines.push_back(found == edge_of.end() ? -1 : found->second);
+  }
+  return lines;
 }
 
 }  // namespace
@@ -102,11 +204,10 @@ void add_tip_rings(BodyMesh& mesh, const model::Body& body, const std::vector<in
   std::erase_if(tips, [&](const TipFace& tip) {
     return !tip.last || std::find(cracks.begin(), cracks.end(), tip.crack) == cracks.end();
   });
-  double farthest = 0.0;
-  for (const Vec2& x : mesh.nodes) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
-  const double rounding = std::numeric_limits<double>::epsilon() * farthest;  // of coordinates
+  const double smallest = smallest_copy(mesh);
   for (const TipFace& tip : tips) {
-    DividedTip divided = divided_tip(mesh.cells[tip.cell], mesh.nodes, rings, 1e5 * rounding);
+    DividedTip divided = divided_tip(mesh.cells[tip.cell], mesh.nodes, rings, smallest);
+    divided.innermost.scale = 1.0;  // factors refer to the size of this cell
     mesh.cells[tip.cell] = divided.innermost;
     mesh.cells.insert(mesh.cells.end(), divided.cells.begin(), divided.cells.end());
     // The last side face is run towards the tip, the first one away from it.
@@ -116,6 +217,103 @@ void add_tip_rings(BodyMesh& mesh, const model::Body& body, const std::vector<in
     std::vector<LineElement>&of_last = face(tip.left), &of_first = face(!tip.left);
     of_last.insert(of_last.end(), divided.last.begin(), divided.last.end());
     for (const LineElement& element : divided.first) of_first.insert(of_first.begin(), inverted(element));
+  }
+}
+
+int divide_side_faces(BodyMesh& mesh, const model::Body& body, const TipRings& rings) {
+  ensure(mesh.cells.size() == 1 && mesh.cells.front().is_open(),
+         "a body that is one open super-element has side faces");
+  DividedTip divided = divided_tip(mesh.cells.front(), mesh.nodes, rings, smallest_copy(mesh), edges_of(mesh, body));
+  mesh.cells = {divided.innermost};
+  mesh.cells.insert(mesh.cells.end(), divided.cells.begin(), divided.cells.end());
+  mesh.faces.assign(2, {});
+  for (const LineElement& element : divided.first) mesh.faces[0].insert(mesh.faces[0].begin(), inverted(element));
+  mesh.faces[1] = divided.last;
+  return divided.rings;
+}
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+bool are_parallel(const Vec2& a, const Vec2& b) { return std::abs(cross(a, b)) < 1e-9; }
+
+/// Directions in which the supports hold a face with the outward normal n. `at_zero`: all of them at 0.
+std::vector<Vec2> held_along(const model::Model& model, int body, int face, const Vec2& n, bool& at_zero) {
+  std::vector<Vec2> along;
+  at_zero = true;
+  for (const model::Support& support : model.supports) {
+    if (support.on.body != body || support.on.kind != model::Place::Kind::face || support.on.index != face) continue;
+    const Vec2 first = support.axes == model::SupportAxes::xy     ? Vec2(1.0, 0.0)
+                       : support.axes == model::SupportAxes::edge ? n
+                                                                  : support.along;
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (!support.displacement[c]) continue;
+      at_zero = at_zero && *support.displacement[c] == 0.0;
+      const Vec2 direction = c == 0 ? first : Vec2(-first.y(), first.x());
+      if (along.empty())
+        along.push_back(direction);
+      else if (along.size() == 1 && !are_parallel(along.front(), direction))
+        along.emplace_back(-along.front().y(), along.front().x());
+    }
+  }
+  return along;
+}
+
+/// Whether anything but supports acts on a face that resists slip or draws along it.
+bool anything_else_acts(const model::Model& model, int body, int face) {
+  const auto is_there = [&](const model::Place& place) {
+    return place.body == body && place.kind == model::Place::Kind::face && place.index == face;
+  };
+  return std::any_of(model.springs.begin(), model.springs.end(),
+                     [&](const model::Spring& spring) { return is_there(spring.on); }) ||
+         std::any_of(model.loads.begin(), model.loads.end(),
+                     [&](const model::Load& load) { return load.on && is_there(*load.on); }) ||
+         std::any_of(model.contacts.begin(), model.contacts.end(),
+                     [&](const model::Contact& contact) { return is_there(contact.a) || is_there(contact.b); });
+}
+
+/// From the first side face to the last, radians.
+double opening_angle(const Cell& cell, const std::vector<Vec2>& nodes) {
+  double angle = 0.0;
+  for (const LineElement& element : cell.boundary)
+    for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i) {
+      const Vec2 from = nodes[static_cast<std::size_t>(element.nodes[i])] - cell.centre,
+                 to = nodes[static_cast<std::size_t>(element.nodes[i + 1])] - cell.centre;
+      angle += std::atan2(cross(from, to), from.dot(to));
+    }
+  return angle;
+}
+
+}  // namespace
+
+void hold_tips(BodyMesh& mesh, const model::Model& model, int body) {
+  const model::Body& of = model.bodies[static_cast<std::size_t>(body)];
+  std::map<std::size_t, HeldFaces> held;
+  std::map<std::size_t, std::array<bool, 2>> symmetric;
+  for (const TipFace& tip : tip_faces(of, mesh)) {
+    const Cell& cell = mesh.cells[tip.cell];
+    const int face = 2 * tip.crack + (tip.left ? 1 : 0);
+    Vec2 normal;
+    if (model::has_divided_faces(of)) {
+      const int end = tip.last ? cell.boundary.back().nodes.back() : cell.boundary.front().nodes.front();
+      const Vec2 arm = (mesh.nodes[static_cast<std::size_t>(end)] - cell.centre).stableNormalized();
+      normal = tip.last ? Vec2(-arm.y(), arm.x()) : Vec2(arm.y(), -arm.x());
+    } else {
+      normal = model::side_face_normal(of, face);
+    }
+    bool at_zero = false;
+    const std::size_t k = tip.last ? 1 : 0;
+    std::vector<Vec2>& along = held[tip.cell].along[k] = held_along(model, body, face, normal, at_zero);
+    symmetric[tip.cell][k] =
+        along.size() == 1 && are_parallel(along.front(), normal) && at_zero && !anything_else_acts(model, body, face);
+  }
+  for (auto& [cell, faces] : held) {
+    if (faces.along[0].empty() && faces.along[1].empty()) continue;
+    const bool has_room = opening_angle(mesh.cells[cell], mesh.nodes) < pi * (1.0 + 1e-9);  // for its image
+    for (const std::size_t k : {0u, 1u})
+      if (has_room && symmetric[cell][k] && faces.along[1 - k].empty()) faces.mirror = static_cast<int>(k);
+    mesh.cells[cell].held = std::make_shared<const HeldFaces>(faces);
   }
 }
 

@@ -107,13 +107,11 @@ bool check_place(Checking& checking, const std::string& path, const Place& place
   return false;
 }
 
-std::string undivided_face(const Model& model, const Place& place) {
-  const Body& body = model.bodies[static_cast<std::size_t>(place.body)];
+std::string endless_face(const Model& model, const Place& place) {
   return fmt::format(
-      "'{}' is a side face, which has no nodes between its ends: {}, or name an edge, a corner or a point",
-      text_of(model, place),
-      body.cracks.empty() ? "leave out the scaling centre on its end"
-                          : "write mesh: {kind: polygons, ...}, and give the crack as a path: [mouth, tip]");
+      "'{}' is a side face that reaches to infinity and has no nodes: name an edge of the hole, or put a body with a "
+      "mesh into the hole, tie the two, and name an edge of that body",
+      text_of(model, place));
 }
 
 std::string text_of(const Model& model, const Place& place) {

@@ -117,18 +117,35 @@ void check_result_axes(Checking& checking, const std::string& path, const Result
     checking.error(path, "axes", "the first direction must have the length 1");
 }
 
+/// Whether a face has nodes up to the tip or scaling centre, because supports, springs or a contact act on it or on the
+/// one opposite to it.
+bool has_nodes(const Model& model, const Place& face) {
+  const auto is_there = [&](const Place& place) {
+    return place.kind == Place::Kind::face && place.body == face.body && place.index / 2 == face.index / 2;
+  };
+  return std::any_of(model.supports.begin(), model.supports.end(), [&](const auto& one) { return is_there(one.on); }) ||
+         std::any_of(model.springs.begin(), model.springs.end(), [&](const auto& one) { return is_there(one.on); }) ||
+         std::any_of(model.contacts.begin(), model.contacts.end(), [&](const auto& one) { return is_there(one.a); });
+}
+
 void check_edge_resultant(Checking& checking, const std::string& path, const EdgeResultant& edge) {
   checking.vector(path, "about", edge.about);
   check_result_axes(checking, path, edge.axes);
   if (!check_place(checking, path + ".edge", edge.on)) return;
-  if (edge.on.kind != Place::Kind::edge)
+  if (edge.on.kind == Place::Kind::face && !checking.body(edge.on.body).outside) {
+    if (!has_nodes(checking.model, edge.on))
+      checking.error(path, "edge",
+                     fmt::format("'{}' is a face that nothing holds: only its own loads act through it; leave it out",
+                                 text_of(checking.model, edge.on)));
+  } else if (edge.on.kind != Place::Kind::edge) {
     checking.error(path, "edge",
                    fmt::format("'{}' is no edge between two corners: name one, as in wall.bottom",
                                text_of(checking.model, edge.on)));
-  else if (checking.body(edge.on.body).rigid)
+  } else if (checking.body(edge.on.body).rigid) {
     checking.error(path, "edge",
                    fmt::format("body '{}' is rigid: ask for the forces of its contacts or supports",
                                checking.body(edge.on.body).name));
+  }
 }
 
 void check_history(Checking& checking) {

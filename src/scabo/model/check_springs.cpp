@@ -29,8 +29,8 @@ void check_springs(Checking& checking) {
                       text_of(model, spring.on)));
       good = false;
     }
-    if (good && spring.on.kind == Place::Kind::face && !has_divided_faces(checking.body(spring.on.body))) {
-      checking.error(path, "on", undivided_face(model, spring.on));
+    if (good && spring.on.kind == Place::Kind::face && checking.body(spring.on.body).outside) {
+      checking.error(path, "on", endless_face(model, spring.on));
       good = false;
     }
     const char* keys[2] = {on_edge ? "k_n" : "k_x", on_edge ? "k_t" : "k_y"};

@@ -80,8 +80,8 @@ void check_supports(Checking& checking) {
                      fmt::format("another support is already named '{}': rename one of them", support.name));
     if (checking.is_body(support.on.body)) checking.held[static_cast<std::size_t>(support.on.body)] = 1;
     bool good = check_place(checking, path + ".on", support.on);
-    if (good && support.on.kind == Place::Kind::face && !has_divided_faces(checking.body(support.on.body))) {
-      checking.error(path, "on", undivided_face(model, support.on));
+    if (good && support.on.kind == Place::Kind::face && checking.body(support.on.body).outside) {
+      checking.error(path, "on", endless_face(model, support.on));
       good = false;
     }
     good = check_axes(checking, path, support) && good;

@@ -108,8 +108,8 @@ bool check_inside(Checking& checking, const std::string& path, const std::string
                   const Outline& outline);
 /// Whether a place exists; reports it if not. A place of a body with a broken shape is passed over: false.
 bool check_place(Checking& checking, const std::string& path, const Place& place);
-/// Why nothing can hold a side face without boundary elements, and what to do.
-std::string undivided_face(const Model& model, const Place& place);
+/// Why nothing can hold a side face of an unbounded body, and what to do.
+std::string endless_face(const Model& model, const Place& place);
 /// As given by the user, or made from names.
 std::string text_of(const Model& model, const Place& place);
 

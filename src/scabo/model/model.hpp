@@ -476,7 +476,7 @@ struct ResultAxes {
 
 /// Resultant of all that acts on an elastic body through one of its edges, and its moment (analysis/edge_forces.hpp).
 struct EdgeResultant {
-  Place on;                   ///< an edge
+  Place on;                   ///< an edge, or a face on which supports, springs or a contact act
   Vec2 about = Vec2::Zero();  ///< point of the moment
   ResultAxes axes;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/finite_element.hpp"
@@ -98,10 +99,26 @@ class Applied {
             const Vec2 value =
                 traction.pressure ? Vec2(-term.value.x() * element::face_normal(cell.ring, face)) : term.value;
             element::add_radial_loads(loads.loads,
-                                      {element::face_load(cell.ring, face, term.power, value, thickness())}, 1.0);
+                                      {element::face_load(cell.ring, face, term.power,
+                                                          std::pow(cell.scale, term.power) * value, thickness())},
+                                      1.0);
           }
         },
         no_force);
+    if (body_mesh_.faces.empty()) return;
+    // Where the super-element is divided into rings, it acts on the elements of its face.
+    const Vec2& centre = body_mesh_.cells.front().centre;
+    const auto end = static_cast<std::size_t>(body_mesh_.mouth[static_cast<std::size_t>(place_->index)]);
+    const double length = (body_mesh_.nodes[end] - centre).norm();
+    const auto at = [&](const Vec2& x, const Vec2& n) {
+      Vec2 sum = Vec2::Zero();
+      for (const model::FaceTraction::Term& term : traction.terms)
+        sum += std::pow((x - centre).norm() / length, term.power) *
+               (traction.pressure ? Vec2(-term.value.x() * n) : term.value);
+      return sum;
+    };
+    nodal += traction_forces(body_mesh_.faces[static_cast<std::size_t>(place_->index)], body_mesh_.nodes, thickness(),
+                             at, {[](const Vec2&) { return 0.0; }, {}});
   }
 
   void operator()(const model::BodyForce& force) {

@@ -11,6 +11,7 @@
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/mesh/crack_faces.hpp"
+#include "scabo/model/side_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 
@@ -56,8 +57,7 @@ class ConstraintCollector {
       }
       const std::vector<int> nodes = mesh::nodes_of(support.on, mesh_).nodes;
       const bool of_face = support.on.kind == model::Place::Kind::face && support.axes == model::SupportAxes::edge;
-      const std::map<int, Vec2> normals =
-          of_face ? mesh::normals_of_face(mesh_.bodies[body], support.on.index) : std::map<int, Vec2>{};
+      const std::map<int, Vec2> normals = of_face ? normals_at(support.on, nodes) : std::map<int, Vec2>{};
       for (const int node : nodes)
         add(support.on.body, node,
             constraint_along(support, component, mesh_.bodies[body].nodes[static_cast<std::size_t>(node)], index,
@@ -75,6 +75,16 @@ class ConstraintCollector {
     for (const Constraint& constraint : constraints_[part])
       if (constraint.rotation) return true;
     return false;
+  }
+
+  /// Outward normals at the nodes of a face.
+  std::map<int, Vec2> normals_at(const model::Place& face, const std::vector<int>& nodes) const {
+    const model::Body& body = model_.bodies[static_cast<std::size_t>(face.body)];
+    if (model::has_divided_faces(body))
+      return mesh::normals_of_face(mesh_.bodies[static_cast<std::size_t>(face.body)], face.index);
+    std::map<int, Vec2> normals;  // without the rounding of the nodes near the scaling centre
+    for (const int node : nodes) normals.emplace(node, model::side_face_normal(body, face.index));
+    return normals;
   }
 
   /// A constraint at a point along axis 0 or 1 of a support; axes along x or y, in either sense, become x and y.
