@@ -10,6 +10,10 @@ Collapse of the whole (width B, height H, weight rho g per volume), for a push q
 
 A wall of separate blocks may fall before: parts of it turn, along steps in its bond. Limit analysis takes all of that into
 account, see limit_load.
+
+Instead of the push, every block may be accelerated along the wall ("shaken"), as by an earthquake: by a per weight, a in g,
+
+    the first course slides     a = mu         it turns about its toe      a = B / H
 """
 import functools
 
@@ -31,14 +35,16 @@ def height_of(columns):
     return 1.0 if columns == 1 else 0.5
 
 
-def collapse_load(columns, courses, friction):
-    """Push (Pa) at which the whole slides or turns, whichever comes first."""
+def collapse_load(columns, courses, friction, shaken=False):
+    """Push (Pa), or acceleration (g), at which the whole slides or turns, whichever comes first."""
     width, height = float(columns), courses * height_of(columns)
     weight = DENSITY * GRAVITY
+    if shaken:
+        return min(friction, width / height)
     return min(friction * weight * width, weight * width**2 / height)
 
 
-def model(columns, courses, friction, push, increments=1):
+def model(columns, courses, friction, push, increments=1, shaken=False):
     """The model file as text. Weight first, in one increment, then the push in as many as asked for (1: both at once)."""
     height = height_of(columns)
     spans = courses_of(columns, courses, height)
@@ -55,8 +61,11 @@ def model(columns, courses, friction, push, increments=1):
             else:
                 contacts += [(f"b{z - 1}_{j}.top", f"b{z}_{k}.bottom") for j, (a, b) in enumerate(spans[z - 1])
                              if min(b, right) - max(a, left) > 0.1]
-        loads.append(f"  push_{z}: {{on: b{z}_0.left, traction: [{push!r}, 0]}}")
-    pushes = ", ".join(f"push_{z}: 1" for z in range(courses))
+        if not shaken:
+            loads.append(f"  push_{z}: {{on: b{z}_0.left, traction: [{push!r}, 0]}}")
+    if shaken:
+        loads.append(f"  push_0: {{gravity: [{push * GRAVITY!r}, 0]}}")
+    pushes = ", ".join(f"push_{z}: 1" for z in range(len(loads)))
     return "\n".join([
         "scabo: 1", f"title: {columns} x {courses} blocks",
         "materials: {stone: {young: 5e9, poisson: 0.2, density: 2000}}", "bodies:", *bodies,
@@ -68,8 +77,8 @@ def model(columns, courses, friction, push, increments=1):
 
 
 @functools.lru_cache(None)
-def limit_load(columns, courses, friction):
-    """Largest push (Pa) for which forces within the friction cones balance every block: the static theorem of limit analysis
+def limit_load(columns, courses, friction, shaken=False):
+    """Largest push (Pa), or acceleration (g), for which forces within the friction cones balance every block: the static theorem of limit analysis
     as a linear programme (Livesley, Int. J. Numer. Methods Eng. 12 (1978) 1853). Above it nothing can stand; below it a wall
     whose joints slide without opening may still fall. Every joint carries forces at its two ends. Needs SciPy."""
     import numpy
@@ -112,11 +121,13 @@ def limit_load(columns, courses, friction):
                         touch(number[z - 1, j], number[z, k], x, z * height, (0.0, 1.0))
     # In units in which a block weighs about 1 and the push for the whole to slide or turn is 1.
     weight, push = numpy.zeros(3 * len(number)), numpy.zeros(3 * len(number))
-    unit = collapse_load(columns, courses, friction) / (DENSITY * GRAVITY)
+    unit = collapse_load(columns, courses, friction, shaken) / (1.0 if shaken else DENSITY * GRAVITY)
     for (z, k), body in number.items():
         a, b = spans[z][k]
         weight[3 * body + 1] = -(b - a)
-        if k == 0:
+        if shaken:
+            push[3 * body] = unit * (b - a)
+        elif k == 0:
             push[3 * body] = unit
     rows, columns_of, values = zip(*entries)
     balance = scipy.sparse.coo_matrix((values, (rows, columns_of)), shape=(len(weight), 2 * count))
@@ -132,4 +143,4 @@ def limit_load(columns, courses, friction):
     found = scipy.optimize.linprog(objective, cones, numpy.zeros(2 * count), equal, -weight, bounds, method="highs-ipm")
     if found.status != 0:
         raise ArithmeticError(f"{columns} x {courses} blocks, friction {friction}: {found.message}")
-    return -found.fun * collapse_load(columns, courses, friction)
+    return -found.fun * collapse_load(columns, courses, friction, shaken)

@@ -6,9 +6,9 @@
 Scabo writes the discrete problems of the wall without push and at half of its limit load (blocks.py); both are linear in the
 push. From a solution at part `--from` of that load (Newton's method from bonded pairs, with line search) the solutions are
 followed exactly while the push grows: for given states (open, stick, slip either way) they are linear in it, until one pair comes
-to its limit; it takes its next state, and the path goes on to the side on which the new state is possible. Dense matrices, one
-factorisation for each change of state; 1e-6 of the mean flexibility is added to that of each pair, because pairs of three bodies
-that meet in a point are redundant. Needs NumPy, SciPy, h5py: 4 x 4 blocks take seconds, 8 x 8 minutes.
+to its limit; it takes its next state, and the path goes on to the side on which the new state is possible. One factorisation
+(SuperLU) for each change of state; 1e-6 of the mean flexibility is added to that of each pair, because pairs of three bodies
+that meet in a point are redundant. Needs NumPy, SciPy, h5py.
 
 It ends where the matrix is singular: a body then moves although the push stands still. With walls of 4 x 4 and 8 x 8 blocks:
 
@@ -23,7 +23,7 @@ import blocks
 import h5py
 import numpy as np
 import scipy.sparse as sp
-from scipy.linalg import lu_factor, lu_solve
+import scipy.sparse.linalg
 
 OPEN, STICK, FORWARD, BACKWARD = range(4)  # forward: u_t > 0
 
@@ -32,10 +32,10 @@ def matrix(group):
     rows, columns, nz = (int(group[k][()]) for k in ("m", "n", "nz"))
     p, i, x = group["p"][:], group["i"][:], group["x"][:]
     if nz == -1:
-        return sp.csc_matrix((x, i, p), shape=(rows, columns)).toarray()
+        return sp.csc_matrix((x, i, p), shape=(rows, columns)).tocsr()
     if nz == -2:
-        return sp.csr_matrix((x, i, p), shape=(rows, columns)).toarray()
-    return sp.coo_matrix((x, (i, p)), shape=(rows, columns)).toarray()
+        return sp.csr_matrix((x, i, p), shape=(rows, columns))
+    return sp.coo_matrix((x, (i, p)), shape=(rows, columns)).tocsr()
 
 
 class Wall:
@@ -52,9 +52,9 @@ class Wall:
         W, self.G = matrix(read[0]["W"]), matrix(read[0]["V"])
         (q, f), (q_half, f_half) = ((file["vectors/q"][:], file["vectors/s"][:]) for file in read)
         self.mu, force = read[0]["vectors/mu"][:], np.abs(f).max()
-        scale = 1.0 / np.mean(np.diag(W))
-        self.W = W * scale + 1e-6 * np.eye(len(W))
+        scale = 1.0 / np.mean(W.diagonal())
         self.n, self.m = self.G.shape
+        self.W = (W * scale + 1e-6 * sp.eye(self.n)).tocsr()
         self.at_rest = np.r_[q * scale, f] / force
         self.of_push = 2.0 * (np.r_[q_half * scale, f_half] / force - self.at_rest)
 
@@ -64,29 +64,32 @@ class Wall:
         rows = np.sort(np.r_[normal, tangent])
         place = np.full(self.n, -1)
         place[rows] = np.arange(len(rows))
-        forces = np.zeros((self.n, len(rows)))
-        forces[rows, np.arange(len(rows))] = 1.0
-        for state, sign in ((FORWARD, -1.0), (BACKWARD, 1.0)):
-            pairs = np.flatnonzero(states == state)
-            forces[2 * pairs + 1, place[2 * pairs]] = sign * self.mu[pairs]
-        A = np.block([[self.W[rows] @ forces, self.G[rows]], [self.G.T @ forces, np.zeros((self.m, self.m))]])
-        factor = lu_factor(A, check_finite=False)
-        pivots = np.abs(np.diag(factor[0]))
+        slipping, backward = np.flatnonzero(states >= FORWARD), states == BACKWARD
+        friction = self.mu[slipping] * np.where(backward[slipping], 1.0, -1.0)
+        forces = sp.csr_matrix((np.r_[np.ones(len(rows)), friction],
+                                (np.r_[rows, 2 * slipping + 1], np.r_[np.arange(len(rows)), place[2 * slipping]])),
+                               shape=(self.n, len(rows)))
+        A = sp.bmat([[self.W[rows] @ forces, self.G[rows]], [self.G.T @ forces, None]]).tocsc()
+        try:
+            factor = sp.linalg.splu(A)
+        except RuntimeError:  # exactly singular
+            raise ZeroDivisionError from None
+        pivots = np.abs(factor.U.diagonal())
         if pivots.min() < 1e-15 * pivots.max():
             raise ZeroDivisionError
         for load in loads:
             b = -np.r_[load[rows], load[self.n:]]
-            x = lu_solve(factor, b)
-            x += lu_solve(factor, b - A @ x)
+            x = factor.solve(b)
+            x += factor.solve(b - A @ x)
             p, a = forces @ x[:len(rows)], x[len(rows):]
             yield p, a, self.W @ p + self.G @ a + load[:self.n]
 
     def at_equilibrium(self, part):
         """States at this part of the limit load."""
         load = self.at_rest + part * self.of_push
-        A = np.block([[self.W + 1e-3 * np.eye(self.n), self.G], [self.G.T, np.zeros((self.m, self.m))]])
-        z = np.linalg.solve(A, -load)
-        r = 1.0 / np.maximum(np.diag(self.W), 1e-3)
+        A = sp.bmat([[self.W + 1e-3 * sp.eye(self.n), self.G], [self.G.T, None]]).tocsc()
+        z = sp.linalg.spsolve(A, -load)
+        r = 1.0 / np.maximum(self.W.diagonal(), 1e-3)
 
         def evaluate(z):
             p, u = z[:self.n], self.W @ z[:self.n] + self.G @ z[self.n:] + load[:self.n]

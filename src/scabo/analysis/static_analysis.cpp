@@ -15,6 +15,7 @@
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/restart.hpp"
 #include "scabo/analysis/stages.hpp"
+#include "scabo/analysis/undetermined_forces.hpp"
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/worthwhile_threads.hpp"
 #include "scabo/base/interruption.hpp"
@@ -42,6 +43,7 @@ struct Reached {
   int iterations = 0, coarse_iterations = 0, halvings = 0;
   double residual = 0.0;
   Matrix undetermined;
+  contact::Problem problem;  ///< that was solved last
   std::optional<UniquenessResult> uniqueness;
   bool mechanism = false, collapse = false, stopped = false;
   std::string reason;          ///< empty if the end was reached
@@ -127,6 +129,7 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       reached.certificate = tried.certificate;
       reached.residual = tried.solution.residual;
       reached.undetermined = std::move(tried.solution.undetermined);
+      reached.problem = std::move(tried.problem);
       reached.uniqueness = tried.uniqueness;
       reached.part = next;
       reached.last_iterations = tried.solution.iterations;
@@ -196,6 +199,12 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
                     "add a support if the position matters",
                     motion));
   }
+  const bool told_of_forces = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.kind == WarningKind::undetermined_force;
+  });
+  if (!told_of_forces && reached.problem.pairs() == static_cast<int>(prepared.contact.pairs.size()))
+    if (const auto forces = undetermined_forces_warning(prepared, reached.state, reached.problem))
+      add(forces->kind, forces->subject, forces->text);
   if (reached.uniqueness && reached.uniqueness->others > 0)
     add(WarningKind::several_solutions, "",
         fmt::format("other solutions exist ({} found); the one closest to the previous "

@@ -22,6 +22,8 @@ const char* name_of(WarningKind kind) {
       return "open_shear";
     case WarningKind::undetermined_motion:
       return "undetermined_motion";
+    case WarningKind::undetermined_force:
+      return "undetermined_force";
     case WarningKind::several_solutions:
       return "several_solutions";
     case WarningKind::rounding:

@@ -16,6 +16,7 @@ enum class WarningKind {
   slides_off,    ///< the sides of a contact with large slip leave each other
   open_shear,    ///< open pairs carry a prescribed shear strength
   undetermined_motion,
+  undetermined_force,  ///< forces of pairs that are not unique although displacements are
   several_solutions,
   rounding,  ///< of the stiffness of a slender body
   large_displacement,

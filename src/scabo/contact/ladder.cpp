@@ -18,6 +18,8 @@ namespace {
 /// Pairs of many bodies up to which a path comes before interior points: each of its changes of state costs a solve
 /// (16 x 16 blocks, 2,260 pairs, 0.9 of the limit load: 11 s and 4 s).
 constexpr int most_of_paths_first = 1000;
+/// Pairs from which most of a path is taken in leaps. Of fewer a factorisation costs as much as fifty changes.
+constexpr int least_of_leaps = 4000;
 
 NewtonEnd nothing() {
   NewtonEnd end;
@@ -99,13 +101,12 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   const bool paths = many && may_follow_path(problem_), paths_first = paths && problem_.pairs() <= most_of_paths_first;
   const int most = paths ? std::min(few, options_.iterations) : 0;
   if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, most, patience}))) return best;
-  if (!cold && paths_first && better(along_loads(p, a))) return best;
+  if (!cold && paths && better(along_loads(p, a))) return best;
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
   if (held_together && better(bonded(*held_together))) return best;
   if (hopeless && hopeless()) return best;
   const bool inner = many && may_take_interior_points(problem_);
   if (inner && !paths_first && better(inside({1.0}))) return best;
-  if (!cold && paths && !paths_first && better(along_loads(p, a))) return best;
   if (paths && held_together && (better(along_paths(*held_together, touching)) || collapse())) return best;
   if (inner) {
     if (better(paths_first ? inside({1.0, 10.0, 1000.0}) : inside({10.0, 1000.0}))) return best;
@@ -186,8 +187,14 @@ PathEnd Ladder::along_path(const PathStart& start) {
   const BDifferentiableEquations equations(problem_, options_.r_factor);
   PathOptions options;
   options.deadline = options_.deadline;
-  // Paths that arrive take up to two changes for each pair; what falls may take twice as many.
-  if (problem_.pairs() > most_of_paths_first) options.most = 2 * problem_.pairs() + 100;
+  if (problem_.pairs() > most_of_paths_first) {
+    const int pairs = problem_.pairs();
+    options.changes = 100;
+    options.leap = pairs > least_of_leaps ? 6 : 0;
+    // Paths that arrive take up to two changes for each pair; of more pairs it would take minutes.
+    options.most = pairs > least_of_leaps ? 1500 + pairs / 10 : 2 * pairs + 100;
+    options.patience = 300 + pairs / 20;
+  }
   options.on_factorisation = [&](const Vector& p, const Vector& a) {
     const Residual at = equations.residual(p, a);
     trace_.push_back({++iterations_ + coarse_iterations_, at.largest(), at.merit(), 1.0, 0, "path"});

@@ -69,7 +69,12 @@ std::vector<bool> immovable_components(const Problem& problem) {
 NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
     : equations_(equations),
       work_(std::make_unique<Workspace>()),
-      immovable_(immovable_components(equations.problem())) {}
+      immovable_(immovable_components(equations.problem())) {
+  // Where many bodies meet pairs are redundant, and a singular matrix costs three times the operations of a regular
+  // one.
+  constexpr Eigen::Index many_motions = 60;
+  work_->redundant = equations.problem().G.cols() > many_motions && equations.proximal_weight() == 0.0;
+}
 NewtonDirection::~NewtonDirection() = default;
 
 bool NewtonDirection::find(Residual& at, double regularisation, Ties ties, Vector& d) {

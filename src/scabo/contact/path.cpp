@@ -6,6 +6,8 @@
 #include <optional>
 #include <random>
 
+#include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/newton.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
@@ -37,9 +39,10 @@ class Path {
   Path(const Problem& problem, const PathStart& start, const PathOptions& options)
       : problem_(problem), options_(options), N_(problem.pairs()), m_(problem.G.cols()), n_(2 * N_ + m_) {
     W_ = problem.W.is_sparse() ? SparseRows(problem.W.sparse()) : SparseRows(problem.W.dense().sparseView());
+    soft_ = options.softness * BDifferentiableEquations(problem, 1.0).r().cwiseInverse();
     Sparse softness(2 * N_, 2 * N_);
     softness.setIdentity();
-    softness *= options.softness;
+    softness.diagonal() = soft_;
     W_ += SparseRows(softness);
     G_columns_ = m_ > 0 ? problem.G.sparse() : Sparse(2 * N_, 0);
     G_ = G_columns_;
@@ -50,11 +53,26 @@ class Path {
   PathEnd run() {
     PathEnd end;
     const int most = options_.most > 0 ? options_.most : static_cast<int>(4 * N_) + 100;
-    int round = 0, least_at = 0;
+    const int patience = options_.patience > 0 ? options_.patience : most / 8;
+    int round = 0, least_at = 0, leap_at = changes_between_leaps, between_leaps = changes_between_leaps;
     bool endless = false;        // t stands still while the bodies move
     std::optional<Next> passed;  // the limit that the path has just come from
+    if (options_.leap > 0) leap_on(end);
     if (!factorise(end)) return finish(end, PathEnd::How::broken);
     while (true) {
+      // Not while t grows: a leap would go back to where the path has come from.
+      if (options_.leap > 0 && round == 0 && passed && t_ <= end.left && end.changes >= leap_at) {
+        leap_ = std::max(leap_, 4.0 * least_leap);
+        if (leap_on(end)) {
+          if (!factorise(end)) return finish(end, PathEnd::How::broken);
+          passed.reset();
+          least_at = end.changes;
+          between_leaps = changes_between_leaps;
+        } else {
+          between_leaps *= 2;
+        }
+        leap_at = end.changes + between_leaps;
+      }
       if (passed) {
         // Factorised before the change, on a piece on which t moves: there the matrix is regular.
         const auto replaced = static_cast<int>(rows_.size()) + 2;
@@ -86,8 +104,9 @@ class Path {
         least_at = end.changes;
       }
       if (options_.deadline.passed()) return finish(end, PathEnd::How::broken);
-      if (end.changes >= most || t_ > far)
-        return finish(end, 8 * (end.changes - least_at) > most ? PathEnd::How::turned_back : PathEnd::How::broken);
+      const bool back = end.changes - least_at >= patience;
+      if (end.changes >= most || t_ > far || (options_.patience > 0 && back))
+        return finish(end, back ? PathEnd::How::turned_back : PathEnd::How::broken);
       passed = next;
     }
   }
@@ -97,6 +116,11 @@ class Path {
   static constexpr double settled = 1e-14;  // of the largest force: what rounding leaves of the softness
   static constexpr double least_force = 1e-300;
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
+  // Leaps: the shortest, the factors after success and failure, |H| relative to the largest force, and how far the path
+  // is followed change by change before the next leap; twice as far each time that none succeeds.
+  static constexpr double least_leap = 1.0 / 256.0, longer = 2.0, shorter = 0.25, leap_tolerance = 3e-6,
+                          exact_states = 1e-11;
+  static constexpr int changes_between_leaps = 60, leap_patience = 3;
 
   PathEnd finish(PathEnd& end, PathEnd::How how) {
     end.how = how;
@@ -153,11 +177,66 @@ class Path {
   /// Returns the motions that go, over the size of all.
   double take_softness_back() {
     t_ = 1.0;
-    dq_ = options_.softness * (z_.head(2 * N_) - centre_);
+    dq_ = soft_.cwiseProduct(z_.head(2 * N_) - centre_);
     centre_ = z_.head(2 * N_);
     q_ -= dq_;
     df_.setZero();
     return dq_.lpNorm<Eigen::Infinity>() / std::max(centre_.lpNorm<Eigen::Infinity>(), least_force);
+  }
+
+  /// Leaps as far as they succeed; whether any did: the matrix is then to be factorised.
+  bool leap_on(PathEnd& end) {
+    const int before = end.leaps;
+    while (t_ > 0.0 && leap_ >= least_leap && !options_.deadline.passed()) {
+      const double to = t_ > 1.001 * leap_ ? t_ - leap_ : 0.0;
+      if (!leap_to(to, leap_tolerance, end)) {
+        leap_ = shorter * (t_ - to);
+        continue;
+      }
+      leap_ *= longer;
+      ++end.leaps;
+      end.left = std::min(end.left, t_);
+    }
+    if (end.leaps > before) leap_to(t_, exact_states, end);  // the path goes on from there
+    return end.leaps > before;
+  }
+
+  /// Newton's method on the problem at t = `to`, from the point reached.
+  bool leap_to(double to, double tolerance, PathEnd& end) {
+    Problem there = problem_;
+    there.q = q_ + to * dq_;
+    there.f = problem_.f + to * df_;
+    BDifferentiableEquations equations(there, 1.0);
+    equations.hold(options_.softness, Vector::Zero(2 * N_));
+    NewtonOptions newton_options;
+    newton_options.iterations = options_.leap;
+    newton_options.patience = leap_patience;
+    newton_options.relative = tolerance;
+    newton_options.deadline = options_.deadline;
+    newton_options.stage = "path";
+    if (options_.on_factorisation)
+      newton_options.on_iteration = [&](const Iteration& iteration) {
+        if (iteration.iteration > 0) options_.on_factorisation(z_.head(2 * N_), z_.tail(m_));
+      };
+    const NewtonEnd reached = newton(equations, z_.head(2 * N_), z_.tail(m_), newton_options);
+    end.factorisations += reached.iterations;
+    if (!reached.converged) return false;
+    z_.head(2 * N_) = reached.p;
+    z_.tail(m_) = reached.a;
+    t_ = to;
+    const Residual at = equations.residual(reached.p, reached.a);
+    motion_ = at.motion;
+    for (Index i = 0; i < N_; ++i) {
+      const Branch& branch = at.branches[static_cast<std::size_t>(i)];
+      Pair& pair = pairs_[static_cast<std::size_t>(i)];
+      pair.contact = branch.contact && z_[2 * i] > 0.0;
+      if (!pair.contact || !may_stick(i)) {
+        pair.side = may_stick(i) && motion_[2 * i + 1] < 0.0 ? -1 : 1;
+      } else {
+        pair.side = branch.tangent == Branch::Tangent::stick ? 0 : branch.along[0] > 0.0 ? -1 : 1;
+      }
+    }
+    return true;
   }
 
   double mu_of(Index pair, int side) const { return problem_.mu_against(pair, -side); }
@@ -316,7 +395,9 @@ class Path {
       rest += S * c - c;
       Vector w = S.partialPivLu().solve(rest);
       if (!w.allFinite())  // nothing holds a body: by rounding alone the way is along its motion, and t stands still
-        w = Matrix(S + 1e-13 * S.cwiseAbs().maxCoeff() * Matrix::Identity(k, k)).partialPivLu().solve(rest);
+        w = Matrix(S + 1e-13 * std::max(1.0, S.cwiseAbs().maxCoeff()) * Matrix::Identity(k, k))
+                .partialPivLu()
+                .solve(rest);
       dz_.noalias() += solved_.leftCols(k) * (c - w);
     }
     if (!dz_.allFinite()) return false;
@@ -412,8 +493,9 @@ class Path {
   Index N_, m_, n_;
   SparseRows W_, G_;
   Sparse W_columns_, G_columns_, A_;
-  Vector q_, centre_, dq_, df_, z_, motion_, slope_, dz_, d_motion_;
+  Vector soft_, q_, centre_, dq_, df_, z_, motion_, slope_, dz_, d_motion_;
   double t_ = 1.0, dt_ = -1.0;
+  double leap_ = 0.5;
   std::vector<Pair> pairs_, base_;
   std::vector<Index> rows_;  // replaced since the factorisation
   Matrix solved_;            // Y = B^-1 of their unit vectors

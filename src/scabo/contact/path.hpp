@@ -16,8 +16,13 @@
 // force, or it goes back to larger t for good.
 //
 // One matrix is factorised for up to `changes` changes of state; each replaces a row (Sherman, Morrison, Woodbury). To
-// the diagonal of W `softness` times its mean is added, because pairs of three bodies that meet in a point are
-// redundant; Newton's method on the problem itself follows.
+// the diagonal of W `softness` times itself is added (of its mean where it is zero), because pairs of three bodies that
+// meet in a point are redundant; Newton's method on the problem itself follows.
+//
+// Of thousands of pairs most of the way can be taken in leaps: Newton's method at a smaller t, from the point reached,
+// changes all states together in a few factorisations, where one change after the other takes a solve each. A leap that
+// fails is made again a quarter as long. What leaps do not pass, a body that begins to move or a path that turns back,
+// is passed change by change.
 #pragma once
 
 #include <functional>
@@ -41,19 +46,21 @@ struct PathOptions {
   int rounds = 8;     ///< paths that take the softness back, most
   int changes = 250;  ///< of state with one factorisation
   int most = 0;       ///< changes of state in all; 0: 100, and four for each pair
+  int patience = 0;   ///< changes without a smaller t after which the path has turned back; 0: an eighth of `most`
+  int leap = 0;       ///< Newton iterations of a leap; 0: no leaps
   Deadline deadline;
   std::function<void(const Vector& p, const Vector& a)> on_factorisation;  ///< may be empty
 };
 
 struct PathEnd {
   /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on for ever. turned_back: t has grown
-  /// again and an eighth of `most` changes, or more, does not lead below its least. broken: rounding, `most`, or the
-  /// deadline.
+  /// again and `patience` changes, or more, do not lead below its least. broken: rounding, `most`, or the deadline.
   enum class How { arrived, endless, turned_back, broken } how = How::broken;
   Vector p, a;        ///< where the path ends
   double left = 1.0;  ///< the least t met
   Vector motion;      ///< rigid motions where t was least, or of the endless piece, of length 1; empty if arrived
   int factorisations = 0, changes = 0;
+  int leaps = 0;  ///< that succeeded
 };
 
 /// Coulomb's law alone in the plane; W sparse, or dense with at most 2,000 rows.

@@ -1,5 +1,7 @@
 // Factorisation of a sparse square matrix without symmetry: P R A Q = L U by UMFPACK (Davis, ACM Trans. Math. Softw. 30
-// (2004) 196), ordered by METIS on the pattern of A + A'.
+// (2004) 196), ordered by METIS. Of a saddle matrix [W G; G' 0] the unknowns without a diagonal entry stand right
+// behind neighbours that fill it, and pivots stay on the diagonal. UMFPACK by itself takes such a matrix for an
+// unsymmetric one and orders A'A, which takes three times the operations (walls of 40 x 40 blocks: 4.1e9 and 1.2e10).
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -45,14 +45,15 @@ Problem between_floor_and_ceiling(double push, double gap) {
   return problem;
 }
 
-/// From the block at rest under its weight.
-PathEnd path_under(double push) {
+/// From the block at rest under its weight; `leap`: PathOptions::leap.
+PathEnd path_under(double push, int leap = 0) {
   const Solution at_rest = solve(pushed_block(0.0));
   const Scaled pushed = scaled(pushed_block(push));
   return follow_path(
       pushed.problem,
       {at_rest.p, pushed.stiffness * at_rest.a,
-       std::vector<ContactState>(static_cast<std::size_t>(pushed.problem.pairs()), ContactState::stick), 1e-8, 0.0});
+       std::vector<ContactState>(static_cast<std::size_t>(pushed.problem.pairs()), ContactState::stick), 1e-8, 0.0},
+      {.leap = leap});
 }
 
 TEST(Path, OfABlockBelowTheFrictionLimitArrives) {
@@ -73,6 +74,22 @@ TEST(Path, OfABlockEndsAtTheFrictionLimitInSliding) {
   ASSERT_EQ(end.motion.size(), 3);
   EXPECT_NEAR(end.motion[0], 1.0, 1e-9);
   EXPECT_NEAR(end.motion.tail(2).norm(), 0.0, 1e-9);
+}
+
+// Leaps stop short of the limit, and the path finds it change by change.
+TEST(Path, LeapsDoNotPassALimit) {
+  const double push = 3.7;  // no leap ends at the limit itself
+  const PathEnd end = path_under(push * friction * weight, 6);
+  EXPECT_EQ(end.how, PathEnd::How::endless);
+  EXPECT_GT(end.leaps, 0);
+  EXPECT_NEAR(1.0 - end.left, 1.0 / push, 1e-6);
+  ASSERT_EQ(end.motion.size(), 3);
+  EXPECT_NEAR(end.motion[0], 1.0, 1e-9);
+  const double below = 0.9 * friction * weight;
+  const PathEnd solved = path_under(below, 6);
+  ASSERT_EQ(solved.how, PathEnd::How::arrived);
+  EXPECT_GT(solved.leaps, 0);
+  EXPECT_LT(test::violation(scaled(pushed_block(below)).problem, solved.p, solved.a), 1e-12 * weight);
 }
 
 TEST(Path, TakesTheSoftnessBack) {
@@ -144,7 +161,9 @@ TEST(Path, FindsTheFrictionLimitOfEachDirection) {
   EXPECT_NEAR(std::min(held[0], held[1]), 0.4, 1e-5);
 }
 
-TEST(Path, OfRandomProblemsEndsInSolutions) {
+class PathOfRandomProblems : public testing::TestWithParam<int> {};  // PathOptions::leap
+
+TEST_P(PathOfRandomProblems, EndsInSolutions) {
   std::mt19937 random(12);
   int solvable = 0, arrived = 0;
   for (int k = 0; k < 300; ++k) {
@@ -161,7 +180,8 @@ TEST(Path, OfRandomProblemsEndsInSolutions) {
     const PathEnd end = follow_path(
         in_forces.problem,
         {start->p, start->a, std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::stick),
-         1e-2, 1.0});
+         1e-2, 1.0},
+        {.leap = GetParam()});
     if (end.how != PathEnd::How::arrived) continue;
     ++arrived;
     EXPECT_LT(test::violation(in_forces.problem, end.p, end.a), 1e-9 * std::max(1.0, end.p.lpNorm<Eigen::Infinity>()))
@@ -170,6 +190,8 @@ TEST(Path, OfRandomProblemsEndsInSolutions) {
   EXPECT_GT(solvable, 200);
   EXPECT_GT(arrived, 0.95 * solvable);
 }
+
+INSTANTIATE_TEST_SUITE_P(WithoutAndWithLeaps, PathOfRandomProblems, testing::Values(0, 5));
 
 }  // namespace
 }  // namespace scabo::contact

@@ -1,0 +1,93 @@
+// Forces of pairs that are not unique although displacements are: bodies that meet in a point, and rigid bodies with
+// more pairs than equations of equilibrium. How many pairs, and which totals, follows by hand.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/input/read_model.hpp"
+
+namespace scabo::analysis {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// The text of the warning; empty where there is none.
+std::string warned(const std::string& text) {
+  const StaticSolution solution = solve_static(input::parse_model(text, "model.yaml"));
+  EXPECT_EQ(solution.outcome, Outcome::solved) << solution.reason;
+  std::string found;
+  for (const Warning& warning : solution.warnings)
+    if (warning.kind == WarningKind::undetermined_force) {
+      EXPECT_EQ(found, "") << "said twice";
+      found = warning.text;
+    }
+  return found;
+}
+
+/// A stone over two others, all 1 or 2 times `size` wide, on supports; what is between the lower two.
+std::string three_stones(double size, const std::string& between_lower_ones,
+                         const std::string& friction = "bond: true") {
+  const auto stone = [&](const char* name, double x, double y, double width) {
+    return fmt::format(
+        "  {}: {{material: stone, shape: {{rectangle: {{corner: [{}, {}], size: [{}, {}]}}}}, mesh: {{size: {}, order: "
+        "1}}}}\n",
+        name, x * size, y * size, width * size, size, 0.5 * size);
+  };
+  return "scabo: 1\nmaterials: {stone: {young: 1e9, poisson: 0.2}}\nbodies:\n" + stone("left", 0, 0, 1) +
+         stone("right", 1, 0, 1) + stone("top", 0, 1, 2) +
+         "supports: [{on: left.bottom, fix: [x, y]}, {on: right.bottom, fix: [x, y]}]\n"
+         "loads: {press: {on: top.top, traction: [1e4, -1e5]}}\ncontacts:\n" +
+         "  on_left: {between: [left.top, top.bottom], " + friction + "}\n" +
+         "  on_right: {between: [right.top, top.bottom], " + friction + "}\n" + between_lower_ones;
+}
+
+constexpr const char* bonded = "  between: {between: [left.right, right.left], bond: true}\n";
+
+// The three pairs in the point where all three meet pass any force around it; five others are unique, and the two that
+// supports hold are no pairs.
+TEST(UndeterminedForces, OfThreeBodiesThatMeetInAPoint) {
+  for (const double size : {1.0, 1e-3, 1e3})
+    EXPECT_THAT(warned(three_stones(size, bonded)),
+                AllOf(HasSubstr("the forces of 3 of 8 pairs"), HasSubstr("all contacts but 3 of them"),
+                      HasSubstr("'on_left', 'on_right' and 'between'")))
+        << size;
+}
+
+TEST(UndeterminedForces, NoneWhereOneOfTheThreeContactsIsMissing) { EXPECT_EQ(warned(three_stones(1.0, "")), ""); }
+
+// Two bodies, each pair with nodes of its own.
+TEST(UndeterminedForces, NoneOfAnElasticBlockWithManyPairs) {
+  EXPECT_EQ(
+      warned("scabo: 1\n"
+             "materials: {stone: {young: 1e9, poisson: 0.2}}\n"
+             "bodies:\n"
+             "  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}}\n"
+             "  block: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.25}}\n"
+             "supports: [{on: floor, fix: [x, y]}]\n"
+             "loads: {press: {on: block.top, traction: [1e4, -1e5]}}\n"
+             "contacts: {base: {between: [floor.top, block.bottom], friction: 0.5}}\n"),
+      "");
+}
+
+// Ten forces of five pairs, on points that a support holds, and three equations of equilibrium. Their sum is unique.
+TEST(UndeterminedForces, OfARigidBlockOnHeldPoints) {
+  EXPECT_THAT(warned("scabo: 1\n"
+                     "materials: {stone: {young: 1e9, poisson: 0.2}}\n"
+                     "bodies:\n"
+                     "  floor: {material: stone, shape: {rectangle: {corner: [0, -1], size: [2, 1]}}, "
+                     "mesh: {size: 0.5, order: 1}}\n"
+                     "  block: {rigid: true, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}}\n"
+                     "supports: [{on: floor.top, fix: [x, y]}]\n"
+                     "loads: {press: {on: block, force: [1, -10]}}\n"
+                     "contacts: {base: {between: [floor.top, block.bottom], friction: 0.5}}\n"),
+              AllOf(HasSubstr("contact 'base': the forces of "), HasSubstr(" of 5 pairs"),
+                    HasSubstr("stresses and the total force of every contact are unique")));
+}
+
+}  // namespace
+}  // namespace scabo::analysis
