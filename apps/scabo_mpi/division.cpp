@@ -1,51 +1,74 @@
 // Which rank gets which cells, and the messages that bring them there.
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <utility>
 
-#include "scabo/element/finite_element.hpp"
+#include "scabo/linalg/elimination_order.hpp"
 #include "share.hpp"
 
 namespace scabo::mpi {
 
 namespace {
 
+/// Lists one after another: list i is values[starts[i]] to values[starts[i + 1] - 1].
+struct Lists {
+  std::vector<std::size_t> starts{0};
+  std::vector<int> values;
+  std::size_t count() const { return starts.size() - 1; }
+  std::span<const int> operator[](std::size_t i) const {
+    return {values.data() + starts[i], values.data() + starts[i + 1]};
+  }
+};
+
+/// list[k]: in which lists k stands, ascending.
+Lists turned_round(const Lists& lists, std::size_t count) {
+  Lists result;
+  result.starts.assign(count + 1, 0);
+  for (const int value : lists.values) ++result.starts[static_cast<std::size_t>(value) + 1];
+  std::partial_sum(result.starts.begin(), result.starts.end(), result.starts.begin());
+  result.values.resize(lists.values.size());
+  std::vector<std::size_t> next(result.starts.begin(), result.starts.end() - 1);
+  for (std::size_t i = 0; i < lists.count(); ++i)
+    for (const int value : lists[i]) result.values[next[static_cast<std::size_t>(value)]++] = static_cast<int>(i);
+  return result;
+}
+
 /// Cells of a part, one body after another, by the part's nodes.
 struct CellsOfPart {
-  std::vector<std::size_t> first;          // of each body; the last entry is the number of cells
-  std::vector<std::vector<int>> nodes;     // of each cell
-  std::vector<std::vector<int>> cells_at;  // of each node
+  std::vector<std::size_t> first;  // of each body; the last entry is the number of cells
+  Lists nodes;                     // of each cell
+  Lists cells_at;                  // of each node
 };
 
 CellsOfPart cells_of(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part) {
   CellsOfPart all;
   all.first.push_back(0);
-  all.cells_at.resize(dofs.nodes(part).size());
   for (const int body : dofs.bodies_of(part)) {
     for (const mesh::Cell& cell : mesh.bodies[static_cast<std::size_t>(body)].cells) {
-      std::vector<int> nodes = cell.nodes();
-      for (int& node : nodes) {
-        node = dofs.of(body, node, 0) / 2;
-        all.cells_at[static_cast<std::size_t>(node)].push_back(static_cast<int>(all.nodes.size()));
-      }
-      all.nodes.push_back(std::move(nodes));
+      for (const int node : cell.nodes()) all.nodes.values.push_back(dofs.of(body, node, 0) / 2);
+      all.nodes.starts.push_back(all.nodes.values.size());
     }
-    all.first.push_back(all.nodes.size());
+    all.first.push_back(all.nodes.count());
   }
+  all.cells_at = turned_round(all.nodes, dofs.nodes(part).size());
   return all;
 }
 
 /// Rank of every cell.
 std::vector<int> divided(const CellsOfPart& all, int ranks) {
-  const std::size_t count = all.nodes.size();
+  const std::size_t count = all.nodes.count();
   std::vector<PetscInt> start{0}, neighbours;
+  std::vector<int> in_common(count, 0), near;  // nodes in common with a cell, of those that are near
   for (std::size_t cell = 0; cell < count; ++cell) {
-    std::vector<int> near;  // once for each node in common
+    near.clear();
     for (const int node : all.nodes[cell])
       for (const int other : all.cells_at[static_cast<std::size_t>(node)])
-        if (other != static_cast<int>(cell)) near.push_back(other);
+        if (++in_common[static_cast<std::size_t>(other)] == 2 && other != static_cast<int>(cell)) near.push_back(other);
     std::sort(near.begin(), near.end());
-    for (std::size_t i = 0; i + 1 < near.size(); ++i)
-      if (near[i] == near[i + 1] && (i == 0 || near[i - 1] != near[i])) neighbours.push_back(near[i]);
+    neighbours.insert(neighbours.end(), near.begin(), near.end());
+    for (const int node : all.nodes[cell])
+      for (const int other : all.cells_at[static_cast<std::size_t>(node)]) in_common[static_cast<std::size_t>(other)] = 0;
     start.push_back(static_cast<PetscInt>(neighbours.size()));
   }
   // PETSc frees these arrays.
@@ -74,6 +97,29 @@ std::vector<int> divided(const CellsOfPart& all, int ranks) {
   return result;
 }
 
+/// Nested dissection by position of the graph of nodes that have a cell in common.
+std::vector<int> elimination_steps(const CellsOfPart& all, const std::vector<Vec2>& positions) {
+  const auto n = static_cast<Eigen::Index>(positions.size());
+  std::vector<int> starts{0}, neighbours, last_at(positions.size(), -1);
+  for (std::size_t node = 0; node < positions.size(); ++node) {
+    const auto first = static_cast<std::ptrdiff_t>(neighbours.size());
+    for (const int cell : all.cells_at[node])
+      for (const int other : all.nodes[static_cast<std::size_t>(cell)])
+        if (std::exchange(last_at[static_cast<std::size_t>(other)], static_cast<int>(node)) != static_cast<int>(node))
+          neighbours.push_back(other);
+    std::sort(neighbours.begin() + first, neighbours.end());
+    starts.push_back(static_cast<int>(neighbours.size()));
+  }
+  std::vector<double> values(neighbours.size(), 1.0);
+  const linalg::SparseMatrix graph = Eigen::Map<const linalg::SparseMatrix>(
+      n, n, static_cast<Eigen::Index>(neighbours.size()), starts.data(), neighbours.data(), values.data());
+  const std::vector<std::int64_t> order =
+      linalg::elimination_order(graph, linalg::Ordering::dissection_by_position, positions);
+  std::vector<int> steps(positions.size());
+  for (std::size_t k = 0; k < order.size(); ++k) steps[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+  return steps;
+}
+
 }  // namespace
 
 Division divide_cells(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part, int ranks) {
@@ -83,7 +129,7 @@ Division divide_cells(const mesh::Mesh& mesh, const system::Dofs& dofs, std::siz
   for (std::size_t b = 0; b + 1 < all.first.size(); ++b)
     division.rank_of.emplace_back(rank_of.begin() + static_cast<std::ptrdiff_t>(all.first[b]),
                                   rank_of.begin() + static_cast<std::ptrdiff_t>(all.first[b + 1]));
-  const std::size_t nodes = all.cells_at.size();
+  const std::size_t nodes = all.cells_at.count();
   std::vector<int> owner(nodes, 0);
   division.first.assign(static_cast<std::size_t>(ranks) + 1, 0);
   for (std::size_t node = 0; node < nodes; ++node) {
@@ -97,34 +143,51 @@ Division divide_cells(const mesh::Mesh& mesh, const system::Dofs& dofs, std::siz
   division.number.resize(nodes);
   for (std::size_t node = 0; node < nodes; ++node)
     division.number[node] = next[static_cast<std::size_t>(owner[node])]++;
+  division.step = elimination_steps(all, dofs.nodes(part));
   return division;
 }
 
-Bytes pack_share(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part, const Division& division, int rank,
-                 int threads) {
+SharePacker::SharePacker(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part, const Division& division,
+                         int threads)
+    : mesh_(mesh), dofs_(dofs), part_(part), division_(division), threads_(threads) {
+  std::size_t most = 0;
+  for (const std::vector<int>& rank_of : division.rank_of) {
+    std::vector<std::size_t>& first = first_.emplace_back(division.first.size(), 0);
+    for (const int rank : rank_of) ++first[static_cast<std::size_t>(rank) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<int>& cells = cells_.emplace_back(rank_of.size());
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
+    for (std::size_t c = 0; c < rank_of.size(); ++c)
+      cells[next[static_cast<std::size_t>(rank_of[c])]++] = static_cast<int>(c);
+  }
+  for (const int body : dofs.bodies_of(part)) most = std::max(most, mesh.bodies[static_cast<std::size_t>(body)].nodes.size());
+  place_.assign(most, -1);
+}
+
+Bytes SharePacker::of(int rank) {
   Packer packer;
-  packer.add(threads);
-  packer.add_list(division.first);
-  const std::vector<int>& bodies = dofs.bodies_of(part);
+  packer.add(threads_);
+  packer.add_list(division_.first);
+  const std::vector<int>& bodies = dofs_.bodies_of(part_);
   packer.add_list(bodies);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const mesh::BodyMesh& body = mesh.bodies[static_cast<std::size_t>(bodies[k])];
-    std::vector<int> cells, nodes;
-    for (std::size_t c = 0; c < body.cells.size(); ++c) {
-      if (division.rank_of[k][c] != rank) continue;
-      cells.push_back(static_cast<int>(c));
-      const std::vector<int> of_cell = body.cells[c].nodes();
-      nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
-    }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    std::vector<int> place(body.nodes.size(), -1), numbers;
+    const mesh::BodyMesh& body = mesh_.bodies[static_cast<std::size_t>(bodies[k])];
+    const auto first = cells_[k].begin() + static_cast<std::ptrdiff_t>(first_[k][static_cast<std::size_t>(rank)]),
+               last = cells_[k].begin() + static_cast<std::ptrdiff_t>(first_[k][static_cast<std::size_t>(rank) + 1]);
+    const std::vector<int> cells(first, last);
+    std::vector<int> nodes, numbers;
     std::vector<double> positions;
+    for (const int c : cells)
+      for (const int node : body.cells[static_cast<std::size_t>(c)].nodes()) {
+        int& place = place_[static_cast<std::size_t>(node)];
+        if (place < 0) place = 0, nodes.push_back(node);
+      }
+    std::sort(nodes.begin(), nodes.end());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto node = static_cast<std::size_t>(nodes[i]);
-      place[node] = static_cast<int>(i);
+      place_[node] = static_cast<int>(i);
       positions.insert(positions.end(), {body.nodes[node].x(), body.nodes[node].y()});
-      numbers.push_back(division.number[static_cast<std::size_t>(dofs.of(bodies[k], nodes[i], 0) / 2)]);
+      numbers.push_back(division_.number[static_cast<std::size_t>(dofs_.of(bodies[k], nodes[i], 0) / 2)]);
     }
     packer.add_list(cells);
     packer.add_list(nodes);
@@ -146,10 +209,11 @@ Bytes pack_share(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t p
       packer.add(cell.boundary.size());
       for (const mesh::LineElement& element : cell.boundary) {
         std::vector<int> own = element.nodes;
-        for (int& node : own) node = place[static_cast<std::size_t>(node)];
+        for (int& node : own) node = place_[static_cast<std::size_t>(node)];
         packer.add_list(own);
       }
     }
+    for (const int node : nodes) place_[static_cast<std::size_t>(node)] = -1;
   }
   return std::move(packer).take();
 }

@@ -1,11 +1,9 @@
-// Factorisation by MUMPS under PETSc, and what its factor gives.
+// Factorisation by MUMPS of the rows that supports leave free, and what its factor gives.
 #include <algorithm>
-#include <new>
 
+#include "mumps.hpp"
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "share.hpp"
-#include "transfer.hpp"
 
 namespace scabo::mpi {
 
@@ -17,6 +15,7 @@ FactorRequest unpack_request(const Bytes& bytes) {
   request.solved = unpacker.get_list<char>();
   request.inclined = unpacker.get_list<FactorRequest::Turned>();
   request.springs = unpacker.get_list<FactorRequest::Entry>();
+  request.condensed = unpacker.get_list<int>();
   return request;
 }
 
@@ -25,6 +24,7 @@ Bytes pack(const FactorRequest& request) {
   packer.add_list(request.solved);
   packer.add_list(request.inclined);
   packer.add_list(request.springs);
+  packer.add_list(request.condensed);
   return std::move(packer).take();
 }
 
@@ -48,9 +48,9 @@ void from_entries(Mat like, const std::vector<FactorRequest::Entry>& entries, Ow
   check(MatSetValuesCOO(made, values.data(), INSERT_VALUES));
 }
 
-/// Rows and columns of T'(K + S)T.
-void solved_part(const Share& share, const FactorRequest& request, OwnedMat& part) {
-  OwnedMat turned, with_springs;
+/// T'(K + S)T: K itself, or what is made for it in `made`.
+Mat whole_matrix(const Share& share, const FactorRequest& request, OwnedMat& made) {
+  OwnedMat with_springs;
   Mat whole = share.K;
   if (!request.springs.empty()) {
     OwnedMat S;
@@ -59,45 +59,92 @@ void solved_part(const Share& share, const FactorRequest& request, OwnedMat& par
     check(MatAXPY(with_springs, 1.0, S, DIFFERENT_NONZERO_PATTERN));
     whole = with_springs;
   }
+  if (request.inclined.empty()) {
+    made = std::move(with_springs);
+    return whole;
+  }
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(share.K, &first, &end));
-  if (!request.inclined.empty()) {
-    std::vector<FactorRequest::Entry> entries;
-    std::vector<char> is_turned(static_cast<std::size_t>(end - first), 0);
-    for (const FactorRequest::Turned& at : request.inclined) {
-      if (2 * at.node < first || 2 * at.node >= end) continue;
-      for (int i = 0; i < 2; ++i) {
-        is_turned[static_cast<std::size_t>(2 * at.node + i - first)] = 1;
-        for (int j = 0; j < 2; ++j) entries.push_back({2 * at.node + i, 2 * at.node + j, at.M[2 * i + j]});
-      }
+  std::vector<FactorRequest::Entry> entries;
+  std::vector<char> is_turned(static_cast<std::size_t>(end - first), 0);
+  for (const FactorRequest::Turned& at : request.inclined) {
+    if (2 * at.node < first || 2 * at.node >= end) continue;
+    for (int i = 0; i < 2; ++i) {
+      is_turned[static_cast<std::size_t>(2 * at.node + i - first)] = 1;
+      for (int j = 0; j < 2; ++j) entries.push_back({2 * at.node + i, 2 * at.node + j, at.M[2 * i + j]});
     }
-    for (PetscInt row = first; row < end; ++row)
-      if (!is_turned[static_cast<std::size_t>(row - first)]) entries.push_back({row, row, 1.0});
-    OwnedMat T;
-    from_entries(share.K, entries, T);
-    check(MatPtAP(whole, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
-    whole = turned;
   }
-  std::vector<PetscInt> rows;
   for (PetscInt row = first; row < end; ++row)
-    if (request.solved[static_cast<std::size_t>(row)]) rows.push_back(row);
-  OwnedIS own;
-  check(ISCreateGeneral(PetscObjectComm(reinterpret_cast<PetscObject>(whole)), static_cast<PetscInt>(rows.size()),
-                        rows.data(), PETSC_COPY_VALUES, own.out()));
-  check(MatCreateSubMatrix(whole, own, own, MAT_INITIAL_MATRIX, part.out()));
-  check(MatSetOption(part, MAT_SYMMETRIC, PETSC_TRUE));
-  check(MatSetOption(part, MAT_SPD, PETSC_TRUE));
+    if (!is_turned[static_cast<std::size_t>(row - first)]) entries.push_back({row, row, 1.0});
+  OwnedMat T;
+  from_entries(share.K, entries, T);
+  check(MatPtAP(whole, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, made.out()));
+  return made;
 }
 
-PetscInt info(Mat F, int number, bool of_all) {
-  PetscInt value = 0;
-  check(of_all ? MatMumpsGetInfog(F, number, &value) : MatMumpsGetInfo(F, number, &value));
-  return value;
-}
+/// Numbers of the solved unknowns of all ranks, from 1; 0: not solved. Most that are asked for are this rank's: only
+/// theirs are kept.
+class Numbers {
+ public:
+  Numbers(const std::vector<char>& solved, PetscInt first, PetscInt end) : solved_(solved), first_(first), end_(end) {
+    own_.reserve(static_cast<std::size_t>(end - first));
+    MUMPS_INT count = 0;
+    for (std::size_t i = 0; i < solved.size(); ++i) {
+      if (i % stride == 0) before_.push_back(count);
+      if (solved[i]) ++count;
+      if (static_cast<PetscInt>(i) >= first && static_cast<PetscInt>(i) < end) own_.push_back(solved[i] ? count : 0);
+    }
+    count_ = count;
+  }
+  int count() const { return count_; }
+  MUMPS_INT operator[](PetscInt i) const {
+    if (i >= first_ && i < end_) return own_[static_cast<std::size_t>(i - first_)];
+    const auto at = static_cast<std::size_t>(i);
+    if (!solved_[at]) return 0;
+    const auto from = solved_.begin() + static_cast<std::ptrdiff_t>(at / stride * stride);
+    const auto to = solved_.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+    return before_[at / stride] + static_cast<MUMPS_INT>(std::count_if(from, to, [](char is) { return is != 0; }));
+  }
 
-constexpr bool is_too_small(PetscInt error) { return error == -8 || error == -9; }  // its estimate of work space
-constexpr bool is_memory(PetscInt error) {
-  return is_too_small(error) || error == -5 || error == -7 || error == -13 || error == -19 || error == -20;
+ private:
+  static constexpr std::size_t stride = 64;
+  const std::vector<char>& solved_;
+  PetscInt first_, end_;
+  std::vector<MUMPS_INT> own_, before_;  // before every stride-th
+  int count_ = 0;
+};
+
+/// The lower triangle of the solved rows and columns that this rank has, and how many there are of all ranks.
+MumpsFactor::Entries solved_part(Mat whole, const std::vector<char>& solved, int& unknowns) {
+  PetscInt first = 0, end = 0;
+  check(MatGetOwnershipRange(whole, &first, &end));
+  const Numbers number(solved, first, end);
+  unknowns = number.count();
+  MatInfo info;
+  check(MatGetInfo(whole, MAT_LOCAL, &info));
+  MumpsFactor::Entries entries;
+  const auto most = static_cast<std::size_t>(0.55 * info.nz_used);
+  entries.rows.reserve(most);
+  entries.columns.reserve(most);
+  entries.values.reserve(most);
+  for (PetscInt row = first; row < end; ++row) {
+    const MUMPS_INT i = number[row];
+    if (i == 0) continue;
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    check(MatGetRow(whole, row, &count, &columns, &values));
+    for (PetscInt k = 0; k < count; ++k) {
+      if (columns[k] > row) continue;
+      const MUMPS_INT j = number[columns[k]];
+      if (j == 0) continue;
+      entries.rows.push_back(i);
+      entries.columns.push_back(j);
+      entries.values.push_back(values[k]);
+    }
+    check(MatRestoreRow(whole, row, &count, &columns, &values));
+  }
+  return entries;
 }
 
 }  // namespace
@@ -105,99 +152,54 @@ constexpr bool is_memory(PetscInt error) {
 FactorFacts Process::factorise(int id, int share_id, const FactorRequest* request) {
   Bytes packed;
   if (request) packed = pack(*request);
-  const FactorRequest wanted = unpack_request(broadcast(request ? &packed : nullptr));
+  FactorRequest wanted = unpack_request(broadcast(request ? &packed : nullptr));
   packed = {};
   FactorFacts facts;
-  auto made = std::make_unique<FactorOf>();
+  std::unique_ptr<MumpsFactor> made;
   together([&] {
-    const Share& at = share(share_id);
-    OwnedMat part;
-    solved_part(at, wanted, part);
-    check(MatGetSize(part, &made->size, nullptr));
-    check(MatCreateVecs(part, made->x.out(), made->b.out()));
-    check(VecScatterCreateToZero(made->x, made->to_root.out(), made->at_root.out()));
-    MatFactorInfo options;
-    check(MatFactorInfoInitialize(&options));
-    constexpr PetscInt first_relaxed = 30, most_relaxed = 1000;  // per cent more than the estimated work space
-    for (PetscInt relaxed = first_relaxed;; relaxed *= 4) {
-      // Anew each time: PETSc does not repeat a factorisation that has failed.
-      check(MatGetFactor(part, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, made->F.out()));
-      check(MatMumpsSetIcntl(made->F, 8, 0));  // no scaling: a factor of the matrix itself
-      check(MatMumpsSetIcntl(made->F, 14, relaxed));
-      timed(facts.order_and_analyse, [&] { check(MatCholeskyFactorSymbolic(made->F, part, nullptr, &options)); });
-      if (info(made->F, 1, true) >= 0)
-        timed(facts.factorise, [&] { check(MatCholeskyFactorNumeric(made->F, part, &options)); });
-      if (!is_too_small(info(made->F, 1, true)) || relaxed >= most_relaxed) return;
+    int unknowns = 0;
+    MumpsFactor::Entries entries;
+    {
+      OwnedMat changed;
+      entries = solved_part(whole_matrix(share(share_id), wanted, changed), wanted.solved, unknowns);
+    }
+    made = std::make_unique<MumpsFactor>(comm_);
+    made->factorise(unknowns, std::move(entries), request ? request->step : std::vector<int>(),
+                    std::move(wanted.condensed), facts.costs);
+  });
+  int definite = 0;
+  const bool fine = agreed([&] {
+    made->complain();
+    definite = made->is_definite() ? 1 : 0;
+    if (rank_ != 0 || definite == 0) return;
+    try {
+      timed(facts.costs.factorise, [&] { made->factorise_condensed(); });
+    } catch (const linalg::NotPositiveDefinite&) {
+      definite = 0;
     }
   });
-  const PetscInt error = info(made->F, 1, true), here = info(made->F, 1, false);
-  const bool fine = agreed([&] {
-    if (is_memory(error) && (is_memory(here) || rank_ == count_ - 1)) throw std::bad_alloc();
-    const bool indefinite = error == -10 || error == -40 || error == -6;
-    if (error < 0 && !is_memory(error) && !indefinite)
-      throw BrokenInvariant("MUMPS reports error " + std::to_string(error));
-  });
   if (!fine) return facts;
-  facts.definite = error >= 0 && info(made->F, 12, true) <= 0;
-  if (facts.definite) {
-    const PetscInt entries = info(made->F, 29, true);
-    facts.entries = entries < 0 ? -1e6 * entries : entries;
-    PetscReal operations = 0.0;
-    check(MatMumpsGetRinfog(made->F, 3, &operations));
-    facts.operations = operations;
-    factors_[id] = std::move(made);
-  }
+  MPI_Bcast(&definite, 1, MPI_INT, 0, comm_);
+  facts.definite = definite != 0;
+  if (!facts.definite) return facts;
+  facts.costs.entries = made->entries();
+  facts.costs.operations = made->operations();
+  factors_[id] = std::move(made);
   return facts;
 }
 
 void Process::release_factor(int id) { factors_.erase(id); }
 
-void Process::solve(int id, const Vector* b, Vector* x) {
-  together([&] {
-    FactorOf& at = factor(id);
-    spread(at.at_root, at.b, at.to_root, b ? b->data() : nullptr);
-    check(MatSolve(at.F, at.b, at.x));
-    if (x) x->resize(at.size);
-    collect(at.x, at.at_root, at.to_root, x ? x->data() : nullptr);
-  });
+void Process::solve(int id, Matrix* X) {
+  together([&] { factor(id).solve(X); });
 }
 
-/// Selected entries of the inverse (ICNTL(30); Amestoy et al., SIAM J. Sci. Comput. 34 (2012) A1975): right-hand sides
-/// are sparse, and MUMPS visits only the part of the elimination tree that they and the wanted rows reach.
+bool Process::is_condensed(int id) { return factor(id).is_condensed(); }
+
+Matrix Process::condensed_block(int id, const std::vector<int>& indices) { return factor(id).condensed_block(indices); }
+
 void Process::inverse_block(int id, const std::vector<int>* indices, Matrix* block) {
-  together([&] {
-    FactorOf& at = factor(id);
-    // Row j of the pattern: the wanted rows in column j of the inverse; all of it is on rank 0, as MUMPS asks.
-    const PetscInt rows = rank_ == 0 ? at.size : 0;
-    std::vector<PetscInt> start(static_cast<std::size_t>(rows) + 1, 0), columns;
-    std::vector<PetscScalar> values;
-    if (indices) {
-      columns.reserve(indices->size() * indices->size());
-      for (std::size_t k = 0; k < indices->size(); ++k) columns.insert(columns.end(), indices->begin(), indices->end());
-      values.assign(columns.size(), 0.0);
-      std::size_t next = 0;
-      for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
-        if (next < indices->size() && (*indices)[next] == static_cast<int>(row)) ++next;
-        start[row + 1] = static_cast<PetscInt>(next * indices->size());
-      }
-    }
-    OwnedMat pattern, by_columns;
-    check(MatCreateMPIAIJWithArrays(comm_, rows, rows, at.size, at.size, start.data(), columns.data(), values.data(),
-                                    pattern.out()));
-    check(MatCreateTranspose(pattern, by_columns.out()));
-    check(MatMumpsSetIcntl(at.F, 27, 256));  // columns at a time
-    check(MatMumpsGetInverse(at.F, by_columns));
-    check(MatMumpsSetIcntl(at.F, 30, 0));  // both remain as they were for the inverse, and solves would fail
-    check(MatMumpsSetIcntl(at.F, 21, 1));
-    if (!block) return;
-    Mat on_this_rank = nullptr;
-    check(MatMPIAIJGetSeqAIJ(pattern, &on_this_rank, nullptr, nullptr));
-    const PetscScalar* found = nullptr;
-    check(MatSeqAIJGetArrayRead(on_this_rank, &found));
-    const auto n = static_cast<Eigen::Index>(indices->size());
-    *block = Eigen::Map<const Matrix>(found, n, n);
-    check(MatSeqAIJRestoreArrayRead(on_this_rank, &found));
-  });
+  together([&] { factor(id).inverse_block(indices, block); });
 }
 
 }  // namespace scabo::mpi

@@ -194,11 +194,9 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
     }
   }
 
-  std::vector<Bytes> messages;
-  if (solution)
-    for (const Wanted& wanted : own_fields_->of_ranks)
-      messages.push_back(pack_state(*solution, *increment, *directory, *stem, wanted));
-  const Bytes message = distributed(solution ? &messages : nullptr);
+  const Bytes message = distributed([&](int rank) {
+    return pack_state(*solution, *increment, *directory, *stem, own_fields_->of_ranks[static_cast<std::size_t>(rank)]);
+  });
   Unpacker unpacker(message);
   const std::filesystem::path to = unpacker.get_text();
   const std::string name = unpacker.get_text();

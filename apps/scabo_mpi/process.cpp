@@ -9,6 +9,7 @@
 #include <new>
 #include <thread>
 
+#include "mumps.hpp"
 #include "own_fields.hpp"
 #include "scabo/input/read_model.hpp"
 #include "scabo/input/settings.hpp"
@@ -98,14 +99,18 @@ Bytes Process::received(int from, int tag) const {
   return bytes;
 }
 
-Bytes Process::distributed(std::vector<Bytes>* messages) const {
+Bytes Process::distributed(const std::function<Bytes(int)>& message) const {
   constexpr int tag = 11;
-  if (rank_ != 0) return received(0, tag);
-  for (std::size_t r = 1; r < messages->size(); ++r) {
-    send((*messages)[r], static_cast<int>(r), tag);
-    (*messages)[r] = {};
-  }
-  return std::move(messages->front());
+  Bytes own;
+  together([&] {
+    if (rank_ != 0) {
+      own = received(0, tag);
+      return;
+    }
+    for (int rank = 1; rank < count_; ++rank) send(message(rank), rank, tag);
+    own = message(0);
+  });
+  return own;
 }
 
 std::vector<Bytes> Process::collected(const Bytes& own) const {
@@ -207,7 +212,7 @@ Share& Process::share(int id) {
   return *found->second;
 }
 
-FactorOf& Process::factor(int id) {
+MumpsFactor& Process::factor(int id) {
   const auto found = factors_.find(id);
   ensure(found != factors_.end(), "a rank was asked for a factor that it does not have");
   return *found->second;

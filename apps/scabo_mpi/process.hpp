@@ -20,6 +20,7 @@
 
 #include "message.hpp"
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/linalg/twofold.hpp"
 #include "scabo/model/model.hpp"
 
@@ -30,9 +31,9 @@ struct RankFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-struct Share;      // share.hpp: cells and rows of a divided part on this rank
-struct FactorOf;   // share.hpp: its part of a factor
-struct OwnFields;  // fields.cpp
+struct Share;       // share.hpp: cells and rows of a divided part on this rank
+class MumpsFactor;  // mumps.hpp: its part of a factor
+struct OwnFields;   // fields.cpp
 
 /// The rows and columns to factorise (ranks.hpp), in the order of nodes among all ranks (Division).
 struct FactorRequest {
@@ -47,6 +48,8 @@ struct FactorRequest {
     double value;
   };
   std::vector<Entry> springs;
+  std::vector<int> step;       // on rank 0: at which each solved one is eliminated, all distinct; those of `condensed` last
+  std::vector<int> condensed;  // solved ones whose flexibility contact needs, among the solved ones; ascending, distinct
 };
 
 /// What rank 0 hears after a part was divided or factorised.
@@ -56,8 +59,7 @@ struct ShareFacts {
 };
 struct FactorFacts {
   bool definite = true;
-  double order_and_analyse = 0.0, factorise = 0.0;  // s
-  double entries = 0.0, operations = 0.0;
+  linalg::FactorisationCosts costs;
 };
 
 class Process {
@@ -77,8 +79,8 @@ class Process {
   void use(const model::Model& model) { of_root_ = &model; }
   void read_model(const std::string* file, const std::vector<std::string>* settings,
                   const std::filesystem::path* directory);
-  /// `messages`: what each rank gets, as pack_share makes it.
-  ShareFacts divide(int id, std::vector<Bytes>* messages);
+  /// `message`: what a rank gets, as SharePacker makes it; empty elsewhere.
+  ShareFacts divide(int id, const std::function<Bytes(int)>& message);
   void release_share(int id);
 
   /// y = K u, or by the squares of the entries; vectors in the order of nodes among all ranks.
@@ -87,9 +89,13 @@ class Process {
   void multiply_twofold(int share, const linalg::TwofoldVector* u, linalg::TwofoldVector* y);
 
   FactorFacts factorise(int id, int share, const FactorRequest* request);
-  /// The unknowns are the solved ones in their order among all ranks.
-  void solve(int factor, const Vector* b, Vector* x);
-  /// Entries of the inverse at all pairs of the `indices`, ascending and distinct.
+  /// The unknowns are the solved ones in their order among all ranks. `X`: right-hand sides, which become solutions.
+  void solve(int factor, Matrix* X);
+  /// On rank 0, alone: whether contact was condensed as the part was factorised, and then entries of the inverse at all
+  /// pairs of some of the unknowns of FactorRequest::condensed.
+  bool is_condensed(int factor);
+  Matrix condensed_block(int factor, const std::vector<int>& indices);
+  /// Without: entries of the inverse at all pairs of the `indices`, ascending and distinct.
   void inverse_block(int factor, const std::vector<int>* indices, Matrix* block);
   void release_factor(int id);
 
@@ -105,8 +111,8 @@ class Process {
 
   /// The same values everywhere, from rank 0.
   Bytes broadcast(const Bytes* from_root) const;
-  /// What each rank gets from rank 0, which loses it.
-  Bytes distributed(std::vector<Bytes>* messages) const;
+  /// What each rank gets from rank 0, which makes one message after another; `message` is empty elsewhere.
+  Bytes distributed(const std::function<Bytes(int)>& message) const;
   /// On rank 0 what each rank has; elsewhere nothing.
   std::vector<Bytes> collected(const Bytes& own) const;
   /// What all ranks have, by rank; for little.
@@ -121,7 +127,7 @@ class Process {
   /// Runs what all ranks do together: where it fails, there is no way on.
   void together(const std::function<void()>& work) const;
   Share& share(int id);
-  FactorOf& factor(int id);
+  MumpsFactor& factor(int id);
   const model::Model& model() const { return of_root_ ? *of_root_ : *model_; }
 
   MPI_Comm comm_;
@@ -130,7 +136,7 @@ class Process {
   std::unique_ptr<model::Model> model_;  // of ranks other than 0; rank 0 passes its own
   std::filesystem::path directory_;      // of the results
   std::map<int, std::unique_ptr<Share>> shares_;
-  std::map<int, std::unique_ptr<FactorOf>> factors_;
+  std::map<int, std::unique_ptr<MumpsFactor>> factors_;
   std::unique_ptr<OwnFields> own_fields_;  // of all shares, made when they are first written
   const model::Model* of_root_ = nullptr;
 };

@@ -48,20 +48,20 @@ class DividedFactor final : public linalg::SparseFactor {
     ranks_.all({Command::release_factor, id_}, [&] { ranks_.process_.release_factor(id_); });
   }
   Matrix solve(const Matrix& B) const override {
-    Matrix X(B.rows(), B.cols());
-    for (Eigen::Index j = 0; j < B.cols(); ++j) {
-      Vector b(B.rows()), x;
-      for (Eigen::Index i = 0; i < B.rows(); ++i) b[place(i)] = B(i, j);
-      ranks_.all({Command::solve, id_}, [&] { ranks_.process_.solve(id_, &b, &x); });
-      for (Eigen::Index i = 0; i < B.rows(); ++i) X(i, j) = x[place(i)];
-    }
+    Matrix X(B.rows(), B.cols()), there(B.rows(), B.cols());
+    for (Eigen::Index j = 0; j < B.cols(); ++j)
+      for (Eigen::Index i = 0; i < B.rows(); ++i) there(place(i), j) = B(i, j);
+    ranks_.all({Command::solve, id_}, [&] { ranks_.process_.solve(id_, &there); });
+    for (Eigen::Index j = 0; j < B.cols(); ++j)
+      for (Eigen::Index i = 0; i < B.rows(); ++i) X(i, j) = there(place(i), j);
     return X;
   }
   Matrix inverse_block(const std::vector<int>& indices) const override {
     if (indices.empty()) return {};
-    std::vector<int> distinct, wanted;
+    std::vector<int> wanted;
     for (const int index : indices) wanted.push_back(place(index));
-    distinct = wanted;
+    if (ranks_.process_.is_condensed(id_)) return ranks_.process_.condensed_block(id_, wanted);
+    std::vector<int> distinct = wanted;
     std::sort(distinct.begin(), distinct.end());
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
     ensure(distinct.size() < 46341, "MUMPS counts entries of the inverse with 32 bits");
@@ -83,8 +83,11 @@ class DividedFactor final : public linalg::SparseFactor {
 
 class DividedPart final : public system::DividedStiffness {
  public:
-  DividedPart(PetscRanks& ranks, int id, const std::vector<int>& number, const ShareFacts& facts)
-      : ranks_(ranks), id_(id), order_(number), facts_(facts) {}
+  DividedPart(PetscRanks& ranks, int id, const Division& division, const ShareFacts& facts)
+      : ranks_(ranks), id_(id), order_(division.number), node_at_(division.number.size()), facts_(facts) {
+    for (std::size_t node = 0; node < division.step.size(); ++node)
+      node_at_[static_cast<std::size_t>(division.step[node])] = division.number[node];
+  }
   ~DividedPart() override {
     ranks_.all({Command::release_share, id_}, [&] { ranks_.process_.release_share(id_); });
   }
@@ -114,6 +117,7 @@ class DividedPart final : public system::DividedStiffness {
 
   std::unique_ptr<linalg::SparseFactor> factorise(const std::vector<int>& dofs, const system::InclinedNodes& inclined,
                                                   const linalg::SparseMatrix& springs,
+                                                  const std::vector<int>& contact_dofs,
                                                   linalg::FactorisationCosts& costs) const override {
     FactorRequest request;
     request.solved.assign(static_cast<std::size_t>(size()), 0);
@@ -131,8 +135,13 @@ class DividedPart final : public system::DividedStiffness {
       before[i] = static_cast<int>(count);
       if (request.solved[i]) ++count;
     }
+    const auto unknown = [&](int dof) { return before[static_cast<std::size_t>(order_[dof])]; };
     std::vector<int> place;
-    for (const int dof : dofs) place.push_back(before[static_cast<std::size_t>(order_[dof])]);
+    for (const int dof : dofs) place.push_back(unknown(dof));
+    for (const int dof : contact_dofs)
+      if (request.solved[static_cast<std::size_t>(order_[dof])]) request.condensed.push_back(unknown(dof));
+    std::sort(request.condensed.begin(), request.condensed.end());
+    request.step = steps_of(request.condensed, request.solved);
     int id = 0;
     {
       const std::lock_guard lock(ranks_.one_at_a_time_);
@@ -141,17 +150,41 @@ class DividedPart final : public system::DividedStiffness {
     const FactorFacts facts =
         ranks_.all({Command::factorise, id, id_}, [&] { return ranks_.process_.factorise(id, id_, &request); });
     if (!facts.definite) throw linalg::NotPositiveDefinite();
-    costs.analyse += facts.order_and_analyse;
-    costs.factorise += facts.factorise;
-    costs.entries += facts.entries;
-    costs.operations += facts.operations;
+    costs.analyse += facts.costs.analyse;
+    costs.factorise += facts.costs.factorise;
+    costs.entries += facts.costs.entries;
+    costs.operations += facts.costs.operations;
     return std::make_unique<DividedFactor>(ranks_, id, std::move(place));
   }
 
  private:
+  /// FactorRequest::step: those of the nodes, and of the condensed unknowns after all others.
+  std::vector<int> steps_of(const std::vector<int>& condensed, const std::vector<char>& solved) const {
+    std::vector<int> before(solved.size() / 2);  // number of solved ones before each node
+    int count = 0;
+    for (std::size_t i = 0; i < solved.size(); ++i) {
+      if (i % 2 == 0) before[i / 2] = count;
+      if (solved[i]) ++count;
+    }
+    std::vector<int> step(static_cast<std::size_t>(count), -1);
+    int last = count;
+    for (auto k = condensed.rbegin(); k != condensed.rend(); ++k) step[static_cast<std::size_t>(*k)] = --last;
+    int next = 0;
+    for (const int node : node_at_) {
+      int unknown = before[static_cast<std::size_t>(node)];
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (!solved[2 * static_cast<std::size_t>(node) + i]) continue;
+        int& at = step[static_cast<std::size_t>(unknown++)];
+        if (at < 0) at = next++;
+      }
+    }
+    return step;
+  }
+
   PetscRanks& ranks_;
   int id_;
   Order order_;
+  std::vector<int> node_at_;  // which node is eliminated at each step, among all ranks
   ShareFacts facts_;
 };
 
@@ -160,13 +193,12 @@ std::shared_ptr<const system::DividedStiffness> PetscRanks::stiffness(const mode
                                                                       int threads) {
   const std::lock_guard lock(one_at_a_time_);
   const Division division = divide_cells(mesh, dofs, part, count());
-  std::vector<Bytes> messages;
-  for (int rank = 0; rank < count(); ++rank) messages.push_back(pack_share(mesh, dofs, part, division, rank, threads));
+  SharePacker packer(mesh, dofs, part, division, threads);
   process_.use(model);
   const int id = next_id_++;
   announce({Command::divide, id});
-  const ShareFacts facts = process_.divide(id, &messages);
-  return std::make_shared<const DividedPart>(*this, id, division.number, facts);
+  const ShareFacts facts = process_.divide(id, [&](int rank) { return packer.of(rank); });
+  return std::make_shared<const DividedPart>(*this, id, division, facts);
 }
 
 bool PetscRanks::any() const { return process_.has_shares(); }
@@ -229,7 +261,7 @@ void serve(Process& process) {
         process.read_model(nullptr, nullptr, nullptr);
         break;
       case Command::divide:
-        process.divide(what.id, nullptr);
+        process.divide(what.id, {});
         break;
       case Command::multiply:
         process.multiply(what.id, nullptr, nullptr);
@@ -244,7 +276,7 @@ void serve(Process& process) {
         process.factorise(what.id, what.other, nullptr);
         break;
       case Command::solve:
-        process.solve(what.id, nullptr, nullptr);
+        process.solve(what.id, nullptr);
         break;
       case Command::inverse_block:
         process.inverse_block(what.id, nullptr, nullptr);

@@ -126,14 +126,15 @@ class Rows {
 
 }  // namespace
 
-ShareFacts Process::divide(int id, std::vector<Bytes>* messages) {
-  const Bytes message = distributed(messages);
+ShareFacts Process::divide(int id, const std::function<Bytes(int)>& message_of) {
+  Bytes message = distributed(message_of);
   auto made = std::make_unique<Share>();
   ShareFacts facts;
   OwnStiffness own;
   double seconds[2] = {0.0, 0.0};
   const bool all_solved = agreed([&] {
     *made = unpack_share(message, model().bodies.size());
+    message = {};
     timed(seconds[0], [&] { made->cells = element::solve_cells(model(), made->mesh, made->threads); });
     timed(seconds[1], [&] { own = own_stiffness(model(), *made); });
   });

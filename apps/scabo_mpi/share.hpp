@@ -1,5 +1,4 @@
-// What a rank holds of a divided part: its cells and its rows of the stiffness, and of a factor what PETSc and MUMPS
-// gave it.
+// What a rank holds of a divided part: its cells and its rows of the stiffness.
 //
 // Nodes are numbered anew among all ranks: first those of rank 0, then those of rank 1 ... A node belongs to the first
 // rank among those of its cells. Two degrees of freedom follow from each. A rank assembles the stiffness of its cells
@@ -18,15 +17,30 @@ namespace scabo::mpi {
 struct Division {
   std::vector<std::vector<int>> rank_of;  // [place in the part's bodies][cell]
   std::vector<int> number;                // [node of the part]: among all ranks
+  std::vector<int> step;                  // [node of the part]: at which it is eliminated
   std::vector<int> first;                 // [rank]: its first node; the last entry is the number of nodes
 };
 
 /// Cells that share a side are neighbours; PETSc divides their graph by PT-SCOTCH.
 Division divide_cells(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part, int ranks);
 
-/// The message for `Process::divide`: cells and nodes of `rank`.
-Bytes pack_share(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part, const Division& division, int rank,
-                 int threads);
+/// The messages for `Process::divide`: cells and nodes of each rank, one after another.
+class SharePacker {
+ public:
+  SharePacker(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size_t part, const Division& division,
+              int threads);
+  Bytes of(int rank);
+
+ private:
+  const mesh::Mesh& mesh_;
+  const system::Dofs& dofs_;
+  std::size_t part_;
+  const Division& division_;
+  int threads_;
+  std::vector<std::vector<int>> cells_;          // [place in the part's bodies]: by rank, and ascending
+  std::vector<std::vector<std::size_t>> first_;  // [place in the part's bodies][rank]: its first of these
+  std::vector<int> place_;                       // [node of a body]: among those of a message; -1: not there
+};
 
 struct Share {
   int threads = 1;
@@ -50,12 +64,5 @@ struct Share {
 };
 
 Share unpack_share(const Bytes& message, std::size_t bodies);
-
-struct FactorOf {
-  OwnedMat F;
-  OwnedVec b, x, at_root;
-  OwnedScatter to_root;
-  PetscInt size = 0;  // of all ranks
-};
 
 }  // namespace scabo::mpi

@@ -31,7 +31,7 @@ steps: [{{increments: 1}}]
 solver: {{}}
 """
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-               "OMPI_MCA_mpi_yield_when_idle": "1"}
+               "OMPI_MCA_mpi_yield_when_idle": "0"}  # else whatever else runs gets the processors at each message (docs/clusters.md)
 STAGES = ("read", "mesh", "super_elements", "assemble", "factorise", "condense", "newton", "recover", "write", "total")
 
 
@@ -96,6 +96,9 @@ def main():
     parser.add_argument("--pairs", type=int, default=300)
     parser.add_argument("--kind", default="quadtree")
     parser.add_argument("--order", type=int, default=1)
+    parser.add_argument("--repeat", type=int, default=1, help="runs of each kind, in turns")
+    parser.add_argument("--only", choices=("one", "ranks"), help="only this kind")
+    parser.add_argument("--divide-from", type=float, help="smallest body that is divided, in degrees of freedom")
     parser.add_argument("--volume", action="store_true", help="count bytes between ranks (slower)")
     arguments = parser.parse_args()
     scabo = str(pathlib.Path(arguments.scabo).resolve())
@@ -107,16 +110,18 @@ def main():
             (directory / "model.yaml").write_text(MODEL.format(dofs=dofs, size=round(size, 6), width=round(width, 6),
                                                                first=round(1 - width / 2, 6), kind=arguments.kind, order=arguments.order))
             common = ["run", "model.yaml", "--quiet", "--ignore-memory"]
-            results = {}
-            for name, command, environment in (
+            divide = [] if arguments.divide_from is None else ["--divide-from", str(arguments.divide_from)]
+            kinds = (
                     ("one", [scabo, *common, "-o", "one", "--threads", str(arguments.ranks)], {}),
                     ("ranks", ["mpirun", "-n", str(arguments.ranks),
                                *(["--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3",
                                   "--mca", "pml_monitoring_filename", "volume"] if arguments.volume else []),
-                               scabo, *common, "-o", "ranks", "--threads", "1"], {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"})):
+                               scabo, *common, "-o", "ranks", "--threads", "1", *divide], {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}))
+            for name, command, environment in kinds * arguments.repeat:
+                if arguments.only not in (None, name):
+                    continue
                 seconds, processor, memory = run(command, directory, **environment)
                 summary = json.loads((directory / name / "summary.json").read_text())
-                results[name] = summary
                 stages = "  ".join(f"{stage} {summary['timing'][stage]:.2f}" for stage in STAGES)
                 print(f"{name:6} {summary['model']['dofs']} dofs, {summary['model']['contact_pairs']} pairs, wall {seconds:.1f} s, processors {processor:.1f} s: {stages}; "
                       f"memory {', '.join(f'{memory[rank] / 1e9:.2f}' for rank in sorted(memory))} GB", flush=True)

@@ -23,7 +23,7 @@ MPIRUN = shutil.which("mpirun")
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_base_warn_component_unused": "0",
                "OMPI_MCA_odls_base_sigkill_timeout": "5",  # a busy machine is slow to record the end
-               "OMPI_MCA_mpi_yield_when_idle": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+               "OMPI_MCA_mpi_yield_when_idle": os.environ.get("OMPI_MCA_mpi_yield_when_idle", "1"), "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 # Every kind of mesh, tied bodies of two kinds, one of a file, a slender one, inclined supports, springs, a rigid body, and a
 # super-element, which stays on rank 0.
@@ -129,14 +129,14 @@ class Clusters(InTemporaryDirectory):
         (self.directory / "plate.msh").write_text(plate_file(), encoding="utf-8")
 
     def run_on(self, ranks, name, *arguments):
-        run = mpirun(ranks, "run", "model.yaml", "-o", name, "--quiet", "--divide-from", 100, *arguments, cwd=self.directory)
+        run = mpirun(ranks, "run", "model.yaml", "-o", name, "--quiet", *(arguments or ("--divide-from", 100)), cwd=self.directory)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(own_lines(run.stderr), [])
 
-    def expect_equal(self, one, many, tolerance=1e-10):
+    def expect_equal(self, one, many, tolerance=1e-10, tables=("contact.csv", "points.csv", "lines.csv", "history.csv")):
         """Tables, summaries and fields of two directories, to `tolerance` of the largest value of their kind."""
         worst = 0.0
-        for name in ("contact.csv", "points.csv", "lines.csv", "history.csv"):
+        for name in tables:
             expected, found = columns_of(self.directory / one / name), columns_of(self.directory / many / name)
             self.assertEqual(list(expected), list(found), name)
             values = {key: numbers(column) for key, column in expected.items()}
@@ -193,6 +193,36 @@ class Clusters(InTemporaryDirectory):
             self.expect_equal("one", f"many_{ranks}")
             self.expect_equal_fields("one", f"many_{ranks}", ranks, 3)
 
+    def test_a_body_all_of_whose_nodes_are_in_contact(self):
+        """MUMPS has no Schur complement of all unknowns: entries of the inverse give the flexibility of the shim."""
+        shim = """bodies:
+  shim: {material: rock, shape: {rectangle: {corner: [0.5, 1], size: [1, 0.05]}}, mesh: {kind: quadtree, size: 0.05, order: 1}}"""
+        model = BLOCKS.format(size=0.05, increments=1).replace("bodies:", shim).replace("corner: [0.5, 1], size: [1, 0.5]", "corner: [0.5, 1.05], size: [1, 0.5]")
+        model = model.replace("contacts: {", "contacts: {under: {between: [lower.top, shim.bottom], friction: 0.4}, ").replace("[lower.top, upper.bottom]", "[shim.top, upper.bottom]")
+        (self.directory / "model.yaml").write_text(model, encoding="utf-8")
+        run = scabo("run", "model.yaml", "-o", "one", "--quiet", "--threads", 1, cwd=self.directory)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(len(columns_of(self.directory / "one" / "contact.csv")["pair"]), summary_of(self.directory / "one")["model"]["bodies"][0]["nodes"])
+        self.run_on(2, "many", "--divide-from", 50)
+        self.expect_equal("one", "many", tables=("contact.csv",))
+
+
+# Two bodies in contact, both of which are divided: at some pairs other ranks meet than at others.
+BLOCKS = """
+scabo: 1
+materials: {{rock: {{young: 20e9, poisson: 0.25}}}}
+bodies:
+  lower: {{material: rock, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{kind: quadtree, size: {size}}}}}
+  upper: {{material: rock, shape: {{rectangle: {{corner: [0.5, 1], size: [1, 0.5]}}}}, mesh: {{kind: quadtree, size: {size}}}}}
+supports: [{{on: lower.bottom, fix: [x, y]}}]
+loads:
+  press: {{on: upper.top, pressure: 1e6}}
+  push: {{on: upper.left, traction: [1e5, 0]}}
+contacts: {{joint: {{between: [lower.top, upper.bottom], friction: 0.3}}}}
+steps: [{{increments: {increments}}}]
+output: {{every: 1000}}
+"""
+
 
 class Failures(InTemporaryDirectory):
     def test_a_wrong_model_is_told_once(self):
@@ -235,16 +265,36 @@ output: {every: 1000}
             summary = self.directory / "results" / "summary.json"
             while not (self.directory / "results" / "checkpoint.hdf5").exists() and run.poll() is None:
                 time.sleep(0.05)
-            ranks = [int(entry.name) for entry in pathlib.Path("/proc").iterdir()
-                     if entry.name.isdigit() and self.is_rank(entry, run.pid, "1")]
-            self.assertEqual(len(ranks), 1)
-            os.kill(ranks[0], signal.SIGKILL)
+            self.kill_rank(run.pid, "1")
             _, errors = run.communicate(timeout=support.PATIENCE)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("signal 9", errors)  # mpirun names the rank
         self.assertEqual(json.loads(summary.read_text(encoding="utf-8"))["status"], "failed")
         resumed = scabo("resume", "results", "--quiet", cwd=self.directory)  # by one process
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
+
+    def test_a_rank_lost_before_the_first_increment_ends_the_run(self):
+        """As the other rank waits for it within MUMPS, or has what MUMPS condensed."""
+        (self.directory / "model.yaml").write_text(BLOCKS.format(size=0.008, increments=300), encoding="utf-8")
+        for stage, pause in (("factorisation", 0.3), ("condensation to the contact pairs", 0.0)):
+            with self.subTest(stage), subprocess.Popen(
+                    [MPIRUN, "-n", "2", support.SCABO, "run", "model.yaml", "-o", "results", "--divide-from", "100", "--json-lines", "--quiet"],
+                    cwd=self.directory, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+                for line in run.stdout:
+                    event = json.loads(line)
+                    if (event["event"], event.get("stage")) == ("stage_begin", stage):
+                        break
+                time.sleep(pause)
+                self.kill_rank(run.pid, "1")
+                _, errors = run.communicate(timeout=support.PATIENCE)
+                self.assertNotEqual(run.returncode, 0)
+                self.assertIn("signal 9", errors)
+                self.assertEqual(summary_of(self.directory / "results")["status"], "failed")
+
+    def kill_rank(self, parent, rank):
+        found = [int(entry.name) for entry in pathlib.Path("/proc").iterdir() if entry.name.isdigit() and self.is_rank(entry, parent, rank)]
+        self.assertEqual(len(found), 1)
+        os.kill(found[0], signal.SIGKILL)
 
     @staticmethod
     def is_rank(entry, parent, rank):

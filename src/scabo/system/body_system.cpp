@@ -197,17 +197,17 @@ class ElasticBody final : public BodySystem {
   void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
   const void* factor() const override { return factored_.get(); }
 
-  void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes, int contact_dofs) {
+  void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes, const std::vector<int>& contact_dofs) {
     // Many of them are condensed fast in a balanced tree only, that of dissection: of a layer of 1,500 x 54 eight-node
     // elements with 3,001 pairs in 1.6 s instead of 9.1 s, while the factorisation takes as long.
-    constexpr int many = 1000;
-    if (contact_dofs >= many && options.ordering == linalg::Ordering::automatic)
+    constexpr std::size_t many = 1000;
+    if (contact_dofs.size() >= many && options.ordering == linalg::Ordering::automatic)
       options.ordering = linalg::Ordering::dissection_by_position;
     for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
     const bool alone = inclined_.none() && stiffness().springs.none();
     if (stiffness().divided) {
       linalg::FactorisationCosts costs;
-      auto factor = stiffness().divided->factorise(dofs_, inclined_, stiffness().springs.matrix, costs);
+      auto factor = stiffness().divided->factorise(dofs_, inclined_, stiffness().springs.matrix, contact_dofs, costs);
       factored_->solver = linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), costs);
     } else if (stiffness().dense) {
       const auto whole = [&] {

@@ -137,7 +137,8 @@ struct ElasticPart {
   Stiffness stiffness;
   std::vector<Vec2> nodes;
   std::vector<Constraint> constraints;
-  int contact_dofs = 0;  ///< degrees of freedom in contact pairs, for the order of elimination
+  /// Of the nodes in contact pairs, ascending and distinct: those whose flexibility is asked for later.
+  std::vector<int> contact_dofs = {};
 };
 /// The same for many bodies, on up to `threads` threads. Bodies whose matrices are equal bit for bit, as those of equal
 /// blocks with equal supports are wherever they stand, share stiffness and factor. NotPositiveDefinite comes with the

@@ -26,9 +26,12 @@ class DividedStiffness {
   virtual linalg::TwofoldVector times(const linalg::TwofoldVector& u) const = 0;  ///< in twice the working precision
   virtual Vector times_squares(const Vector& u) const = 0;  ///< product of the matrix of the squared entries
   /// Factor of the rows and columns `dofs` (ascending) of T'(K + S)T: `springs` is S, 0 x 0 without springs, and
-  /// `inclined` has T. The i-th unknown is dofs[i]. Throws NotPositiveDefinite. Adds to `costs`.
+  /// `inclined` has T. The i-th unknown is dofs[i]. The factor may refuse inverse_block() of unknowns that are not
+  /// among `contact_dofs` (ascending, distinct, of both directions at a node). Throws NotPositiveDefinite. Adds to
+  /// `costs`.
   virtual std::unique_ptr<linalg::SparseFactor> factorise(const std::vector<int>& dofs, const InclinedNodes& inclined,
                                                           const linalg::SparseMatrix& springs,
+                                                          const std::vector<int>& contact_dofs,
                                                           linalg::FactorisationCosts& costs) const = 0;
 };
 

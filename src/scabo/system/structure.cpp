@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -267,12 +268,23 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
 
 namespace {
 
-/// Degrees of freedom of every part that belong to pairs.
-std::vector<int> dofs_in_contacts(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
-  std::vector<int> of_part(dofs.parts(), 0);
+/// Degrees of freedom of every elastic part that belong to pairs, ascending.
+std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
+  std::vector<std::vector<int>> of_part(dofs.parts());
+  const auto add = [&](int body, int node) {
+    if (node < 0) return;  // of a rigid body
+    std::vector<int>& list = of_part[dofs.part_of(body)];
+    for (int k = 0; k < 2; ++k) list.push_back(dofs.of(body, node, k));
+  };
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c)
-    for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body})
-      of_part[dofs.part_of(body)] += 2 * static_cast<int>(mesh.interfaces[c].pairs.size());
+    for (const mesh::ContactPair& pair : mesh.interfaces[c].pairs) {
+      add(model.contacts[c].a.body, pair.node_a);
+      add(model.contacts[c].b.body, pair.node_b);
+    }
+  for (std::vector<int>& list : of_part) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
   return of_part;
 }
 
@@ -301,7 +313,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
   };
   std::vector<std::size_t> elastic;
   std::vector<ElasticPart> parts;
-  const std::vector<int> contact_dofs = dofs_in_contacts(model, mesh, dofs);
+  std::vector<std::vector<int>> contact_dofs = dofs_in_contacts(model, mesh, dofs);
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
     if (body_of(p).rigid) {
       structure.parts[p] = make_rigid_body(model, body_of(p), std::move(constraints[p]), structure.springs.of_part[p]);
@@ -316,7 +328,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       return divided;
     });
     stiffness.springs = structure.springs.of_part[p];
-    parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), contact_dofs[p]});
+    parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), std::move(contact_dofs[p])});
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options);

@@ -37,7 +37,7 @@ class StiffnessElsewhere final : public DividedStiffness {
   linalg::TwofoldVector times(const linalg::TwofoldVector& u) const override { return linalg::product(K_, u); }
   Vector times_squares(const Vector& u) const override { return K_.cwiseAbs2() * u; }
   std::unique_ptr<linalg::SparseFactor> factorise(const std::vector<int>& dofs, const InclinedNodes& inclined,
-                                                  const linalg::SparseMatrix& springs,
+                                                  const linalg::SparseMatrix& springs, const std::vector<int>&,
                                                   linalg::FactorisationCosts& costs) const override {
     linalg::SparseMatrix whole = K_;
     if (springs.size() > 0) whole += springs;
