@@ -68,7 +68,8 @@ std::vector<int> divided(const CellsOfPart& all, int ranks) {
     std::sort(near.begin(), near.end());
     neighbours.insert(neighbours.end(), near.begin(), near.end());
     for (const int node : all.nodes[cell])
-      for (const int other : all.cells_at[static_cast<std::size_t>(node)]) in_common[static_cast<std::size_t>(other)] = 0;
+      for (const int other : all.cells_at[static_cast<std::size_t>(node)])
+        in_common[static_cast<std::size_t>(other)] = 0;
     start.push_back(static_cast<PetscInt>(neighbours.size()));
   }
   // PETSc frees these arrays.
@@ -160,7 +161,8 @@ SharePacker::SharePacker(const mesh::Mesh& mesh, const system::Dofs& dofs, std::
     for (std::size_t c = 0; c < rank_of.size(); ++c)
       cells[next[static_cast<std::size_t>(rank_of[c])]++] = static_cast<int>(c);
   }
-  for (const int body : dofs.bodies_of(part)) most = std::max(most, mesh.bodies[static_cast<std::size_t>(body)].nodes.size());
+  for (const int body : dofs.bodies_of(part))
+    most = std::max(most, mesh.bodies[static_cast<std::size_t>(body)].nodes.size());
   place_.assign(most, -1);
 }
 
