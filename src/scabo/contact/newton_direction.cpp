@@ -70,10 +70,11 @@ NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
     : equations_(equations),
       work_(std::make_unique<Workspace>()),
       immovable_(immovable_components(equations.problem())) {
-  // Where many bodies meet pairs are redundant, and a singular matrix costs three times the operations of a regular
-  // one.
-  constexpr Eigen::Index many_motions = 60;
-  work_->redundant = equations.problem().G.cols() > many_motions && equations.proximal_weight() == 0.0;
+  // In large walls pairs are redundant, and a singular matrix costs three times the operations of a regular one.
+  constexpr int many_motions = 60, many_pairs = 1000;
+  const Problem& problem = equations.problem();
+  work_->redundant =
+      problem.G.cols() > many_motions && problem.pairs() > many_pairs && equations.proximal_weight() == 0.0;
 }
 NewtonDirection::~NewtonDirection() = default;
 
