@@ -8,6 +8,7 @@
 
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/model/side_faces.hpp"
 
 namespace scabo::mesh {
@@ -63,6 +64,9 @@ std::vector<Vec2> raised_arms(const LineElement* elements, std::size_t count, co
   return arms;
 }
 
+/// Elements of an arc that together turn by more have elements of their own in the copies.
+constexpr double largest_turn_of_sector = std::numbers::pi / 6;
+
 /// `line`: of each boundary element, equal for those that may be joined; -1: none.
 std::vector<Sector> sectors_of(const Cell& tip, const std::vector<Vec2>& nodes, const TipRings& rings,
                                const std::vector<int>& line) {
@@ -80,8 +84,11 @@ std::vector<Sector> sectors_of(const Cell& tip, const std::vector<Vec2>& nodes, 
     if (may_join) {
       Sector& sector = sectors.back();
       const double nearer = std::min(least, distance(e));
-      const Vec2 chord = at(tip.boundary[e].nodes.back()) - at(tip.boundary[sector.first].nodes.front());
-      if (chord.norm() < std::min(rings.joined * nearer, rings.longest)) {
+      const std::vector<int>&first = tip.boundary[sector.first].nodes, &last = tip.boundary[e].nodes;
+      const Vec2 chord = at(last.back()) - at(first.front());
+      const Vec2 begins = at(first[1]) - at(first[0]), ends = at(last.back()) - at(last[last.size() - 2]);
+      const bool turns = std::abs(std::atan2(cross(begins, ends), begins.dot(ends))) > largest_turn_of_sector;
+      if (!turns && chord.norm() < std::min(rings.joined * nearer, rings.longest)) {
         ++sector.count;
         least = nearer;
         continue;
@@ -158,9 +165,22 @@ DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings
       cell.boundary.push_back(after);
       cell.boundary.push_back(inverted(inner[s]));
       cell.boundary.push_back(inverted(before));
-      for (const int corner :
-           {outer[s].front().nodes.front(), after.nodes.front(), after.nodes.back(), before.nodes.back()})
-        cell.centre += 0.25 * nodes[static_cast<std::size_t>(corner)];
+      // Curved sides must be seen; coordinates from the tip have more digits.
+      const bool is_curved = std::any_of(arms.begin(), arms.end(), [&](const Vec2& arm) {
+        const Vec2 along = arms.back() - arms.front();
+        return std::abs(cross(along, arm - arms.front())) > 1e-9 * along.squaredNorm();
+      });
+      if (rings.joined > 0.0 && is_curved) {
+        std::vector<Vec2> points;
+        for (const LineElement& element : cell.boundary)
+          for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
+            points.push_back((nodes[static_cast<std::size_t>(element.nodes[i])] - tip.centre) / xi);
+        cell.centre = tip.centre + xi * kernel_centre(points).centre;
+      } else {
+        for (const int corner :
+             {outer[s].front().nodes.front(), after.nodes.front(), after.nodes.back(), before.nodes.back()})
+          cell.centre += 0.25 * nodes[static_cast<std::size_t>(corner)];
+      }
       cell.materials = {material_of(sectors[s])};
       made.innermost.boundary.push_back(inner[s]);
       if (tip.materials.size() > 1) made.innermost.materials.push_back(material_of(sectors[s]));
