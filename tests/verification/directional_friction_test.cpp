@@ -56,6 +56,47 @@ TEST(FrictionByDirection, OfABlockPushedOneWayAndTheOther) {
     }
 }
 
+const std::string falling = "{static: {forward: 0.3, backward: 0.8}, dynamic: {forward: 0.2, backward: 0.5}";
+
+TEST(FrictionByDirection, FallsAtOnceToTheCoefficientOfItsDirection) {
+  for (const double angle : {0.0, 2.2})
+    for (const bool floor_first : {true, false}) {
+      const auto right = run(driven(one_way, falling + "}", angle, floor_first));
+      const auto left = run(driven(other_way, falling + "}", angle, floor_first));
+      EXPECT_NEAR(contact_of(last(right)).tangential_force, -1000.0 * 0.2, 1e-8);
+      EXPECT_NEAR(contact_of(last(left)).tangential_force, 1000.0 * 0.5, 1e-8);
+    }
+}
+
+// The slip of every pair so far, of either direction, gives the coefficients of both; there and back.
+TEST(FrictionByDirection, FallsWithAllSlip) {
+  constexpr double distance = 0.02;
+  const auto solution =
+      run(driven("steps: [{loads: {press: 1}}, {increments: 4, loads: {drive: 1}}, {increments: 4, loads: {drive: 0.4}}]\n",
+                 falling + fmt::format(", slip_distance: {}}}", distance), 0.0, true, 1e7));
+  last(solution);
+  int forward_slips = 0, backward_slips = 0;
+  std::vector<double> slip_before, all_slip;
+  for (const analysis::IncrementResult& increment : solution.increments) {
+    const auto& pairs = increment.contacts.front().pairs;
+    slip_before.resize(pairs.size(), 0.0);
+    all_slip.resize(pairs.size(), 0.0);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      all_slip[i] += std::abs(pairs[i].slip - slip_before[i]);
+      const double fallen = std::min(all_slip[i] / distance, 1.0);
+      if (pairs[i].state == contact::ContactState::slip) {
+        const bool goes_forward = pairs[i].slip > slip_before[i];
+        const double mu = goes_forward ? 0.3 - 0.1 * fallen : 0.8 - 0.3 * fallen;
+        EXPECT_NEAR(pairs[i].tangential_force, (goes_forward ? -mu : mu) * pairs[i].normal_force, 1e-7);
+        ++(goes_forward ? forward_slips : backward_slips);
+      }
+      slip_before[i] = pairs[i].slip;
+    }
+  }
+  EXPECT_GT(forward_slips, 10);
+  EXPECT_GT(backward_slips, 10);
+}
+
 /// Forces of all pairs of an increment.
 std::vector<double> forces(const analysis::IncrementResult& increment) {
   std::vector<double> all;
@@ -75,6 +116,14 @@ steps: [{loads: {press: 1}}, {increments: 8, loads: {drive: cycle}}]
   ASSERT_EQ(one.increments.size(), two.increments.size());
   for (std::size_t k = 0; k < one.increments.size(); ++k)
     EXPECT_EQ(forces(increment_at(one, k)), forces(increment_at(two, k)));
+  const auto plain = run(driven(steps, "{static: 0.4, dynamic: 0.3, slip_distance: 1e-3}", 0.4, true, 1e6)),
+             each = run(driven(steps,
+                               "{static: {forward: 0.4, backward: 0.4}, dynamic: {forward: 0.3, backward: 0.3}, "
+                               "slip_distance: 1e-3}",
+                               0.4, true, 1e6));
+  ASSERT_EQ(plain.increments.size(), each.increments.size());
+  for (std::size_t k = 0; k < plain.increments.size(); ++k)
+    EXPECT_EQ(forces(increment_at(plain, k)), forces(increment_at(each, k)));
 }
 
 // In a cycle the base slides by 2 amplitudes each way, less what the block shears until it slips again:

@@ -71,6 +71,17 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
   return reason;
 }
 
+/// Where motions are so large beside deformations that forces are lost in rounding; empty where they are not.
+std::string lost_in_rounding(const Attempt& tried, double tolerance) {
+  constexpr double allowance = 1e-3;  // Attempt::rounding allows for a thousand roundings
+  const double lost = allowance * tried.rounding;
+  if (!(lost > tolerance) || !std::isfinite(lost)) return {};
+  return fmt::format(
+      "; the motion is so large beside the deformation of the bodies that rounding of the displacements may leave {:.1g} "
+      "of the forces unbalanced: a smaller motion, or a larger interference or load, is needed",
+      lost);
+}
+
 /// In an attempt to go from part `from` of an increment to part `to`.
 std::string describe_collapse(const Prepared& prepared, const contact::Solution& solution, double from, double to) {
   std::string text = "collapse: ";
@@ -175,6 +186,7 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
         solver.force_scale = tried.force_scale;
         if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
           reached.reason += "; " + why;
+        reached.reason += lost_in_rounding(tried, prepared.model.solver.tolerance);
       }
       return reached;
     }

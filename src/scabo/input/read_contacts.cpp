@@ -242,6 +242,7 @@ void read_law_or_property(Reading& reading, const MapReader& map, ContactPropert
   contact.friction = law.friction;
   contact.backward_friction = law.backward_friction;
   contact.dynamic_friction = law.dynamic_friction;
+  contact.backward_dynamic_friction = law.backward_dynamic_friction;
   contact.slip_distance = law.slip_distance;
   contact.friction_along = law.friction_along;
   contact.cohesion = law.cohesion;

@@ -10,6 +10,8 @@ namespace {
 constexpr const char* friction_example =
     "0.3, {forward: 0.3, backward: 0.6}, {static: 0.5, dynamic: 0.3, slip_distance: 1e-4} or {along: [[0, 0.3], [1, "
     "0.5]]}";
+constexpr const char* directions_of_each =
+    "write {static: {forward: 0.5, backward: 0.8}, dynamic: {forward: 0.3, backward: 0.6}}";
 
 /// `[[s, mu], ...]`.
 void read_along(Report& report, const Value& value, Contact& contact) {
@@ -22,11 +24,20 @@ void read_along(Report& report, const Value& value, Contact& contact) {
   }
 }
 
+/// Each a number, or one for each direction of slip.
 void read_static_and_dynamic(Report& report, const MapReader& map, Contact& contact) {
-  const auto most = map.need("static");
-  const auto least = map.need("dynamic");
-  if (most) contact.friction = read_number(report, *most).value_or(0.0);
-  contact.dynamic_friction = least ? read_number(report, *least).value_or(0.0) : 0.0;
+  const auto most = map.need("static"), least = map.need("dynamic");
+  const auto coefficients = [&](const std::optional<Value>& value) {
+    return (value ? read_coefficients(report, *value) : std::nullopt).value_or(std::pair(0.0, 0.0));
+  };
+  const auto at_rest = coefficients(most), sliding = coefficients(least);
+  contact.friction = at_rest.first;
+  contact.dynamic_friction = sliding.first;
+  const auto is_map = [](const std::optional<Value>& value) { return value && value->node->kind == Node::Kind::map; };
+  if (is_map(most) || is_map(least)) {
+    contact.backward_friction = at_rest.second;
+    contact.backward_dynamic_friction = sliding.second;
+  }
   if (const auto distance = map.get("slip_distance"))
     contact.slip_distance = read_number(report, *distance).value_or(0.0);
 }
@@ -50,7 +61,10 @@ void read_friction(Report& report, const Value& value, Contact& contact) {
                       friction_example);
   const auto along = map.get("along");
   if (map.has("forward") || map.has("backward")) {
-    for (const char* other : {"static", "dynamic", "slip_distance", "along"})
+    for (const char* other : {"static", "dynamic"})
+      if (map.has(other))
+        map.refuse(other, fmt::format("cannot stand beside 'forward' and 'backward': {}", directions_of_each));
+    for (const char* other : {"slip_distance", "along"})
       if (map.has(other)) map.refuse(other, "cannot be combined with 'forward' and 'backward': leave one of them out");
     const auto [forward, backward] = read_directions(report, map);
     contact.friction = forward;

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <istream>
 #include <streambuf>
 #include <unordered_map>
@@ -57,6 +59,12 @@ std::string clean_text(std::string_view text) {
   clean.reserve(text.size());
   Position at;
   while (!text.empty()) {
+    std::size_t plain = 0;  // characters of one byte that are kept: nearly all
+    while (plain < text.size() && text[plain] >= 0x20 && text[plain] < 0x7f) ++plain;
+    clean.append(text.substr(0, plain));
+    text.remove_prefix(plain);
+    at.column += static_cast<int>(plain);
+    if (text.empty()) break;
     const std::size_t length = character_length(text);
     const auto byte = static_cast<unsigned char>(text[0]);
     const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7f;
@@ -130,6 +138,45 @@ class BoundedText : public std::streambuf {
   bool cut_ = false;
 };
 
+/// The keys of a map that is being read, by their places among its entries: a table with open addressing, which needs no
+/// memory of its own for a key.
+class KeyTable {
+ public:
+  /// The entry with this key; nullptr if there is none.
+  const MapEntry* find(const std::vector<MapEntry>& entries, std::string_view key) const {
+    if (slots_.empty()) {
+      for (const MapEntry& entry : entries)
+        if (entry.key == key) return &entry;
+      return nullptr;
+    }
+    const std::size_t slot = slot_of(entries, key);
+    return slots_[slot] == 0 ? nullptr : &entries[slots_[slot] - 1];
+  }
+  /// After a new key has been added at the end.
+  void added(const std::vector<MapEntry>& entries) {
+    if (entries.size() <= few) return;
+    if (2 * entries.size() <= slots_.size()) {
+      slots_[slot_of(entries, entries.back().key)] = static_cast<std::uint32_t>(entries.size());
+      return;
+    }
+    slots_.assign(8 * entries.size(), 0);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      slots_[slot_of(entries, entries[i].key)] = static_cast<std::uint32_t>(i + 1);
+  }
+
+ private:
+  static constexpr std::size_t few = 8;  // are searched one by one
+
+  /// That of the key, or the free one where it belongs.
+  std::size_t slot_of(const std::vector<MapEntry>& entries, std::string_view key) const {
+    std::size_t slot = std::hash<std::string_view>()(key) % slots_.size();
+    while (slots_[slot] != 0 && entries[slots_[slot] - 1].key != key) slot = slot + 1 == slots_.size() ? 0 : slot + 1;
+    return slot;
+  }
+
+  std::vector<std::uint32_t> slots_;  // 1 + the place of an entry; 0: free
+};
+
 /// Builds the tree from yaml-cpp's events. A Diagnostic thrown from an event ends the reading.
 class TreeBuilder : public YAML::EventHandler {
  public:
@@ -175,6 +222,18 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
+    if (anchor == 0 && !open_.empty() && open_.back().node->kind == Node::Kind::map && !open_.back().has_key) {
+      Node key;  // is not kept
+      key.kind = Node::Kind::scalar;
+      key.text = value;
+      key.quoted = tag == "!";
+      source_.value_came();
+      last_value_ = position(mark);
+      check_tag(mark, tag);
+      check_closed_quote(mark);
+      add_key(open_.back(), key, last_value_);
+      return;
+    }
     Open open = start(mark, anchor, Node::Kind::scalar);
     check_tag(mark, tag);
     check_closed_quote(mark);
@@ -210,11 +269,11 @@ class TreeBuilder : public YAML::EventHandler {
   struct Open {
     std::shared_ptr<Node> node;
     YAML::anchor_t anchor = 0;
-    std::string key;                             // of a map: the last one read
-    bool has_key = false;                        // of a map: the next node is the value of that key
-    bool merges = false;                         // of a map: that key is `<<`
-    bool repeats = false;                        // of a map: that key occurred before; its value is dropped
-    std::unordered_map<std::string, int> lines;  // of the keys of a map
+    std::string key;       // of a map: the last one read
+    bool has_key = false;  // of a map: the next node is the value of that key
+    bool merges = false;   // of a map: that key is `<<`
+    bool repeats = false;  // of a map: that key occurred before; its value is dropped
+    KeyTable keys;         // of a map
     std::vector<NodePtr> merged;
   };
 
@@ -271,9 +330,9 @@ class TreeBuilder : public YAML::EventHandler {
     open_.pop_back();
     for (const NodePtr& merged : open.merged) {
       for (const MapEntry& entry : merged->entries) {
-        if (!open.lines.contains(entry.key)) {
-          open.lines.emplace(entry.key, entry.line);
+        if (open.keys.find(open.node->entries, entry.key) == nullptr) {
           open.node->entries.push_back(entry);
+          open.keys.added(open.node->entries);
           grow(*open.node, *entry.value, {open.node->line, open.node->column});
         }
       }
@@ -319,13 +378,15 @@ class TreeBuilder : public YAML::EventHandler {
     map.merges = key.text == "<<" && !key.quoted;
     if (map.merges) return;
     const std::string name = key.kind == Node::Kind::null ? "null" : key.text;
-    const auto [first, is_new] = map.lines.emplace(name, at.line);
-    map.repeats = !is_new;
-    if (is_new) {
-      map.node->entries.push_back({name, at.line, at.column, nullptr});
-    } else {
+    std::vector<MapEntry>& entries = map.node->entries;
+    const MapEntry* first = map.keys.find(entries, name);
+    map.repeats = first != nullptr;
+    if (map.repeats) {
       diagnostics_.push_back({{at.line, at.column, path_to(name)},
-                              fmt::format("is given twice (first in line {}): remove one", first->second)});
+                              fmt::format("is given twice (first in line {}): remove one", first->line)});
+    } else {
+      entries.push_back({name, at.line, at.column, nullptr});
+      map.keys.added(entries);
     }
   }
 

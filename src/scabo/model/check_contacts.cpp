@@ -191,28 +191,45 @@ bool check_along(Checking& checking, const std::string& path, const Contact& con
   return good;
 }
 
+/// `direction`: `.forward`, or nothing where there is one coefficient.
+bool check_fall(Checking& checking, const std::string& path, const std::string& direction, double at_rest,
+                double sliding) {
+  const bool good = check_coefficient(checking, path, "friction.static" + direction, at_rest);
+  if (!check_coefficient(checking, path, "friction.dynamic" + direction, sliding) || !good) return false;
+  if (sliding <= at_rest) return true;
+  checking.error(path, "friction.dynamic" + direction,
+                 fmt::format("must be at most the static coefficient {}, not {}", number_text(at_rest),
+                             number_text(sliding)),
+                 number_text(sliding));
+  return false;
+}
+
+bool check_static_and_dynamic(Checking& checking, const std::string& path, const Contact& contact) {
+  const double sliding = *contact.dynamic_friction;
+  bool good = check_fall(checking, path, contact.backward_friction ? ".forward" : "", contact.friction, sliding);
+  if (contact.backward_friction)
+    good = check_fall(checking, path, ".backward", *contact.backward_friction, *contact.backward_dynamic_friction) && good;
+  return checking.not_negative(path, "friction.slip_distance", contact.slip_distance) && good;
+}
+
 bool check_friction(Checking& checking, const std::string& path, const Contact& contact) {
-  if (contact.backward_friction && (contact.dynamic_friction || !contact.friction_along.empty())) {
-    checking.error_of_key(path, "friction.backward",
-                          "cannot be combined with coefficients that fall with slip or vary along the contact: leave "
-                          "one of them out");
+  if (contact.backward_friction && !contact.friction_along.empty()) {
+    checking.error_of_key(
+        path, "friction.backward",
+        "cannot be combined with coefficients that vary along the contact: leave one of them out");
+    return false;
+  }
+  if (contact.backward_dynamic_friction.has_value() != (contact.backward_friction && contact.dynamic_friction)) {
+    checking.error_of_key(path, "friction.dynamic", "needs a coefficient against backward slip, as the static one has");
     return false;
   }
   if (!contact.friction_along.empty()) return check_along(checking, path, contact);
+  if (contact.dynamic_friction) return check_static_and_dynamic(checking, path, contact);
   if (contact.backward_friction) {
     const bool forward = check_coefficient(checking, path, "friction.forward", contact.friction);
     return check_coefficient(checking, path, "friction.backward", *contact.backward_friction) && forward;
   }
-  if (!contact.dynamic_friction) return check_coefficient(checking, path, "friction", contact.friction);
-  bool good = check_coefficient(checking, path, "friction.static", contact.friction);
-  good = check_coefficient(checking, path, "friction.dynamic", *contact.dynamic_friction) && good;
-  if (good && *contact.dynamic_friction > contact.friction) {
-    checking.error(path, "friction.dynamic",
-                   fmt::format("must be at most the static coefficient {}, not {}", number_text(contact.friction),
-                               number_text(*contact.dynamic_friction)));
-    good = false;
-  }
-  return checking.not_negative(path, "friction.slip_distance", contact.slip_distance) && good;
+  return check_coefficient(checking, path, "friction", contact.friction);
 }
 
 }  // namespace

@@ -347,6 +347,8 @@ struct Contact {
   /// Coefficient against backward slip (slip < 0), where it differs; `friction` is then that against forward slip.
   std::optional<double> backward_friction;
   std::optional<double> dynamic_friction;     ///< coefficient, <= friction
+  /// The same against backward slip, <= backward_friction; given if both a dynamic and a backward one are.
+  std::optional<double> backward_dynamic_friction;
   double slip_distance = 0.0;                 ///< slip over which friction falls to the dynamic value; 0: at once
   std::vector<FrictionPoint> friction_along;  ///< instead of one coefficient; in ascending order of position
   double cohesion = 0.0;                      ///< force / length^2, until first failure

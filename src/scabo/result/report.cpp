@@ -151,7 +151,11 @@ std::string describe_law(const model::Contact& contact) {
                             [](const auto& a, const auto& b) { return a.friction < b.friction; });
     text = fmt::format("friction {:g} to {:g} along", least->friction, most->friction);
   } else if (contact.dynamic_friction) {
-    text += contact.slip_distance > 0.0
+    if (contact.backward_friction)
+      text = fmt::format("friction {:g} to {:g} forward, {:g} to {:g} backward", contact.friction,
+                         *contact.dynamic_friction, *contact.backward_friction, *contact.backward_dynamic_friction);
+    else
+      text += contact.slip_distance > 0.0
                 ? fmt::format(", {:g} after {:g} of slip", *contact.dynamic_friction, contact.slip_distance)
                 : fmt::format(", {:g} once it slips", *contact.dynamic_friction);
   } else if (contact.backward_friction) {

@@ -26,8 +26,11 @@ double coefficient_at(const std::vector<model::FrictionPoint>& along, double s) 
 }
 
 LawPointer friction_law(const model::Contact& contact, double s) {
-  if (contact.dynamic_friction)
-    return std::make_shared<contact::SlipWeakening>(contact.friction, *contact.dynamic_friction, contact.slip_distance);
+  if (contact.dynamic_friction) {
+    contact::SlipWeakening::Fall forward{contact.friction, *contact.dynamic_friction}, backward = forward;
+    if (contact.backward_friction) backward = {*contact.backward_friction, *contact.backward_dynamic_friction};
+    return std::make_shared<contact::SlipWeakening>(forward, backward, contact.slip_distance);
+  }
   const double mu = contact.friction_along.empty() ? contact.friction : coefficient_at(contact.friction_along, s);
   const double backward = contact.backward_friction.value_or(mu);
   if (mu == 0.0 && backward == 0.0) return std::make_shared<contact::Frictionless>();

@@ -76,8 +76,12 @@ class Following {
     for (std::size_t i = 0; i < trial.size(); ++i) {
       PairHistory reached = trial[i];
       reached.slip = from[i].slip + ends.of_pair[i].slip;
-      const double mu = laws.of_pair[i]->limits(trial[i]).mu, mu_reached = laws.of_pair[i]->limits(reached).mu;
-      settled = settled && std::abs(mu_reached - mu) <= tolerance * std::max(mu, mu_reached);
+      const Limits used = laws.of_pair[i]->limits(trial[i]), then = laws.of_pair[i]->limits(reached);
+      const auto same = [&](double mu, double mu_reached) {
+        return std::abs(mu_reached - mu) <= tolerance * std::max(mu, mu_reached);
+      };
+      settled = settled && same(used.mu, then.mu) &&
+                same(used.mu_backward.value_or(used.mu), then.mu_backward.value_or(then.mu));
       const double change = reached.slip - trial[i].slip, ratio = before_[i] != 0.0 ? change / before_[i] : 0.0;
       before_[i] = change;
       trial[i].slip = extrapolate && std::abs(ratio) < 0.95
