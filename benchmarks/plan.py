@@ -8,8 +8,8 @@ Runs the models MESHES, one thread, and takes the runs that benchmarks/large/run
 every stage, estimate / measured (of stages of 0.05 s and more; each within a factor of two is the aim). --keep writes the runs of MESHES
 to a file, which --runs takes too.
 
---fit chooses the constants that make the sum of (estimate / measured - 1)^2 least, none negative, stage by stage and for memory, and
-writes them into plan.hpp with two digits. The formulas stand here a second time for that; they are compared with the estimates of the
+--fit chooses the constants of times that make the sum of log(estimate / measured)^2 least, stage by stage, and writes them into
+plan.hpp with two digits. The formulas stand here a second time for that; they are compared with the estimates of the
 program first. Constants that no run here depends on stay.
 """
 import argparse
@@ -25,6 +25,7 @@ import scipy.optimize
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "benchmarks" / "large"))
 import measure  # noqa: E402
+import run as large  # noqa: E402
 
 HEADER = ROOT / "src" / "scabo" / "run" / "plan.hpp"
 MODEL = """scabo: 1
@@ -94,7 +95,7 @@ def terms_of(run, costs):
         add(stages["fields"], "field_seconds", n)
     components = 2.0 * pairs
     add(memory, "contact_bytes", min(2.0 * components**2, components**2))
-    add(stages["increments"], "contact_seconds", components**2 * max(components, costs["least_width"]))
+    add(stages["increments"], "contact_seconds", components**3)  # two bodies: the width is all components
     return stages, memory
 
 
@@ -113,30 +114,32 @@ def check_formulas(runs, costs):
 
 
 def fit(lines, costs):
-    """Least (estimate / measured - 1)^2 over lines of (terms, measured), constants not negative."""
+    """Least (log(estimate / measured))^2 over lines of (terms, measured): too much and too little count alike."""
     names = sorted({name for terms, _ in lines for name in terms if name})
-    A = numpy.array([[terms.get(name, 0.0) / measured for name in names] for terms, measured in lines])
-    b = numpy.array([1.0 - terms.get("", 0.0) / measured for terms, measured in lines])
-    size = numpy.abs(A).max(axis=0)
-    found, _ = scipy.optimize.nnls(A / size, b)
-    return {name: float(f"{value:.1e}") for name, value in zip(names, found / size)}
+    start = numpy.log([max(costs[name], 1e-12) for name in names])
+
+    def residuals(logs):
+        now = {**costs, **dict(zip(names, numpy.exp(logs)))}
+        return [math.log(value_of(terms, now) / measured) for terms, measured in lines]
+
+    found = scipy.optimize.least_squares(residuals, start, bounds=(start - 7.0, start + 12.0))
+    return {name: float(f"{math.exp(value):.1e}") for name, value in zip(names, found.x)}
 
 
 def fitted(runs, costs):
-    costs = dict(costs)
-    for stage in ("super_elements", "mesh", "factorise", "condense", "increments", "fields"):  # the first finds dense_seconds
+    """Times of bodies of many cells. The constants of memory stay: too much of it is better than too little, as a machine that seems large
+    enough must be; so does that of a single super-element."""
+    before, costs = costs, dict(costs)
+    costs["order_seconds"] = costs["order_seconds"] or 1e-7
+    for stage in STAGES:
         lines = []
         for run in runs:
             measured, terms = measured_of(run)[stage], terms_of(run, costs)[0][stage]
-            if measured >= MEASURABLE and any(terms) and (run["kind"] != "superelement" or stage == "super_elements"):
+            if measured >= MEASURABLE and run["kind"] != "superelement":
                 lines.append((terms, measured))
         costs.update(fit(lines, costs))
-    base = next(run for run in sorted(runs, key=lambda run: run["peak"]))  # the smallest run: mostly the program itself
-    lines = [(terms_of(run, costs)[1], run["peak"]) for run in runs]
-    fixed = [({**{name: value for name, value in terms.items() if name != "base_bytes"}, "": terms.get("", 0.0) + costs["base_bytes"]}, measured)
-             for terms, measured in lines]
-    print(f"fitted to {len(runs)} runs; the smallest takes {base['peak'] / 1e6:.0f} MB", file=sys.stderr)
-    costs.update(fit(fixed, costs))
+    # The estimate of walls, which no run here tells of, stays as it is.
+    costs["least_width"] = float(f"{costs['least_width'] * before['contact_seconds'] / costs['contact_seconds']:.1e}")
     return costs
 
 
@@ -201,6 +204,7 @@ def main():
         if options.keep:
             options.keep.write_text(json.dumps(here, indent=1))
     runs += here
+    large.settle([(run["kind"], run) for run in runs])
     text = HEADER.read_text(encoding="utf-8")
     costs = constants_in(text)
     check_formulas(here, costs)  # kept runs may be of a program with other constants

@@ -208,7 +208,7 @@ def main():
             done[name] = kept[name]
             return
         if spent > options.total:
-            left_out.append(f"{name}: not begun, {options.total:.0f} s of processor time were spent")
+            left_out.append(f"{name[0]}, {name[1]:.0e} degrees of freedom, {name[2]} pairs {name[3]}: not begun, {options.total:.0f} s of processor time were spent")
             return
         try:
             done[name] = {"name": name, "kind": name[0], **measure.run(options.scabo, text, options.threads, options.seconds, options.gigabytes)}

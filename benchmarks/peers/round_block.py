@@ -36,7 +36,7 @@ def grid(n):
 
 
 def scabo_model(size, along):
-    """`size` of the elements of the boundary, `along` of those of the round side, m."""
+    """`size` of the elements of the boundary, `along` of those of the round side and at the corner where the held top meets the free side, m."""
     return f"""scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: {YOUNG!r}, poisson: {POISSON!r}}}}}
@@ -50,7 +50,7 @@ bodies:
         - {{arc: {{to: [{WIDTH!r}, {bottom(WIDTH)!r}], centre: [0, {RADIUS!r}]}}, name: round}}
         - {{line: {{to: [{WIDTH!r}, {HEIGHT!r}]}}, name: side}}
         - {{line: {{to: [0, {HEIGHT!r}]}}, name: top}}
-    mesh: {{size: {size!r}, refine: [{{on: round, size: {along!r}}}]}}
+    mesh: {{size: {size!r}, refine: [{{on: round, size: {along!r}}}, {{near: [{WIDTH!r}, {HEIGHT!r}], size: {along!r}}}]}}
 supports:
   - {{on: floor, fix: [x, y]}}
   - {{on: block.middle, fix: [x]}}
