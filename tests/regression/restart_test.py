@@ -115,6 +115,38 @@ class Restart(support.InTemporaryDirectory):
         self.assertEqual(summary_of(self.directory / "three.results")["increments"][0]["factors"],
                          {"push": 0.0, "weight": 1.0})
 
+    def test_two_halves_of_a_large_body_are_one_run(self):
+        """Of 22,000 degrees of freedom: motions without contact come from partial solves, refinement from its need."""
+        head = """
+scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3, expansion: 1.2e-5}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [3, 1]}}}
+  block: {material: steel, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}, mesh: {kind: fem, order: 2, size: 0.0166}}
+supports: [{on: floor, fix: [x, y]}, {on: block.left, name: side, displacement: [1e-4, null]}]
+loads: {down: {on: block.top, pressure: 1e8}, push: {on: block.top, traction: [2e7, 0]}, warm: {on: block, temperature: 5}}
+contacts: {joint: {between: [floor.top, block.bottom], friction: 0.3}}
+output: {fields: []}
+"""
+        first = "{name: a, loads: {down: 1, push: 0.2, warm: 0.7, side: 1}}"
+        then = "{name: b, increments: 2, loads: {push: 1, warm: 0.1, side: 0.3}}"
+
+        def run(name, steps, more=""):
+            path = self.directory / name
+            path.write_text(head + "steps: " + steps + "\n" + more, encoding="utf-8")
+            done = scabo("run", path, "--quiet")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            return path.with_suffix(".results")
+
+        whole = run("whole.yaml", f"[{first}, {then}]")
+        run("one.yaml", f"[{first}]")
+        alone = rows_of(run("two.yaml", f"[{then}]", "restart: one.results"))
+        in_whole = [row for row in rows_of(whole) if row["step"] == "2"]
+        self.assertGreater(summary_of(whole)["model"]["dofs"], 20000)
+        for one, other in zip(in_whole, alone, strict=True):
+            for key in set(one) - {"step"}:
+                self.assertEqual(one[key], other[key])
+
     def test_its_own_directory_and_runs_without_an_end_are_refused(self):
         one = self.write("one.yaml", "[{name: a, loads: {weight: 1, push: 0.2}}]")
         self.assertEqual(scabo("run", one, "--quiet").returncode, 0)

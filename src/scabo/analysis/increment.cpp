@@ -74,13 +74,42 @@ std::vector<Vector> prescribed_values(const Prepared& prepared, const std::vecto
   return values;
 }
 
-/// Supports on both sides may hold a pair; they must not press its points into each other.
-void check_held_pairs(const Prepared& prepared, const std::vector<Vector>& u, const Vector& offset,
-                      const Replacing& replaced) {
+/// Motions of pairs without contact forces, along [n, t].
+struct FreeMotion {
+  Vector pairs, held;  ///< 2N; of pairs that supports hold
+};
+
+/// Degrees of freedom of a part that its pairs touch.
+std::vector<int> touched_dofs(const system::ContactSystem& contact, std::size_t p) {
+  std::vector<int> dofs;
+  const auto is_touched = [](const Eigen::SparseMatrix<double>& motion, Eigen::Index dof) {
+    return motion.outerIndexPtr()[dof] < motion.outerIndexPtr()[dof + 1];
+  };
+  for (Eigen::Index dof = 0; dof < contact.motion[p].cols(); ++dof)
+    if (is_touched(contact.motion[p], dof) || (!contact.held.empty() && is_touched(contact.held_motion[p], dof)))
+      dofs.push_back(static_cast<int>(dof));
+  return dofs;
+}
+
+FreeMotion free_motion(const Prepared& prepared, const State& state) {
+  const system::ContactSystem& contact = prepared.contact;
+  FreeMotion free{Vector::Zero(static_cast<Eigen::Index>(2 * contact.pairs.size())),
+                  Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()))};
+  if (contact.pairs.empty() && contact.held.empty()) return free;
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
+    if (prepared.is_absent(p)) continue;
+    const Vector u = prepared.structure.parts[p]->displacement_at(state.forces[p], state.prescribed[p],
+                                                                  touched_dofs(contact, p));
+    free.pairs.noalias() += contact.motion[p] * u;
+    if (!contact.held.empty()) free.held.noalias() += contact.held_motion[p] * u;
+  }
+  return free;
+}
+
+/// Supports on both sides may hold a pair; they must not press its points into each other. `motion`: of these pairs.
+void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
   if (contact.held.empty()) return;
-  Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()));
-  for (std::size_t p = 0; p < u.size(); ++p) motion.noalias() += contact.held_motion[p] * u[p];
   if (offset.size() > 0) motion += offset;
   for (std::size_t i = 0; i < contact.held.size(); ++i) {
     const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
@@ -159,12 +188,15 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
     }
     Balance& balance = balances[p];
     balance.forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
-    Vector u = known ? (*known)[p] : parts[p]->displacement(balance.forces, to.prescribed[p]);
+    system::Displaced reached =
+        known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(balance.forces, to.prescribed[p]);
     const Matrix& rigid = parts[p]->rigid_motions();
-    if (rigid.cols() > 0) u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
-    balance.unbalanced = parts[p]->unbalanced(u, balance.forces);
+    if (rigid.cols() > 0) reached.u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
+    const bool is_known = reached.unbalanced.size() > 0 && rigid.cols() == 0;
+    balance.unbalanced =
+        is_known ? std::move(reached.unbalanced) : parts[p]->unbalanced(reached.u, balance.forces);
     to.reactions.push_back(parts[p]->reactions_of(balance.unbalanced));
-    to.u.push_back(std::move(u));
+    to.u.push_back(std::move(reached.u));
   }
   return balances;
 }
@@ -316,10 +348,10 @@ void add(element::CellLoads& to, const element::CellLoads& loads, double factor)
 /// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
 /// stress.
 double lost_to_rounding(const Prepared& prepared, const State& state) {
-  double energy = 0.0, lost = 0.0, resisting = 0.0;
+  double energy = prepared.reference ? 0.0 : state.energy.elastic, lost = 0.0, resisting = 0.0;
   for (std::size_t p = 0; p < state.u.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];
-    energy += part.elastic_energy(state.u[p]);
+    if (prepared.reference) energy += part.elastic_energy(state.u[p]);
     lost += part.energy_lost(state.u[p]);
     if (state.u[p].size() > 0) resisting += part.stiff_force(state.u[p]) * state.u[p].lpNorm<Eigen::Infinity>();
   }
@@ -450,17 +482,12 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   options.iterations = prepared.model.solver.iterations;
   options.on_iteration = prepared.on_iteration;
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
-  std::vector<Vector> free;  // without contact
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (prepared.is_absent(p)) {
-      free.push_back(Vector::Zero(parts[p]->size()));
-      continue;
-    }
-    free.push_back(parts[p]->displacement(to.forces[p], to.prescribed[p]));
-    problem.q.noalias() += system.motion[p] * free[p];
-    problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
-  }
-  check_held_pairs(prepared, free, from.held_offset, from.replaced);
+  FreeMotion free = free_motion(prepared, to);
+  problem.q += free.pairs;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (!prepared.is_absent(p))
+      problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
+  check_held_pairs(prepared, std::move(free.held), from.held_offset, from.replaced);
 
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
@@ -476,7 +503,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   to.gap = result.solution.gap;
   to.slip = from.slip + result.solution.slip_increment;
   to.states = result.solution.states;
-  std::vector<Balance> balances = add_displacements(prepared, N == 0 ? &free : nullptr, to);
+  std::vector<Balance> balances = add_displacements(prepared, nullptr, to);
   to.energy = energy_between(prepared, from, to, balances);
   result.certificate = result.solution.certificate;
   to.largest_force = std::max(from.largest_force, largest_force(to));

@@ -4,20 +4,26 @@
 #include <random>
 
 #include "scabo/base/error.hpp"
+#include "scabo/contact/pair_operator.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 
 namespace scabo::contact {
 
 struct Delassus::Data {
-  enum class Kind { dense, sparse, condensed } kind = Kind::dense;
+  enum class Kind { dense, sparse, condensed, products } kind = Kind::dense;
   Eigen::Index size = 0;
+  Matrix dense;
   Eigen::SparseMatrix<double> sparse;  // or B
   std::shared_ptr<const linalg::SymmetricPositiveSolver> K;
-  double factor = 1.0;  // of B' K^-1 B
-  mutable Matrix dense;
-  mutable std::once_flag formed;
-  mutable Matrix columns_of_pairs;  // condensed: result of diagonal_blocks
+  std::shared_ptr<const PairOperator> products;
+  mutable Matrix columns_of_pairs;  // condensed and products: result of diagonal_blocks
   mutable std::mutex guard;
+};
+
+/// Entries that are computed when they are first asked for.
+struct Delassus::Formed {
+  mutable Matrix W;
+  mutable std::once_flag once;
 };
 
 namespace {
@@ -62,6 +68,7 @@ Delassus::Delassus(Eigen::SparseMatrix<double> sparse) {
   data->sparse = std::move(sparse);
   data->sparse.makeCompressed();
   data_ = std::move(data);
+  formed_ = std::make_shared<const Formed>();
 }
 
 Delassus::Delassus(std::shared_ptr<const linalg::SymmetricPositiveSolver> K, Eigen::SparseMatrix<double> B) {
@@ -72,6 +79,22 @@ Delassus::Delassus(std::shared_ptr<const linalg::SymmetricPositiveSolver> K, Eig
   data->sparse = std::move(B);
   data->sparse.makeCompressed();
   data_ = std::move(data);
+  formed_ = std::make_shared<const Formed>();
+}
+
+Delassus::Delassus(std::shared_ptr<const PairOperator> products) {
+  auto data = std::make_shared<Data>();
+  data->kind = Data::Kind::products;
+  data->size = products->size();
+  data->products = std::move(products);
+  data_ = std::move(data);
+  formed_ = std::make_shared<const Formed>();
+}
+
+Delassus Delassus::with_holder(std::shared_ptr<const PairHolder> holder) const {
+  Delassus result = *this;
+  result.holder_ = std::move(holder);
+  return result;
 }
 
 Eigen::Index Delassus::size() const { return data_ ? data_->size : 0; }
@@ -81,15 +104,23 @@ bool Delassus::is_sparse() const { return data_ && data_->kind == Data::Kind::sp
 Matrix Delassus::times(const Matrix& p) const {
   ensure(p.rows() == size(), "the Delassus operator and the forces differ in size");
   if (!data_) return p;
+  Matrix result;
   switch (data_->kind) {
     case Data::Kind::dense:
-      return data_->dense * p;
+      result = data_->dense * p;
+      break;
     case Data::Kind::sparse:
       return data_->sparse * p;
     case Data::Kind::condensed:
+      result = data_->sparse.transpose() * data_->K->solve(data_->sparse * p);
+      break;
+    case Data::Kind::products:
+      result.resize(p.rows(), p.cols());
+      for (Eigen::Index j = 0; j < p.cols(); ++j) result.col(j) = data_->products->times(p.col(j));
       break;
   }
-  return data_->factor * (data_->sparse.transpose() * data_->K->solve(data_->sparse * p));
+  if (factor_ != 1.0) result *= factor_;
+  return result;
 }
 
 Vector Delassus::times(const Vector& p) const {
@@ -105,15 +136,20 @@ void Delassus::apply(const Eigen::Ref<const Vector>& p, Vector& result) const {
   switch (data_->kind) {
     case Data::Kind::dense:
       result.noalias() = data_->dense * p;
-      return;
+      break;
     case Data::Kind::sparse:
       result.noalias() = data_->sparse * p;
       return;
-    case Data::Kind::condensed:
+    case Data::Kind::condensed: {
+      const Vector forces = data_->sparse * p;
+      result = data_->sparse.transpose() * data_->K->solve(forces);
+      break;
+    }
+    case Data::Kind::products:
+      result = data_->products->times(p);
       break;
   }
-  const Vector forces = data_->sparse * p;
-  result = data_->factor * (data_->sparse.transpose() * data_->K->solve(forces));
+  if (factor_ != 1.0) result *= factor_;
 }
 
 Matrix Delassus::diagonal_blocks(int d) const {
@@ -121,7 +157,7 @@ Matrix Delassus::diagonal_blocks(int d) const {
   if (!data_) return blocks;
   const Eigen::Index N = size() / d;
   if (data_->kind == Data::Kind::dense) {
-    for (Eigen::Index i = 0; i < N; ++i) blocks.middleCols(d * i, d) = data_->dense.block(d * i, d * i, d, d);
+    for (Eigen::Index i = 0; i < N; ++i) blocks.middleCols(d * i, d) = factor_ * data_->dense.block(d * i, d * i, d, d);
     return blocks;
   }
   if (data_->kind == Data::Kind::sparse) {
@@ -131,47 +167,66 @@ Matrix Delassus::diagonal_blocks(int d) const {
     return blocks;
   }
   const std::scoped_lock lock(data_->guard);
-  if (data_->columns_of_pairs.rows() == d) return data_->columns_of_pairs;
+  Matrix& kept = data_->columns_of_pairs;
+  if (data_->kind == Data::Kind::products) {
+    if (kept.size() == 0) kept = data_->products->diagonal_blocks();
+    if (d == kept.rows()) return factor_ * kept;
+    ensure(d == 1, "blocks of pairs have as many components as the pairs");
+    for (Eigen::Index k = 0; k < size(); ++k) blocks(0, k) = factor_ * kept(k % kept.rows(), k);
+    return blocks;
+  }
+  if (kept.rows() == d) return factor_ * kept;
   constexpr Eigen::Index most_exact = 4000;
   if (size() > most_exact) {
-    data_->columns_of_pairs = blocks = probed_blocks(*this, d);
-    return blocks;
+    Delassus alone = *this;
+    alone.factor_ = 1.0;
+    kept = probed_blocks(alone, d);
+    return factor_ * kept;
   }
   const Eigen::Index chunk = columns_at_a_time / d * d;
   for (Eigen::Index first = 0; first < size(); first += chunk) {
     const Eigen::Index count = std::min(chunk, size() - first);
     const Eigen::SparseMatrix<double> part = data_->sparse.middleCols(first, count);
-    const Matrix W = data_->factor * (part.transpose() * data_->K->solve(Matrix(part)));
+    const Matrix W = part.transpose() * data_->K->solve(Matrix(part));
     for (Eigen::Index i = 0; i < count; i += d) blocks.middleCols(first + i, d) = W.block(i, i, d, d);
   }
-  data_->columns_of_pairs = blocks;
-  return blocks;
+  kept = blocks;
+  return factor_ * kept;
 }
 
 Vector Delassus::diagonal() const {
-  if (is_dense()) return data_ ? Vector(data_->dense.diagonal()) : Vector();
+  if (is_dense()) return data_ ? Vector(factor_ * data_->dense.diagonal()) : Vector();
   if (is_sparse()) return data_->sparse.diagonal();
   return diagonal_blocks(1).transpose();
 }
 
-const Matrix& Delassus::dense() const {
+const Matrix& Delassus::matrix() const {
   static const Matrix none(0, 0);
-  if (!data_) return none;
-  if (data_->kind == Data::Kind::dense) return data_->dense;
-  std::call_once(data_->formed, [&] {
+  ensure(is_dense(), "this Delassus operator is not dense");
+  return data_ ? data_->dense : none;
+}
+
+const Matrix& Delassus::dense() const {
+  if (is_dense() && factor_ == 1.0) return matrix();
+  std::call_once(formed_->once, [&] {
+    if (data_->kind == Data::Kind::dense) {
+      formed_->W = factor_ * data_->dense;
+      return;
+    }
     if (data_->kind == Data::Kind::sparse) {
-      data_->dense = Matrix(data_->sparse);
+      formed_->W = Matrix(data_->sparse);
       return;
     }
     Matrix W(size(), size());
     for (Eigen::Index first = 0; first < size(); first += columns_at_a_time) {
       const Eigen::Index count = std::min(columns_at_a_time, size() - first);
-      const Matrix part = data_->sparse.middleCols(first, count);
-      W.middleCols(first, count) = data_->factor * (data_->sparse.transpose() * data_->K->solve(part));
+      Matrix unit = Matrix::Zero(size(), count);
+      unit.middleRows(first, count).setIdentity();
+      W.middleCols(first, count) = times(unit);
     }
-    data_->dense = 0.5 * (W + W.transpose());
+    formed_->W = 0.5 * (W + W.transpose());
   });
-  return data_->dense;
+  return formed_->W;
 }
 
 const Eigen::SparseMatrix<double>& Delassus::sparse() const {
@@ -181,22 +236,10 @@ const Eigen::SparseMatrix<double>& Delassus::sparse() const {
 
 Delassus Delassus::scaled(double factor) const {
   if (!data_) return *this;
-  switch (data_->kind) {
-    case Data::Kind::dense:
-      return Delassus(Matrix(factor * data_->dense));
-    case Data::Kind::sparse:
-      return Delassus(Eigen::SparseMatrix<double>(factor * data_->sparse));
-    case Data::Kind::condensed:
-      break;
-  }
-  auto data = std::make_shared<Data>();
-  data->kind = data_->kind;
-  data->size = data_->size;
-  data->sparse = data_->sparse;
-  data->K = data_->K;
-  data->factor = factor * data_->factor;
-  Delassus result;
-  result.data_ = std::move(data);
+  if (data_->kind == Data::Kind::sparse) return Delassus(Eigen::SparseMatrix<double>(factor * data_->sparse));
+  Delassus result = *this;
+  result.factor_ *= factor;
+  result.formed_ = std::make_shared<const Formed>();
   return result;
 }
 

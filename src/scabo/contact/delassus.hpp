@@ -1,13 +1,14 @@
 // Delassus operator W: relative motion of the pairs per contact force, dN x dN (d components per pair, N pairs; length
-// per force). There are three representations:
+// per force). There are four representations:
 //
-//     dense      the matrix itself: condensed elastic bodies, up to about a thousand pairs
+//     dense      the matrix itself: condensed elastic bodies, up to some thousand pairs
 //     sparse     bodies that few pairs couple: stacks of blocks, collections of others
 //     condensed  W = B' K^-1 B: factorised stiffness K (n x n) and pair matrix B (n x dN, displacements per unit of
 //                pair motion); never formed unless dense() is asked for
+//     products   those of a structure (pair_operator.hpp): elastic bodies with more pairs; the same
 //
 // The operator is kept as given: problems from other programs may be slightly unsymmetric. Copies are cheap because the
-// content is shared and never changes.
+// content is shared and never changes; a factor is applied to products and entries (sparse matrices are copied).
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -21,12 +22,20 @@ class SymmetricPositiveSolver;
 
 namespace scabo::contact {
 
+class PairOperator;  // pair_operator.hpp
+class PairHolder;
+
 class Delassus {
  public:
   Delassus() = default;    ///< for zero pairs
   Delassus(Matrix dense);  // implicit: a matrix is a Delassus operator
   explicit Delassus(Eigen::SparseMatrix<double> sparse);
   Delassus(std::shared_ptr<const linalg::SymmetricPositiveSolver> K, Eigen::SparseMatrix<double> B);
+  explicit Delassus(std::shared_ptr<const PairOperator> products);
+
+  /// The same operator with a holder of its pairs. Motions that it gets and gives are those of W before any factor.
+  Delassus with_holder(std::shared_ptr<const PairHolder> holder) const;
+  const PairHolder* holder() const { return holder_.get(); }  ///< null: none
 
   Eigen::Index size() const;  ///< dN
   bool is_dense() const;
@@ -43,8 +52,11 @@ class Delassus {
   Matrix diagonal_blocks(int d) const;
   Vector diagonal() const;
 
-  /// Computed at the first call and kept; thread-safe.
+  /// Entries of W, computed at the first call and kept if they are not those of a dense W without factor; thread-safe.
   const Matrix& dense() const;
+  /// Only when is_dense(): the entries of W are factor() times those of matrix(), which is never copied.
+  const Matrix& matrix() const;
+  double factor() const { return factor_; }
   /// Only when is_sparse().
   const Eigen::SparseMatrix<double>& sparse() const;
 
@@ -53,7 +65,11 @@ class Delassus {
 
  private:
   struct Data;
+  struct Formed;
   std::shared_ptr<const Data> data_;
+  double factor_ = 1.0;                   // of data_
+  std::shared_ptr<const Formed> formed_;  // entries with the factor
+  std::shared_ptr<const PairHolder> holder_;
 };
 
 }  // namespace scabo::contact

@@ -47,9 +47,10 @@ Vector absolute_product(const Problem& problem, const Vector& p, const Vector& m
   const Delassus& W = problem.W;
   Vector sums = Vector::Zero(p.size());
   if (W.is_dense()) {
-    const Matrix& dense = W.dense();
+    const Matrix& dense = W.matrix();
     for (Index j = 0; j < p.size(); ++j)
       if (p[j] != 0.0) sums += std::abs(p[j]) * dense.col(j).cwiseAbs();
+    sums *= std::abs(W.factor());
   } else if (W.is_sparse()) {
     const Eigen::SparseMatrix<double>& sparse = W.sparse();
     for (Index j = 0; j < p.size(); ++j)

@@ -6,6 +6,7 @@
 #include "scabo/contact/interior_point.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/lemke.hpp"
+#include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/cold_start.hpp"
@@ -113,6 +114,9 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.
     if (has_many_motions(problem_)) return best;
   }
+  if (cold && holding_pays(problem_, problem_.q.size()))
+    if (const std::optional<BondedStart> joined = joined_start(problem_, touching))
+      if (better(newton_alone(joined->p, joined->a, {"newton"}))) return best;
   if (cold && better(may_sweep() ? without_history(p, a) : newton_alone(p, a, {"newton"}))) return best;
   if (!many && may_follow_path(problem_)) {
     if (!cold && better(along_loads(p, a))) return best;
@@ -120,7 +124,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (start && (better(along_paths(*start, touching)) || collapse())) return best;
   }
   const bool held = problem_.G.cols() == 0;
-  if (!held && better(floating_proximal(p, a))) return best;
+  if (!held && may_sweep() && better(floating_proximal(p, a))) return best;
   if (held && may_sweep() && better(swept(p, 20, 1e-4))) return best;
   if (better(growing_friction(p, a))) return best;
   if (may_sweep() && better(after_sweeps(p, a))) return best;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scabo/contact/gmres.hpp"
+#include "scabo/contact/pair_operator.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/linalg/single_precision_solver.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
@@ -17,7 +18,8 @@ struct NewtonDirection::Workspace {
   linalg::GeneralSolver solver;
   Eigen::MatrixXf single;
   linalg::SinglePrecisionSolver single_solver;
-  bool single_fails = false;  // W is too ill-conditioned: of slender bodies
+  bool single_fails = false;   // W is too ill-conditioned: of slender bodies
+  bool holding_fails = false;  // it takes too many iterations, or none hold the bodies
   Vector column, full, image, residual;
   Eigen::SparseMatrix<double> sparse, raised;
   Eigen::SparseMatrix<double, Eigen::RowMajor> G;  // by rows, for sparse saddle systems
@@ -36,6 +38,7 @@ constexpr Eigen::Index most_of_dense = 8000, most_of_formed = 2500;
 // Unknowns from which the factorisation is one in single precision, and up to which there is one.
 constexpr Eigen::Index least_of_single = 2500, most_of_single = 24000;
 constexpr GmresOptions refining_gmres{1e-13, 40, 80};
+constexpr GmresOptions holding_gmres{1e-12, 60, 120};
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
 constexpr Eigen::Index least_sparse = 120;     // unknowns below which dense is faster
 
@@ -54,7 +57,7 @@ constexpr double exact = 1e-9, descending = 0.5;
 std::vector<bool> immovable_components(const Problem& problem) {
   std::vector<bool> immovable;
   if (!problem.W.is_dense()) return immovable;
-  const Matrix& W = problem.W.dense();
+  const Matrix& W = problem.W.matrix();
   for (Eigen::Index k = 0; k < W.rows(); ++k) {
     if (W(k, k) != 0.0 || !W.col(k).isZero(0.0) || !W.row(k).isZero(0.0) || !problem.G.dense().row(k).isZero(0.0))
       continue;
@@ -65,6 +68,16 @@ std::vector<bool> immovable_components(const Problem& problem) {
 }
 
 }  // namespace
+
+bool holding_pays(const Problem& problem, Eigen::Index unknowns) {
+  const PairHolder* const holder = problem.W.holder();
+  if (holder == nullptr || problem.W.is_sparse()) return false;
+  if (!problem.W.is_dense()) return true;
+  // Dense operations are faster than those of a sparse factor, to which its order and the iterations add.
+  constexpr double dearer = 10.0;
+  const auto n = static_cast<double>(unknowns);
+  return unknowns > least_of_single && dearer * holder->operations() < 2.0 / 3.0 * n * n * n;
+}
 
 NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
     : equations_(equations),
@@ -217,8 +230,12 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   bool solved = false;
   if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = solve_sparse(regularisation);
+  else if (holding_pays(problem, size + m) && solve_by_holding(regularisation))
+    solved = true;
   else if (problem.W.is_dense() && !work_->single_fails && size + m > least_of_single && size + m <= most_of_single &&
            solve_by_single_precision(regularisation))
+    solved = true;
+  else if (work_->single_fails && solve_by_holding(regularisation))
     solved = true;
   else if (problem.W.is_dense() ? size + m <= most_of_dense : std::max(size + m, forces) <= most_of_formed)
     solved = solve_dense(regularisation);
@@ -234,7 +251,9 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
 
 bool NewtonDirection::solve_dense(double regularisation) {
   const Problem& problem = equations_.problem();
-  const Matrix &W = problem.W.dense(), &G = problem.G.dense();
+  const bool is_dense = problem.W.is_dense();
+  const Matrix &W = is_dense ? problem.W.matrix() : problem.W.dense(), &G = problem.G.dense();
+  const double factor = is_dense ? problem.W.factor() : 1.0;
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
   Matrix& A = work_->A;
@@ -249,7 +268,7 @@ bool NewtonDirection::solve_dense(double regularisation) {
       const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
       double sum = 0.0;
       for (Eigen::Index k = 0; k < d; ++k) sum += to.row[k] * work_->column[d * to.pair + k];
-      A(row, j) = to.scale * sum;
+      A(row, j) = to.scale * (factor * sum);
     }
     A(j, j) += regularisation * (1.0 - from.own) + from.own;
     for (Eigen::Index g = 0; g < m; ++g) {
@@ -306,7 +325,8 @@ bool NewtonDirection::solve_dense(double regularisation) {
 
 bool NewtonDirection::solve_by_single_precision(double regularisation) {
   const Problem& problem = equations_.problem();
-  const Matrix &W = problem.W.dense(), &G = problem.G.dense();
+  const Matrix &W = problem.W.matrix(), &G = problem.G.dense();
+  const double factor = problem.W.factor();
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
   const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
   Eigen::MatrixXf& A = work_->single;
@@ -337,7 +357,7 @@ bool NewtonDirection::solve_by_single_precision(double regularisation) {
     const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
     work_->column.setZero(W.rows());
     for (Eigen::Index k = 0; k < d; ++k)
-      if (from.column[k] != 0.0) work_->column.noalias() += from.column[k] * W.col(d * from.pair + k);
+      if (from.column[k] != 0.0) work_->column.noalias() += (factor * from.column[k]) * W.col(d * from.pair + k);
     motions_of_rows(work_->column, A.col(j));
     A(j, j) += static_cast<float>(regularisation * (1.0 - from.own) + from.own);
     for (Eigen::Index g = 0; g < m; ++g) {
@@ -442,6 +462,40 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   y_.setZero(A.rows());
   const double left = gmres(multiply, precondition, right, y_, singular_gmres);
   return y_.allFinite() && left <= descending;
+}
+
+bool NewtonDirection::solve_by_holding(double regularisation) {
+  const Problem& problem = equations_.problem();
+  const PairHolder* const holder = problem.W.holder();
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
+  if (holder == nullptr || size == 0 || work_->holding_fails) return false;
+  work_->holding_fails = true;
+  std::vector<int> rows;
+  Vector scale(size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    Eigen::Index component = 0;
+    if (unknown.row.cwiseAbs().maxCoeff(&component) != 1.0) return false;  // across the slip in space
+    rows.push_back(static_cast<int>(d * unknown.pair + component));
+    scale[j] = unknown.scale;
+  }
+  const std::unique_ptr<HeldPairs> held = holder->hold(rows);
+  if (!held) return false;
+  const double factor = problem.W.factor();
+  Vector p, a;
+  const auto precondition = [&](const Vector& x, Vector& result) {
+    held->solve(x.head(size).cwiseQuotient(scale) / factor, x.tail(m), p, a);
+    result.resize(n);
+    result.head(size) = p;
+    result.tail(m) = factor * a;
+  };
+  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
+  const Vector right = right_.head(n);
+  y_.setZero(n);
+  const double left = gmres(multiply, precondition, right, y_, holding_gmres);
+  work_->holding_fails = !(y_.allFinite() && left <= exact);
+  return !work_->holding_fails;
 }
 
 void NewtonDirection::apply(const Vector& x, double regularisation, Vector& result) {

@@ -13,7 +13,9 @@
 // At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the
 // branches of d until they are its own; where that cycles, by enumeration of up to four tied pairs.
 //
-// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Of more than
+// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Where bodies can
+// be joined at the pairs that hold (pair_operator.hpp), and that is cheaper than LU, or W is known by its products
+// alone, the joined bodies are the preconditioner: the matrix above but with n for n + mu e in C. Of more than
 // 2,500 unknowns of a dense W the LU is one in single precision, which takes half the time and a quarter of the memory,
 // and GMRES with it as its preconditioner solves in double precision, by products with W itself. Without any LU the
 // preconditioner is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da =
@@ -28,6 +30,10 @@
 #include "scabo/contact/b_differentiable.hpp"
 
 namespace scabo::contact {
+
+/// Whether joining the bodies of a problem costs less than a dense LU of `unknowns` unknowns, of a W that is dense, or W
+/// is not dense and they can be joined.
+bool holding_pays(const Problem& problem, Eigen::Index unknowns);
 
 class NewtonDirection {
  public:
@@ -57,6 +63,7 @@ class NewtonDirection {
   bool solve_by_single_precision(double regularisation);
   void lay_out_sparse(double regularisation);
   bool solve_sparse(double regularisation);
+  bool solve_by_holding(double regularisation);
   bool solve_iteratively(double regularisation);
   /// The matrix above times x = [y; da].
   void apply(const Vector& x, double regularisation, Vector& result);

@@ -264,7 +264,9 @@ Problem held_at(const Problem& problem, const Vector& a_0, double c) {
     const RigidMap::Sparse& G = problem.G.sparse();
     held.W = Delassus(Eigen::SparseMatrix<double>(problem.W.sparse() + RigidMap::Sparse(G * G.transpose()) / c));
   } else {
-    held.W = Matrix(problem.W.dense() + problem.G.dense() * problem.G.dense().transpose() / c);
+    const bool is_dense = problem.W.is_dense();
+    const Matrix& W = is_dense ? problem.W.matrix() : problem.W.dense();
+    held.W = Matrix((is_dense ? problem.W.factor() : 1.0) * W + problem.G.dense() * problem.G.dense().transpose() / c);
   }
   held.q += problem.G * Vector(a_0 + problem.f / c);
   held.G.resize(problem.q.size(), 0);

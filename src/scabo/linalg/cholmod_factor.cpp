@@ -130,7 +130,18 @@ class CholmodFactor final : public SparseFactor {
     return X;
   }
 
+  Vector solve_at(const Vector& b, const std::vector<int>& wanted) const override {
+    Vector ordered(b.size());
+    for (std::size_t i = 0; i < position_.size(); ++i) ordered[position_[i]] = b[static_cast<Eigen::Index>(i)];
+    return linalg::solve_at(supernodes(), std::move(ordered), positions_of(wanted));
+  }
+
   Matrix inverse_block(const std::vector<int>& indices) const override {
+    return linalg::inverse_block(supernodes(), positions_of(indices));
+  }
+
+ private:
+  SupernodalFactor supernodes() const {
     SupernodalFactor L;
     L.size = static_cast<std::int64_t>(factor_->n);
     L.supernodes = static_cast<std::int64_t>(factor_->nsuper);
@@ -139,13 +150,15 @@ class CholmodFactor final : public SparseFactor {
     L.first_value = static_cast<const std::int64_t*>(factor_->px);
     L.rows = static_cast<const std::int64_t*>(factor_->s);
     L.values = static_cast<const double*>(factor_->x);
+    return L;
+  }
+  std::vector<std::int64_t> positions_of(const std::vector<int>& unknowns) const {
     std::vector<std::int64_t> positions;
-    positions.reserve(indices.size());
-    for (const int i : indices) positions.push_back(position_[static_cast<std::size_t>(i)]);
-    return linalg::inverse_block(L, positions);
+    positions.reserve(unknowns.size());
+    for (const int i : unknowns) positions.push_back(position_[static_cast<std::size_t>(i)]);
+    return positions;
   }
 
- private:
   void release() {
     if (factor_ != nullptr) cholmod_l_free_factor(&factor_, &common_);
     cholmod_l_finish(&common_);

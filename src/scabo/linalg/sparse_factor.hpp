@@ -13,6 +13,8 @@ class SparseFactor {
   virtual ~SparseFactor() = default;
   /// A^-1 B, B n x m.
   virtual Matrix solve(const Matrix& B) const = 0;
+  /// Some entries of A^-1 b: those at `wanted`, in this order.
+  virtual Vector solve_at(const Vector& b, const std::vector<int>& wanted) const { return solve(b)(wanted, 0); }
   /// E' A^-1 E, symmetric, where the columns of E are those columns of the identity given by `indices`.
   virtual Matrix inverse_block(const std::vector<int>& indices) const = 0;
 };

@@ -54,6 +54,12 @@ Matrix SymmetricPositiveSolver::solve(const Matrix& B) const {
   return X.transpose();
 }
 
+Vector SymmetricPositiveSolver::solve_at(const Vector& b, const std::vector<int>& wanted) const {
+  ensure(b.size() == factor_->n, "SymmetricPositiveSolver::solve_at: sizes differ");
+  if (wanted.empty()) return Vector();
+  return factor_->sparse ? factor_->sparse->solve_at(b, wanted) : Vector(solve(b)(wanted, 0));
+}
+
 Matrix SymmetricPositiveSolver::inverse_block(const std::vector<int>& indices) const {
   if (factor_->sparse) return factor_->sparse->inverse_block(indices);
   const int m = static_cast<int>(indices.size());

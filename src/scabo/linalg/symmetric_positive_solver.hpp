@@ -50,6 +50,9 @@ class SymmetricPositiveSolver {
 
   /// A^-1 B, B n x m.
   Matrix solve(const Matrix& B) const;
+  /// Some entries of A^-1 b: those at `wanted`, in this order. Where few are wanted and few entries of b are not zero,
+  /// CHOLMOD's factor needs much less time for them than for all.
+  Vector solve_at(const Vector& b, const std::vector<int>& wanted) const;
 
   /// E' A^-1 E, symmetric, where the columns of E are those columns of the identity given by `indices`.
   Matrix inverse_block(const std::vector<int>& indices) const;

@@ -314,6 +314,7 @@ void ResultsDirectory::follow_mesh(const analysis::StaticSolution& solution) {
   if (solution.pairings == pairings_) return;
   pairings_ = solution.pairings;
   recovery_.reset();
+  packed_grid_ = {};
   for (PointFile& of : point_files_) of.evaluation.reset();
 }
 
@@ -352,7 +353,8 @@ std::string ResultsDirectory::fields_of_bodies(const analysis::StaticSolution& s
     fields = recovery_->fields(solution, increment.fields);
   }
   const Stopwatch writing(write_seconds_);
-  if (increment.absent.empty()) return vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads);
+  if (increment.absent.empty())
+    return vtu_content(recovery_->grid(), *fields, output_.fields, solution.threads, {}, &packed_grid_);
   const GridFields there = without_bodies(recovery_->grid(), *fields, increment.absent);
   return vtu_content(there.grid, there.fields, output_.fields, solution.threads);
 }

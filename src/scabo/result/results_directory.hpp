@@ -124,6 +124,7 @@ class ResultsDirectory {
   model::Output output_;
   std::optional<FieldCollection> fields_collection_, contact_collection_;
   std::optional<Recovery> recovery_;
+  PackedGrid packed_grid_;  // of the grid of recovery_
   int pairings_ = 0;  // StaticSolution::pairings of the mesh of the evaluations and the recovery
   void follow_mesh(const analysis::StaticSolution& solution);
 };

@@ -81,8 +81,8 @@ std::string compressed(std::string_view values, Content content_of_array, int th
 /// underscore at the beginning of the data.
 class Document {
  public:
-  Document(std::string beginning, Encoding encoding, int threads = 1)
-      : text_(std::move(beginning)), encoding_(encoding), threads_(threads) {}
+  Document(std::string beginning, Encoding encoding, int threads = 1, PackedGrid* grid = nullptr)
+      : text_(std::move(beginning)), encoding_(encoding), threads_(threads), grid_(grid) {}
 
   void add(std::string_view text) { text_ += text; }
 
@@ -104,7 +104,10 @@ class Document {
                    "        <DataArray type=\"{}\" Name=\"{}\"{}{} format=\"appended\" offset=\"{}\"/>\n",
                    name_of<Value>(), name, number, attributes, data_.size());
     const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
-    if (encoding_ == Encoding::compressed) {
+    if (encoding_ == Encoding::compressed && content == Content::grid && grid_ != nullptr) {
+      if (next_of_grid_ == grid_->arrays.size()) grid_->arrays.push_back(compressed(bytes, content, threads_));
+      data_ += grid_->arrays[next_of_grid_++];
+    } else if (encoding_ == Encoding::compressed) {
       data_ += compressed(bytes, content, threads_);
     } else {
       const std::uint64_t size = bytes.size();
@@ -134,6 +137,8 @@ class Document {
   std::string text_, data_;
   Encoding encoding_;
   int threads_;
+  PackedGrid* grid_;
+  std::size_t next_of_grid_ = 0;
 };
 
 /// Describes arrays as a .pvtu file does.
@@ -199,11 +204,12 @@ std::string finish_piece(Document document, const Cells& cells) {
   return std::move(document).finish();
 }
 
-Document begin_piece(std::size_t points, std::size_t cells, Encoding encoding, int threads = 1) {
+Document begin_piece(std::size_t points, std::size_t cells, Encoding encoding, int threads = 1,
+                     PackedGrid* grid = nullptr) {
   Document document(opening("UnstructuredGrid", encoding == Encoding::compressed
                                                     ? " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""
                                                     : " header_type=\"UInt64\""),
-                    encoding, threads);
+                    encoding, threads, grid);
   document.add(
       fmt::format("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, cells));
   return document;
@@ -218,8 +224,9 @@ Encoding encoding_of(std::size_t points) {
 }  // namespace
 
 std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted, int threads,
-                        const std::vector<std::int32_t>& nodes) {
-  Document document = begin_piece(grid.point_count(), grid.cell_count(), encoding_of(grid.point_count()), threads);
+                        const std::vector<std::int32_t>& nodes, PackedGrid* packed) {
+  Document document =
+      begin_piece(grid.point_count(), grid.cell_count(), encoding_of(grid.point_count()), threads, packed);
   document.add(point_data(first_scalars(wanted), wanted.displacement));
   add_fields(document, fields, wanted);
   document.add_array("body", 1, grid.point_body);

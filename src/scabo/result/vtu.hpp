@@ -20,10 +20,16 @@ namespace scabo::result {
 /// Text near the beginning of every .vtu and .pvd file of Scabo, by which it is recognised.
 inline constexpr std::string_view vtk_mark = "<!-- written by Scabo";
 
+/// Arrays of a grid, compressed, in the order in which files have them: the files of all increments repeat them.
+struct PackedGrid {
+  std::vector<std::string> arrays;
+};
+
 /// Content of a .vtu file with the requested arrays, on up to `threads` threads; the content does not depend on them.
-/// `nodes`: of a part of the fields, the node of the body at every point, from 0, or -1; else empty.
+/// `nodes`: of a part of the fields, the node of the body at every point, from 0, or -1; else empty. `packed`, if
+/// given: filled, or used, where a file of this grid (with or without nodes) filled it.
 std::string vtu_content(const Grid& grid, const Fields& fields, const model::OutputFields& wanted = {}, int threads = 1,
-                        const std::vector<std::int32_t>& nodes = {});
+                        const std::vector<std::int32_t>& nodes = {}, PackedGrid* packed = nullptr);
 std::string vtu_content(const ContactLines& lines);
 std::string vtu_content(const CellPolygons& polygons, int threads = 1);
 

@@ -12,6 +12,7 @@
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
+#include "scabo/system/contact_system.hpp"
 
 namespace scabo::run {
 
@@ -104,6 +105,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   }
   const double written =
       model.output.fields.any_of_bodies() ? std::ceil(static_cast<double>(plan.increments) / model.output.every) : 0.0;
+  double joined_bytes = 0.0, joined_seconds = 0.0;       // of one factor of the bodies joined at their pairs
   std::set<std::tuple<std::size_t, int, double>> known;  // equal bodies are solved once
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
@@ -138,7 +140,10 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       }
       plan.mesh += costs.mesh_seconds * n;
       plan.cells += costs.cell_seconds * n;
-      plan.factorise += costs.order_seconds * n * log2_of(n) + costs.factor_seconds * std::pow(n, 1.5);
+      const double factor = costs.order_seconds * n * log2_of(n) + costs.factor_seconds * std::pow(n, 1.5);
+      plan.factorise += factor;
+      joined_bytes += costs.fill_bytes * n * log2_of(n);
+      joined_seconds += 2.0 * factor;
       if (k > 0.0) plan.condense += costs.sweep_seconds * n + costs.condense_seconds * k * k * std::sqrt(n);
       plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
     }
@@ -150,6 +155,11 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].rigid) continue;
     blocks += 4.0 * pairs_of[b] * pairs_of[b];
+  }
+  if (components > system::most_formed && blocks > system::most_filled * components * components) {
+    plan.bytes += joined_bytes;
+    plan.contact += costs.joined_iterations * plan.increments * joined_seconds;
+    return plan;
   }
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components

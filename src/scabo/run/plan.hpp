@@ -8,7 +8,8 @@
 //     their factor        fill_bytes n log2(n); order_seconds n log2(n) + factor_seconds n^1.5
 //                         (nested dissection in the plane)
 //     condensation        dense: dense_seconds n^2 k; sparse: sweep_seconds n + condense_seconds k^2 n^0.5
-//     contact             contact_bytes k^2; contact_seconds (2N)^2 k for each increment, k averaged
+//     contact             contact_bytes k^2; contact_seconds (2N)^2 k for each increment, k averaged; of more than
+//                         6,000 pairs of few bodies a factor of all bodies, joined_iterations times in an increment
 //
 // Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
@@ -44,6 +45,7 @@ struct CostConstants {
   double contact_bytes = 50.0;        ///< for k^2 of each body: W and matrices of Newton's method
   double contact_seconds = 3.2e-11;   ///< for (2N)^2 k of an average body and one increment
   double least_width = 9400.0;        ///< least k there, of many bodies with few pairs each
+  double joined_iterations = 15.0;    ///< of Newton, each with twice the time of a factorisation
   double field_seconds = 2.4e-6;      ///< for n and one increment with fields
 };
 

@@ -16,6 +16,7 @@
 #include <unordered_map>
 
 #include "scabo/base/components.hpp"
+#include "scabo/base/error.hpp"
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/linalg/sparse_factor.hpp"
 #include "scabo/linalg/twofold.hpp"
@@ -42,7 +43,14 @@ linalg::TwofoldVector Stiffness::times(const linalg::TwofoldVector& u) const {
 
 Vector Stiffness::times_squares(const Vector& u) const {
   if (divided) return divided->times_squares(u);
-  return dense ? Vector(dense->cwiseAbs2() * u) : Vector(sparse.cwiseAbs2() * u);
+  if (dense) return dense->cwiseAbs2() * u;
+  Vector product(u.size());  // K is symmetric: rows are columns
+  for (Eigen::Index j = 0; j < sparse.cols(); ++j) {
+    double sum = 0.0;
+    for (linalg::SparseMatrix::InnerIterator it(sparse, j); it; ++it) sum += it.value() * it.value() * u[it.row()];
+    product[j] = sum;
+  }
+  return product;
 }
 
 double Stiffness::largest_diagonal() const {
@@ -210,20 +218,11 @@ class ElasticBody final : public BodySystem {
       auto factor = stiffness().divided->factorise(dofs_, inclined_, stiffness().springs.matrix, contact_dofs, costs);
       factored_->solver = linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), costs);
     } else if (stiffness().dense) {
-      const auto whole = [&] {
-        Matrix K = *stiffness().dense;
-        if (has_springs()) K += stiffness().springs.matrix;
-        return inclined_.none() ? K : inclined_.stiffness(std::move(K));
-      };
       factored_->solver = linalg::SymmetricPositiveSolver(alone ? Matrix((*stiffness().dense)(dofs_, dofs_))
-                                                                : Matrix(whole()(dofs_, dofs_)));
+                                                                : Matrix(whole_dense()(dofs_, dofs_)));
     } else {
-      const auto whole = [&] {
-        const linalg::SparseMatrix K = has_springs() ? with_springs(stiffness()) : stiffness().sparse;
-        return inclined_.none() ? K : inclined_.stiffness(K);
-      };
-      factored_->solver =
-          linalg::SymmetricPositiveSolver(principal_part(alone ? stiffness().sparse : whole(), dofs_, place_), options);
+      factored_->solver = linalg::SymmetricPositiveSolver(
+          principal_part(alone ? stiffness().sparse : whole_sparse(), dofs_, place_), options);
     }
   }
 
@@ -233,22 +232,55 @@ class ElasticBody final : public BodySystem {
 
   Eigen::Index size() const override { return stiffness().size(); }
 
-  Vector displacement(const Vector& f, const Vector& prescribed) const override {
-    Vector u = Vector::Zero(size());
-    for (std::size_t c = 0; c < constraints_.size(); ++c)
-      u[constraints_[c].dof] = prescribed[static_cast<Eigen::Index>(c)];
-    u = inclined_.displacements(std::move(u));
-    u += u.isZero(0.0) ? solved(f) : solved(f - internal_forces(u));
-    u += solved(f - internal_forces(u));  // the certificate is judged at 1e-10
-
-    if (rounding_matters(u, f)) u = linalg::rounded(refined(u, f).u);
-    return u;
+  Displaced displaced(const Vector& f, const Vector& prescribed) const override {
+    Displaced to{held_displacement(prescribed), {}};
+    const bool at_rest = to.u.isZero(0.0);
+    if (at_rest && f.isZero(0.0)) return {std::move(to.u), Vector::Zero(size())};
+    to.u += solved(at_rest ? f : Vector(f - internal_forces(to.u)));
+    to.unbalanced = internal_forces(to.u) - f;
+    const double acting = largest_acting(to.unbalanced, f);
+    if (!is_balanced(to.u, to.unbalanced, acting)) {
+      to.u -= solved(to.unbalanced);
+      to.unbalanced.resize(0);
+    }
+    if (rounding_matters(to.u, acting)) return {linalg::rounded(refined(to.u, f).u), {}};
+    return to;
   }
 
-  Matrix flexibility(const std::vector<int>& dofs) const override {
+  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const override {
+    Vector u = held_displacement(prescribed);
+    const bool at_rest = u.isZero(0.0);
+    if (dofs.empty() || (at_rest && f.isZero(0.0))) return u;
+    if (!at_rest || !is_large()) return displaced(f, prescribed).u;
+    // A few others tell how far the body bends, and so whether rounding matters.
+    constexpr std::size_t samples = 64;
+    std::vector<int> wanted;
+    std::vector<char> chosen(place_.size(), 0);
+    const auto want = [&](int dof) {
+      for (const int component : both_if_inclined(dof)) {
+        const auto i = static_cast<std::size_t>(component);
+        if (place_[i] >= 0 && !chosen[i]) chosen[i] = 1, wanted.push_back(component);
+      }
+    };
+    for (const int dof : dofs) want(dof);
+    for (std::size_t k = 0; k < samples; ++k) want(dofs_[k * dofs_.size() / samples]);
+    std::vector<int> places;
+    for (const int dof : wanted) places.push_back(place_[static_cast<std::size_t>(dof)]);
+    Vector v = Vector::Zero(size());
+    v(wanted) = solver().solve_at(inclined_.components(f)(dofs_), places);
+    u = inclined_.displacements(std::move(v));
+    double acting = f.lpNorm<Eigen::Infinity>();  // and what holds a body without supports against its loads
+    if (rigid_motions_.cols() > 0) acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
+    return rounding_matters(u, acting) ? displaced(f, prescribed).u : u;
+  }
+
+  Matrix flexibility(const std::vector<int>& dofs) const override { return flexibility(dofs, true); }
+  Matrix flexibility_by_factor(const std::vector<int>& dofs) const override { return flexibility(dofs, false); }
+
+  Matrix flexibility(const std::vector<int>& dofs, bool refines) const {
     const bool any = !inclined_.none() &&
                      std::any_of(dofs.begin(), dofs.end(), [&](int dof) { return inclined_.of(dof / 2) != nullptr; });
-    if (!any) return flexibility_along(dofs);
+    if (!any) return flexibility_along(dofs, refines);
     // u = T v on these degrees of freedom, with both of every inclined node.
     std::vector<int> both;
     std::vector<Eigen::Triplet<double>> entries;
@@ -268,15 +300,65 @@ class ElasticBody final : public BodySystem {
     }
     Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(both.size()));
     T.setFromTriplets(entries.begin(), entries.end());
-    const Matrix half = T * flexibility_along(both), A = T * half.transpose();
+    const Matrix half = T * flexibility_along(both, refines), A = T * half.transpose();
     return 0.5 * (A + A.transpose());
+  }
+
+  Vector flexed(const std::vector<int>& dofs, const Vector& forces) const override {
+    Vector load = Vector::Zero(size());
+    load(dofs) = forces;
+    load = inclined_.components(std::move(load));
+    std::vector<int> wanted, places;
+    for (const int dof : dofs)
+      for (const int component : both_if_inclined(dof))
+        if (const int place = place_[static_cast<std::size_t>(component)]; place >= 0)
+          wanted.push_back(component), places.push_back(place);
+    Vector v = Vector::Zero(size());
+    v(wanted) = solver().solve_at(load(dofs_), places);
+    return inclined_.displacements(std::move(v))(dofs);
+  }
+
+  bool is_divided() const override { return stiffness().divided != nullptr; }
+
+  FreeStiffness free_stiffness() const override {
+    ensure(!is_divided(), "the stiffness of a divided body is not here");
+    FreeStiffness free;
+    std::vector<int> place(free_.size(), -1);
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      if (free_[i]) place[i] = static_cast<int>(free.dofs.size()), free.dofs.push_back(static_cast<int>(i));
+    if (stiffness().dense)
+      free.K = Matrix(whole_dense()(free.dofs, free.dofs)).sparseView();
+    else
+      free.K = principal_part(whole_sparse(), free.dofs, place);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t k = 0; k < free.dofs.size(); ++k) {
+      const int dof = free.dofs[k], column = static_cast<int>(k);
+      const Mat2* const M = inclined_.of(dof / 2);
+      if (!M)
+        entries.emplace_back(dof, column, 1.0);
+      else
+        for (int row = 0; row < 2; ++row) entries.emplace_back(dof / 2 * 2 + row, column, (*M)(row, dof % 2));
+    }
+    free.map.resize(size(), static_cast<Eigen::Index>(free.dofs.size()));
+    free.map.setFromTriplets(entries.begin(), entries.end());
+    const std::vector<int> further = further_dofs();
+    free.motions.resize(static_cast<Eigen::Index>(further.size()), rigid_motions_.cols());
+    for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k)
+      free.motions.col(k) = inclined_.along(rigid_motions_.col(k))(further);
+    for (const int dof : further) free.further.push_back(place[static_cast<std::size_t>(dof)]);
+    return free;
+  }
+
+  double operations() const override {
+    const double dense = std::pow(static_cast<double>(dofs_.size()), 3.0) / 3.0;
+    return stiffness().dense ? dense : solver().costs().operations;
   }
 
   /// Where rounding u matters, of the displacement that u is the rounded value of, if it is one: u must not differ from
   /// it in more than its last digits.
   Vector unbalanced(const Vector& u, const Vector& f) const override {
     Vector plain = internal_forces(u) - f;
-    if (!u.allFinite() || !rounding_matters(u, f)) return plain;
+    if (!u.allFinite() || !rounding_matters(u, largest_acting(plain, f))) return plain;
     Refined exact = refined(u, f);
     constexpr double last_digits = 256 * std::numeric_limits<double>::epsilon();
     if (!((linalg::rounded(exact.u) - u).lpNorm<Eigen::Infinity>() <= last_digits * u.lpNorm<Eigen::Infinity>()))
@@ -302,13 +384,25 @@ class ElasticBody final : public BodySystem {
 
   double elastic_energy(const Vector& u) const override { return elastic_energy(u, internal_forces(u)); }
   double elastic_energy(const Vector& u, const Vector& resisting) const override {
-    if (!rounding_matters(u, resisting)) return 0.5 * u.dot(resisting);
+    if (!rounding_matters(u, resisting.lpNorm<Eigen::Infinity>())) return 0.5 * u.dot(resisting);
     return 0.5 * u.dot(forces_left(linalg::twofold(u), Vector::Zero(size())));
   }
   double energy_lost(const Vector& u) const override {
-    linalg::TwofoldVector strained = linalg::twofold(u);
-    if (!stiffness().unbounded) take_out_rigid_motions(strained);
-    const Vector square = linalg::rounded(strained).cwiseAbs2();
+    Vector strained = u;  // an estimate: digits that the rigid motions take from it do not count
+    if (!stiffness().unbounded) {
+      auto by_node = strained.reshaped(2, size() / 2);
+      const Vec2 mean = by_node.rowwise().mean();
+      by_node.colwise() -= mean;
+      double product = 0.0, square = 0.0;
+      for (Eigen::Index i = 0; i < size(); ++i) {
+        const double turn = turn_[static_cast<std::size_t>(i)].high;
+        product += strained[i] * turn;
+        square += turn * turn;
+      }
+      const double angle = product / square;
+      for (Eigen::Index i = 0; i < size(); ++i) strained[i] -= angle * turn_[static_cast<std::size_t>(i)].high;
+    }
+    const Vector square = strained.cwiseAbs2();
     const double sum = square.dot(stiffness().times_squares(square));
     return 0.5 * stiffness().rounding * std::sqrt(sum);  // errors of single entries, independent of each other
   }
@@ -318,7 +412,7 @@ class ElasticBody final : public BodySystem {
 
  private:
   /// A along the directions of the constraints, on degrees of freedom of v.
-  Matrix flexibility_along(const std::vector<int>& dofs) const {
+  Matrix flexibility_along(const std::vector<int>& dofs, bool refines) const {
     std::vector<int> places, at;
     for (std::size_t i = 0; i < dofs.size(); ++i) {
       const int place = place_[static_cast<std::size_t>(dofs[i])];
@@ -333,7 +427,8 @@ class ElasticBody final : public BodySystem {
     // The factor alone gives it to about this condition times the unit of rounding.
     constexpr double most_entries = 1e9;  // some seconds
     const double entries = stiffness().entries() * static_cast<double>(at.size());
-    if (!at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
+    if (refines && !at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 &&
+        entries < most_entries) {
       const Vector none = Vector::Zero(size());
       for (std::size_t j = 0; j < at.size(); ++j) {
         Vector force = none;
@@ -345,6 +440,46 @@ class ElasticBody final : public BodySystem {
       A = 0.5 * (A + A.transpose()).eval();
     }
     return A;
+  }
+
+  /// K + S along the directions of the constraints.
+  Matrix whole_dense() const {
+    Matrix K = *stiffness().dense;
+    if (has_springs()) K += stiffness().springs.matrix;
+    return inclined_.none() ? K : inclined_.stiffness(std::move(K));
+  }
+  linalg::SparseMatrix whole_sparse() const {
+    const linalg::SparseMatrix K = has_springs() ? with_springs(stiffness()) : stiffness().sparse;
+    return inclined_.none() ? K : inclined_.stiffness(K);
+  }
+
+  /// The degree of freedom, or both of its node, if that is inclined.
+  std::vector<int> both_if_inclined(int dof) const {
+    if (!inclined_.of(dof / 2)) return {dof};
+    return {dof / 2 * 2, dof / 2 * 2 + 1};
+  }
+
+  /// A solve takes so long that one less counts.
+  bool is_large() const { return size() >= 20000; }
+
+  /// Displacements of the constraints; 0 of everything else.
+  Vector held_displacement(const Vector& prescribed) const {
+    Vector u = Vector::Zero(size());
+    for (std::size_t c = 0; c < constraints_.size(); ++c)
+      u[constraints_[c].dof] = prescribed[static_cast<Eigen::Index>(c)];
+    return inclined_.displacements(std::move(u));
+  }
+
+  /// Whether another solve is not worth its time: in large bodies, where one left a thousandth of what the certificate
+  /// allows of the largest force, or no more than rounding u does. Smaller ones are always refined: their solves cost
+  /// nothing.
+  bool is_balanced(const Vector& u, const Vector& unbalanced, double acting) const {
+    constexpr double enough = 1e-13, of_rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    if (!is_large()) return false;
+    const Vector left = inclined_.components(unbalanced);
+    double largest = 0.0;
+    for (const int dof : dofs_) largest = std::max(largest, std::abs(left[dof]));
+    return largest <= std::max(enough * acting, of_rounding * stiff_force(u));
   }
 
   /// The displacement under f, by the factor alone.
@@ -369,11 +504,19 @@ class ElasticBody final : public BodySystem {
     return forces;
   }
 
-  /// Whether rounding u can leave forces that are not small beside f: in slender bodies K u is a small difference of
-  /// large numbers.
-  bool rounding_matters(const Vector& u, const Vector& f) const {
-    constexpr double unit = std::numeric_limits<double>::epsilon();
-    return unit * stiff_force(u) > 1e-12 * f.lpNorm<Eigen::Infinity>();
+  /// Whether rounding u can leave forces that are not small beside those that act: in slender bodies K u is a small
+  /// difference of large numbers.
+  bool rounding_matters(const Vector& u, double acting) const {
+    constexpr double unit = std::numeric_limits<double>::epsilon(), small = 1e-12, small_enough = 1e-11;
+    return unit * stiff_force(u) > (is_large() ? small_enough : small) * acting;
+  }
+  /// Largest force that acts on the body: of f, and of the constraints where that saves large bodies, which supports
+  /// move, the refinement in twice the working precision.
+  double largest_acting(const Vector& unbalanced, const Vector& f) const {
+    double largest = f.lpNorm<Eigen::Infinity>();
+    if (is_large() && !constraints_.empty())
+      largest = std::max(largest, reactions_of(unbalanced).lpNorm<Eigen::Infinity>());
+    return largest;
   }
 
   /// (K + S) u - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out
@@ -529,19 +672,45 @@ class RigidBody final : public BodySystem {
 
   Eigen::Index size() const override { return 3; }
 
-  Vector displacement(const Vector& f, const Vector& prescribed) const override {
+  Displaced displaced(const Vector& f, const Vector& prescribed) const override {
     Vector u = Vector::Zero(3);
     if (held_.rows() > 0) u = constrained_.solve(prescribed);
     if (is_flexible())
       for (int round = 0; round < 2; ++round)  // the second refines
         u += flexibility_ * (f - springs_.matrix * u);
-    return u;
+    return {std::move(u), {}};
+  }
+
+  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&) const override {
+    return displaced(f, prescribed).u;
   }
 
   Matrix flexibility(const std::vector<int>& dofs) const override {
     const auto n = static_cast<Eigen::Index>(dofs.size());
     return is_flexible() ? Matrix(flexibility_(dofs, dofs)) : Matrix(Matrix::Zero(n, n));
   }
+
+  Matrix flexibility_by_factor(const std::vector<int>& dofs) const override { return flexibility(dofs); }
+  Vector flexed(const std::vector<int>& dofs, const Vector& forces) const override {
+    return flexibility(dofs) * forces;
+  }
+
+  /// v: the motions that springs resist, then the free ones.
+  FreeStiffness free_stiffness() const override {
+    const Matrix Y = resisted_motions(null_space(held_));
+    const Eigen::Index resisted = Y.cols(), m = rigid_motions_.cols();
+    FreeStiffness free;
+    Matrix map(3, resisted + m), K = Matrix::Zero(resisted + m, resisted + m);
+    map << Y, rigid_motions_;
+    if (resisted > 0) K.topLeftCorner(resisted, resisted) = Y.transpose() * (springs_.matrix * Y);
+    free.map = map.sparseView();
+    free.K = K.sparseView();
+    free.dofs.assign(static_cast<std::size_t>(resisted + m), 0);
+    for (Eigen::Index k = 0; k < m; ++k) free.further.push_back(static_cast<int>(resisted + k));
+    free.motions = Matrix::Identity(m, m);
+    return free;
+  }
+  double operations() const override { return 0.0; }
 
   Vector unbalanced(const Vector& u, const Vector& f) const override { return -(f + spring_forces(u)); }
 
@@ -574,13 +743,17 @@ class RigidBody final : public BodySystem {
   }
 
  private:
-  /// A = Y (Y'S Y)^-1 Y', with Y the motions that supports leave free and springs resist.
-  void find_flexibility(const Matrix& left_by_supports) {
+  /// Y: motions that supports leave free and springs resist, 3 x k.
+  Matrix resisted_motions(const Matrix& left_by_supports) const {
     const Matrix along_rest = left_by_supports.transpose() * rigid_motions_;
-    const Matrix Y =
-        left_by_supports * (rigid_motions_.cols() > 0
-                                ? null_space(along_rest.transpose())
-                                : Matrix(Matrix::Identity(left_by_supports.cols(), left_by_supports.cols())));
+    return left_by_supports * (rigid_motions_.cols() > 0
+                                   ? null_space(along_rest.transpose())
+                                   : Matrix(Matrix::Identity(left_by_supports.cols(), left_by_supports.cols())));
+  }
+
+  /// A = Y (Y'S Y)^-1 Y'.
+  void find_flexibility(const Matrix& left_by_supports) {
+    const Matrix Y = resisted_motions(left_by_supports);
     if (Y.cols() == 0) return;
     const Matrix stiffness = Y.transpose() * (springs_.matrix * Y);
     flexibility_ = Y * stiffness.ldlt().solve(Y.transpose());

@@ -75,6 +75,20 @@ struct Constraint {
   Vec2 direction() const { return component < 0 ? inclined : Vec2(Vec2::Unit(dof >= 0 ? dof % 2 : component)); }
 };
 
+/// Stiffness of a body along its free motions v, supports apart: u = map v where supports stay.
+struct FreeStiffness {
+  linalg::SparseMatrix K;     ///< k x k, with springs
+  linalg::SparseMatrix map;   ///< size of u x k
+  std::vector<int> dofs;      ///< k, of an elastic body: the degree of freedom that v is, or belongs to
+  std::vector<int> further;   ///< m, among v: those on which A is zero although they are free
+  Matrix motions;             ///< m x m: of `further`, per unit rigid motion
+};
+
+/// A displacement under given forces, and (K + S) u less these forces if that is known: else empty.
+struct Displaced {
+  Vector u, unbalanced;
+};
+
 class BodySystem {
  public:
   virtual ~BodySystem() = default;
@@ -86,9 +100,23 @@ class BodySystem {
   const Matrix& rigid_coordinates() const { return rigid_coordinates_; }
 
   /// u_p for the applied forces f and the prescribed values of all constraints.
-  virtual Vector displacement(const Vector& f, const Vector& prescribed) const = 0;
+  virtual Displaced displaced(const Vector& f, const Vector& prescribed) const = 0;
+  Vector displacement(const Vector& f, const Vector& prescribed) const { return displaced(f, prescribed).u; }
+  /// The same on the given degrees of freedom, and anything on others: in much less time, where the body is large and
+  /// they are few, but without the refinement that equilibrium at every node needs.
+  virtual Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const = 0;
   /// A on the given degrees of freedom.
   virtual Matrix flexibility(const std::vector<int>& dofs) const = 0;
+  /// The same from the factor alone, without the refinement that slender bodies get: for estimates.
+  virtual Matrix flexibility_by_factor(const std::vector<int>& dofs) const = 0;
+  /// A times forces on the given degrees of freedom, on the same ones, by the factor.
+  virtual Vector flexed(const std::vector<int>& dofs, const Vector& forces) const = 0;
+  /// Whether several processes have its stiffness.
+  virtual bool is_divided() const { return false; }
+  /// Not of a divided one.
+  virtual FreeStiffness free_stiffness() const = 0;
+  /// Floating point operations of the factorisation, roughly.
+  virtual double operations() const = 0;
   /// (K + S) u - f for displacements u under the forces f (contact forces included): the forces of the constraints, and
   /// what is not balanced elsewhere.
   virtual Vector unbalanced(const Vector& u, const Vector& f) const = 0;

@@ -5,6 +5,7 @@
 
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/system/contact_laws.hpp"
+#include "scabo/system/joined_bodies.hpp"
 
 namespace scabo::system {
 
@@ -87,45 +88,46 @@ Matrix congruent(const Eigen::SparseMatrix<double, Eigen::RowMajor>& N, const Ma
   return result;
 }
 
-PartFlexibility flexibility_of(const Eigen::SparseMatrix<double>& motion, const BodySystem& part) {
-  PartFlexibility result;
-  std::vector<int> touched;  // degrees of freedom of the part
-  std::vector<int> place(static_cast<std::size_t>(motion.cols()), -1);
-  for (Eigen::Index column = 0; column < motion.cols(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(motion, column); it; ++it) {
-      result.rows.push_back(static_cast<int>(it.row()));
-      int& at = place[static_cast<std::size_t>(column)];
-      if (at < 0) at = static_cast<int>(touched.size()), touched.push_back(static_cast<int>(column));
-    }
-  std::sort(result.rows.begin(), result.rows.end());
-  result.rows.erase(std::unique(result.rows.begin(), result.rows.end()), result.rows.end());
-  if (touched.empty()) return result;
-  Triplets entries;
-  for (std::size_t k = 0; k < touched.size(); ++k)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(motion, touched[k]); it; ++it) {
-      const auto row = std::lower_bound(result.rows.begin(), result.rows.end(), it.row()) - result.rows.begin();
-      entries.emplace_back(static_cast<int>(row), static_cast<int>(k), it.value());
-    }
-  Eigen::SparseMatrix<double> narrow(static_cast<Eigen::Index>(result.rows.size()),
-                                     static_cast<Eigen::Index>(touched.size()));
-  narrow.setFromTriplets(entries.begin(), entries.end());
-  result.block = congruent(narrow, part.flexibility(touched));
-  return result;
+PartFlexibility flexibility_of(const TouchedPart& touched, const BodySystem& part) {
+  if (touched.dofs.empty()) return {};
+  return {touched.rows, congruent(touched.motion, part.flexibility(touched.dofs))};
 }
 
-/// W on the rows kept by `place` (-1: left out): dense if parts couple most pairs with each other or if it is small,
-/// otherwise sparse.
-contact::Delassus sum_of(const std::vector<PartFlexibility>& parts, const std::vector<int>& place, Eigen::Index rows) {
+/// Whether W has so few entries that it is sparse; `rows` of all pairs.
+bool is_sparse(const std::vector<TouchedPart>& touched, const Structure& structure, Eigen::Index rows) {
   constexpr Eigen::Index least_sparse = 400;  // rows: below this, dense factors are as fast
-  constexpr double most_filled = 0.2;
   double entries = 0.0;
-  for (const PartFlexibility& part : parts) entries += std::pow(static_cast<double>(part.rows.size()), 2);
-  const bool is_sparse =
-      rows >= least_sparse && entries <= most_filled * static_cast<double>(rows) * static_cast<double>(rows);
-  Matrix dense = Matrix::Zero(is_sparse ? 0 : rows, is_sparse ? 0 : rows);
+  for (std::size_t p = 0; p < touched.size(); ++p)
+    if (structure.parts[p]->is_flexible()) entries += std::pow(static_cast<double>(touched[p].rows.size()), 2);
+  return rows >= least_sparse && entries <= most_filled * static_cast<double>(rows) * static_cast<double>(rows);
+}
+
+// Below, a dense LU takes less than a second, and nobody asks for a holder of the pairs.
+constexpr Eigen::Index least_joined = 2500;
+
+/// W on the rows kept by `place` (-1: left out).
+contact::Delassus sum_of(std::vector<PartFlexibility> parts, const std::vector<int>& place, Eigen::Index rows,
+                         bool is_sparse) {
+  Matrix dense;
   Triplets triplets;
-  if (is_sparse) triplets.reserve(static_cast<std::size_t>(entries));
-  for (const PartFlexibility& part : parts)
+  const auto all = [&](const PartFlexibility& part) {
+    return static_cast<Eigen::Index>(part.rows.size()) == rows && static_cast<Eigen::Index>(place.size()) == rows;
+  };
+  const auto whole = std::find_if(parts.begin(), parts.end(), all);
+  if (!is_sparse && whole != parts.end())  // no second matrix as large
+    std::swap(dense, whole->block), whole->rows.clear();
+  else if (!is_sparse)
+    dense.setZero(rows, rows);
+  if (is_sparse) {
+    std::size_t entries = 0;
+    for (const PartFlexibility& part : parts) entries += part.rows.size() * part.rows.size();
+    triplets.reserve(entries);
+  }
+  for (PartFlexibility& part : parts) {
+    if (!is_sparse && all(part)) {
+      dense += part.block;
+      part = {};
+    }
     for (std::size_t j = 0; j < part.rows.size(); ++j) {
       const int column = place[static_cast<std::size_t>(part.rows[j])];
       for (std::size_t i = 0; column >= 0 && i < part.rows.size(); ++i) {
@@ -138,6 +140,8 @@ contact::Delassus sum_of(const std::vector<PartFlexibility>& parts, const std::v
           dense(row, column) += value;
       }
     }
+    part.block.resize(0, 0);
+  }
   if (!is_sparse) return {std::move(dense)};
   Eigen::SparseMatrix<double> W(rows, rows);
   W.setFromTriplets(triplets.begin(), triplets.end());
@@ -227,26 +231,43 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   Eigen::Index columns = 0;
   Vector diagonal = Vector::Zero(rows);
   double largest = 0.0, largest_on_springs = 0.0;  // of the diagonal; a soft spring says nothing of stiff bodies
-  std::vector<double> work;                        // of a part, roughly
-  for (std::size_t p = 0; p < structure.parts.size(); ++p)
+  std::vector<TouchedPart> touched;
+  std::vector<double> work;  // of a part, roughly
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+    touched.push_back(touched_part(motion[p]));
     work.push_back(!structure.parts[p]->is_flexible()
                        ? 0.0
                        : 20.0 * static_cast<double>(motion[p].cols()) * static_cast<double>(motion[p].nonZeros()) +
                              std::pow(static_cast<double>(motion[p].nonZeros()), 3.0));
+  }
+  const bool sparse = is_sparse(touched, structure, rows);
+  std::shared_ptr<const JoinedBodies> joined;
+  if (!sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion);
+  const bool by_products = joined && rows > most_formed;
+  const auto products = by_products ? std::make_unique<const PairProducts>(structure, motion) : nullptr;
   std::vector<PartFlexibility> flexibilities(structure.parts.size());
+  std::vector<Vector> diagonals(structure.parts.size());  // of what a part adds to W, on its rows
   linalg::parallel_for(work, threads, [&](int k) {
     const auto p = static_cast<std::size_t>(k);
-    if (structure.parts[p]->is_flexible()) flexibilities[p] = flexibility_of(motion[p], *structure.parts[p]);
+    if (!structure.parts[p]->is_flexible()) return;
+    if (by_products) {
+      const Matrix blocks = products->diagonal_blocks_of(p);
+      diagonals[p].resize(static_cast<Eigen::Index>(touched[p].rows.size()));
+      for (std::size_t i = 0; i < touched[p].rows.size(); ++i)
+        diagonals[p][static_cast<Eigen::Index>(i)] = blocks(touched[p].rows[i] % 2, touched[p].rows[i]);
+    } else {
+      flexibilities[p] = flexibility_of(touched[p], *structure.parts[p]);
+      diagonals[p] = flexibilities[p].block.diagonal();
+    }
   });
   Triplets of_G;
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
     const BodySystem& part = *structure.parts[p];
     system.first_rigid.push_back(static_cast<int>(columns));
-    const PartFlexibility& added = flexibilities[p];
-    if (added.block.size() > 0) {
-      diagonal(added.rows) += added.block.diagonal();
+    if (diagonals[p].size() > 0) {
+      diagonal(touched[p].rows) += diagonals[p];
       double& of_kind = part.has_springs() ? largest_on_springs : largest;
-      of_kind = std::max(of_kind, added.block.diagonal().maxCoeff());
+      of_kind = std::max(of_kind, diagonals[p].maxCoeff());
     }
     const Matrix& rigid = part.rigid_motions();
     for (Eigen::Index column = 0; column < motion[p].cols(); ++column)
@@ -280,7 +301,10 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
       held.empty() ? std::vector<Eigen::SparseMatrix<double>>{} : motion_of(system.held, structure, model, mesh);
   system.motion = held.empty() ? motion : motion_of(system.pairs, structure, model, mesh);
   const auto kept = static_cast<Eigen::Index>(2 * moving.size());
-  system.W = sum_of(flexibilities, place, kept);
+  if (joined && !held.empty()) joined = JoinedBodies::of(structure, system.motion);
+  system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion))
+                         : sum_of(std::move(flexibilities), place, kept, sparse);
+  if (joined) system.W = system.W.with_holder(joined);
   if (!held.empty()) {
     Triplets entries;
     for (Eigen::Index k = 0; k < columns; ++k)

@@ -9,6 +9,11 @@
 
 namespace scabo::system {
 
+/// W is sparse if bodies fill at most this part of it.
+inline constexpr double most_filled = 0.2;
+/// A dense W of more rows (1.2 GB) is not formed: for 10,001 pairs of two bodies it would take 3.2 GB, several times.
+inline constexpr Eigen::Index most_formed = 12000;
+
 /// The part of the contact problem that does not change from increment to increment.
 struct ContactSystem {
   /// A pair that can move: contact, index into the interface's pairs, number shown to users (from 1 in each contact).
@@ -21,7 +26,8 @@ struct ContactSystem {
   std::vector<Eigen::SparseMatrix<double>> held_motion;  // per part, rows [n, t] as above
   Vector gap;                                            // N, initial; 0 if the pair is bonded in its initial position
   contact::JointLaws laws;                               // law of every pair
-  contact::Delassus W;                                   // 2N x 2N, a sum over parts; sparse if there are many
+  contact::Delassus W;  // 2N x 2N, a sum over parts: sparse if there are many, by products beyond 6,000 pairs; those
+                        // and large dense ones have a holder (joined_bodies.hpp), and need the structure
   contact::RigidMap G;                                   // 2N x m
   std::vector<int> first_rigid;                          // per part: its first column in G; an absent one has none
 

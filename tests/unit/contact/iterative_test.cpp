@@ -1,10 +1,13 @@
 // Large problems whose W is known by its products alone: GMRES on the generalised Jacobian against dense LU.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "scabo/contact/gmres.hpp"
+#include "scabo/contact/pair_operator.hpp"
 #include "scabo/contact/solve.hpp"
 #include "unit/contact/layer.hpp"
 
@@ -79,6 +82,73 @@ TEST(IterativeDirections, OfAFreeBodyHoldIt) {
   const Solution direct = solve(dense);
   ASSERT_EQ(direct.status, Status::solved) << direct.reason;
   EXPECT_LT((solution.p - direct.p).lpNorm<Eigen::Infinity>(), 1e-9 * direct.p.lpNorm<Eigen::Infinity>());
+}
+
+/// Holds pairs by a dense W whose entries have errors of 1e-4.
+class ByDense final : public PairHolder {
+ public:
+  ByDense(const Matrix& W, const Matrix& G) : W_(W), G_(G) {
+    W_.diagonal() *= 1.0 + 1e-4;
+  }
+  double operations() const override { return 0.0; }
+  std::unique_ptr<HeldPairs> hold(const std::vector<int>& rows) const override {
+    class Held final : public HeldPairs {
+     public:
+      Held(const Matrix& W, const Matrix& G, const std::vector<int>& rows) {
+        const auto size = static_cast<Eigen::Index>(rows.size()), m = G.cols();
+        Matrix A = Matrix::Zero(size + m, size + m);
+        A.topLeftCorner(size, size) = W(rows, rows);
+        A.topRightCorner(size, m) = G(rows, Eigen::all);
+        A.bottomLeftCorner(m, size) = A.topRightCorner(size, m).transpose();
+        solver_.compute(A);
+      }
+      void solve(const Vector& u, const Vector& z, Vector& p, Vector& a) const override {
+        Vector right(u.size() + z.size());
+        right << u, z;
+        const Vector x = solver_.solve(right);
+        p = x.head(u.size());
+        a = x.tail(z.size());
+      }
+
+     private:
+      Eigen::PartialPivLU<Matrix> solver_;
+    };
+    ++times_;
+    return std::make_unique<Held>(W_, G_, rows);
+  }
+  int times() const { return times_; }
+
+ private:
+  Matrix W_, G_;
+  mutable int times_ = 0;
+};
+
+// Pairs open, stick and slip; in units in which W is a million times smaller as well, since the solver scales W.
+TEST(HeldDirections, AgreeWithDenseOnes) {
+  for (const bool floating : {false, true})
+    for (const double unit : {1.0, 1e-6}) {
+      constexpr int pairs = 150;
+      Problem dense = floating ? plate_on_layer(pairs, 40.0) : test::layer_problem(pairs, 6, 0.5);
+      dense.W = Delassus(Matrix(unit * dense.W.dense()));
+      dense.q *= unit;
+      const Solution direct = solve(dense);
+      ASSERT_EQ(direct.status, Status::solved) << direct.reason;
+      Problem held = dense;
+      const auto holder = std::make_shared<const ByDense>(dense.W.dense(), dense.G.dense());
+      const linalg::SparseMatrix unit_stiffness = [] {
+        linalg::SparseMatrix one(2 * pairs, 2 * pairs);
+        one.setIdentity();
+        return one;
+      }();
+      const Eigen::SparseMatrix<double> root = Matrix(dense.W.dense().llt().matrixU()).sparseView();
+      held.W = Delassus(std::make_shared<const linalg::SymmetricPositiveSolver>(unit_stiffness), root).with_holder(holder);
+      ASSERT_FALSE(held.W.is_dense());
+      const Solution solution = solve(held);
+      ASSERT_EQ(solution.status, Status::solved) << solution.reason;
+      EXPECT_GE(holder->times(), 2);
+      EXPECT_LE(solution.iterations, 12);
+      EXPECT_LT((solution.p - direct.p).lpNorm<Eigen::Infinity>(), 1e-8 * direct.p.lpNorm<Eigen::Infinity>());
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scabo/contact/pair_operator.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "support/decompositions.hpp"
@@ -53,7 +54,23 @@ TEST(LargeProblem, TenThousandPairsWithSparseW) {
   }
 }
 
-// The same operator in its three kinds.
+/// W by its products.
+class Products final : public PairOperator {
+ public:
+  explicit Products(Matrix W) : W_(std::move(W)) {}
+  Eigen::Index size() const override { return W_.rows(); }
+  Vector times(const Vector& p) const override { return W_ * p; }
+  Matrix diagonal_blocks() const override {
+    Matrix blocks(2, W_.rows());
+    for (Eigen::Index i = 0; i < W_.rows(); i += 2) blocks.middleCols<2>(i) = W_.block<2, 2>(i, i);
+    return blocks;
+  }
+
+ private:
+  Matrix W_;
+};
+
+// The same operator in its four kinds.
 TEST(Delassus, DenseSparseAndCondensedAgree) {
   const Triplets entries = {{0, 0, 4.0},  {1, 1, 5.0},  {2, 2, 6.0}, {3, 3, 7.0},
                             {0, 1, -1.0}, {1, 0, -1.0}, {2, 3, 2.0}, {3, 2, 2.0}};
@@ -64,15 +81,31 @@ TEST(Delassus, DenseSparseAndCondensedAgree) {
   const Matrix W = B_dense.transpose() * test::solve_lu(Matrix(K), B_dense);
   const Delassus condensed(std::make_shared<const linalg::SymmetricPositiveSolver>(K), B_dense.sparseView());
   const Vector p = Eigen::Vector4d(1.0, -2.0, 0.5, 3.0);
-  for (const Delassus& kind : {Delassus(W), Delassus(Eigen::SparseMatrix<double>(W.sparseView())), condensed}) {
+  for (const Delassus& kind : {Delassus(W), Delassus(Eigen::SparseMatrix<double>(W.sparseView())), condensed,
+                               Delassus(std::make_shared<const Products>(W))}) {
     EXPECT_EQ(kind.size(), 4);
     EXPECT_LT((kind.times(p) - W * p).norm(), 1e-14);
     EXPECT_LT((kind.dense() - W).norm(), 1e-14);
     EXPECT_LT((kind.diagonal() - W.diagonal()).norm(), 1e-14);
-    EXPECT_LT((kind.scaled(3.0).times(p) - 3.0 * W * p).norm(), 1e-13);
+    const Delassus scaled = kind.scaled(3.0);
+    EXPECT_LT((scaled.times(p) - 3.0 * W * p).norm(), 1e-13);
+    EXPECT_LT((scaled.times(Matrix(p)) - 3.0 * W * p).norm(), 1e-13);
+    EXPECT_LT((scaled.dense() - 3.0 * W).norm(), 1e-13);
+    EXPECT_LT((scaled.diagonal() - 3.0 * W.diagonal()).norm(), 1e-13);
+    EXPECT_LT((scaled.diagonal_blocks(2) - 3.0 * kind.diagonal_blocks(2)).norm(), 1e-13);
+    EXPECT_LT((scaled.scaled(2.0).dense() - 6.0 * W).norm(), 1e-13);
     for (int i = 0; i < 2; ++i)
       EXPECT_LT((kind.diagonal_blocks(2).middleCols<2>(2 * i) - W.block<2, 2>(2 * i, 2 * i)).norm(), 1e-14);
   }
+}
+
+// A matrix of 3.2 GB has no room for a copy.
+TEST(Delassus, AFactorTakesNoCopy) {
+  const Delassus W(Matrix(Matrix::Random(6, 6)));
+  const Delassus scaled = W.scaled(2.0);
+  EXPECT_EQ(scaled.matrix().data(), W.matrix().data());
+  EXPECT_EQ(scaled.factor(), 2.0);
+  EXPECT_EQ(scaled.dense(), Matrix(2.0 * W.dense()));
 }
 
 }  // namespace

@@ -55,6 +55,15 @@ void expect_solves(const SymmetricPositiveSolver& solver, const Matrix& A) {
   EXPECT_LT((block - inverse(indices, indices)).norm(), 1e-12 * inverse.norm());
   EXPECT_EQ(block, block.transpose());
   EXPECT_EQ(solver.inverse_block({}).size(), 0);
+
+  Vector b = Vector::Zero(n);  // one entry, some, all
+  for (const int entries : {1, 5, n}) {
+    for (int k = 0; k < entries; ++k) b[(7 * k) % n] += 1.0 + k;
+    const Vector x = inverse * b;
+    for (const std::vector<int>& wanted : {std::vector<int>{n / 2}, indices})
+      EXPECT_LT((solver.solve_at(b, wanted) - x(wanted)).norm(), 1e-12 * x.norm());
+  }
+  EXPECT_EQ(solver.solve_at(b, {}).size(), 0);
 }
 
 TEST(SymmetricPositiveSolver, DenseAgainstEigen) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scabo/contact/pair_operator.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
@@ -48,7 +49,7 @@ std::optional<Vector> solve_dense(const Problem& problem, const std::vector<int>
                                   double hold) {
   const Eigen::Index size = static_cast<Eigen::Index>(rows.size()), m = problem.G.cols();
   Matrix A = Matrix::Zero(size + m, size + m);
-  A.topLeftCorner(size, size) = problem.W.dense()(rows, rows);
+  A.topLeftCorner(size, size) = problem.W.factor() * problem.W.matrix()(rows, rows);
   A.diagonal().head(size) *= 1.0 + softness;
   A.topRightCorner(size, m) = problem.G.dense()(rows, Eigen::all);
   A.bottomLeftCorner(m, size) = A.topRightCorner(size, m).transpose();
@@ -87,6 +88,27 @@ std::optional<BondedStart> bonded_start(const Problem& problem, const std::vecto
   const double force = std::max(start.p.lpNorm<Eigen::Infinity>(), m > 0 ? problem.f.lpNorm<Eigen::Infinity>() : 0.0);
   if (m > 0 && !((problem.G.transpose() * start.p + problem.f).lpNorm<Eigen::Infinity>() <= balance * force))
     return std::nullopt;
+  return start;
+}
+
+std::optional<BondedStart> joined_start(const Problem& problem, const std::vector<bool>& touching) {
+  const PairHolder* const holder = problem.W.holder();
+  if (holder == nullptr) return std::nullopt;
+  const Eigen::Index N = problem.pairs(), d = problem.dimension;
+  const Vector diagonal = problem.W.diagonal();
+  std::vector<int> rows;
+  for (Eigen::Index k = 0; k < d * N; ++k)
+    if ((touching.empty() || touching[static_cast<std::size_t>(k / d)]) && diagonal[k] > 0.0)
+      rows.push_back(static_cast<int>(k));
+  if (rows.empty()) return std::nullopt;
+  const std::unique_ptr<HeldPairs> held = holder->hold(rows);
+  if (!held) return std::nullopt;
+  const double factor = problem.W.factor();
+  Vector p, a;
+  held->solve(-problem.q(rows) / factor, -problem.f, p, a);
+  if (!p.allFinite() || !a.allFinite()) return std::nullopt;
+  BondedStart start{Vector::Zero(d * N), factor * a};
+  start.p(rows) = p;
   return start;
 }
 

@@ -25,6 +25,10 @@ struct BondedStart {
 /// act along a rigid motion that the touching pairs leave free, or numbers are out of range.
 std::optional<BondedStart> bonded_start(const Problem& problem, const std::vector<bool>& touching);
 
+/// The same by joined bodies (pair_operator.hpp), whose pairs are held exactly: no eps. Nothing where that fails or W
+/// has no holder.
+std::optional<BondedStart> joined_start(const Problem& problem, const std::vector<bool>& touching);
+
 /// Contact alone holds more than one body.
 bool may_bond(const Problem& problem);
 

@@ -13,8 +13,8 @@ constexpr int none = -1;
 
 /// The free pair with which pair i forms a group, or none.
 Eigen::Index neighbour_of(Eigen::Index i, const Problem& problem, const std::vector<int>& group) {
-  const Matrix& W = problem.W.dense();
-  const bool bonded = std::isinf(problem.tension_of(i));
+  const Matrix& W = problem.W.matrix();
+  const bool bonded = std::isinf(problem.tension_of(i));  // entries are compared: the factor of W does not count
   Eigen::Index nearest = none;
   double strongest = 0.0, most = 0.0;  // of all pairs, of the free pairs; times sqrt((W_nn)_ii)
   for (Eigen::Index j = 0; j < problem.pairs(); ++j) {
@@ -67,7 +67,7 @@ Vector CoarseProblem::prolong(const Vector& p_coarse) const {
 CoarseProblem coarse_problem(const Problem& problem) {
   ensure(problem.dimension == components && problem.W.is_dense(),
          "a coarse problem is made of a plane problem with dense W");
-  const Matrix& W = problem.W.dense();
+  const Matrix& W = problem.W.matrix();
   const Eigen::Index N = problem.pairs();
   CoarseProblem coarse;
   const int groups = make_groups(problem, coarse);
@@ -91,6 +91,7 @@ CoarseProblem coarse_problem(const Problem& problem) {
       W_small.block<components, components>(components * coarse.group[static_cast<std::size_t>(i)], components * to) +=
           share * coarse.share[i] * W.block<components, components>(components * i, components * j);
   }
+  W_small *= problem.W.factor();
   small.W = std::move(W_small);
   small.G = G_small;
   return coarse;

@@ -14,6 +14,9 @@ PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {
     columns_ = W.outerIndexPtr();
     rows_ = W.innerIndexPtr();
     values_ = W.valuePtr();
+  } else if (problem.W.is_dense()) {
+    values_ = problem.W.matrix().data();
+    factor_ = problem.W.factor();
   } else {
     values_ = problem.W.dense().data();
   }
@@ -32,7 +35,7 @@ void PairSweeps<d>::read_block(Index i, double* block) const {
   for (int k = 0; k < d; ++k) {
     double* const column = block + d * k;
     if (columns_ == nullptr) {
-      for (int j = 0; j < d; ++j) column[j] = values_[(first + k) * size + first + j];
+      for (int j = 0; j < d; ++j) column[j] = factor_ * values_[(first + k) * size + first + j];
       continue;
     }
     for (int j = 0; j < d; ++j) column[j] = 0.0;
@@ -49,10 +52,11 @@ void PairSweeps<d>::add(Index i, const double* change, double* motion) const {
   const Index size = problem_->q.size(), first = d * i;
   if (columns_ == nullptr) {
     const double *W_n = values_ + first * size, *W_t = W_n + size, *W_s = W_n + (d - 1) * size;
+    const double n = factor_ * change[0], t = factor_ * change[1], s = factor_ * change[d - 1];
     if (d == 2)
-      for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1];
+      for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * n + W_t[k] * t;
     else
-      for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * change[0] + W_t[k] * change[1] + W_s[k] * change[d - 1];
+      for (Index k = 0; k < size; ++k) motion[k] += W_n[k] * n + W_t[k] * t + W_s[k] * s;
     return;
   }
   for (int k = 0; k < d; ++k)
