@@ -96,7 +96,7 @@ def shaken(options):
             for acceleration in (0.35, 0.99 * limit, 1.01 * limit):
                 status, iterations, worst, _, processor, _ = run(options, columns, courses, friction, acceleration, 1, True)
                 print(f"| {columns} x {courses} | {friction} | {limit:.4f} | {acceleration:.4f} | {status} | "
-                      f"{max(iterations, default='-')} | {worst if worst is None else format(worst, '.1e')} | {processor:.2f} |",
+                      f"{max(iterations, default='-')} | {'-' if worst is None else format(worst, '.1e')} | {processor:.2f} |",
                       flush=True)
 
 
