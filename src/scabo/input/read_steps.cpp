@@ -53,12 +53,16 @@ struct Factor {
 /// The piece of a curve over several steps that belongs to `step`, as a curve of its own; reports if there is none.
 std::optional<int> piece_for(Reading& reading, int curve, CurveOver& over, const Step& step, const Value& value) {
   const Curve whole = reading.model.curves[static_cast<std::size_t>(curve)];
+  // A sine that is wrong is reported once, as a whole.
+  const auto* sine = std::get_if<CurveSine>(&whole.kind);
+  const bool wrong = sine && !(sine->periods > 0.0 && sine->periods <= 10'000.0);
   double begin = 0.0;
   for (CurveOver::Part& part : over.parts) {
     if (part.step != step.name) {
       begin = part.end;
       continue;
     }
+    if (wrong) part.piece = curve;
     if (part.piece >= 0) return part.piece;
     Curve piece = piece_of(whole, begin, part.end);
     piece.name = fmt::format("{}_{}", whole.name, step.name);

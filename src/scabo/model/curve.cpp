@@ -57,7 +57,10 @@ std::vector<double> corners_of(const Curve& curve) {
   const auto add = [&](double s) {
     if (s > 0.0 && s < 1.0) corners.push_back(s);
   };
-  if (const auto* sine = std::get_if<CurveSine>(&curve.kind))
+  const auto* sine = std::get_if<CurveSine>(&curve.kind);
+  // More periods than validation allows would never be passed through; they are asked for before it.
+  if (sine && !(sine->periods > 0.0 && sine->periods <= 10'000.0)) return corners;
+  if (sine)
     for (double quarter = 2.0 * std::floor(2.0 * sine->turns) + 1.0; quarter < 4.0 * (sine->turns + sine->periods);
          quarter += 2.0)
       add((0.25 * quarter - sine->turns) / sine->periods);
