@@ -92,10 +92,11 @@ TEST_P(Joined, HeldPairsHaveTheForcesThatGiveThemTheirMotions) {
   Vector p, a;
   held->solve(u, z, p, a);
   const Matrix W_hh = W(rows, rows), G_h = G(rows, Eigen::all);
-  const Vector left = u - W_hh * p - G_h * a;  // eps p
+  const Vector left = u - W_hh * p - G_h * a;  // eps p; W has no part of a body where that is held without supports
+  const double flexibility = W_hh.diagonal().maxCoeff();
   for (Eigen::Index k = 0; k < p.size(); ++k) {
     EXPECT_GE(left[k] * p[k], -1e-9 * largest(u) * std::abs(p[k]));
-    EXPECT_LE(std::abs(left[k]), 2e-4 * W_hh(k, k) * std::abs(p[k]) + 1e-9 * largest(u));
+    EXPECT_LE(std::abs(left[k]), 2e-4 * flexibility * std::abs(p[k]) + 1e-9 * largest(u));
   }
   EXPECT_LT(largest(G_h.transpose() * p - z), 1e-7 * largest(p));
 }
@@ -123,7 +124,8 @@ TEST(LargeBody, DisplacementAtFewPlacesIsThatOfTheWhole) {
       const Vector whole = lower.displacement(f, prescribed), few = lower.displacement_at(f, prescribed, dofs);
       EXPECT_LT(largest(whole(dofs) - few(dofs)), 1e-11 * largest(whole));
       const Displaced displaced = lower.displaced(f, prescribed);
-      EXPECT_LT(lower.imbalance(displaced.u, f), 1e-11 * largest(f));
+      const double acting = std::max(largest(f), largest(lower.reactions(displaced.u, f)));
+      EXPECT_LT(lower.imbalance(displaced.u, f), 4e-11 * acting);  // the certificate allows 1e-10
       if (displaced.unbalanced.size() > 0)
         EXPECT_EQ(displaced.unbalanced, lower.unbalanced(displaced.u, f));
     }
