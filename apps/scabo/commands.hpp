@@ -21,8 +21,9 @@ struct CheckOptions {
   std::vector<std::string> settings;  ///< `path=value`, each replacing one value of the model file
 };
 
-/// Under mpirun: smallest number of degrees of freedom of a body that is divided. From 5e4 on the larger of two ranks has
-/// less memory than one process would, at 1e5 an eighth less; smaller bodies only wait for messages (docs/clusters.md).
+/// Under mpirun: smallest number of degrees of freedom of a body that is divided. From 5e4 on the larger of two ranks
+/// has less memory than one process would, at 1e5 an eighth less; smaller bodies only wait for messages
+/// (docs/clusters.md).
 inline constexpr double default_divide_from = 100000.0;
 
 struct RunOptions {

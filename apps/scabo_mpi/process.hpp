@@ -48,8 +48,8 @@ struct FactorRequest {
     double value;
   };
   std::vector<Entry> springs;
-  std::vector<int> step;       // on rank 0: at which each solved one is eliminated, all distinct; those of `condensed` last
-  std::vector<int> condensed;  // solved ones whose flexibility contact needs, among the solved ones; ascending, distinct
+  std::vector<int> step;  // on rank 0: at which each solved one is eliminated, all distinct; those of `condensed` last
+  std::vector<int> condensed;  // those whose flexibility contact needs, among the solved ones; ascending, distinct
 };
 
 /// What rank 0 hears after a part was divided or factorised.

@@ -71,9 +71,9 @@ TEST(FrictionByDirection, FallsAtOnceToTheCoefficientOfItsDirection) {
 // The slip of every pair so far, of either direction, gives the coefficients of both; there and back.
 TEST(FrictionByDirection, FallsWithAllSlip) {
   constexpr double distance = 0.02;
-  const auto solution =
-      run(driven("steps: [{loads: {press: 1}}, {increments: 4, loads: {drive: 1}}, {increments: 4, loads: {drive: 0.4}}]\n",
-                 falling + fmt::format(", slip_distance: {}}}", distance), 0.0, true, 1e7));
+  const auto solution = run(
+      driven("steps: [{loads: {press: 1}}, {increments: 4, loads: {drive: 1}}, {increments: 4, loads: {drive: 0.4}}]\n",
+             falling + fmt::format(", slip_distance: {}}}", distance), 0.0, true, 1e7));
   last(solution);
   int forward_slips = 0, backward_slips = 0;
   std::vector<double> slip_before, all_slip;

@@ -94,10 +94,10 @@ enum class Ends { free, held };
 /// A strip from (0, 0) to (length, 1) in the axes of the frame.
 std::string strip(const std::string& mesh, const Frame& frame, double length, Ends ends, const std::string& plane,
                   const std::string& temperature, const std::string& more = "") {
-  const std::string held =
-      fmt::format("{{on: strip.edge_2, fix: normal, name: right}}, {{on: strip.edge_4, fix: normal, name: left}}, "
-                  "{{on: strip.vertex_1, fix: {{along: {}}}, name: pin}}",
-                  frame.direction(0, 1));
+  const std::string held = fmt::format(
+      "{{on: strip.edge_2, fix: normal, name: right}}, {{on: strip.edge_4, fix: normal, name: left}}, "
+      "{{on: strip.vertex_1, fix: {{along: {}}}, name: pin}}",
+      frame.direction(0, 1));
   const std::string free =
       fmt::format("{{on: strip.vertex_1, fix: [x, y], name: pin}}, {{on: strip.vertex_2, fix: {{along: {}}}}}",
                   frame.direction(0, 1));
@@ -147,8 +147,8 @@ TEST_P(HeldStrip, HasTheStressOfItsTemperature) {
       for (std::size_t i = 0; i < recovery.grid().point_count(); ++i) {
         const Vec2 x(recovery.grid().points[3 * i], recovery.grid().points[3 * i + 1]);
         const double y = frame.back(Vec2(x - frame.origin)).y() / frame.scale;
-        const element::Vec3 stress = frame.back(
-            element::Vec3(fields.stress_xx[i], fields.stress_yy[i], fields.stress_xy[i]));
+        const element::Vec3 stress =
+            frame.back(element::Vec3(fields.stress_xx[i], fields.stress_yy[i], fields.stress_xy[i]));
         const double exact = -modulus * table.at(y);
         worst = std::max(worst, (stress - element::Vec3(exact, 0.0, 0.0)).norm() / highest);
         worst_zz = std::max(worst_zz, std::abs(fields.stress_zz[i] - (strain ? exact : 0.0)) / highest);
@@ -162,8 +162,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, HeldStrip,
                          testing::Values("order: 2", "order: 5", "kind: polygons, order: 2",
                                          "kind: quadtree, order: 2"));
 
-/// Finite elements take a table as it is where it bends between them; elsewhere the error falls with the square of their
-/// size, in the mean.
+/// Finite elements take a table as it is where it bends between them; elsewhere the error falls with the square of
+/// their size, in the mean.
 TEST(TemperatureTable, InFiniteElementsIsExactWhereItBendsBetweenThem) {
   const auto worst = [](double size, const Table& table, bool root_of_mean_square) {
     std::string places, values;
@@ -196,8 +196,8 @@ loads: {{heat: {{temperature: {{over: y, at: [{}], values: [{}]}}}}}}
   EXPECT_LT(fine, 0.25 * coarse);
 }
 
-/// sigma_x of a long free strip far from its ends: E a (T_0 + T_1 (y - 1/2) - T(y)), with the mean T_0 and the slope T_1
-/// of the linear temperature that has the same resultants. Resultants over a section are zero.
+/// sigma_x of a long free strip far from its ends: E a (T_0 + T_1 (y - 1/2) - T(y)), with the mean T_0 and the slope
+/// T_1 of the linear temperature that has the same resultants. Resultants over a section are zero.
 double stress_of_free_strip(const Table& table, double y) {
   const double mean = table.integral(0.0, 1.0), slope = 12.0 * table.integral(0.0, 1.0, 1, 0.5);
   return young * expansion * (mean + slope * (y - 0.5) - table.at(y));
@@ -307,8 +307,10 @@ TEST(TemperatureTable, OnOneLineIsTheLinearTemperature) {
 TEST(TemperatureTable, OnOneLineGivesACrackTheSameFactors) {
   for (const char* mesh : {"size: 0.2, order: 3", "kind: polygons, size: 0.2, order: 3"}) {
     std::vector<double> factors;
-    for (const char* heat : {"{constant: -30, x: 60}", "{over: x, at: [-1, 0.1, 0.4, 2], values: [-90, -24, -6, 90]}"}) {
-      const std::string crack = std::string(mesh).starts_with("kind") ? "path: [[0, 1], [0.5, 1]]" : "tip: [0.5, 1], mouth: [0, 1]";
+    for (const char* heat :
+         {"{constant: -30, x: 60}", "{over: x, at: [-1, 0.1, 0.4, 2], values: [-90, -24, -6, 90]}"}) {
+      const std::string crack =
+          std::string(mesh).starts_with("kind") ? "path: [[0, 1], [0.5, 1]]" : "tip: [0.5, 1], mouth: [0, 1]";
       const auto solution = run(fmt::format(R"(scabo: 1
 materials: {{m: {{young: 200, poisson: 0.3, expansion: 1e-3}}}}
 bodies:

@@ -1,5 +1,5 @@
-// What acts on an elastic body through one of its edges, or a face that has nodes: loads, contact forces, reactions and springs on the edge, and
-// what a tied body transmits there.
+// What acts on an elastic body through one of its edges, or a face that has nodes: loads, contact forces, reactions and
+// springs on the edge, and what a tied body transmits there.
 //
 //     F = sum over the nodes of the edge of (K u - f)                                                          (1)
 //     M = sum of (x - about) x (K u - f)

@@ -45,11 +45,11 @@ BodyExponents of_super_element(const element::SolvedSuperElement& super_element)
   const bool unbounded = super_element.domain.unbounded, open = super_element.ring.is_open();
   found.kind = unbounded ? "outside" : super_element.held ? "open, held" : open ? "open" : "closed";
   found.dofs = static_cast<int>(super_element.K().rows());
-  std::vector<std::complex<double>> values =
-      super_element.held ? element::solve_held(super_element.ring, super_element.sectors.D, super_element.thickness,
-                                               *super_element.held)
-                               .exponents
-                         : super_element.modes().exponents;
+  std::vector<std::complex<double>> values = super_element.held
+                                                 ? element::solve_held(super_element.ring, super_element.sectors.D,
+                                                                       super_element.thickness, *super_element.held)
+                                                       .exponents
+                                                 : super_element.modes().exponents;
   const std::vector<int> cluster = linalg::clusters(values, alike);
   for (int c = 0, found_in = 1; found_in > 0; ++c) {
     std::complex<double> sum = 0.0;

@@ -98,8 +98,8 @@ FreeMotion free_motion(const Prepared& prepared, const State& state) {
   if (contact.pairs.empty() && contact.held.empty()) return free;
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     if (prepared.is_absent(p)) continue;
-    const Vector u = prepared.structure.parts[p]->displacement_at(state.forces[p], state.prescribed[p],
-                                                                  touched_dofs(contact, p));
+    const Vector u =
+        prepared.structure.parts[p]->displacement_at(state.forces[p], state.prescribed[p], touched_dofs(contact, p));
     free.pairs.noalias() += contact.motion[p] * u;
     if (!contact.held.empty()) free.held.noalias() += contact.held_motion[p] * u;
   }
@@ -193,8 +193,7 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
     const Matrix& rigid = parts[p]->rigid_motions();
     if (rigid.cols() > 0) reached.u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
     const bool is_known = reached.unbalanced.size() > 0 && rigid.cols() == 0;
-    balance.unbalanced =
-        is_known ? std::move(reached.unbalanced) : parts[p]->unbalanced(reached.u, balance.forces);
+    balance.unbalanced = is_known ? std::move(reached.unbalanced) : parts[p]->unbalanced(reached.u, balance.forces);
     to.reactions.push_back(parts[p]->reactions_of(balance.unbalanced));
     to.u.push_back(std::move(reached.u));
   }

@@ -44,8 +44,8 @@ Vec2 displacement_at(const StaticSolution& solution, std::size_t b, const elemen
                                                 place.scaled.element, place.scaled.eta)
                               .displacement;
     if (interior.remainders.empty()) return relative;
-    const Vec2 x = centre + place.scaled.xi *
-                                element::boundary_position(cell->ring, place.scaled.element, place.scaled.eta);
+    const Vec2 x =
+        centre + place.scaled.xi * element::boundary_position(cell->ring, place.scaled.element, place.scaled.eta);
     return relative + interior.particular_displacement(x);
   }
   const element::FiniteElement of = element::finite_element_of(mesh.cells[place.cell], mesh.nodes);

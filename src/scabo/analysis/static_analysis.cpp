@@ -77,8 +77,8 @@ std::string lost_in_rounding(const Attempt& tried, double tolerance) {
   const double lost = allowance * tried.rounding;
   if (!(lost > tolerance) || !std::isfinite(lost)) return {};
   return fmt::format(
-      "; the motion is so large beside the deformation of the bodies that rounding of the displacements may leave {:.1g} "
-      "of the forces unbalanced: a smaller motion, or a larger interference or load, is needed",
+      "; the motion is so large beside the deformation of the bodies that rounding of the displacements may leave "
+      "{:.1g} of the forces unbalanced: a smaller motion, or a larger interference or load, is needed",
       lost);
 }
 

@@ -31,8 +31,8 @@
 
 namespace scabo::contact {
 
-/// Whether joining the bodies of a problem costs less than a dense LU of `unknowns` unknowns, of a W that is dense, or W
-/// is not dense and they can be joined.
+/// Whether joining the bodies of a problem costs less than a dense LU of `unknowns` unknowns, of a W that is dense, or
+/// W is not dense and they can be joined.
 bool holding_pays(const Problem& problem, Eigen::Index unknowns);
 
 class NewtonDirection {

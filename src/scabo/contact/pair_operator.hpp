@@ -13,14 +13,15 @@ namespace scabo::contact {
 class PairOperator {
  public:
   virtual ~PairOperator() = default;
-  virtual Eigen::Index size() const = 0;                ///< dN
-  virtual Vector times(const Vector& p) const = 0;      ///< W p, dN
-  virtual Matrix diagonal_blocks() const = 0;           ///< d x dN: the diagonal block of pair i in columns d i ...
+  virtual Eigen::Index size() const = 0;            ///< dN
+  virtual Vector times(const Vector& p) const = 0;  ///< W p, dN
+  virtual Matrix diagonal_blocks() const = 0;       ///< d x dN: the diagonal block of pair i in columns d i ...
 };
 
 /// Bodies with some pairs held along some directions, h: to working precision the solution of
 ///
-///     W_hh p + G_h a = u     G_h'p = z                                             (W_hh + eps for W_hh, see PairHolder)
+///     W_hh p + G_h a = u     G_h'p = z                                             (W_hh + eps for W_hh, see
+///     PairHolder)
 class HeldPairs {
  public:
   virtual ~HeldPairs() = default;

@@ -23,9 +23,9 @@ namespace {
 /// `rounding`: of the coordinates from which both were made.
 bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b, double rounding) {
   const bool held_alike = a.held == b.held || (a.held && b.held && *a.held == *b.held);
-  if (a.thickness != b.thickness || a.domain != b.domain || !held_alike || a.scale != b.scale || a.sectors.materials != b.sectors.materials ||
-      a.sectors.D != b.sectors.D || a.ring.nodes.size() != b.ring.nodes.size() ||
-      a.ring.elements.size() != b.ring.elements.size())
+  if (a.thickness != b.thickness || a.domain != b.domain || !held_alike || a.scale != b.scale ||
+      a.sectors.materials != b.sectors.materials || a.sectors.D != b.sectors.D ||
+      a.ring.nodes.size() != b.ring.nodes.size() || a.ring.elements.size() != b.ring.elements.size())
     return false;
   for (std::size_t e = 0; e < a.ring.elements.size(); ++e)
     if (a.ring.elements[e].nodes != b.ring.elements[e].nodes) return false;
@@ -230,7 +230,8 @@ const CornerAnalysis& SolvedSuperElement::corner() const {
           with_image(ring, sectors.D, face == 0 ? Face::first : Face::last, held->along[face].front()));
       of = &both_->ring;
       D = &both_->D;
-      solution_of_both_ = std::make_unique<const SuperElementSolution>(solve_super_element(*of, *D, thickness, threads));
+      solution_of_both_ =
+          std::make_unique<const SuperElementSolution>(solve_super_element(*of, *D, thickness, threads));
       solved = solution_of_both_.get();
     }
     corner_ = std::make_unique<const CornerAnalysis>(*of, *D, *solved);

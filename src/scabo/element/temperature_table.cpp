@@ -68,8 +68,8 @@ Moments moments_over(const std::vector<Vec2>& polygon, const Vec2& d, double ori
     const double from = d.dot(a) - origin, to = d.dot(b) - origin, low = std::min(from, to), high = std::max(from, to);
     const auto add = [&](std::size_t piece, double begin, double end, double share) {
       for (const double point : gauss) {
-        const double s = std::clamp(0.5 * (begin + end) + 0.5 * (end - begin) * point, pieces.s[piece],
-                                    pieces.s[piece + 1]);
+        const double s =
+            std::clamp(0.5 * (begin + end) + 0.5 * (end - begin) * point, pieces.s[piece], pieces.s[piece + 1]);
         const double weight = 0.5 * share * flux;
         const auto [G0, G1] = integrals.to(piece, s);
         sum.area += weight * s;
@@ -143,7 +143,7 @@ TableInCell in_cell(const model::TemperatureTable& table, const std::vector<Vec2
   pieces.s.push_back(-half);
   const double margin = rounding * half;
   for (auto point = std::upper_bound(table.points.begin(), table.points.end(), low + margin,
-                                     [](double s, const auto& of) { return s < of.at; });
+                                     [](double s, const auto&of) { return s < of.at; });
        point != table.points.end() && point->at < high - margin; ++point)
     pieces.s.push_back(point->at - origin);
   pieces.s.push_back(half);

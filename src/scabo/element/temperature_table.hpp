@@ -36,9 +36,9 @@ class TemperatureRemainder {
   /// `s`: places along `direction`, ascending, two or more; linear between them. `motion`: v of eq. (2).
   TemperatureRemainder(const Vec2& direction, const Vec2& motion, std::vector<double> s, std::vector<double> r);
 
-  double at(const Vec2& x) const;           ///< r, absolute (x, y)
-  Vec3 strain(const Vec2& x) const;         ///< of eq. (1): [xx, yy, gamma_xy]
-  Vec2 displacement(const Vec2& x) const;   ///< of eq. (1), zero where the cell begins along the direction
+  double at(const Vec2& x) const;          ///< r, absolute (x, y)
+  Vec3 strain(const Vec2& x) const;        ///< of eq. (1): [xx, yy, gamma_xy]
+  Vec2 displacement(const Vec2& x) const;  ///< of eq. (1), zero where the cell begins along the direction
   TemperatureRemainder times(double factor) const;
 
   const Vec2& direction() const { return direction_; }
@@ -55,8 +55,8 @@ class TemperatureRemainder {
 
 /// A table in a cell: T = linear + remainder.
 struct TableInCell {
-  LinearField linear;         ///< of absolute (x, y)
-  std::vector<double> s, r;   ///< remainder, linear between the places; empty where there is none
+  LinearField linear;        ///< of absolute (x, y)
+  std::vector<double> s, r;  ///< remainder, linear between the places; empty where there is none
 };
 /// `boundary`: the cell as a polygon, counter-clockwise, absolute. Of a curved side its nodes: the linear field is then
 /// nearest over the polygon, and the remainder makes up for what is left everywhere.

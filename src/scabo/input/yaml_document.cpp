@@ -138,8 +138,8 @@ class BoundedText : public std::streambuf {
   bool cut_ = false;
 };
 
-/// The keys of a map that is being read, by their places among its entries: a table with open addressing, which needs no
-/// memory of its own for a key.
+/// The keys of a map that is being read, by their places among its entries: a table with open addressing, which needs
+/// no memory of its own for a key.
 class KeyTable {
  public:
   /// The entry with this key; nullptr if there is none.

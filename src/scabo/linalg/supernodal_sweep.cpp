@@ -181,8 +181,8 @@ Vector solve_at(const SupernodalFactor& L, Vector b, const std::vector<std::int6
     cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, own, L11, stride, b.data() + first, 1);
     if (under == 0) continue;
     if (above[index(s)] < L.supernodes) reached[index(above[index(s)])] = 1;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, under, own, 1.0, L11 + own, stride, b.data() + first, 1, 0.0,
-                below.data(), 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, under, own, 1.0, L11 + own, stride, b.data() + first, 1, 0.0, below.data(),
+                1);
     const std::int64_t* const rows = L.rows + L.first_row[s] + own;
     for (int i = 0; i < under; ++i) b[rows[i]] -= below[i];
   }

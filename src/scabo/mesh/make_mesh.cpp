@@ -20,8 +20,8 @@
 #include "scabo/mesh/match.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/mesh/tip_rings.hpp"
-#include "scabo/model/side_faces.hpp"
 #include "scabo/model/limits.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::mesh {
 

@@ -37,16 +37,16 @@ struct TipRings {
   /// tip to 2e-6, and one from copy to copy to 5e-5.
   double joined = 0.0;
   double longest = std::numeric_limits<double>::infinity();  ///< length of joined elements at most
-  /// Neighbouring copies differ in size, relative to the boundary, by this at most; `count` does not count the rings for
-  /// which this is less than `ratio` would give.
+  /// Neighbouring copies differ in size, relative to the boundary, by this at most; `count` does not count the rings
+  /// for which this is less than `ratio` would give.
   double step = 1.0;
 };
 
 /// Divides the cells at the tips of `cracks`.
 void add_tip_rings(BodyMesh& mesh, const model::Body& body, const std::vector<int>& cracks, const TipRings& rings = {});
 
-/// Divides a body that is one open super-element, which keeps its nodes and their numbers; the innermost copy is cell 0.
-/// Number of rings.
+/// Divides a body that is one open super-element, which keeps its nodes and their numbers; the innermost copy is cell
+/// 0. Number of rings.
 int divide_side_faces(BodyMesh& mesh, const model::Body& body, const TipRings& rings);
 
 /// Sets Cell::held of the cells at the tips of cracks, and of the innermost copies, from the supports of the model.

@@ -197,10 +197,10 @@ bool check_fall(Checking& checking, const std::string& path, const std::string& 
   const bool good = check_coefficient(checking, path, "friction.static" + direction, at_rest);
   if (!check_coefficient(checking, path, "friction.dynamic" + direction, sliding) || !good) return false;
   if (sliding <= at_rest) return true;
-  checking.error(path, "friction.dynamic" + direction,
-                 fmt::format("must be at most the static coefficient {}, not {}", number_text(at_rest),
-                             number_text(sliding)),
-                 number_text(sliding));
+  checking.error(
+      path, "friction.dynamic" + direction,
+      fmt::format("must be at most the static coefficient {}, not {}", number_text(at_rest), number_text(sliding)),
+      number_text(sliding));
   return false;
 }
 
@@ -208,15 +208,15 @@ bool check_static_and_dynamic(Checking& checking, const std::string& path, const
   const double sliding = *contact.dynamic_friction;
   bool good = check_fall(checking, path, contact.backward_friction ? ".forward" : "", contact.friction, sliding);
   if (contact.backward_friction)
-    good = check_fall(checking, path, ".backward", *contact.backward_friction, *contact.backward_dynamic_friction) && good;
+    good =
+        check_fall(checking, path, ".backward", *contact.backward_friction, *contact.backward_dynamic_friction) && good;
   return checking.not_negative(path, "friction.slip_distance", contact.slip_distance) && good;
 }
 
 bool check_friction(Checking& checking, const std::string& path, const Contact& contact) {
   if (contact.backward_friction && !contact.friction_along.empty()) {
-    checking.error_of_key(
-        path, "friction.backward",
-        "cannot be combined with coefficients that vary along the contact: leave one of them out");
+    checking.error_of_key(path, "friction.backward",
+                          "cannot be combined with coefficients that vary along the contact: leave one of them out");
     return false;
   }
   if (contact.backward_dynamic_friction.has_value() != (contact.backward_friction && contact.dynamic_friction)) {

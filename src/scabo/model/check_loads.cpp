@@ -158,9 +158,10 @@ bool check_temperatures(Checking& checking, const std::string& path, const Tempe
         !checking.number(path, fmt::format("temperature.values.{}", i), table.points[i].change))
       return false;
     if (i == 0 || table.points[i].at > table.points[i - 1].at) continue;
-    checking.error(path, fmt::format("temperature.at.{}", i),
-                   fmt::format("must be greater than the place before it, {}: give places in ascending order, each once",
-                               number_text(table.points[i - 1].at)));
+    checking.error(
+        path, fmt::format("temperature.at.{}", i),
+        fmt::format("must be greater than the place before it, {}: give places in ascending order, each once",
+                    number_text(table.points[i - 1].at)));
     return false;
   }
   if (std::abs(table.along.norm() - 1.0) <= 1e-9) return true;
@@ -183,10 +184,11 @@ void check_linear_in_bodies(Checking& checking, const std::string& path, const L
     if (!large || !(body.open() || several || !body.cracks.empty() || (one && !body.regions.empty())) ||
         is_linear_over(table, body.outline))
       continue;
-    checking.error(path, "temperature",
-                   fmt::format("bends inside body '{}', a super-element with {}, which takes only a temperature that is "
-                               "linear: give the body a mesh of kind polygons, quadtree or fem",
-                               body.name, several || !body.regions.empty() ? "several materials" : "side faces"));
+    checking.error(
+        path, "temperature",
+        fmt::format("bends inside body '{}', a super-element with {}, which takes only a temperature that is "
+                    "linear: give the body a mesh of kind polygons, quadtree or fem",
+                    body.name, several || !body.regions.empty() ? "several materials" : "side faces"));
     return;
   }
 }
@@ -272,32 +274,33 @@ bool check_ground(Checking& checking, const std::string& path, const GroundStres
 bool check_values(Checking& checking, const std::string& path, const Load& load) {
   const std::string kind = key_of(load);
   const auto of_vector = [&](const auto& with) { return checking.vector(path, kind, with.value); };
-  return std::visit(
-      Cases{[&](const Force& force) { return of_vector(force); },
-            [&](const Traction& traction) { return of_vector(traction); },
-            [&](const Gravity& gravity) { return of_vector(gravity); },
-            [&](const Pressure& pressure) { return checking.number(path, kind, pressure.value); },
-            [&](const FaceTraction& face) { return check_terms(checking, path, kind, face); },
-            [&](const BodyForce& force) {
-              return check_linear(checking, path, kind, force.x) && check_linear(checking, path, kind, force.y);
-            },
-            [&](const Temperature& temperature) {
-              return temperature.table ? check_temperatures(checking, path, *temperature.table)
-                                       : check_linear(checking, path, kind, temperature.change);
-            },
-            [&](const EdgeTable& table) { return check_table(checking, path, kind, table); },
-            [&](const Water& water) { return check_water(checking, path, water); },
-            [&](const UniformStress& stress) { return check_uniform(checking, path, stress); },
-            [&](const Moment& moment) { return checking.number(path, kind, moment.value); },
-            [](const AtRest&) { return true; },  // with its springs
-            [&](const PorePressure& pores) {
-              if (const auto* table = std::get_if<EdgeTable>(&pores.value))
-                return check_table(checking, path, kind, *table);
-              if (const auto* water = std::get_if<Water>(&pores.value)) return check_water(checking, path, *water);
-              return checking.number(path, kind, std::get<double>(pores.value));
-            },
-            [&](const GroundStress& ground) { return check_ground(checking, path, ground, load.on); }},
-      load.kind);
+  return std::visit(Cases{[&](const Force& force) { return of_vector(force); },
+                          [&](const Traction& traction) { return of_vector(traction); },
+                          [&](const Gravity& gravity) { return of_vector(gravity); },
+                          [&](const Pressure& pressure) { return checking.number(path, kind, pressure.value); },
+                          [&](const FaceTraction& face) { return check_terms(checking, path, kind, face); },
+                          [&](const BodyForce& force) {
+                            return check_linear(checking, path, kind, force.x) &&
+                                   check_linear(checking, path, kind, force.y);
+                          },
+                          [&](const Temperature& temperature) {
+                            return temperature.table ? check_temperatures(checking, path, *temperature.table)
+                                                     : check_linear(checking, path, kind, temperature.change);
+                          },
+                          [&](const EdgeTable& table) { return check_table(checking, path, kind, table); },
+                          [&](const Water& water) { return check_water(checking, path, water); },
+                          [&](const UniformStress& stress) { return check_uniform(checking, path, stress); },
+                          [&](const Moment& moment) { return checking.number(path, kind, moment.value); },
+                          [](const AtRest&) { return true; },  // with its springs
+                          [&](const PorePressure& pores) {
+                            if (const auto* table = std::get_if<EdgeTable>(&pores.value))
+                              return check_table(checking, path, kind, *table);
+                            if (const auto* water = std::get_if<Water>(&pores.value))
+                              return check_water(checking, path, *water);
+                            return checking.number(path, kind, std::get<double>(pores.value));
+                          },
+                          [&](const GroundStress& ground) { return check_ground(checking, path, ground, load.on); }},
+                    load.kind);
 }
 
 /// Whether a load acts where loads of its kind can.

@@ -14,8 +14,8 @@ inline bool is_side_face(const Body& body, int edge) {
   return is_side_face(body.outline, body.mesh.centre_corner, edge);
 }
 
-/// Number of the side face that an edge forms at a notch or corner: 0 at the start of the boundary of the super-element,
-/// 1 at its end; -1 for other edges.
+/// Number of the side face that an edge forms at a notch or corner: 0 at the start of the boundary of the
+/// super-element, 1 at its end; -1 for other edges.
 inline int side_face_of(const Body& body, int edge) {
   if (!is_side_face(body, edge)) return -1;
   return (edge == body.mesh.centre_corner) != body.outside ? 0 : 1;

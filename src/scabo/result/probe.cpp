@@ -68,8 +68,8 @@ Probe::CellField& Probe::field_of(std::size_t cell) const {
     const std::vector<int> dofs = element::dofs_of(solution_.mesh.bodies[body_].cells[cell]);
     const element::InteriorLoads& loads = element::loads_in(interior_, cell);
     const Vec2& centre = solution_.mesh.bodies[body_].cells[cell].centre;
-    field = std::make_unique<CellField>(
-        super_element, loads.without_particular(super_element.ring, centre, u_(dofs)), loads.loads);
+    field = std::make_unique<CellField>(super_element, loads.without_particular(super_element.ring, centre, u_(dofs)),
+                                        loads.loads);
     if (many_) field->table.emplace(field->radial, element::fastest_of(super_element.modes()));
   }
   return *field;
@@ -99,9 +99,8 @@ element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
     CellField& field = field_of(place.cell);
     const element::ScaledPoint& at = place.scaled;
     const element::InteriorLoads& loads = element::loads_in(interior_, place.cell);
-    const element::Vec3 free =
-                            super_element->sectors.unit_strain_of(static_cast<std::size_t>(at.element)) *
-                            loads.temperature_at(x),
+    const element::Vec3 free = super_element->sectors.unit_strain_of(static_cast<std::size_t>(at.element)) *
+                               loads.temperature_at(x),
                         particular = loads.particular_strain(x);
     values = element::point_values(super_element->ring, field.table ? field.table->at(at.xi) : field.radial.at(at.xi),
                                    super_element->sectors.D, at.element, at.eta, free - particular);

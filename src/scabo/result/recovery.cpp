@@ -304,8 +304,8 @@ SharedValues with_temperatures(const Eigen::Matrix3Xd& stresses, const std::func
 
 /// Values inside cell `c` into `fields`; those of its points on the sides are returned.
 SharedValues recover_cell(Fields& fields, std::size_t first, const analysis::StaticSolution& solution,
-                              const analysis::FieldState& state, std::size_t body, std::size_t c,
-                              const CellsBody::OfCell& of_cell, const Grid& grid) {
+                          const analysis::FieldState& state, std::size_t body, std::size_t c,
+                          const CellsBody::OfCell& of_cell, const Grid& grid) {
   const auto& super_element = solution.cells[body][c];
   const element::InteriorLoads& interior = element::loads_in(state.interior[body], c);
   if (!super_element) {
@@ -331,10 +331,9 @@ SharedValues recover_cell(Fields& fields, std::size_t first, const analysis::Sta
   recover_inside(fields, inner, solution, *super_element, cell.centre, *of_cell.sampling, field, interior,
                  state.initial_of(body), 1);
   return with_temperatures(
-      ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior),
-      [&](Eigen::Index i) {
-        return interior.temperature_at(
-            cell.centre + super_element->ring.node(of_cell.sampling->nodes[static_cast<std::size_t>(i)]));
+      ring_stresses(*super_element, *of_cell.sampling, field.at(1.0), cell.centre, 1.0, interior), [&](Eigen::Index i) {
+        return interior.temperature_at(cell.centre +
+                                       super_element->ring.node(of_cell.sampling->nodes[static_cast<std::size_t>(i)]));
       });
 }
 

@@ -156,8 +156,8 @@ std::string describe_law(const model::Contact& contact) {
                          *contact.dynamic_friction, *contact.backward_friction, *contact.backward_dynamic_friction);
     else
       text += contact.slip_distance > 0.0
-                ? fmt::format(", {:g} after {:g} of slip", *contact.dynamic_friction, contact.slip_distance)
-                : fmt::format(", {:g} once it slips", *contact.dynamic_friction);
+                  ? fmt::format(", {:g} after {:g} of slip", *contact.dynamic_friction, contact.slip_distance)
+                  : fmt::format(", {:g} once it slips", *contact.dynamic_friction);
   } else if (contact.backward_friction) {
     text = fmt::format("friction {:g} forward, {:g} backward", contact.friction, *contact.backward_friction);
   } else if (contact.friction == 0.0) {

@@ -163,7 +163,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   }
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
-  const bool many_bodies = width < 0.5 * components;  // W and the systems are sparse
+  const bool many_bodies = width < 0.5 * components;                          // W and the systems are sparse
   plan.contact += plan.increments * costs.contact_seconds * components * components *
                   (many_bodies ? std::max(width, costs.least_width) : width);
   return plan;

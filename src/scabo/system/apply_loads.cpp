@@ -171,7 +171,8 @@ class Applied {
   void operator()(const model::GroundStress& ground) { apply(element::initial_stress(ground)); }
 
  private:
-  /// Every cell takes the nearest linear field; a super-element of one material, without side faces, also the remainder.
+  /// Every cell takes the nearest linear field; a super-element of one material, without side faces, also the
+  /// remainder.
   void apply(const model::TemperatureTable& table) {
     const model::Plane plane = model_.analysis.plane;
     for_each_cell(
@@ -200,8 +201,7 @@ class Applied {
         });
     for (std::size_t c = 0; c < interior.size(); ++c)
       for (const element::TemperatureRemainder& remainder : interior[c].remainders)
-        nodal(element::dofs_of(body_mesh_.cells[c])) +=
-            forces_of(remainder, *cells_[c], body_mesh_.cells[c].centre);
+        nodal(element::dofs_of(body_mesh_.cells[c])) += forces_of(remainder, *cells_[c], body_mesh_.cells[c].centre);
   }
 
   /// The nodes of a super-element along its boundary, with the scaling centre of an open one; absolute.
@@ -229,12 +229,11 @@ class Applied {
     const element::Vec3 stress = element::particular_stress(cell.sectors.D.of(0), cell.sectors.unit_strain_of(0),
                                                             remainder.direction(), remainder.motion());
     const Breaks breaks{[&](const Vec2& x) { return remainder.direction().dot(x); }, remainder.places()};
-    return cell.K() * u - traction_forces(
-                              cell.ring.elements, nodes, thickness(),
-                              [&](const Vec2& x, const Vec2& n) {
-                                return Vec2(element::traction_of(stress, n) * remainder.at(x));
-                              },
-                              breaks);
+    return cell.K() * u -
+           traction_forces(
+               cell.ring.elements, nodes, thickness(),
+               [&](const Vec2& x, const Vec2& n) { return Vec2(element::traction_of(stress, n) * remainder.at(x)); },
+               breaks);
   }
 
   /// A stress in equilibrium with the weight that belongs to it does not deform a body on whose boundary the tractions

@@ -270,7 +270,8 @@ class ElasticBody final : public BodySystem {
     v(wanted) = solver().solve_at(inclined_.components(f)(dofs_), places);
     u = inclined_.displacements(std::move(v));
     double acting = f.lpNorm<Eigen::Infinity>();  // and what holds a body without supports against its loads
-    if (rigid_motions_.cols() > 0) acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
+    if (rigid_motions_.cols() > 0)
+      acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
     return rounding_matters(u, acting) ? displaced(f, prescribed).u : u;
   }
 

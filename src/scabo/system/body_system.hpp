@@ -77,11 +77,11 @@ struct Constraint {
 
 /// Stiffness of a body along its free motions v, supports apart: u = map v where supports stay.
 struct FreeStiffness {
-  linalg::SparseMatrix K;     ///< k x k, with springs
-  linalg::SparseMatrix map;   ///< size of u x k
-  std::vector<int> dofs;      ///< k, of an elastic body: the degree of freedom that v is, or belongs to
-  std::vector<int> further;   ///< m, among v: those on which A is zero although they are free
-  Matrix motions;             ///< m x m: of `further`, per unit rigid motion
+  linalg::SparseMatrix K;    ///< k x k, with springs
+  linalg::SparseMatrix map;  ///< size of u x k
+  std::vector<int> dofs;     ///< k, of an elastic body: the degree of freedom that v is, or belongs to
+  std::vector<int> further;  ///< m, among v: those on which A is zero although they are free
+  Matrix motions;            ///< m x m: of `further`, per unit rigid motion
 };
 
 /// A displacement under given forces, and (K + S) u less these forces if that is known: else empty.

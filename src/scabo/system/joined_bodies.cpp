@@ -67,14 +67,16 @@ Matrix PairProducts::diagonal_blocks_of(std::size_t p) const {
     std::map<Eigen::Index, Eigen::Index> place;
     std::vector<int> dofs;
     for (std::size_t row = first; row < last; ++row)
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(touched.motion, static_cast<Eigen::Index>(row));
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(touched.motion,
+                                                                          static_cast<Eigen::Index>(row));
            it; ++it)
         if (place.emplace(it.col(), static_cast<Eigen::Index>(dofs.size())).second)
           dofs.push_back(touched.dofs[static_cast<std::size_t>(it.col())]);
     const Matrix A = body->flexibility_by_factor(dofs);
     Matrix C = Matrix::Zero(static_cast<Eigen::Index>(last - first), A.rows());
     for (std::size_t row = first; row < last; ++row)
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(touched.motion, static_cast<Eigen::Index>(row));
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(touched.motion,
+                                                                          static_cast<Eigen::Index>(row));
            it; ++it)
         C(static_cast<Eigen::Index>(row - first), place[it.col()]) = it.value();
     const Matrix W = C * A * C.transpose();
@@ -132,8 +134,7 @@ void JoinedBodies::make() const {
     const Eigen::SparseMatrix<double> C = motion_[p] * of_part.map;
     for (Eigen::Index j = 0; j < C.cols(); ++j)
       for (Eigen::SparseMatrix<double>::InnerIterator it(C, j); it; ++it)
-        if (it.value() != 0.0)
-          of_C.emplace_back(static_cast<int>(it.row()), static_cast<int>(first + j), it.value());
+        if (it.value() != 0.0) of_C.emplace_back(static_cast<int>(it.row()), static_cast<int>(first + j), it.value());
     if (const auto m = static_cast<Eigen::Index>(of_part.further.size()); m > 0) {
       Floating floating{made.rigid_motions, {}, Eigen::PartialPivLU<Matrix>(of_part.motions)};
       for (const int dof : of_part.further) floating.further.push_back(static_cast<int>(first) + dof);

@@ -87,9 +87,7 @@ TEST(IterativeDirections, OfAFreeBodyHoldIt) {
 /// Holds pairs by a dense W whose entries have errors of 1e-4.
 class ByDense final : public PairHolder {
  public:
-  ByDense(const Matrix& W, const Matrix& G) : W_(W), G_(G) {
-    W_.diagonal() *= 1.0 + 1e-4;
-  }
+  ByDense(const Matrix& W, const Matrix& G) : W_(W), G_(G) { W_.diagonal() *= 1.0 + 1e-4; }
   double operations() const override { return 0.0; }
   std::unique_ptr<HeldPairs> hold(const std::vector<int>& rows) const override {
     class Held final : public HeldPairs {
@@ -141,7 +139,8 @@ TEST(HeldDirections, AgreeWithDenseOnes) {
         return one;
       }();
       const Eigen::SparseMatrix<double> root = Matrix(dense.W.dense().llt().matrixU()).sparseView();
-      held.W = Delassus(std::make_shared<const linalg::SymmetricPositiveSolver>(unit_stiffness), root).with_holder(holder);
+      held.W =
+          Delassus(std::make_shared<const linalg::SymmetricPositiveSolver>(unit_stiffness), root).with_holder(holder);
       ASSERT_FALSE(held.W.is_dense());
       const Solution solution = solve(held);
       ASSERT_EQ(solution.status, Status::solved) << solution.reason;

@@ -37,11 +37,18 @@ std::string blocks(const std::string& mesh, const std::string& upper, const std:
   return "scabo: 1\n"
          "materials: {steel: {young: 210e9, poisson: 0.3}, soft: {young: 3e9, poisson: 0.2}}\n"
          "bodies:\n"
-         "  lower: {material: steel, shape: {rectangle: {corner: [0, -1], size: [3, 1]}}, mesh: {" + mesh + "}}\n"
-         "  upper: {" + upper + ", shape: {rectangle: {corner: [0.5, 0], size: [2, 1]}}}\n"
-         "supports: [" + supports + "]\n"
+         "  lower: {material: steel, shape: {rectangle: {corner: [0, -1], size: [3, 1]}}, mesh: {" +
+         mesh +
+         "}}\n"
+         "  upper: {" +
+         upper +
+         ", shape: {rectangle: {corner: [0.5, 0], size: [2, 1]}}}\n"
+         "supports: [" +
+         supports +
+         "]\n"
          "loads: {push: {on: upper.top, traction: [1e6, -2e6]}}\n"
-         "contacts: {joint: {between: [lower.top, upper.bottom], friction: 0.3}}\n" + more;
+         "contacts: {joint: {between: [lower.top, upper.bottom], friction: 0.3}}\n" +
+         more;
 }
 const std::string on_floor = "{on: lower.bottom, fix: [x, y]}";
 
@@ -52,11 +59,11 @@ std::vector<Case> cases() {
   const std::string fem = "kind: fem, order: 2, size: 0.25", floating = "material: soft, mesh: {" + fem + "}";
   return {{"floating", blocks(fem, floating, on_floor)},
           {"superelement", blocks("size: 0.25", "material: soft, mesh: {size: 0.25}", on_floor)},
-          {"inclined", blocks(fem, floating, on_floor + ", {on: lower.left, fix: {along: [1, 2]}}, "
-                                             "{on: upper.left, fix: {along: [2, 1]}}")},
+          {"inclined", blocks(fem, floating,
+                              on_floor + ", {on: lower.left, fix: {along: [1, 2]}}, "
+                                         "{on: upper.left, fix: {along: [2, 1]}}")},
           {"rigid", blocks(fem, "rigid: true", on_floor)},
-          {"springs", blocks(fem, floating, on_floor,
-                             "springs: [{on: upper.top, k_n: 1e9, k_t: 2e9}]\n")}};
+          {"springs", blocks(fem, floating, on_floor, "springs: [{on: upper.top, k_n: 1e9, k_t: 2e9}]\n")}};
 }
 
 class Joined : public testing::TestWithParam<Case> {};
@@ -101,8 +108,7 @@ TEST_P(Joined, HeldPairsHaveTheForcesThatGiveThemTheirMotions) {
   EXPECT_LT(largest(G_h.transpose() * p - z), 1e-7 * largest(p));
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, Joined, testing::ValuesIn(cases()),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Bodies, Joined, testing::ValuesIn(cases()), [](const auto& info) { return info.param.name; });
 
 // 24,000 degrees of freedom and more: there only what the pairs need is computed.
 TEST(LargeBody, DisplacementAtFewPlacesIsThatOfTheWhole) {
@@ -110,8 +116,7 @@ TEST(LargeBody, DisplacementAtFewPlacesIsThatOfTheWhole) {
   for (const std::string& supports :
        {on_floor, std::string("{on: lower.left, fix: {along: [1, 2]}}, "
                               "{on: lower.right, displacement: {along: [2, 1], value: 1e-5}}")}) {
-    const Condensed bodies(blocks(fem, "rigid: true", supports,
-                                  "steps: [{name: one, loads: {push: 1}}]\n"));
+    const Condensed bodies(blocks(fem, "rigid: true", supports, "steps: [{name: one, loads: {push: 1}}]\n"));
     const BodySystem& lower = *bodies.structure.parts[0];
     ASSERT_GT(lower.size(), 24000);
     Vector f = Vector::Zero(lower.size()), prescribed(static_cast<Eigen::Index>(lower.constraints().size()));
@@ -126,8 +131,7 @@ TEST(LargeBody, DisplacementAtFewPlacesIsThatOfTheWhole) {
       const Displaced displaced = lower.displaced(f, prescribed);
       const double acting = std::max(largest(f), largest(lower.reactions(displaced.u, f)));
       EXPECT_LT(lower.imbalance(displaced.u, f), 4e-11 * acting);  // the certificate allows 1e-10
-      if (displaced.unbalanced.size() > 0)
-        EXPECT_EQ(displaced.unbalanced, lower.unbalanced(displaced.u, f));
+      if (displaced.unbalanced.size() > 0) EXPECT_EQ(displaced.unbalanced, lower.unbalanced(displaced.u, f));
     }
   }
 }

@@ -30,7 +30,7 @@ class PairSweeps {
   const Problem* problem_;
   std::vector<PairProblem<d>> pairs_;
   const double* values_ = nullptr;
-  double factor_ = 1.0;  // of the values
+  double factor_ = 1.0;                             // of the values
   const int *columns_ = nullptr, *rows_ = nullptr;  // of a sparse W
 };
 
