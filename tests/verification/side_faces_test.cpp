@@ -392,5 +392,41 @@ steps: [{{name: {}, increments: 3}}]
   }
 }
 
+// A stop on a track, pushed against an elastic pad on its side face, which is one of the two that meet at the scaling
+// centre (1, 1): pad = push - mu N as it goes forward; friction, more than the pad has, then keeps it there. Only
+// contact holds the body across the pad, so that elements at the centre, whose normals rounding turns by 1e-9, must not
+// make that motion seem to compress the pad.
+TEST(SideFaces, OfABodyThatSlidesAgainstAPad) {
+  for (const double stiffness : {1e4, 1e5, 1e6}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain, thickness: 0.5}}
+materials: {{m: {{young: 210e9, poisson: 0.3}}}}
+bodies:
+  track: {{rigid: true, shape: {{rectangle: {{corner: [-1, -0.5], size: [5, 0.5]}}}}}}
+  stop:
+    material: m
+    shape:
+      polygon: {{vertices: [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]], names: {{foot: edge_1, face: edge_4, head: edge_5, back: edge_6}}}}
+    mesh: {{size: 0.5, order: 2, centre: [1, 1]}}
+supports: [{{on: track, fix: [x, y]}}]
+springs: [{{name: pad, on: stop.face, k_n: {}}}]
+contacts: {{c: {{between: [track.top, stop.foot], friction: {{forward: 0.1, backward: 0.6}}}}}}
+loads: {{weight: {{on: stop.head, pressure: 200e3}}, jack: {{on: stop.back, force: [25e3, 0]}}}}
+steps: [{{name: push, increments: 2}}, {{name: let_go, loads: {{jack: 0}}}}]
+)",
+                                          stiffness));
+    ASSERT_EQ(solution.increments.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const analysis::IncrementResult& increment = increment_at(solution, i);
+      EXPECT_LT(increment.certificate.equilibrium, 1e-12) << stiffness;
+      const double normal = i == 0 ? 50e3 : 100e3;
+      EXPECT_NEAR(contact_of(increment).normal_force, normal, 1e-9 * normal);
+      const double rebound = i == 2 ? 10e-6 * stiffness : 0.0;  // of the stop itself
+      EXPECT_NEAR(increment.springs[0].x(), i == 0 ? -7.5e3 : -15e3, 1e-4 + rebound) << stiffness;
+      EXPECT_NEAR(increment.springs[0].y(), 0.0, 1e-4);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification

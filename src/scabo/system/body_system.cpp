@@ -98,7 +98,7 @@ Matrix null_space(const Matrix& A) {
 /// Of the motions `free`, 3 x m, with orthonormal columns: those that change no spring's length, 3 x k, k <= m.
 Matrix at_rest(const Matrix& free, const std::vector<HeldDirection>& springs, const Vec2& reference, double lever) {
   if (springs.empty() || free.cols() == 0) return free;
-  Matrix gram = Matrix::Zero(3, 3);  // of the rows, all of which count alike however soft the springs are
+  Matrix gram = Matrix::Zero(3, 3);  // of the rows: all springs count alike, however soft they are
   for (const HeldDirection& held : springs) {
     const Eigen::RowVector3d row = held.direction.transpose() * rigid_point(held.point, reference, lever);
     gram += row.transpose() * row;

@@ -30,7 +30,7 @@ namespace scabo::system {
 
 /// A point of a body that springs hold along a direction.
 struct HeldDirection {
-  Vec2 point, direction;  ///< direction: of unit length
+  Vec2 point, direction;  ///< the squares of the directions of one spring add up to 1 along it, however soft it is
 };
 
 /// Springs between a body and the ground (springs.hpp). Their forces on the body are -S u.

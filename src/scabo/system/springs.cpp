@@ -1,5 +1,7 @@
 #include "scabo/system/springs.hpp"
 
+#include <cmath>
+
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/system/loads.hpp"
@@ -45,10 +47,22 @@ Vec2 at_rest_of(const model::Spring& spring, const Vec2& n) {
   return spring.at_rest[0] * n + spring.at_rest[1] * Vec2(-n.y(), n.x());
 }
 
-/// The directions with springs among two that are at right angles.
-void hold(const model::Spring& spring, const Vec2& x, const Vec2& first, std::vector<HeldDirection>& held) {
-  if (spring.stiffness[0] > 0.0) held.push_back({x, first});
-  if (spring.stiffness[1] > 0.0) held.push_back({x, Vec2(-first.y(), first.x())});
+/// The directions with springs among two that are at right angles. `share`: of the length of the spring. At the tip of
+/// a crack elements are so short that rounding of their nodes turns their normals by 1e-9, and so many that they must
+/// not count as others do.
+void hold(const model::Spring& spring, const Vec2& x, const Vec2& first, double share,
+          std::vector<HeldDirection>& held) {
+  const double weight = std::sqrt(share);
+  if (spring.stiffness[0] > 0.0) held.push_back({x, weight * first});
+  if (spring.stiffness[1] > 0.0) held.push_back({x, weight * Vec2(-first.y(), first.x())});
+}
+
+double length_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
+                 const model::Edge* edge) {
+  double length = 0.0;
+  for (const mesh::LineElement& element : elements)
+    integrate(element, nodes, edge, [&](const Vector&, const Vec2&, const Vec2&, double ds) { length += ds; });
+  return length;
 }
 
 class Assembly {
@@ -92,14 +106,15 @@ class Assembly {
         entries.emplace_back(dof, dof, spring.stiffness[axis]);
         f[dof] += spring.stiffness[axis] * spring.at_rest[axis];
       }
-      hold(spring, mesh.nodes[static_cast<std::size_t>(at.nodes.front())], Vec2::UnitX(), held);
+      hold(spring, mesh.nodes[static_cast<std::size_t>(at.nodes.front())], Vec2::UnitX(), 1.0, held);
       return;
     }
+    const double length = length_of(at.elements, mesh.nodes, edge_of(spring));
     for (const mesh::LineElement& element : at.elements)
       integrate(element, mesh.nodes, edge_of(spring), [&](const Vector& N, const Vec2& x, const Vec2& n, double ds) {
         const Mat2 k = tensor_of(spring, n) * (ds * model_.analysis.thickness);
         const Vec2 force = k * at_rest_of(spring, n);
-        hold(spring, x, n, held);
+        hold(spring, x, n, ds / length, held);
         for (std::size_t i = 0; i < element.nodes.size(); ++i)
           for (int row = 0; row < 2; ++row)
             f[dofs_.of(spring.on.body, element.nodes[i], row)] += N[static_cast<Eigen::Index>(i)] * force[row];
@@ -126,13 +141,14 @@ class Assembly {
     if (!model::acts_along(spring)) {
       const Vec2 x = rigid_points(spring.on, body).front();
       add(x, Vec2(spring.stiffness[0], spring.stiffness[1]).asDiagonal(), Vec2(spring.at_rest[0], spring.at_rest[1]));
-      hold(spring, x, Vec2::UnitX(), held);
+      hold(spring, x, Vec2::UnitX(), 1.0, held);
     } else {
       const EdgeElements edge = elements_of(*edge_of(spring));
+      const double length = length_of(edge.elements, edge.nodes, edge_of(spring));
       for (const mesh::LineElement& element : edge.elements)
         integrate(element, edge.nodes, edge_of(spring), [&](const Vector&, const Vec2& x, const Vec2& n, double ds) {
           add(x, tensor_of(spring, n) * (ds * model_.analysis.thickness), at_rest_of(spring, n));
-          hold(spring, x, n, held);
+          hold(spring, x, n, ds / length, held);
         });
     }
     for (int i = 0; i < 3; ++i)
