@@ -118,7 +118,8 @@ class LargeSlip(LargeSlipRuns):
         for mesh in ({"kind": "quadtree"}, {"kind": "polygons"}, {"kind": "fem"}):
             with self.subTest(mesh=mesh):
                 self.check_drag(self.solve(block(mesh=mesh)))
-        self.check_drag(self.solve(block(rigid=True)))
+        # The drag and friction hold the same corner of the block: how much each takes while nothing slips is open.
+        self.check_drag(self.solve(block(rigid=True), warned=True))
 
     def test_to_and_fro(self):
         increments = self.solve(block(drags=(1.0, -0.5), increments=16))

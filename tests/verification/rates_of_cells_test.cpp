@@ -187,9 +187,10 @@ Reached of_exact(const Exact& exact, double young, const std::string& body, cons
                       return Vec2(traction(x, n).dot(exact.displacement(x)), 0.0);
                     }).sum();
   }
-  const Vector u = structure.parts[0]->displacement(forces, Eigen::Vector3d::Zero());
+  const system::BodySystem& part = *structure.parts[0];
+  const Vector u = part.displacement(forces, Eigen::Vector3d::Zero());
   return {2.0 * static_cast<double>(nodes.size()), size,
-          std::sqrt(std::abs(1.0 - structure.parts[0]->elastic_energy(u) / energy))};
+          std::sqrt(std::abs(1.0 - part.elastic_energy(u, forces, part.unbalanced(u, forces)) / energy))};
 }
 
 /// Timoshenko's cantilever, L = 8, D = 4, E = 3e7, P = 1000.

@@ -148,7 +148,7 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.external += 0.5 * (from.reactions[p] + to.reactions[p]).dot(to.prescribed[p] - from.prescribed[p]);
     if (!prepared.is_absent(p))
       energy.elastic +=
-          prepared.structure.parts[p]->elastic_energy(to.u[p], balances[p].forces + balances[p].unbalanced);
+          prepared.structure.parts[p]->elastic_energy(to.u[p], balances[p].forces, balances[p].unbalanced);
   }
   if (prepared.reference) {
     const Vec2 reached = reference_displacement(prepared, to.u),

@@ -383,10 +383,17 @@ class ElasticBody final : public BodySystem {
     return largest;
   }
 
-  double elastic_energy(const Vector& u) const override { return elastic_energy(u, internal_forces(u)); }
-  double elastic_energy(const Vector& u, const Vector& resisting) const override {
+  double elastic_energy(const Vector& u) const override {
+    const Vector resisting = internal_forces(u);
     if (!rounding_matters(u, resisting.lpNorm<Eigen::Infinity>())) return 0.5 * u.dot(resisting);
-    return 0.5 * u.dot(forces_left(linalg::twofold(u), Vector::Zero(size())));
+    return exact_energy(u);
+  }
+  double elastic_energy(const Vector& u, const Vector& f, const Vector& unbalanced) const override {
+    const Vector resisting = f + unbalanced;
+    if (rounding_matters(u, resisting.lpNorm<Eigen::Infinity>())) return exact_energy(u);
+    Vector left = inclined_.components(unbalanced);
+    for (const Constraint& constraint : constraints_) left[constraint.dof] = 0.0;  // its reaction
+    return 0.5 * u.dot(resisting) - inclined_.along(u).dot(left);
   }
   double energy_lost(const Vector& u) const override {
     Vector strained = u;  // an estimate: digits that the rigid motions take from it do not count
@@ -481,6 +488,11 @@ class ElasticBody final : public BodySystem {
     double largest = 0.0;
     for (const int dof : dofs_) largest = std::max(largest, std::abs(left[dof]));
     return largest <= std::max(enough * acting, of_rounding * stiff_force(u));
+  }
+
+  /// 1/2 u'(K + S) u in twice the working precision.
+  double exact_energy(const Vector& u) const {
+    return 0.5 * u.dot(forces_left(linalg::twofold(u), Vector::Zero(size())));
   }
 
   /// The displacement under f, by the factor alone.
@@ -726,7 +738,7 @@ class RigidBody final : public BodySystem {
   }
 
   double elastic_energy(const Vector& u) const override { return -0.5 * u.dot(spring_forces(u)); }
-  double elastic_energy(const Vector& u, const Vector&) const override { return elastic_energy(u); }
+  double elastic_energy(const Vector& u, const Vector&, const Vector&) const override { return elastic_energy(u); }
   double energy_lost(const Vector&) const override { return 0.0; }
   double stiff_force(const Vector&) const override { return 0.0; }
   Vector spring_forces(const Vector& u) const override { return -springs_.times(u); }

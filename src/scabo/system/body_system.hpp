@@ -126,9 +126,11 @@ class BodySystem {
   /// Of these: the largest on a degree of freedom without constraint.
   virtual double imbalance_of(const Vector& unbalanced) const = 0;
   double imbalance(const Vector& u, const Vector& f) const { return imbalance_of(unbalanced(u, f)); }
-  /// 1/2 u'(K + S) u; `resisting`: (K + S) u, where it is known.
+  /// 1/2 u'(K + S) u.
   virtual double elastic_energy(const Vector& u) const = 0;
-  virtual double elastic_energy(const Vector& u, const Vector& resisting) const = 0;
+  /// The same of the displacement under the forces f, from one that is nearly that and leaves `unbalanced` of them:
+  /// u'f - 1/2 u'(K + S) u with what supports add to f, in which errors of u count squared only.
+  virtual double elastic_energy(const Vector& u, const Vector& f, const Vector& unbalanced) const = 0;
   /// Estimated error of elastic_energy(u) by the rounding of the entries of K. Its ratio to the energy is the relative
   /// error of the displacement under the load.
   virtual double energy_lost(const Vector& u) const = 0;

@@ -291,7 +291,7 @@ std::vector<Mutation> mutations() {
       {"support_edge_negative", [](Model& m) { m.supports[0].on.index = -1; }, "supports.0.on"},
       {"support_corner", [](Model& m) { m.supports[0].on = test::place_on(Kind::corner, 0, 17, "lower.x"); },
        "supports.0.on"},
-      {"support_face", [](Model& m) { m.supports[1].on = test::place_on(Kind::face, 2, 0, "f"); }, "supports.1.on"},
+      {"support_face", [](Model& m) { m.supports[1].on = test::place_on(Kind::face, 2, 2, "f"); }, "supports.1.on"},
       {"support_mouth", [](Model& m) { m.supports[1].on = test::place_on(Kind::mouth, 2, 2, "f"); }, "supports.1.on"},
       {"support_near_nan",
        [](Model& m) {
