@@ -276,7 +276,8 @@ TEST_P(RatesOfCells, KirschsPlate) {
                                                 : 0.5;
     // Squared, an error of 3.5e-7 is 1.2e-13 of the energy, whose rounding (1e-14, by the order of elimination) moves
     // the rate of order 4 between sizes so close to each other by 0.1.
-    const double lost = polygons && order == 4 ? 0.4 : 0.15;
+    // On a mesh of a file (6.9e-7) it moves that by 0.02, from 3.87 to 3.85.
+    const double lost = polygons && order == 4 ? 0.4 : kind() == "imported" && order == 4 ? 0.2 : 0.15;
     expect_rate("Kirsch", order - lost, order, kirsch(kind(), order, size), kirsch(kind(), order, finer * size));
   }
 }

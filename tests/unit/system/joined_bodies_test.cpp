@@ -14,7 +14,7 @@
 namespace scabo::system {
 namespace {
 
-double largest(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
+double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
 struct Condensed {
   model::Model model;
@@ -75,7 +75,7 @@ TEST_P(Joined, ProductsAreThoseOfW) {
   ASSERT_EQ(products.size(), W.rows());
   Vector p(W.rows());
   for (Eigen::Index k = 0; k < p.size(); ++k) p[k] = std::sin(3.0 * static_cast<double>(k));
-  EXPECT_LT(largest(products.times(p) - W * p), 1e-12 * largest(W * p));
+  EXPECT_LT(largest_of(products.times(p) - W * p), 1e-12 * largest_of(W * p));
   const Matrix blocks = products.diagonal_blocks();
   for (Eigen::Index i = 0; i < W.rows(); i += 2)
     EXPECT_LT((blocks.middleCols<2>(i) - W.block<2, 2>(i, i)).cwiseAbs().maxCoeff(), 1e-12 * W.cwiseAbs().maxCoeff());
@@ -102,10 +102,10 @@ TEST_P(Joined, HeldPairsHaveTheForcesThatGiveThemTheirMotions) {
   const Vector left = u - W_hh * p - G_h * a;  // eps p; W has no part of a body where that is held without supports
   const double flexibility = W_hh.diagonal().maxCoeff();
   for (Eigen::Index k = 0; k < p.size(); ++k) {
-    EXPECT_GE(left[k] * p[k], -1e-9 * largest(u) * std::abs(p[k]));
-    EXPECT_LE(std::abs(left[k]), 2e-4 * flexibility * std::abs(p[k]) + 1e-9 * largest(u));
+    EXPECT_GE(left[k] * p[k], -1e-9 * largest_of(u) * std::abs(p[k]));
+    EXPECT_LE(std::abs(left[k]), 2e-4 * flexibility * std::abs(p[k]) + 1e-9 * largest_of(u));
   }
-  EXPECT_LT(largest(G_h.transpose() * p - z), 1e-7 * largest(p));
+  EXPECT_LT(largest_of(G_h.transpose() * p - z), 1e-7 * largest_of(p));
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Joined, testing::ValuesIn(cases()), [](const auto& info) { return info.param.name; });
@@ -127,9 +127,9 @@ TEST(LargeBody, DisplacementAtFewPlacesIsThatOfTheWhole) {
     for (const double gravity : {0.0, 2.0}) {
       f.array() += gravity;
       const Vector whole = lower.displacement(f, prescribed), few = lower.displacement_at(f, prescribed, dofs);
-      EXPECT_LT(largest(whole(dofs) - few(dofs)), 1e-11 * largest(whole));
+      EXPECT_LT(largest_of(whole(dofs) - few(dofs)), 1e-11 * largest_of(whole));
       const Displaced displaced = lower.displaced(f, prescribed);
-      const double acting = std::max(largest(f), largest(lower.reactions(displaced.u, f)));
+      const double acting = std::max(largest_of(f), largest_of(lower.reactions(displaced.u, f)));
       EXPECT_LT(lower.imbalance(displaced.u, f), 4e-11 * acting);  // the certificate allows 1e-10
       if (displaced.unbalanced.size() > 0) EXPECT_EQ(displaced.unbalanced, lower.unbalanced(displaced.u, f));
     }
