@@ -1,12 +1,6 @@
 #include "scabo/system/body_system.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -57,79 +51,6 @@ double Stiffness::largest_diagonal() const {
   if (size() == 0) return 0.0;
   if (divided) return divided->largest_diagonal();
   return dense ? dense->diagonal().maxCoeff() : Vector(sparse.diagonal()).maxCoeff();
-}
-
-Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever) {
-  const Vec2 arm = (x - reference) / lever;
-  Eigen::Matrix<double, 2, 3> map;
-  map << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
-  return map;
-}
-
-std::string describe_motion(const Eigen::Vector3d& motion, const Vec2& reference, double lever) {
-  const double rotation = motion[2] / lever;
-  const Vec2 shift = motion.head<2>();
-  if (std::abs(motion[2]) <= 1e-6 * shift.norm()) {
-    Vec2 along = shift.normalized();
-    for (Eigen::Index i = 0; i < 2; ++i)
-      if (std::abs(along[i]) < 1e-9) along[i] = 0.0;
-    return fmt::format("translation along ({:.4g}, {:.4g})", along.x(), along.y());
-  }
-  // The point that stays: shift + rotation x arm = 0.
-  Vec2 pole = reference + Vec2(-shift.y(), shift.x()) / rotation;
-  for (Eigen::Index i = 0; i < 2; ++i)
-    if (std::abs(pole[i]) < 1e-9 * lever) pole[i] = 0.0;
-  return fmt::format("rotation about ({:.4g}, {:.4g})", pole.x(), pole.y());
-}
-
-namespace {
-
-/// Basis of the null space of A (rows x columns), its columns orthonormal.
-Matrix null_space(const Matrix& A) {
-  const Eigen::Index n = A.cols();
-  if (A.rows() == 0) return Matrix::Identity(n, n);
-  const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullV);
-  Eigen::Index rank = 0;
-  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
-    if (svd.singularValues()[k] > 1e-9 * svd.singularValues()[0]) ++rank;
-  return svd.matrixV().rightCols(n - rank);
-}
-
-/// Of the motions `free`, 3 x m, with orthonormal columns: those that change no spring's length, 3 x k, k <= m.
-Matrix at_rest(const Matrix& free, const std::vector<HeldDirection>& springs, const Vec2& reference, double lever) {
-  if (springs.empty() || free.cols() == 0) return free;
-  Matrix gram = Matrix::Zero(3, 3);  // of the rows: all springs count alike, however soft they are
-  for (const HeldDirection& held : springs) {
-    const Eigen::RowVector3d row = held.direction.transpose() * rigid_point(held.point, reference, lever);
-    gram += row.transpose() * row;
-  }
-  // Columns along which the rows vanish. Squares: 1e-12 stands for arms of 1e-6 of the body.
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(free.transpose() * gram * free);
-  Eigen::Index still = 0;
-  while (still < free.cols() && eigen.eigenvalues()[still] <= 1e-12 * gram.trace()) ++still;
-  return free * eigen.eigenvectors().leftCols(still);
-}
-
-}  // namespace
-
-Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints,
-                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever) {
-  Vec2 low = nodes.front(), high = nodes.front();
-  for (const Vec2& x : nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  reference = 0.5 * (low + high);
-  lever = 0.5 * (high - low).norm();
-  Matrix held(static_cast<Eigen::Index>(constraints.size()), 3);
-  for (std::size_t c = 0; c < constraints.size(); ++c)
-    held.row(static_cast<Eigen::Index>(c)) =
-        constraints[c].direction().transpose() *
-        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever);
-  return at_rest(null_space(held), springs, reference, lever);
-}
-
-void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces) {
-  for (std::size_t c = 0; c < constraints.size(); ++c)
-    forces.segment<2>(constraints[c].dof / 2 * 2) +=
-        reactions[static_cast<Eigen::Index>(c)] * constraints[c].direction();
 }
 
 namespace {
@@ -667,123 +588,6 @@ class ElasticBody final : public BodySystem {
   std::vector<int> dofs_, place_;
 };
 
-class RigidBody final : public BodySystem {
- public:
-  RigidBody(const Vec2& reference, double size, std::vector<Constraint> constraints, Springs springs)
-      : springs_(std::move(springs)) {
-    constraints_ = std::move(constraints);
-    reference_ = reference;
-    lever_ = size;
-    held_.resize(static_cast<Eigen::Index>(constraints_.size()), 3);
-    for (std::size_t c = 0; c < constraints_.size(); ++c) {
-      const Constraint& constraint = constraints_[c];
-      held_.row(static_cast<Eigen::Index>(c)) =
-          constraint.rotation ? Eigen::RowVector3d(0.0, 0.0, 1.0)
-                              : Eigen::RowVector3d(constraint.direction().transpose() *
-                                                   rigid_point(constraint.point, reference_, lever_));
-    }
-    const Matrix left_by_supports = null_space(held_);
-    rigid_motions_ = rigid_coordinates_ = at_rest(left_by_supports, springs_.directions, reference_, lever_);
-    constrained_.compute(held_);
-    if (!springs_.none()) find_flexibility(left_by_supports);
-  }
-
-  Eigen::Index size() const override { return 3; }
-
-  Displaced displaced(const Vector& f, const Vector& prescribed) const override {
-    Vector u = Vector::Zero(3);
-    if (held_.rows() > 0) u = constrained_.solve(prescribed);
-    if (is_flexible())
-      for (int round = 0; round < 2; ++round)  // the second refines
-        u += flexibility_ * (f - springs_.matrix * u);
-    return {std::move(u), {}};
-  }
-
-  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&) const override {
-    return displaced(f, prescribed).u;
-  }
-
-  Matrix flexibility(const std::vector<int>& dofs) const override {
-    const auto n = static_cast<Eigen::Index>(dofs.size());
-    return is_flexible() ? Matrix(flexibility_(dofs, dofs)) : Matrix(Matrix::Zero(n, n));
-  }
-
-  Matrix flexibility_by_factor(const std::vector<int>& dofs) const override { return flexibility(dofs); }
-  Vector flexed(const std::vector<int>& dofs, const Vector& forces) const override {
-    return flexibility(dofs) * forces;
-  }
-
-  /// v: the motions that springs resist, then the free ones.
-  FreeStiffness free_stiffness() const override {
-    const Matrix Y = resisted_motions(null_space(held_));
-    const Eigen::Index resisted = Y.cols(), m = rigid_motions_.cols();
-    FreeStiffness free;
-    Matrix map(3, resisted + m), K = Matrix::Zero(resisted + m, resisted + m);
-    map << Y, rigid_motions_;
-    if (resisted > 0) K.topLeftCorner(resisted, resisted) = Y.transpose() * (springs_.matrix * Y);
-    free.map = map.sparseView();
-    free.K = K.sparseView();
-    free.dofs.assign(static_cast<std::size_t>(resisted + m), 0);
-    for (Eigen::Index k = 0; k < m; ++k) free.further.push_back(static_cast<int>(resisted + k));
-    free.motions = Matrix::Identity(m, m);
-    return free;
-  }
-  double operations() const override { return 0.0; }
-
-  Vector unbalanced(const Vector& u, const Vector& f) const override { return -(f + spring_forces(u)); }
-
-  Vector reactions_of(const Vector& unbalanced) const override {
-    if (held_.rows() == 0) return Vector();
-    return Matrix(held_.transpose()).completeOrthogonalDecomposition().solve(unbalanced);
-  }
-
-  double imbalance_of(const Vector& unbalanced) const override {
-    if (held_.rows() == 0) return unbalanced.lpNorm<Eigen::Infinity>();
-    return (held_.transpose() * reactions_of(unbalanced) - unbalanced).lpNorm<Eigen::Infinity>();
-  }
-
-  double elastic_energy(const Vector& u) const override { return -0.5 * u.dot(spring_forces(u)); }
-  double elastic_energy(const Vector& u, const Vector&, const Vector&) const override { return elastic_energy(u); }
-  double energy_lost(const Vector&) const override { return 0.0; }
-  double stiff_force(const Vector&) const override { return 0.0; }
-  Vector spring_forces(const Vector& u) const override { return -springs_.times(u); }
-  bool is_flexible() const override { return flexibility_.size() > 0; }
-  bool has_springs() const override { return !springs_.none(); }
-
-  /// Largest amount by which the constraints contradict each other at factor 1, and the constraint.
-  std::pair<double, std::size_t> contradiction() const {
-    Vector values(held_.rows());
-    for (std::size_t c = 0; c < constraints_.size(); ++c) values[static_cast<Eigen::Index>(c)] = constraints_[c].value;
-    if (values.size() == 0) return {0.0, 0};
-    Eigen::Index worst = 0;
-    const double largest = (held_ * constrained_.solve(values) - values).cwiseAbs().maxCoeff(&worst);
-    return {largest / std::max(values.cwiseAbs().maxCoeff(), 1e-300), static_cast<std::size_t>(worst)};
-  }
-
- private:
-  /// Y: motions that supports leave free and springs resist, 3 x k.
-  Matrix resisted_motions(const Matrix& left_by_supports) const {
-    const Matrix along_rest = left_by_supports.transpose() * rigid_motions_;
-    return left_by_supports * (rigid_motions_.cols() > 0
-                                   ? null_space(along_rest.transpose())
-                                   : Matrix(Matrix::Identity(left_by_supports.cols(), left_by_supports.cols())));
-  }
-
-  /// A = Y (Y'S Y)^-1 Y'.
-  void find_flexibility(const Matrix& left_by_supports) {
-    const Matrix Y = resisted_motions(left_by_supports);
-    if (Y.cols() == 0) return;
-    const Matrix stiffness = Y.transpose() * (springs_.matrix * Y);
-    flexibility_ = Y * stiffness.ldlt().solve(Y.transpose());
-    flexibility_ = 0.5 * (flexibility_ + flexibility_.transpose()).eval();
-  }
-
-  Matrix held_;  // constraints x 3
-  Springs springs_;
-  Matrix flexibility_;  // A, 3 x 3; empty: no force moves the body
-  Eigen::CompleteOrthogonalDecomposition<Matrix> constrained_;
-};
-
 }  // namespace
 
 std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
@@ -834,14 +638,6 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   std::vector<std::unique_ptr<BodySystem>> result;
   for (auto& body : bodies) result.push_back(std::move(body));
   return result;
-}
-
-std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
-                                       Springs springs, std::string& contradiction) {
-  auto body = std::make_unique<RigidBody>(reference, size, std::move(constraints), std::move(springs));
-  const auto [amount, which] = body->contradiction();
-  if (amount > 1e-9) contradiction = fmt::format("constraint {} cannot hold together with the others", which + 1);
-  return body;
 }
 
 }  // namespace scabo::system

@@ -1,0 +1,77 @@
+#include "scabo/system/rigid_motions.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace scabo::system {
+
+Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever) {
+  const Vec2 arm = (x - reference) / lever;
+  Eigen::Matrix<double, 2, 3> map;
+  map << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
+  return map;
+}
+
+std::string describe_motion(const Eigen::Vector3d& motion, const Vec2& reference, double lever) {
+  const double rotation = motion[2] / lever;
+  const Vec2 shift = motion.head<2>();
+  if (std::abs(motion[2]) <= 1e-6 * shift.norm()) {
+    Vec2 along = shift.normalized();
+    for (Eigen::Index i = 0; i < 2; ++i)
+      if (std::abs(along[i]) < 1e-9) along[i] = 0.0;
+    return fmt::format("translation along ({:.4g}, {:.4g})", along.x(), along.y());
+  }
+  // The point that stays: shift + rotation x arm = 0.
+  Vec2 pole = reference + Vec2(-shift.y(), shift.x()) / rotation;
+  for (Eigen::Index i = 0; i < 2; ++i)
+    if (std::abs(pole[i]) < 1e-9 * lever) pole[i] = 0.0;
+  return fmt::format("rotation about ({:.4g}, {:.4g})", pole.x(), pole.y());
+}
+
+Matrix null_space(const Matrix& A) {
+  const Eigen::Index n = A.cols();
+  if (A.rows() == 0) return Matrix::Identity(n, n);
+  const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
+    if (svd.singularValues()[k] > 1e-9 * svd.singularValues()[0]) ++rank;
+  return svd.matrixV().rightCols(n - rank);
+}
+
+Matrix at_rest(const Matrix& free, const std::vector<HeldDirection>& springs, const Vec2& reference, double lever) {
+  if (springs.empty() || free.cols() == 0) return free;
+  Matrix gram = Matrix::Zero(3, 3);  // of the rows: all springs count alike, however soft they are
+  for (const HeldDirection& held : springs) {
+    const Eigen::RowVector3d row = held.direction.transpose() * rigid_point(held.point, reference, lever);
+    gram += row.transpose() * row;
+  }
+  // Columns along which the rows vanish. Squares: 1e-12 stands for arms of 1e-6 of the body.
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(free.transpose() * gram * free);
+  Eigen::Index still = 0;
+  while (still < free.cols() && eigen.eigenvalues()[still] <= 1e-12 * gram.trace()) ++still;
+  return free * eigen.eigenvectors().leftCols(still);
+}
+
+Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints,
+                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever) {
+  Vec2 low = nodes.front(), high = nodes.front();
+  for (const Vec2& x : nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  reference = 0.5 * (low + high);
+  lever = 0.5 * (high - low).norm();
+  Matrix held(static_cast<Eigen::Index>(constraints.size()), 3);
+  for (std::size_t c = 0; c < constraints.size(); ++c)
+    held.row(static_cast<Eigen::Index>(c)) =
+        constraints[c].direction().transpose() *
+        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever);
+  return at_rest(null_space(held), springs, reference, lever);
+}
+
+void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces) {
+  for (std::size_t c = 0; c < constraints.size(); ++c)
+    forces.segment<2>(constraints[c].dof / 2 * 2) +=
+        reactions[static_cast<Eigen::Index>(c)] * constraints[c].direction();
+}
+
+}  // namespace scabo::system
