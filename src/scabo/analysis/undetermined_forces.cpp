@@ -173,7 +173,7 @@ std::optional<Warning> undetermined_forces_warning(const Prepared& prepared, con
   const std::string names = names_of(prepared, contacts);
   std::string unique = "Displacements, stresses and the total force of every contact are unique";
   if (!totals.empty())
-    unique = fmt::format("Displacements and stresses are unique, and so are the total forces of all contacts but {}",
+    unique = fmt::format("Displacements and stresses are unique, and so are the total forces of all contacts except {}",
                          names_of(prepared, totals));
   return Warning{WarningKind::undetermined_force, "",
                  fmt::format("{}: the forces of {} of {} pairs are one of many possibilities, because several bodies "
