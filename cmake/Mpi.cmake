@@ -1,8 +1,6 @@
 # SCABO_MPI: the program `scabo-mpi` beside `scabo`, for runs on several processes (apps/scabo_mpi, docs/clusters.md). AUTO: if
 # PETSc with MUMPS and PT-SCOTCH and its MPI are installed (Debian: libpetsc-real-dev). `scabo` and the library do not change.
-set(SCABO_MPI AUTO CACHE STRING "Runs on several processes by PETSc (libpetsc-real-dev): AUTO, ON or OFF")
-set_property(CACHE SCABO_MPI PROPERTY STRINGS AUTO ON OFF)
-set(SCABO_MPI_FOUND NO)
+scabo_optional(SCABO_MPI "Runs on several processes by PETSc (libpetsc-real-dev)")
 if(SCABO_MPI)
   find_path(SCABO_PETSC_INCLUDE petscmat.h HINTS $ENV{PETSC_DIR}/$ENV{PETSC_ARCH}/include /usr/lib/petsc/include)
   find_library(SCABO_PETSC_LIBRARY NAMES petsc_real petsc HINTS $ENV{PETSC_DIR}/$ENV{PETSC_ARCH}/lib /usr/lib/petsc/lib)

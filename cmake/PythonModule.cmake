@@ -1,9 +1,7 @@
 # SCABO_PYTHON_MODULE: the Python package `scabo` (python/). AUTO: if pybind11, Python's headers and NumPy are found
 # (cmake/install_packages.sh python), and no sanitizer is in use. Sets SCABO_PYTHON_MODULE_FOUND and, below the prefix of
 # an installation, SCABO_PYTHON_INSTALL_DIR.
-set(SCABO_PYTHON_MODULE AUTO CACHE STRING "The Python package scabo (pybind11-dev, python3-dev): AUTO, ON or OFF")
-set_property(CACHE SCABO_PYTHON_MODULE PROPERTY STRINGS AUTO ON OFF)
-set(SCABO_PYTHON_MODULE_FOUND NO)
+scabo_optional(SCABO_PYTHON_MODULE "The Python package scabo (pybind11-dev, python3-dev)")
 set(why_not "")
 if(SCABO_PYTHON_MODULE STREQUAL "AUTO" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(why_not "not with sanitizers")
@@ -24,10 +22,8 @@ elseif(SCABO_PYTHON_MODULE)
     set(SCABO_PYTHON_MODULE_FOUND YES)
   endif()
 endif()
-if(why_not AND NOT SCABO_PYTHON_MODULE STREQUAL "AUTO")
-  message(FATAL_ERROR "SCABO_PYTHON_MODULE: ${why_not}.\nOr configure with -DSCABO_PYTHON_MODULE=OFF.")
-elseif(why_not)
-  message(STATUS "The Python package is not built: ${why_not}")
+if(why_not)
+  scabo_not_built(SCABO_PYTHON_MODULE "The Python package" "${why_not}")
 endif()
 if(SCABO_PYTHON_MODULE_FOUND)
   # Where Debian's Python looks below /usr/local, and any other below its prefix.

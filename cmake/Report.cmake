@@ -3,9 +3,7 @@
 # without. The packages are fetched once, those of package-lock.json.
 #   ${SCABO_BUILD_DATA}/report_template.html    beside the program, as it is installed in share/scabo
 #   python/scabo/report/template.html           in the Python package of the build
-set(SCABO_REPORT AUTO CACHE STRING "The page of scabo report (nodejs, npm): AUTO, ON or OFF")
-set_property(CACHE SCABO_REPORT PROPERTY STRINGS AUTO ON OFF)
-set(SCABO_REPORT_FOUND NO)
+scabo_optional(SCABO_REPORT "The page of scabo report (nodejs, npm)")
 set(why_not "")
 if(SCABO_REPORT STREQUAL "AUTO" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(why_not "not with sanitizers")
@@ -28,10 +26,8 @@ elseif(SCABO_REPORT)
     set(SCABO_REPORT_FOUND YES)
   endif()
 endif()
-if(why_not AND NOT SCABO_REPORT STREQUAL "AUTO")
-  message(FATAL_ERROR "SCABO_REPORT: ${why_not}.\nOr configure with -DSCABO_REPORT=OFF.")
-elseif(why_not)
-  message(STATUS "The page for reports is not built: ${why_not}")
+if(why_not)
+  scabo_not_built(SCABO_REPORT "The page for reports" "${why_not}")
 endif()
 
 set(report_page ${SCABO_BUILD_DATA}/report_template.html)

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Concrete from an image: the quadtree, vertical and horizontal stress, and the effective modulus between its bounds."""
-import json
 import pathlib
 import sys
 
@@ -22,25 +21,25 @@ def main():
     print(f"aggregate {share:.6f}; modulus, GPa: Reuss {1e-9 / (share / GRAVEL + (1 - share) / MORTAR):.4f}, "
           f"Voigt {1e-9 * (share * GRAVEL + (1 - share) * MORTAR):.4f}")
     for order in (1, 2):
-        summary = pictures.run(options.scabo, HERE / "model.yaml", options.results, f"bodies.specimen.mesh.order={order}")
+        summary = pictures.run(options.scabo, HERE / "model.yaml", options.results / f"order_{order}", f"bodies.specimen.mesh.order={order}")
         base, plate = (summary["increments"][-1]["reactions"][name][1] for name in ("base", "plate"))
         print(f"order {order}: {summary['model']['super_elements']} super-elements, {summary['model']['dofs']} degrees of freedom, {base / 1e3:.3f} kN "
               f"and {plate / 1e3:.3f} kN, modulus {1e-9 * base / (SIDE * THICKNESS * STRAIN):.4f} GPa, {summary['timing']['total']:.1f} s")
     path = options.output / "concrete.png"
-    picture(options, image).savefig(path)
+    picture(options.results / "order_2", image).savefig(path)
     print(path)
 
 
-def picture(options, image):
+def picture(results, image):
     figure = plt.figure(figsize=(13.2, 4.0), layout="constrained")
     (left, zoom, middle, right), bars = figure.subplots(2, 4, gridspec_kw={"height_ratios": [22, 1]})
-    mesh = pictures.fields(options.results)
+    mesh = pictures.fields(results)
     mesh.points = 1e3 * mesh.points
     extent = (0, 1e3 * SIDE, 0, 1e3 * SIDE)
     x, y, side = ZOOM
     for axis in (left, zoom):
         axis.imshow(1 - 0.45 * image, extent=extent, origin="lower", cmap="gray", vmin=0, vmax=1, interpolation="nearest")
-    pictures.draw_cells(zoom, options.results, factor=1e3)
+    pictures.draw_cells(zoom, results, factor=1e3)
     left.add_patch(Rectangle((x, y), side, side, fill=False, edgecolor=pictures.RED, linewidth=1.5))
     zoom.set(xlim=(x, x + side), ylim=(y, y + side), title="cells in the red square")
     left.set(title="section.png: gravel (dark), mortar")

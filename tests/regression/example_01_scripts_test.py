@@ -28,15 +28,6 @@ class Scripts(support.InTemporaryDirectory):
             self.assertNotEqual(run.returncode, 0)
             self.assertIn(str(program), run.stderr)
 
-    def test_figures_are_drawn(self):
-        run = python("figures.py", "--scabo", support.SCABO, "-o", self.directory / "figures", cwd=self.directory)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        for number in (5, 6, 7):
-            picture = self.directory / "figures" / f"figure_{number}.png"
-            self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
-            self.assertLess(picture.stat().st_size, 200_000)
-            self.assertTrue((BEAM.parent / "figures" / picture.name).exists(), "the README shows it")
-
 
 if __name__ == "__main__":
     support.main()

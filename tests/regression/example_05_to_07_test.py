@@ -1,9 +1,6 @@
 """The checked numbers of examples/05_edge_crack, 06_ground and 07_corner."""
 import json
 import math
-import subprocess
-import sys
-import unittest
 
 import support
 from support import ROOT, scabo, summary_of
@@ -17,13 +14,6 @@ class Examples(support.InTemporaryDirectory):
         run = scabo("run", model, "-o", self.directory / "results", "--quiet", *arguments)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
         return summary_of(self.directory / "results")
-
-    def draw(self, folder, picture):
-        run = subprocess.run([sys.executable, EXAMPLES / folder / "figures.py", "--scabo", support.SCABO, "-o", self.directory],
-                             cwd=self.directory, text=True, capture_output=True, timeout=support.PATIENCE)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertTrue((self.directory / picture).read_bytes().startswith(b"\x89PNG"))
-        self.assertTrue((EXAMPLES / folder / "figures" / picture).exists(), "the README shows it")
 
 
 class EdgeCrack(Examples):
@@ -59,9 +49,6 @@ class EdgeCrack(Examples):
         # E1 / E2 = 10, nu = 0.3, plane strain (VERIFICATION: 0.0758118)
         self.assertAlmostEqual(abs(crack["epsilon"]), 0.0758118, delta=1e-7)
 
-    def test_figures_are_drawn(self):
-        self.draw("05_edge_crack", "edge_crack.png")
-
 
 class Ground(Examples):
     MODEL = EXAMPLES / "06_ground" / "model.yaml"
@@ -94,9 +81,6 @@ class Ground(Examples):
         self.assertEqual(run.returncode, 0)
         self.assertIn("reference", run.stderr)
 
-    def test_figures_are_drawn(self):
-        self.draw("06_ground", "ground.png")
-
 
 class Corner(Examples):
     MODEL = EXAMPLES / "07_corner" / "model.yaml"
@@ -118,9 +102,6 @@ class Corner(Examples):
         exponents = summary["increments"][0]["cracks"]["panel.corner"]["exponents"]
         self.assertAlmostEqual(exponents[0][0], 0.544483737, delta=1e-6)
         self.assertAlmostEqual(exponents[1][0], 0.90852919, delta=1e-6)
-
-    def test_figures_are_drawn(self):
-        self.draw("07_corner", "panel.png")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import support
 
 
 class PlateWithHole(support.OfExample):
-    FOLDER, PICTURES = "09_plate_with_hole", ["plate_with_hole.png"]
+    FOLDER = "09_plate_with_hole"
 
     def test_the_stress_at_the_hole_is_howlands(self):
         check = self.check()
@@ -17,12 +17,9 @@ class PlateWithHole(support.OfExample):
                 self.assertAlmostEqual(factor / check["howland"], 1.0, delta=check["relative_tolerance_of_howland"])
                 self.assertAlmostEqual(factor / check["converged"], 1.0, delta=check["relative_tolerance"])
 
-    def test_figures_are_drawn(self):
-        self.draw()
-
 
 class Culvert(support.OfExample):
-    FOLDER, PICTURES = "10_culvert", ["culvert.png"]
+    FOLDER = "10_culvert"
 
     def test_weight_traffic_and_pressure(self):
         check = self.check()
@@ -35,9 +32,6 @@ class Culvert(support.OfExample):
                 if kind == "quadtree":
                     pressure = summary["increments"][-1]["contacts"]["wall"]["max_pressure"]
                     self.assertAlmostEqual(pressure / check["pressure"], 1.0, delta=check["relative_tolerance_of_pressure"])
-
-    def test_figures_are_drawn(self):
-        self.draw()
 
 
 if __name__ == "__main__":

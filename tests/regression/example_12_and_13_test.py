@@ -5,7 +5,7 @@ import support
 
 
 class Hertz(support.OfExample):
-    FOLDER, PICTURES = "12_hertz", ["hertz.png", "convergence.png"]
+    FOLDER = "12_hertz"
 
     def test_pressure_half_width_and_force_are_those_of_hertz(self):
         check = self.check()
@@ -19,12 +19,9 @@ class Hertz(support.OfExample):
         self.assertAlmostEqual(summary["increments"][-1]["reactions"]["block.bottom"][1] / 1e6, 1.0,
                                delta=check["relative_tolerance_of_force"])
 
-    def test_figures_are_drawn(self):
-        self.draw()
-
 
 class BrazilianDisc(support.OfExample):
-    FOLDER, PICTURES = "13_brazilian_disc", ["brazilian_disc.png"]
+    FOLDER = "13_brazilian_disc"
 
     def test_stress_intensity_factors_are_those_of_dislocations(self):
         check = self.check()
@@ -40,9 +37,6 @@ class BrazilianDisc(support.OfExample):
                     for tip in summary["increments"][-1]["cracks"].values():
                         self.assertAlmostEqual(tip["K_I"] / unit, case["N_I"], delta=check["absolute_tolerance"])
                         self.assertAlmostEqual(abs(tip["K_II"]) / unit, case["N_II"], delta=check["absolute_tolerance"])
-
-    def test_figures_are_drawn(self):
-        self.draw()
 
 
 if __name__ == "__main__":

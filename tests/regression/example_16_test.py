@@ -2,9 +2,6 @@
 import csv
 import json
 import math
-import subprocess
-import sys
-import unittest
 
 import support
 from support import ROOT, scabo, summary_of
@@ -35,13 +32,6 @@ class Footing(support.InTemporaryDirectory):
         for row in rows:
             punch = self.CHECK["normal_force"] / (math.pi * math.sqrt(1 - float(row["x"]) ** 2))
             self.assertAlmostEqual(float(row["pressure"]) / punch, 1, delta=self.CHECK["relative_tolerance_of_pressure"])
-
-    def test_figures_are_drawn(self):
-        run = subprocess.run([sys.executable, EXAMPLE / "figures.py", "--scabo", support.SCABO, "-o", self.directory],
-                             cwd=self.directory, text=True, capture_output=True, timeout=support.PATIENCE)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertTrue((self.directory / "footing.png").read_bytes().startswith(b"\x89PNG"))
-        self.assertTrue((EXAMPLE / "figures" / "footing.png").exists(), "the README shows it")
 
 
 if __name__ == "__main__":

@@ -5,12 +5,12 @@ import support
 from support import certificate_of
 
 
-class Ironing(support.OfExample):
-    FOLDER, PICTURES = "22_ironing", ["ironing.png"]
+class Ironing(support.OfDrawnExample):
+    FOLDER = "22_ironing"
 
     def test_forces_are_smooth_and_pressure_is_that_of_hertz(self):
         check = self.check()
-        increments = self.solve()["increments"]
+        increments = support.summary_of(self.drawn_in / "ironing.results")["increments"]
         self.assertTrue(all(certificate_of(one) <= 1e-10 for one in increments))
         path = [one["contacts"]["iron"] for one in increments if one["step"] == 2][check["increments_until_it_slides"]:]
         normal, tangential = ([abs(one[key]) for one in path] for key in ("normal_force", "tangential_force"))
@@ -21,7 +21,7 @@ class Ironing(support.OfExample):
         self.assertLessEqual(max(one["pairs_found_anew"]["jump"] for one in increments), check["largest_jump"])
         self.assertGreaterEqual(sum(one["pairs_found_anew"]["times"] for one in increments), 15)
 
-        rows = [row for row in support.rows_of(self.directory / "results") if row["step"] == "2"]
+        rows = [row for row in support.rows_of(self.drawn_in / "ironing.results") if row["step"] == "2"]
         for increment, force in enumerate(normal, check["increments_until_it_slides"] + 1):
             pairs = [(float(row["x"]) - path[increment - check["increments_until_it_slides"] - 1]["centre_of_pressure"][0],
                       float(row["pressure"])) for row in rows if row["increment"] == str(increment)]
@@ -33,9 +33,6 @@ class Ironing(support.OfExample):
             self.assertAlmostEqual(half / hertz, 1, delta=check["relative_tolerance_of_half_width"])
             self.assertAlmostEqual(max(p for _, p in pairs) * math.pi * hertz / (2 * force), 1,
                                    delta=check["relative_tolerance_of_pressure"])
-
-    def test_figures_are_drawn(self):
-        self.draw()
 
 
 if __name__ == "__main__":

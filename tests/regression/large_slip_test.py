@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 
 import support
 from support import certificate_of, rows_of, scabo, summary_of

@@ -1,0 +1,22 @@
+"""The pictures of the examples, all drawn in one process; those of the longest runs are drawn where their numbers are checked."""
+import support
+from support import ROOT
+
+ELSEWHERE = ["14_wall", "15_concrete_section", "22_ironing"]  # example_14_and_15_test.py, example_22_test.py
+
+
+class Figures(support.InTemporaryDirectory):
+    def test_every_example_is_drawn(self):
+        for script in sorted((ROOT / "examples").glob("*/figures.py")):
+            folder = script.parent.name
+            if folder in ELSEWHERE:
+                continue
+            with self.subTest(example=folder):
+                directory = self.directory / folder
+                directory.mkdir()
+                support.draw(folder, directory)
+                support.check_pictures(self, folder, directory)
+
+
+if __name__ == "__main__":
+    support.main()
