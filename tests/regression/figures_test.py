@@ -1,8 +1,9 @@
-"""The pictures of the examples, all drawn in one process; those of the longest runs are drawn where their numbers are checked."""
+"""The pictures of the examples, all drawn in one process; those of the longest runs are drawn where their numbers are checked, and
+those of 04_error_control, a study of many meshes that takes as long as all others together, only by hand."""
 import support
 from support import ROOT
 
-ELSEWHERE = ["14_wall", "15_concrete_section", "22_ironing"]  # example_14_and_15_test.py, example_22_test.py
+ELSEWHERE = ["04_error_control", "14_wall", "15_concrete_section", "22_ironing"]  # example_14_and_15_test.py, example_22_test.py
 
 
 class Figures(support.InTemporaryDirectory):

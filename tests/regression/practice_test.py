@@ -1,10 +1,10 @@
-"""Examples 17 to 21 and 23 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21, 23 and 24 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
 
 import support
-from support import ROOT, scabo
+from support import ROOT, scabo, summary_of
 
 PAGE = ROOT / "docs" / "practice.md"
 
@@ -28,24 +28,31 @@ class Practice(support.InTemporaryDirectory):
             lines = (directory / "history.csv").read_text(encoding="utf-8").splitlines()
             names = lines[0].split(",")
             self.runs[key] = [dict(zip(names, (float(cell or "nan") for cell in line.split(",")))) for line in lines[1:]]
+            self.cracks[key] = summary_of(directory)["increments"][-1].get("cracks", {})
         return self.runs[key]
 
-    def run_scabo(self, folder, directory, settings):
+    def value(self, folder, run):
+        """What a row compares: a number of history.csv, or the stress intensity factor of a crack after the last increment."""
+        rows = self.history(folder, run.get("settings", []))
+        if "crack" in run:
+            return self.cracks[folder, tuple(run.get("settings", []))][run["crack"]]["K_I"]
+        values = rows[run["row"]]
+        return run.get("times", 1) * values[run["column"]] / (values[run["over"]] if "over" in run else 1) + run.get("plus", 0)
+
+    def run_scabo(self, folder, directory, settings, model="model.yaml"):
         arguments = [word for setting in settings for word in ("--set", setting)]
-        return scabo("run", ROOT / "examples" / folder / "model.yaml", "-o", directory, "--quiet", *arguments,
+        return scabo("run", ROOT / "examples" / folder / model, "-o", directory, "--quiet", *arguments,
                      "--set", "output.fields=[]")
 
     def check(self, folder):
-        self.runs = {}
+        self.runs, self.cracks = {}, {}
         example = ROOT / "examples" / folder
         self.assertLess(len((example / "model.yaml").read_text(encoding="utf-8").splitlines()), 60)
         table, numbers = json.loads((example / "check.json").read_text(encoding="utf-8")), hand_of(folder).calculate()
         written = []
         for row in table["rows"]:
             run, scale, digits = row["run"], row["scale"], row["digits"]
-            values = self.history(folder, run.get("settings", []))[run["row"]]
-            value = run.get("times", 1) * values[run["column"]] / (values[run["over"]] if "over" in run else 1) + run.get("plus", 0)
-            hand = numbers[row["hand"]]
+            value, hand = self.value(folder, run), numbers[row["hand"]]
             if row["relative_tolerance"] is not None:
                 self.assertLess(abs(value / hand - 1), row["relative_tolerance"], row["quantity"])
             cells = ([numbers[row["also"]]] if "also" in row else []) + [hand, value]
@@ -83,6 +90,19 @@ class Practice(support.InTemporaryDirectory):
 
     def test_tunnel_lining(self):
         self.check("21_tunnel_lining")
+
+    def test_cracked_slab(self):
+        self.check("24_cracked_slab")
+        for row in self.history("24_cracked_slab", [])[1:]:
+            self.assertLess(row["middle"], 0)  # the soil presses everywhere
+        half = self.cracks["24_cracked_slab", ()]["slab.tip"]["K_I"]
+        two_gauges = "loads.sun.temperature={over: y, at: [0, 0.25], values: [2, 9]}"
+        for settings, factor in (([two_gauges], half), ([], 0.325e6)):
+            directory = self.directory / "whole"
+            run = self.run_scabo("24_cracked_slab", directory, settings, "whole.yaml")
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            whole = summary_of(directory)["increments"][-1]["cracks"]["slab.flaw.end"]["K_I"]
+            self.assertAlmostEqual(whole / factor, 1, delta=1e-3)
 
 
 class ClosedFormOfTheLining(support.unittest.TestCase):
