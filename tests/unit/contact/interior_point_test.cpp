@@ -120,6 +120,34 @@ TEST_P(InteriorPointsOnTowers, UnitsThatArePowersOfTwoChangeNoBit) {
   EXPECT_EQ(interior_points(other, {}).p, Vector(std::ldexp(1.0, 20) * end.p));
 }
 
+TEST_P(InteriorPointsOnTowers, WithFrictionThatDiffersReachTheLaw) {
+  const auto [d, blocks, points] = GetParam();
+  Problem problem = tower_of_blocks(d, blocks, points, 0.4);
+  for (Eigen::Index i = 0; i < problem.mu.size(); ++i) problem.mu[i] = i % 3 == 0 ? 0.2 : 0.7;
+  const InteriorPointEnd end = interior_points(problem, {});
+  ASSERT_EQ(end.p.size(), problem.q.size());
+  expect_the_law(problem, end.p, 1e-6);
+}
+
+// What the judge accepts is handed over with its states: pairs that slip are at the bound to the last digit, open ones
+// without any force. Inside the cones, where the points are, there are none of either.
+TEST_P(InteriorPointsOnTowers, EndAtTheBoundaryOfTheCones) {
+  const auto [d, blocks, points] = GetParam();
+  const Problem problem = tower_of_blocks(d, blocks, points, 0.05);
+  const InteriorPointEnd end = interior_points(problem, [&](const Vector& p, const Vector& motion) {
+    return Measure(problem).natural_map(problem, p, motion) <= 1e-5;
+  });
+  ASSERT_TRUE(end.content);
+  int open = 0, slipping = 0;
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    const double bound = problem.mu[i] * end.p[d * i], friction = end.p.segment(d * i + 1, d - 1).norm();
+    open += bound == 0.0 && friction == 0.0;
+    slipping += bound > 0.0 && std::abs(friction - bound) <= 1e-13 * end.p.lpNorm<Eigen::Infinity>();
+  }
+  EXPECT_GT(open, 0);
+  EXPECT_GT(slipping, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Plane, InteriorPointsOnTowers, ::testing::Values(TowerCase{2, 20, 2}, TowerCase{2, 8, 4}));
 INSTANTIATE_TEST_SUITE_P(Space, InteriorPointsOnTowers, ::testing::Values(TowerCase{3, 12, 3}));
 
