@@ -172,6 +172,22 @@ TEST(SideFaces, HalfOfACrackedPlateIsTheWholeOne) {
   EXPECT_NEAR(last(near).cracks.at(0).factors.K_I, K_I, 1e-3 * K_I);
 }
 
+// Pressure on the face of the half is pressure on both faces of the whole: the image of the load opens the crack too.
+TEST(SideFaces, PressureInHalfOfACrackIsThatInTheWholeOne) {
+  const auto whole = run(whole_cracked_plate(), {"loads.left={on: plate.slit.left, pressure: 1e6}",
+                                                 "loads.right={on: plate.slit.right, pressure: 1e6}"});
+  const auto half = run(half_of_a_cracked_plate({}, "{on: half.ligament, fix: y}"),
+                        {"loads.press={on: half.crack, pressure: 1e6}"});
+  ASSERT_EQ(last(whole).cracks.size(), 1u);
+  ASSERT_EQ(last(half).cracks.size(), 1u);
+  const element::StressIntensity &of_whole = last(whole).cracks[0].factors, &of_half = last(half).cracks[0].factors;
+  EXPECT_GT(of_whole.K_I, 1.5 * 2.82546 * 1e6 * std::sqrt(pi));  // the pull alone has this
+  EXPECT_NEAR(of_half.K_I, of_whole.K_I, 1e-5 * of_whole.K_I);
+  EXPECT_LT(std::abs(of_half.K_II), 1e-8 * of_half.K_I);
+  EXPECT_LT((displacement_at(half, {0, 2}) - displacement_at(whole, {0, 2})).norm(),
+            1e-5 * displacement_at(whole, {0, 2}).norm());
+}
+
 // The image of a material has its axes on the other side: half of a cracked plate whose upper half is of fibres at 30
 // degrees and whose lower half at -30 degrees, which is a crack between two materials.
 TEST(SideFaces, HalfOfACrackedPlateIsThatOfMirroredFibres) {
