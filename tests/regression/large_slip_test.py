@@ -107,6 +107,9 @@ class LargeSlip(LargeSlipRuns):
         last = [row for row in rows_of(self.directory / "model.results") if row["increment"] == "25"]
         self.assertAlmostEqual(min(float(row["x"]) for row in last), 3.5, delta=0.5 * SIZE)
         self.assertAlmostEqual(max(float(row["x"]) for row in last), 4.5, delta=0.5 * SIZE)
+        # Its points have slipped by that, less what friction compresses the block by: 3 MN / (E 0.5 m) = 29 um at its end.
+        for row in last:
+            self.assertAlmostEqual(float(row["slip"]), 2.5, delta=4e-5)
         for row in last:
             self.assertAlmostEqual(float(row["slip"]), 2.5, delta=1e-3)
         # Turned and in mm, with the sides swapped.
@@ -227,6 +230,34 @@ class RestartRuns(LargeSlipRuns):
             self.assertEqual(one["energy"], other["energy"])
             self.assertEqual(one["reactions"], other["reactions"])
         self.assertGreater(sum(one["pairs_found_anew"]["times"] for one in rest), 3)
+        ends = []  # slip and displacements count from the start of the first run
+        for name in ("whole", "two"):
+            rows = rows_of(self.directory / f"{name}.results")
+            of_last = [row for row in rows if all(row[key] == rows[-1][key] for key in ("step", "increment"))]
+            ends.append([[value for key, value in row.items() if key not in ("step", "increment")] for row in of_last])
+        self.assertEqual(*ends)
+
+
+class RigidSlider(LargeSlipRuns):
+    def test_is_shown_where_it_has_gone(self):
+        text = model_of({
+            "scabo": 1, "materials": {"steel": {"young": 210e9, "poisson": 0.3}},
+            "bodies": {"ground": {"material": "steel", "mesh": {"size": 0.1}, "shape": rectangle([0, -1], [3, 0], 0.0, 1.0)},
+                       "slider": {"rigid": True, "shape": rectangle([0.5, 0], [1, 0.5], 0.0, 1.0)}},
+            "supports": [{"on": "ground.bottom", "fix": ["x", "y"]},
+                         {"name": "drag", "on": "slider", "rotation": 0, "displacement": [1.0, None]}],
+            "loads": {"weight": {"on": "slider", "force": [0, -WEIGHT]}},
+            "contacts": {"joint": {"between": ["ground.top", "slider.bottom"], "friction": FRICTION, "slip": "large"}},
+            "steps": [{"loads": {"weight": 1, "drag": 0}}, {"increments": 4, "loads": {"weight": 1, "drag": 1}}],
+            "output": {"history": {"x": "slider.vertex_3.ux"}}})
+        increments = self.solve(text)
+        self.assertGreaterEqual(sum(one["pairs_found_anew"]["times"] for one in increments), 5)
+        history = (self.directory / "model.results" / "history.csv").read_text().splitlines()[1:]
+        gone = [float(row.split(",")[-1]) for row in history]
+        for x, factor in zip(gone, (0, 0.25, 0.5, 0.75, 1), strict=True):
+            self.assertAlmostEqual(x, factor, delta=1e-12)
+        joint = increments[-1]["contacts"]["joint"]
+        self.assertAlmostEqual(joint["tangential_force"] / WEIGHT, -FRICTION, delta=1e-9)
 
 
 class Restart(RestartRuns):

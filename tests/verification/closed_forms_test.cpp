@@ -206,6 +206,27 @@ std::string uniform_cycle(double p, double mu, double amplitude, int parts) {
                       steps + "]");
 }
 
+// It slides on while the pressure rises to three times: friction takes the mean of its bounds, 2 mu p, over the slip, which
+// is what the drive goes less what the block shears meanwhile.
+TEST(CyclicLoad, FrictionUnderRisingPressureTakesTheMeanOfItsBounds) {
+  const double p = 1e6, mu = 0.3, A = 2e-3, tau = mu * p, shear = tau / 0.5e9, area = 2.0;
+  const std::string steps = fmt::format(
+      "[{{loads: {{down: 1}}}}, {{loads: {{drive: {:.17g}, left: 1, right: 1}}}}, {{loads: {{drive: 1}}}}, "
+      "{{loads: {{down: 3, drive: 2, left: 3, right: 3}}}}]",
+      shear / A);
+  const auto solution =
+      run(driven_block(p, mu, A,
+                       fmt::format("loads: {{left: {{on: block.left, traction: [0, {}]}}, right: {{on: block.right, "
+                                   "traction: [0, {}]}}}}",
+                                   -tau, tau),
+                       steps));
+  last(solution);
+  ASSERT_EQ(solution.increments.size(), 4u);
+  const double before = solution.increments[2].energy.friction, after = solution.increments[3].energy.friction;
+  EXPECT_NEAR(before, tau * area * (A - shear), 1e-9 * after);
+  EXPECT_NEAR(after - before, 2.0 * tau * area * (A - 2.0 * shear), 1e-9 * after);
+}
+
 // Work of the loads, stored energy and dissipation at every corner of the loop and between, to 1e-10 of the work; the
 // loop takes 4 tau (A - u_y) over the joint of 2 m2.
 TEST(CyclicLoad, HysteresisLoopAndEnergyBalance) {

@@ -172,6 +172,62 @@ TEST(SideFaces, HalfOfACrackedPlateIsTheWholeOne) {
   EXPECT_NEAR(last(near).cracks.at(0).factors.K_I, K_I, 1e-3 * K_I);
 }
 
+// Pressure on the face of the half is pressure on both faces of the whole: the image of the load opens the crack too.
+TEST(SideFaces, PressureInHalfOfACrackIsThatInTheWholeOne) {
+  const auto whole = run(whole_cracked_plate(), {"loads.left={on: plate.slit.left, pressure: 1e6}",
+                                                 "loads.right={on: plate.slit.right, pressure: 1e6}"});
+  const auto half = run(half_of_a_cracked_plate({}, "{on: half.ligament, fix: y}"),
+                        {"loads.press={on: half.crack, pressure: 1e6}"});
+  ASSERT_EQ(last(whole).cracks.size(), 1u);
+  ASSERT_EQ(last(half).cracks.size(), 1u);
+  const element::StressIntensity &of_whole = last(whole).cracks[0].factors, &of_half = last(half).cracks[0].factors;
+  EXPECT_GT(of_whole.K_I, 1.5 * 2.82546 * 1e6 * std::sqrt(pi));  // the pull alone has this
+  EXPECT_NEAR(of_half.K_I, of_whole.K_I, 1e-5 * of_whole.K_I);
+  EXPECT_LT(std::abs(of_half.K_II), 1e-8 * of_half.K_I);
+  EXPECT_LT((displacement_at(half, {0, 2}) - displacement_at(whole, {0, 2})).norm(),
+            1e-5 * displacement_at(whole, {0, 2}).norm());
+}
+
+// The image of a material has its axes on the other side: half of a cracked plate whose upper half is of fibres at 30
+// degrees and whose lower half at -30 degrees, which is a crack between two materials.
+TEST(SideFaces, HalfOfACrackedPlateIsThatOfMirroredFibres) {
+  const auto fibres = [](const char* name, int angle) {
+    return fmt::format("{}: {{orthotropic: {{E1: 9e9, E2: 2e9, nu12: 0.3, G12: 1.5e9, angle: {}}}}}", name, angle);
+  };
+  const auto whole = run(fmt::format(R"(scabo: 1
+materials: {{{}, {}}}
+bodies:
+  plate:
+    material: below
+    shape: {{polygon: {{vertices: [[0, -2], [2, -2], [2, 0], [2, 2], [0, 2], [0, 0]], names: {{bottom: edge_1, top: edge_4}}}}}}
+    mesh: {{size: 0.5, order: 8}}
+    cracks: [{{tip: [1, 0], mouth: vertex_6, name: slit}}]
+    sectors: {{edge_3: above, top: above, edge_5: above}}
+supports: [{{on: plate.vertex_2, fix: x}}, {{on: plate.vertex_4, fix: x}}, {{on: plate.vertex_3, fix: y}}]
+loads: {{up: {{on: plate.top, traction: [0, 1e6]}}, down: {{on: plate.bottom, traction: [0, -1e6]}}}}
+)",
+                                     fibres("above", 30), fibres("below", -30)));
+  const auto half = run(fmt::format(R"(scabo: 1
+materials: {{{}}}
+bodies:
+  half:
+    material: above
+    shape: {{polygon: {{vertices: [[0, 0], [1, 0], [2, 0], [2, 2], [0, 2]], names: {{ligament: edge_2, top: edge_4}}}}}}
+    mesh: {{size: 0.5, order: 8, centre: [1, 0]}}
+supports: [{{on: half.ligament, fix: y}}, {{on: half.vertex_4, fix: x}}]
+loads: {{pull: {{on: half.top, traction: [0, 1e6]}}}}
+)",
+                                    fibres("above", 30)));
+  const double energy = last(whole).energy.elastic;
+  EXPECT_NEAR(2.0 * last(half).energy.elastic, energy, 1e-6 * energy);
+  ASSERT_EQ(last(whole).cracks.size(), 1u);
+  ASSERT_EQ(last(half).cracks.size(), 1u);
+  const element::StressIntensity &of_whole = last(whole).cracks[0].factors, &of_half = last(half).cracks[0].factors;
+  EXPECT_NEAR(of_half.K_I, of_whole.K_I, 1e-5 * of_whole.K_I);
+  EXPECT_NEAR(of_half.K_II, of_whole.K_II, 1e-5 * of_whole.K_I);
+  EXPECT_NEAR(*of_half.G, *of_whole.G, 1e-5 * *of_whole.G);
+}
+
 // A quarter of a plate whose scaling centre is where both lines of symmetry meet, under a pressure that varies.
 TEST(SideFaces, QuarterOfAPlateIsTheWholeOne) {
   const char* table = "pressure: {over: x, at: [-2, 0, 2], values: [0, 1e6, 0]}";

@@ -221,5 +221,33 @@ steps: [{name: move}, {name: place}, {name: back, loads: {drive: 0}}]
   EXPECT_NEAR(contact_of(last(solution)).normal_force, 10e3, 1e-5);
 }
 
+// Pairs that supports hold on both sides count from the placing as well: the ground has come up by 2 mm before the block is
+// placed on it, and again after it, which the supports of the block do not let happen.
+TEST(Stages, HeldPairsCountFromThePlacing) {
+  const auto model = [](const char* after) {
+    return fmt::format(R"(
+scabo: 1
+materials: {{stuff: {{young: 1e9, poisson: 0.2, density: 2000}}}}
+bodies:
+  ground: {{material: stuff, shape: {{rectangle: {{corner: [0, -1], size: [1, 1]}}}}, mesh: {{size: 0.5}}}}
+  block: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [1, 0.5]}}}}, mesh: {{size: 0.5}}, added: place}}
+supports:
+  - {{on: ground.top, displacement: [0, 2e-3], name: lift}}
+  - {{on: block.bottom, fix: [x, y]}}
+loads: {{weight: {{gravity: [0, -10]}}}}
+contacts: {{seat: {{between: [ground.top, block.bottom], friction: 0.5}}}}
+steps: [{{name: raise}}, {{name: place}}, {{name: more, loads: {{lift: {}}}}}]
+)",
+                       after);
+  };
+  last(run(model("0.5")));
+  try {
+    run(model("1.5"));
+    FAIL() << "the block cannot give way";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("keep it at an overlap of 0.001"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification

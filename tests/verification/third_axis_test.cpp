@@ -12,12 +12,12 @@
 namespace scabo::verification {
 namespace {
 
-std::string clamped_plate(const std::string& material) {
+std::string clamped_plate(const std::string& material, const std::string& mesh = "size: 1") {
   return fmt::format(R"(
 scabo: 1
 analysis: {{plane: strain}}
 materials: {{stuff: {}}}
-bodies: {{plate: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{size: 1}}}}}}
+bodies: {{plate: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{{}}}}}}}
 supports:
   - {{on: plate.bottom, fix: [x, y]}}
   - {{on: plate.top, fix: [x, y]}}
@@ -25,7 +25,7 @@ supports:
   - {{on: plate.right, fix: [x, y]}}
 loads: {{warm: {{on: plate, temperature: 50}}}}
 )",
-                     material);
+                     material, mesh);
 }
 
 result::PointResult at_point(const analysis::StaticSolution& solution, const Vec2& x) {
@@ -57,15 +57,37 @@ TEST(ThermalStress, OfAClampedOrthotropicBodyInPlaneStrain) {
       EXPECT_NEAR(found.values.stress[1], n * n * s[0] + c * c * s[1], 1e-11) << text << degrees;
       EXPECT_NEAR(found.values.stress[2], c * n * (s[0] - s[1]), 1e-11) << text << degrees;
       EXPECT_NEAR(found.stress_zz, s[2], 1e-11) << text << degrees;
+      EXPECT_NEAR(found.energy_density, -0.5 * T * s.dot(expansion), 1e-12) << text << degrees;
     }
 }
 
 TEST(ThermalStress, OfAClampedIsotropicBodyInPlaneStrain) {  // -E a T / (1 - 2 nu) in all directions
-  const auto solution = run(clamped_plate("{young: 10, poisson: 0.3, expansion: 1e-3}"));
-  const result::PointResult found = at_point(solution, {0.7, 0.4});
-  for (const double stress : {found.values.stress[0], found.values.stress[1], found.stress_zz})
-    EXPECT_NEAR(stress, -10.0 * 1e-3 * 50.0 / 0.4, 1e-12);
-  EXPECT_NEAR(found.values.stress[2], 0.0, 1e-12);
+  const double strain = 1e-3 * 50.0, stress = -10.0 * strain / 0.4;
+  for (const char* mesh : {"size: 1", "kind: polygons, size: 0.5", "kind: fem, size: 0.5"}) {
+    const auto solution = run(clamped_plate("{young: 10, poisson: 0.3, expansion: 1e-3}", mesh));
+    const result::PointResult found = at_point(solution, {0.7, 0.4});
+    for (const double of_axis : {found.values.stress[0], found.values.stress[1], found.stress_zz})
+      EXPECT_NEAR(of_axis, stress, 1e-12) << mesh;
+    EXPECT_NEAR(found.values.stress[2], 0.0, 1e-12) << mesh;
+    EXPECT_NEAR(found.energy_density, -0.5 * 3.0 * stress * strain, 1e-13) << mesh;
+  }
+}
+
+// Free in the plane and held across: only the stress -E a T across has energy. In plane stress there is none.
+TEST(ThermalStress, EnergyOfABodyThatIsHeldAcross) {
+  for (const char* plane : {"strain", "stress"}) {
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: {}}}
+materials: {{stuff: {{young: 10, poisson: 0.3, expansion: 1e-3}}}}
+bodies: {{plate: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{size: 1}}}}}}
+supports: [{{on: plate.bottom_left, fix: [x, y]}}, {{on: plate.bottom_right, fix: y}}]
+loads: {{warm: {{on: plate, temperature: 50}}}}
+)",
+                                          plane));
+    const double across = plane == std::string("strain") ? 0.5 * 10.0 * 0.05 * 0.05 : 0.0;
+    EXPECT_NEAR(at_point(solution, {0.7, 0.4}).energy_density, across, 1e-13) << plane;
+  }
 }
 
 const char* const half_and_half = R"(

@@ -60,7 +60,7 @@ bool breaks(const Prepared& prepared) {
 }
 
 /// Reason why an increment with a contact solution is not accepted.
-std::string above_tolerance(const Attempt& tried, double tolerance) {
+std::string above_tolerance(const Prepared& prepared, const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
   std::string reason =
       fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
@@ -68,6 +68,8 @@ std::string above_tolerance(const Attempt& tried, double tolerance) {
     reason +=
         "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
         "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
+  else if (const std::string stiff = stiff_springs(prepared.model, prepared.structure, stiff_beside); !stiff.empty())
+    reason += "; " + stiff;
   return reason;
 }
 
@@ -165,7 +167,7 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       else if (collapse)
         reached.reason = describe_collapse(prepared, tried.solution, reached.part, next);
       else if (tried.solution.status == contact::Status::solved)
-        reached.reason = above_tolerance(tried, prepared.model.solver.tolerance);
+        reached.reason = above_tolerance(prepared, tried, prepared.model.solver.tolerance);
       else
         reached.reason =
             fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);

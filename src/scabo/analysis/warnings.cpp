@@ -185,8 +185,89 @@ void warn_of_coarse_zones(const StaticSolution& solution, std::vector<Warning>& 
 
 }  // namespace
 
+namespace {
+
+// Rounding of the forces of one load changes what another causes by about this part of their ratio (errors of half of
+// it were seen); it is told from `worth_saying` on.
+constexpr double rounding_beside = 1e-14, worth_saying = 3e-5;
+
+/// Largest nodal force of every load, with its largest factor at the end of a step.
+std::vector<double> sizes_of_loads(const model::Model& model, const system::Structure& structure) {
+  std::vector<double> sizes;
+  for (std::size_t load = 0; load < model.loads.size(); ++load) {
+    double largest = 0.0, factor = 0.0;
+    for (const Vector& forces : structure.loads[load])
+      if (forces.size() > 0) largest = std::max(largest, forces.lpNorm<Eigen::Infinity>());
+    for (const model::Step& step : model.steps) factor = std::max(factor, std::abs(step.load_factors[load]));
+    sizes.push_back(largest * (factor > 0.0 ? factor : 1.0));  // a curve may end at 0
+  }
+  return sizes;
+}
+
+/// Loads that are so small beside another one that rounding changes or hides what they cause.
+void warn_of_lost_loads(const model::Model& model, const system::Structure& structure, std::vector<Warning>& warnings) {
+  const std::vector<double> sizes = sizes_of_loads(model, structure);
+  if (sizes.empty()) return;
+  const auto largest = std::max_element(sizes.begin(), sizes.end());
+  std::vector<std::size_t> lost;
+  double least = *largest;
+  for (std::size_t load = 0; load < sizes.size(); ++load) {
+    if (!(sizes[load] > 0.0) || rounding_beside * *largest < worth_saying * sizes[load]) continue;
+    lost.push_back(load);
+    least = std::min(least, sizes[load]);
+  }
+  if (lost.empty()) return;
+  std::string names = lost.size() == 1 ? "load " : "loads ";
+  const std::size_t named = lost.size() <= most_names + 1 ? lost.size() : most_names;
+  for (std::size_t i = 0; i < named; ++i) {
+    if (i > 0) names += i + 1 == lost.size() ? " and " : ", ";
+    names += fmt::format("'{}'", model.loads[lost[i]].name);
+  }
+  if (named < lost.size()) names += fmt::format(" and {} more", lost.size() - named);
+  const double part = rounding_beside * *largest / least;
+  const std::string effect = part < 1.0 ? fmt::format("changes what {} by a part of about {:.0e}",
+                                                      lost.size() == 1 ? "it causes" : "they cause", part)
+                                        : fmt::format("hides what {}", lost.size() == 1 ? "it causes" : "they cause");
+  warnings.push_back(
+      {WarningKind::rounding, names,
+       fmt::format("{}: the nodal forces are only {:.0e} times those of load '{}', whose rounding {}: check the values "
+                   "and units of these loads and of the materials",
+                   names, least / *largest,
+                   model.loads[static_cast<std::size_t>(largest - sizes.begin())].name, effect)});
+}
+
+/// Stiffness of a part against the motion of one node alone; 0 of a rigid one.
+double stiffness_of(const system::BodySystem& part) { return part.stiff_force(Vector::Ones(part.size())); }
+
+}  // namespace
+
+std::string stiff_springs(const model::Model& model, const system::Structure& structure, double least) {
+  if (model.springs.empty()) return {};
+  double stiffest_body = 0.0;
+  for (const auto& part : structure.parts) stiffest_body = std::max(stiffest_body, stiffness_of(*part));
+  double largest = 0.0;
+  std::size_t found = 0;
+  for (std::size_t s = 0; s < model.springs.size(); ++s) {
+    const std::size_t p = structure.dofs.part_of(model.springs[s].on.body);
+    const double held = structure.dofs.is_rigid(p) ? stiffest_body : stiffness_of(*structure.parts[p]);
+    const double ratio = held > 0.0 ? Vector(structure.springs.of_spring[s].diagonal()).maxCoeff() / held : 0.0;
+    if (ratio > largest) largest = ratio, found = s;
+  }
+  if (!(largest > least)) return {};
+  const model::Spring& spring = model.springs[found];
+  const model::Body& body = model.bodies[static_cast<std::size_t>(spring.on.body)];
+  return fmt::format("springs '{}' are {:.0e} times as stiff as {}: the rounding of their stiffness may leave forces "
+                     "unbalanced, except on edges along x or y; use a support instead, or a stiffness of at most {:.0e}",
+                     spring.name, largest,
+                     body.rigid ? std::string("the stiffest elastic body") : fmt::format("body '{}'", body.name),
+                     std::max(spring.stiffness[0], spring.stiffness[1]) * stiff_beside / largest);
+}
+
 std::vector<Warning> load_warnings(const model::Model& model, const system::Structure& structure) {
   std::vector<Warning> warnings;
+  warn_of_lost_loads(model, structure, warnings);
+  if (std::string text = stiff_springs(model, structure, very_stiff); !text.empty())
+    warnings.push_back({WarningKind::rounding, "springs", std::move(text)});
   for (std::size_t load = 0; load < model.loads.size(); ++load) {
     double largest = 0.0, moving = 0.0;
     const auto& initial = structure.initial[load];

@@ -1,6 +1,8 @@
 // Warnings about models that were analysed as written but are probably not what was intended.
 //
-// - A load without effect: it is zero, or all its forces act on supported degrees of freedom.
+// - A load without effect: it is zero, or all its forces act on supported degrees of freedom; or a load that is lost in
+//   the rounding of another one.
+// - Springs that are so much stiffer than their body that rounding of their stiffness is as large as that of the body.
 // - Bodies that overlap at the start by more than a hundredth of the smaller one's size across the contact, or
 //   pressures beyond a twentieth of Young's modulus: the theory of small strains does not cover such strains.
 // - A contact that is open at every pair in every increment.
@@ -9,6 +11,7 @@
 // Contacts with the same problem share one sentence, however many they are.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
@@ -17,6 +20,12 @@
 namespace scabo::analysis {
 
 std::vector<Warning> load_warnings(const model::Model& model, const system::Structure& structure);
+
+/// What rounding does where springs are more than `least` times as stiff as the body that they hold, or a rigid one as
+/// the stiffest elastic body; empty where there are none.
+std::string stiff_springs(const model::Model& model, const system::Structure& structure, double least);
+constexpr double stiff_beside = 1e3;  ///< from which it may explain why forces are not balanced to 1e-10
+constexpr double very_stiff = 1e6;    ///< from which a warning says so: on an inclined edge forces are not balanced then
 
 /// Warnings about all increments so far.
 std::vector<Warning> contact_warnings(const StaticSolution& solution);

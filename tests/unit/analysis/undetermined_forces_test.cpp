@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <string>
 
+#include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/undetermined_forces.hpp"
 #include "scabo/input/read_model.hpp"
 
 namespace scabo::analysis {
@@ -87,6 +89,95 @@ TEST(UndeterminedForces, OfARigidBlockOnHeldPoints) {
                      "contacts: {base: {between: [floor.top, block.bottom], friction: 0.5}}\n"),
               AllOf(HasSubstr("contact 'base': the forces of "), HasSubstr(" of 5 pairs"),
                     HasSubstr("stresses and the total force of every contact are unique")));
+}
+
+/// A rigid block of 2 x 1 m on five points of a floor whose top edge is held in x and y.
+std::string block_on_held_points(const std::string& friction, const std::string& force, const std::string& rest) {
+  return "scabo: 1\n"
+         "materials: {stone: {young: 1e9, poisson: 0.2}}\n"
+         "bodies:\n"
+         "  floor: {material: stone, shape: {rectangle: {corner: [0, -1], size: [2, 1]}}, mesh: {size: 0.5, order: 1}}\n"
+         "  block: {rigid: true, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}}\n"
+         "loads: {press: {on: block, force: " +
+         force + "}}\ncontacts: {base: {between: [floor.top, block.bottom], friction: " + friction + "}}\n" + rest;
+}
+
+// Without friction there are only the five normal forces, and two equations: a node that is held in x and y takes both.
+TEST(UndeterminedForces, OfARigidBlockOnHeldPointsWithoutFriction) {
+  EXPECT_THAT(warned(block_on_held_points("0", "[0, -10]",
+                                          "supports: [{on: floor.top, fix: [x, y]}, {on: block.top_left, fix: x}]\n")),
+              AllOf(HasSubstr("contact 'base': the forces of 5 of 5 pairs"),
+                    HasSubstr("the total force of every contact are unique")));
+}
+
+// Springs determine how the block moves, and so the total force on it, but not what each of the points takes.
+TEST(UndeterminedForces, OfARigidBlockOnSpringsKeepTheirTotal) {
+  EXPECT_THAT(warned(block_on_held_points("0.5", "[1, -10]",
+                                          "supports: [{on: floor.top, fix: [x, y]}]\n"
+                                          "springs: [{on: block.top, k_n: 1e6, k_t: 1e6}]\n")),
+              AllOf(HasSubstr("contact 'base': the forces of "),
+                    HasSubstr("the total force of every contact are unique")));
+}
+
+// A block that presses by a millionth of the largest force and less is left out, however undetermined its forces are.
+TEST(UndeterminedForces, NoneOfPairsThatHardlyPress) {
+  const auto with = [](const char* force) {
+    return "scabo: 1\n"
+           "materials: {stone: {young: 1e9, poisson: 0.2}}\n"
+           "bodies:\n"
+           "  floor: {material: stone, shape: {rectangle: {corner: [0, -1], size: [2, 1]}}, "
+           "mesh: {size: 0.5, order: 1}}\n"
+           "  block: {rigid: true, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}}\n"
+           "  base: {rigid: true, shape: {rectangle: {corner: [5, -1], size: [2, 1]}}}\n"
+           "  heavy: {material: stone, shape: {rectangle: {corner: [5, 0], size: [2, 1]}}, mesh: {size: 0.5}}\n"
+           "supports: [{on: floor.top, fix: [x, y]}, {on: base, fix: [x, y]}]\n"
+           "loads:\n"
+           "  light: {on: block, force: [0, " +
+           std::string(force) +
+           "]}\n"
+           "  press: {on: heavy.top, traction: [0, -1e5]}\n"
+           "contacts:\n"
+           "  one: {between: [floor.top, block.bottom], friction: 0.5}\n"
+           "  other: {between: [base.top, heavy.bottom], friction: 0.5}\n";
+  };
+  EXPECT_THAT(warned(with("-10")), HasSubstr("contact 'one': the forces of "));
+  EXPECT_EQ(warned(with("-1e-3")), "");
+}
+
+// It slides 6 mm to the right, until a spring takes what friction does not: what the forces of the pairs may change by
+// leaves them at the bound of friction, and has neither a sum nor a moment.
+TEST(UndeterminedForces, OfSlippingPairsKeepTheDirectionOfFriction) {
+  constexpr double mu = 0.5;
+  Options options;
+  contact::Problem problem;
+  Vector change;
+  State at;
+  options.on_problems = [&](const IncrementResult&, const std::vector<DiscreteProblem>& problems) {
+    problem = problems.back().problem;
+  };
+  options.on_state = [&](const Prepared& prepared, const State& state, const StaticSolution&) {
+    at = state;
+    change = undetermined_forces(prepared, state, problem);
+  };
+  for (const double side : {1.0, -1.0}) {
+    change.resize(0);
+    const auto model = block_on_held_points(
+        fmt::format("{}", mu), fmt::format("[{}, -10]", 8.0 * side),
+        "supports: [{on: floor.top, fix: [x, y]}]\nsprings: [{on: block.right, k_n: 500, k_t: 0}]\n");
+    const StaticSolution solution = solve_static(input::parse_model(model, "model.yaml"), options);
+    ASSERT_EQ(solution.outcome, Outcome::solved) << solution.reason;
+    ASSERT_EQ(change.size(), 10);
+    double normal = 0.0, tangential = 0.0;
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      normal += change[2 * i], tangential += change[2 * i + 1];
+      if (change[2 * i] == 0.0) continue;
+      EXPECT_EQ(at.states[static_cast<std::size_t>(i)], contact::ContactState::slip);
+      EXPECT_NEAR(change[2 * i + 1], -side * mu * change[2 * i], 1e-9) << side;
+    }
+    EXPECT_GT(change.lpNorm<Eigen::Infinity>(), 1e-2);
+    EXPECT_NEAR(normal, 0.0, 1e-6);
+    EXPECT_NEAR(tangential, 0.0, 1e-6);
+  }
 }
 
 }  // namespace

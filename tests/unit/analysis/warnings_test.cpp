@@ -83,6 +83,69 @@ TEST(Warnings, OfLoadsThatMoveNothing) {
               ElementsAre(HasSubstr("load 'down' has no effect"), HasSubstr("load 'none' is zero")));
 }
 
+TEST(Warnings, OfALoadThatIsLostInTheRoundingOfAnother) {
+  const auto with = [](const char* small) {
+    return texts_of(solve(stack(1e-4, std::string("loads:\n  small: {on: lower.right, traction: [") + small +
+                                          ", 0]}\n  large: {on: upper.right, traction: [1e6, 0]}\n"))
+                        .warnings);
+  };
+  EXPECT_THAT(with("1e-3"), IsEmpty());
+  EXPECT_THAT(with("1e-6"), ElementsAre(HasSubstr("load 'small': the nodal forces are only 1e-12 times those of load "
+                                                  "'large', whose rounding changes what it causes by a part of about "
+                                                  "1e-02")));
+  EXPECT_THAT(with("1e-20"), ElementsAre(HasSubstr("whose rounding hides what it causes")));
+}
+
+// Young's modulus in wrong units: the forces of the temperature are so large that the weight is lost in their rounding.
+TEST(Warnings, OfAWeightBesideATemperatureInWrongUnits) {
+  const std::string text =
+      "scabo: 1\n"
+      "materials: {m: {young: 210e60, poisson: 0.3, density: 7800, expansion: 1e-5}}\n"
+      "bodies:\n"
+      "  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}}\n"
+      "  block: {material: m, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 1}}\n"
+      "supports: [{on: floor, fix: [x, y]}]\n"
+      "loads: {weight: {gravity: [0, -9.81]}, warm: {temperature: 10}}\n"
+      "contacts: {base: {between: [floor.top, block.bottom], friction: 0.3}}\n";
+  EXPECT_THAT(texts_of(solve(text).warnings),
+              Contains(AllOf(HasSubstr("load 'weight'"), HasSubstr("load 'warm', whose rounding hides"))));
+}
+
+/// A block on springs along an edge that is inclined.
+std::string block_on_springs(double k_n) {
+  return "scabo: 1\n"
+         "materials: {steel: {young: 210e9, poisson: 0.3}}\n"
+         "bodies:\n"
+         "  block: {material: steel, shape: {polygon: {vertices: [[0, 0], [2, 1], [1.5, 2], [-0.5, 1]]}}, "
+         "mesh: {size: 0.5}}\n"
+         "springs: [{on: block.edge_1, k_n: " +
+         std::to_string(k_n) +
+         ", k_t: 0}]\n"
+         "supports: [{on: block.vertex_1, fix: x}]\n"
+         "loads: {push: {on: block.edge_3, traction: [1e6, -10e6]}}\n";
+}
+
+TEST(Warnings, OfSpringsThatAreMuchStifferThanTheirBody) {
+  const auto on_bottom = [](const std::string& k_n) {
+    return texts_of(solve(stack(1e-4, "springs: [{on: lower.left, k_n: " + k_n + ", k_t: 0}]\n")).warnings);
+  };
+  EXPECT_THAT(on_bottom("1e12"), IsEmpty());
+  EXPECT_THAT(on_bottom("1e30"), ElementsAre(HasSubstr("springs 'lower.left' are ")));
+}
+
+TEST(Reasons, OfForcesThatStiffSpringsLeaveUnbalanced) {
+  const StaticSolution stiff = solve(block_on_springs(1e20));
+  EXPECT_EQ(stiff.outcome, Outcome::not_converged);
+  const std::string advice = "or a stiffness of at most ";
+  EXPECT_THAT(stiff.reason, AllOf(HasSubstr("springs 'block.edge_1' are "), HasSubstr(advice)));
+  EXPECT_THAT(texts_of(stiff.warnings), ElementsAre(HasSubstr("springs 'block.edge_1' are ")));
+  const double most = std::stod(stiff.reason.substr(stiff.reason.find(advice) + advice.size()));
+  EXPECT_GT(most, 1e12);
+  const StaticSolution solved = solve(block_on_springs(most));  // as advised
+  EXPECT_EQ(solved.outcome, Outcome::solved);
+  EXPECT_THAT(texts_of(solved.warnings), IsEmpty());
+}
+
 TEST(Warnings, ContactsWithTheSameFaultShareOneSentence) {
   std::string text = stack(-1e-3), bodies, supports, contacts;
   for (int i = 1; i <= 6; ++i) {

@@ -88,6 +88,19 @@ TEST(Certificate, OfAPairWithFriction) {
   expect_figures(judged(pair, space(4.0, 0.0, 2.0), space(0.0, 0.0, 0.03)), {.slip_direction = 0.12});
 }
 
+// Forward slip must be opposed by 0.5 p_n, backward slip by 0.2 p_n: by that of its direction, whatever acts.
+TEST(Certificate, OfAPairWithFrictionByDirection) {
+  Problem pair = with_friction(0.5);
+  pair.mu_backward = Vector::Constant(1, 0.2);
+  expect_figures(judged(pair, plane(4.0, -2.0), plane(0.0, 0.03)), {});
+  expect_figures(judged(pair, plane(4.0, 0.8), plane(0.0, -0.03)), {});
+  expect_figures(judged(pair, plane(4.0, 1.8), plane(0.0, 0.0)), {.friction_excess = 0.1});                     // bound 0.8
+  expect_figures(judged(pair, plane(4.0, -3.0), plane(0.0, 0.0)), {.friction_excess = 0.1});                    // bound 2
+  expect_figures(judged(pair, plane(4.0, 0.8), plane(0.0, 0.03)), {.slip_direction = (2.0 - 0.8) * 0.03});      // drives
+  expect_figures(judged(pair, plane(4.0, 0.0), plane(0.0, 0.03)), {.slip_direction = 2.0 * 0.03});              // no friction
+  expect_figures(judged(pair, plane(4.0, 0.0), plane(0.0, -0.03)), {.slip_direction = 0.8 * 0.03});
+}
+
 TEST(Certificate, OfAPairWithStrength) {
   const Problem pair = with_strength(0.5, 3.0, 2.0);
   expect_figures(judged(pair, plane(-3.0, 0.0), plane(0.0, 0.0)), {.tension = 0.1});

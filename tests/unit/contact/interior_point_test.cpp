@@ -120,6 +120,32 @@ TEST_P(InteriorPointsOnTowers, UnitsThatArePowersOfTwoChangeNoBit) {
   EXPECT_EQ(interior_points(other, {}).p, Vector(std::ldexp(1.0, 20) * end.p));
 }
 
+TEST_P(InteriorPointsOnTowers, WithFrictionThatDiffersReachTheLaw) {
+  const auto [d, blocks, points] = GetParam();
+  Problem problem = tower_of_blocks(d, blocks, points, 0.4);
+  for (Eigen::Index i = 0; i < problem.mu.size(); ++i) problem.mu[i] = i % 3 == 0 ? 0.2 : 0.7;
+  const InteriorPointEnd end = interior_points(problem, {});
+  ASSERT_EQ(end.p.size(), problem.q.size());
+  expect_the_law(problem, end.p, 1e-6);
+}
+
+// What the judge accepts is handed over with its states: pairs that slip are at the bound to the last digit, open ones
+// without any force. Inside the cones, where the points are, there are none of either.
+TEST_P(InteriorPointsOnTowers, EndAtTheBoundaryOfTheCones) {
+  const auto [d, blocks, points] = GetParam();
+  const Problem problem = tower_of_blocks(d, blocks, points, 0.4);
+  const InteriorPointEnd end = interior_points(problem, [&](const Vector& p, const Vector& motion) {
+    return Measure(problem).natural_map(problem, p, motion) <= 1e-5;
+  });
+  ASSERT_TRUE(end.content);
+  int at_the_boundary = 0;
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    const double bound = problem.mu[i] * end.p[d * i], friction = end.p.segment(d * i + 1, d - 1).norm();
+    at_the_boundary += std::abs(friction - bound) <= 1e-13 * end.p.lpNorm<Eigen::Infinity>();
+  }
+  EXPECT_GT(at_the_boundary, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Plane, InteriorPointsOnTowers, ::testing::Values(TowerCase{2, 20, 2}, TowerCase{2, 8, 4}));
 INSTANTIATE_TEST_SUITE_P(Space, InteriorPointsOnTowers, ::testing::Values(TowerCase{3, 12, 3}));
 
@@ -143,6 +169,12 @@ TEST(InteriorPoints, OneCubePushedSidewaysSlides) {
   problem.mu = Vector::Constant(1, 0.4);
   const Vector p = interior_points(problem, {}).p;
   EXPECT_LE((p - Eigen::Vector3d(1.0, -0.24, -0.32)).norm(), 1e-8);
+  // Handed over as a pair that slips: at the bound of friction to the last digit.
+  const InteriorPointEnd judged = interior_points(problem, [&](const Vector& forces, const Vector& motion) {
+    return Measure(problem).natural_map(problem, forces, motion) <= 1e-6;
+  });
+  EXPECT_TRUE(judged.content);
+  EXPECT_NEAR(judged.p.tail<2>().norm(), 0.4 * judged.p[0], 1e-15);
 }
 
 /// Accepts a natural map of 1e-10.

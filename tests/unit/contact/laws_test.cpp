@@ -75,6 +75,25 @@ TEST(CohesiveJoint, ShearedUnderPressureFallsToFrictionAlone) {
   EXPECT_NEAR(breaks.history[0].slip, w * (limit * (1 + 1e-6) - mu * p_n), 1e-12);
 }
 
+// Sheared without any pressure, p_n = 0: such a pair counts as open, but carries |p_t| <= c A as long as it is whole.
+TEST(CohesiveJoint, ShearedWithoutPressureCarriesItsCohesionAndNothingAfterwards) {
+  const double w = 0.01, c = 60.0, area = 0.5, limit = c * area;
+  const LawPointer law = cohesive(0.3, c, 0.0);
+  for (double side : {1.0, -1.0}) {
+    const Evolution holds = one(law, pair_on_springs(w, 0.0, side * w * limit * (1 - 1e-6)), {}, area);
+    ASSERT_EQ(holds.solution.status, Status::solved);
+    EXPECT_NEAR(holds.solution.p[1], -side * limit * (1 - 1e-6), 1e-9);
+    EXPECT_FALSE(holds.history[0].broken);
+    const Evolution breaks = one(law, pair_on_springs(w, 0.0, side * w * limit * (1 + 1e-6)), {}, area);
+    ASSERT_EQ(breaks.solution.status, Status::solved);
+    EXPECT_EQ(breaks.solution.states[0], ContactState::open);
+    EXPECT_TRUE(breaks.history[0].broken);
+    EXPECT_EQ(breaks.solution.p.norm(), 0.0);
+    EXPECT_EQ(breaks.history[0].slip, 0.0);  // it did not slip in contact
+    EXPECT_EQ(breaks.rounds, 2);
+  }
+}
+
 // A row of pairs that share a pull: the overloaded end breaks, its load goes to the next. With W = w (1 + k
 // [i = j]) the remaining n pairs carry u / (w (n + k)) each, so that a joint that breaks at all breaks wholly
 // when k is small.
@@ -236,6 +255,17 @@ TEST(SlipWeakening, FollowsItsLineOverTheSlipDistance) {
   }
   const Evolution beyond = one(law, pair_on_springs(w, -w * p_n, w * 200.0 - gone), history);
   EXPECT_NEAR(beyond.solution.p[1], -30.0, 1e-9);
+}
+
+// Where only the coefficient of backward slip falls: p_t = (0.6 - 0.8 s) p_n and s = w (force - p_t).
+TEST(SlipWeakening, OfBackwardSlipAloneFollowsItsLine) {
+  const double w = 0.01, p_n = 50.0, force = 40.0, fall = 0.4 / 0.5 * p_n;  // per slip, against a spring of 100
+  const LawPointer law = std::make_shared<SlipWeakening>(SlipWeakening::Fall{0.5, 0.5}, SlipWeakening::Fall{0.6, 0.2}, 0.5);
+  const Evolution evolution = one(law, pair_on_springs(w, -w * p_n, -w * force));
+  ASSERT_EQ(evolution.solution.status, Status::solved) << evolution.solution.reason;
+  const double p_t = (0.6 * p_n - fall * w * force) / (1.0 - fall * w);
+  EXPECT_NEAR(evolution.solution.p[1], p_t, 1e-8);
+  EXPECT_NEAR(evolution.history[0].slip, w * (force - p_t), 1e-10);
 }
 
 TEST(SlipWeakening, SteeperThanItsSpringItFallsToTheDynamicCoefficient) {
