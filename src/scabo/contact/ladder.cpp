@@ -7,6 +7,7 @@
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/lemke.hpp"
 #include "scabo/contact/newton_direction.hpp"
+#include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/cold_start.hpp"
@@ -64,6 +65,8 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.iterations = how.iterations > 0 ? how.iterations : options_.iterations;
   options.regularisation = how.regularisation;
   options.patience = how.patience;
+  options.fall = how.fall;
+  options.soft = how.soft;
   options.stage = how.stage;
   options.deadline = options_.deadline;
   options.on_iteration = counted(options_.on_iteration);
@@ -101,16 +104,19 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   constexpr int few = 6;  // of many bodies a path takes over sooner
   const bool paths = many && may_follow_path(problem_), paths_first = paths && problem_.pairs() <= most_of_paths_first;
   const int most = paths ? std::min(few, options_.iterations) : 0;
+  const bool inner = many && may_take_interior_points(problem_);
   if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, most, patience}))) return best;
+  if (!cold && inner && !paths_first && better(inside_near(best.p, best.a, 1.0))) return best;
   if (!cold && paths && better(along_loads(p, a))) return best;
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
   if (held_together && better(bonded(*held_together))) return best;
   if (hopeless && hopeless()) return best;
-  const bool inner = many && may_take_interior_points(problem_);
-  if (inner && !paths_first && better(inside({1.0}))) return best;
+  if (inner && !paths_first && held_together)
+    for (const double start : {1.0, 20.0})
+      if (better(inside_near(best.p, best.a, start))) return best;
   if (paths && held_together && (better(along_paths(*held_together, touching)) || collapse())) return best;
   if (inner) {
-    if (better(paths_first ? inside({1.0, 10.0, 1000.0}) : inside({10.0, 1000.0}))) return best;
+    if (better(inside({1.0, 10.0, 1000.0}))) return best;
     // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.
     if (has_many_motions(problem_)) return best;
   }
@@ -138,9 +144,11 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
 
 NewtonEnd Ladder::bonded(const BondedStart& start) {
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
-  const int few = problem_.pairs() <= most_of_paths_first ? 6 : 10;
-  const int most = may_follow_path(problem_) ? std::min(few, options_.iterations) : 0;
-  return newton_alone(start.p, start.a, {"newton", 0.0, 1.0, most});
+  const bool small = problem_.pairs() <= most_of_paths_first;
+  const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
+  Run how{"newton", 0.0, 1.0, most};
+  if (!small) how.patience = 2, how.fall = 0.03;  // what falls more slowly takes more iterations than interior points
+  return newton_alone(start.p, start.a, how);
 }
 
 /// The path of the loads from the last increment to this one.
@@ -213,7 +221,9 @@ NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
   const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(found.p, found.a);
   found.residual = at.largest();
   found.converged = content_ && content_(found.p, at.motion);
-  NewtonEnd end = newton_alone(found.p, found.a, {"newton after " + name, 0.0, 1.0, few});
+  Run how{"newton after " + name, 0.0, 1.0, few};
+  how.soft = has_many_motions(problem_);
+  NewtonEnd end = newton_alone(found.p, found.a, how);
   if ((end.converged && end.residual <= found.residual) || !found.converged) return end;
   trace_.push_back({iterations_ + coarse_iterations_, found.residual, at.merit(), 0.0, 0, name + " kept"});
   return found;
@@ -354,6 +364,36 @@ NewtonEnd Ladder::inside_from(double start_factor) {
   NewtonEnd after = swept_on(sweeps, 200);
   if (after.converged || late() || reached.residual > near) return after;
   return newton_alone(end.p, Vector(), {"newton after interior points", 1e-6, 1.0, 12});
+}
+
+/// Interior points of a plane problem from forces and motions that are known roughly. When |H| has fallen far enough for
+/// nearly all states to be right, a few Newton iterations reach the solution; where they do not, steps follow once more.
+NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
+  constexpr int few = 7, hardly = 2;
+  PlaneInteriorPoints points(problem_, p, a, start);
+  NewtonEnd best = nothing();
+  for (const double aim : {2e-3, 1e-4, 0.0}) {
+    InteriorPointEnd reached = points.advance(aim, content_, options_.deadline);
+    for (Iteration& iteration : reached.trace) {
+      iteration.iteration += iterations_ + coarse_iterations_;
+      trace_.push_back(std::move(iteration));
+    }
+    iterations_ += reached.iterations;
+    if (reached.p.size() == 0) return best;
+    if (reached.content) {
+      NewtonEnd found = nothing();
+      found.p = std::move(reached.p);
+      found.a = std::move(reached.a);
+      return confirmed(std::move(found), hardly, "interior points");
+    }
+    if (late()) return best;
+    Run how{"newton after interior points", 0.0, 1.0, few, hardly};
+    how.soft = true;
+    NewtonEnd end = newton_alone(reached.p, reached.a, how);
+    if (end.converged || end.residual < best.residual) best = std::move(end);
+    if (best.converged || late() || reached.residual > aim) return best;
+  }
+  return best;
 }
 
 /// Interior points for elastic bodies from starts with these factors, then Newton from the best of them.

@@ -55,6 +55,8 @@ class Ladder {
     double r_factor = 1.0;
     int iterations = 0;  ///< 0: those of the options
     int patience = 0;    ///< NewtonOptions::patience
+    double fall = 0.5;   ///< NewtonOptions::fall
+    bool soft = false;   ///< NewtonOptions::soft
   };
   /// Tells iterations with their numbers over all attempts; empty if nobody listens.
   std::function<void(const Iteration&)> counted(const std::function<void(const Iteration&)>& tell) const;
@@ -75,6 +77,7 @@ class Ladder {
   NewtonEnd swept_on(LongSweeps& sweeps, int most);
   InteriorPointEnd interior_points_from(double start_factor);
   NewtonEnd inside_from(double start_factor);
+  NewtonEnd inside_near(Vector p, Vector a, double start);
   NewtonEnd inside(std::initializer_list<double> start_factors);
   NewtonEnd end_of_sweeps(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);

@@ -18,7 +18,9 @@ class Newton {
         direction_(equations),
         many_(may_bond(equations.problem())),
         p_(std::move(p)),
-        a_(std::move(a)) {}
+        a_(std::move(a)) {
+    if (options.soft) direction_.soften();
+  }
 
   NewtonEnd run() {
     end_.p = p_;
@@ -34,6 +36,10 @@ class Newton {
           options_.deadline.passed() || creeps())
         break;
       ++end_.iterations;
+      if (options_.soft) {
+        if (soft_step(first)) continue;
+        break;
+      }
       if (many_ && step_of_many_bodies(first)) continue;
       const bool found = find_direction(first, NewtonDirection::Ties::as_d_takes_them);
       if (found && line_search()) continue;
@@ -90,6 +96,16 @@ class Newton {
     return true;
   }
 
+  /// Nearly all states are right, or else it is too early: short steps lead nowhere.
+  bool soft_step(double first) {
+    constexpr double least = 1.0 / 16.0;
+    if (!find_direction(first, NewtonDirection::Ties::free)) return false;
+    const double step = descending_step();
+    if (step < least) return false;
+    take(step);
+    return true;
+  }
+
   void keep_best() {
     const double merit = at_.merit();
     const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit));
@@ -105,7 +121,7 @@ class Newton {
 
   /// Short steps from kink to kink, which lead on but not to an end.
   bool creeps() {
-    if (best_merit_ <= 0.5 * halved_merit_) {
+    if (best_merit_ <= options_.fall * halved_merit_) {
       halved_merit_ = best_merit_;
       halved_at_ = end_.iterations;
     }

@@ -19,7 +19,9 @@ struct NewtonOptions {
   int iterations = 50;          ///< most
   double regularisation = 0.0;  ///< alpha, relative to 1 / r: at the start; it vanishes with |H|
   int unchecked = 8;            ///< full steps without descent, most
-  int patience = 0;             ///< ends when the smallest merit was not halved in so many iterations; 0: never
+  int patience = 0;             ///< ends when the smallest merit did not fall by `fall` in so many iterations; 0: never
+  double fall = 0.5;
+  bool soft = false;  ///< NewtonDirection::soften; it then ends where steps become short
   std::string stage = "newton";
   Deadline deadline;  ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration;  ///< may be empty; what it throws ends the solve

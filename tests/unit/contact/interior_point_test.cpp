@@ -10,6 +10,8 @@
 #include <random>
 #include <tuple>
 
+#include "scabo/contact/ladder.hpp"
+#include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/starts/long_sweeps.hpp"
@@ -263,6 +265,26 @@ TEST(InteriorPoints, BalanceTheRigidMotionsOfElasticBodies) {
   }
   EXPECT_GE(asked, 25);
   EXPECT_GE(10 * reached, 9 * asked) << reached << " of " << asked;
+}
+
+/// Floating blocks with random motions: the law, written out case by case, from a start that knows nothing but the load.
+TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
+  std::mt19937 random(5);
+  int solved = 0;
+  constexpr int count = 40;
+  for (int k = 0; k < count; ++k) {
+    const Problem problem = scaled(test::floating_problem(random, 10 + k, 0.8)).problem;
+    if (problem.mu.minCoeff() <= 0.0) continue;
+    Vector p = Vector::Zero(problem.q.size());
+    for (int i = 0; i < problem.pairs(); ++i) p[2 * i] = problem.f.lpNorm<Eigen::Infinity>() / problem.pairs();
+    PlaneInteriorPoints points(problem, p, Vector::Zero(problem.G.cols()), 1.0);
+    const InteriorPointEnd end = points.advance(1e-10, {}, {});
+    EXPECT_LE(end.iterations, 40) << k;
+    if (end.residual > 1e-10) continue;  // a path that turned back
+    ++solved;
+    EXPECT_LT(test::violation(problem, end.p, end.a), 1e-8 * end.p.lpNorm<Eigen::Infinity>()) << k;
+  }
+  EXPECT_GE(solved, 35);
 }
 
 }  // namespace

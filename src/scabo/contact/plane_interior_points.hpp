@@ -1,0 +1,42 @@
+// Interior points for Coulomb's law in the plane, as a linear complementarity problem: for stacks of bodies that
+// contact alone holds, from forces that are known roughly.
+//
+// Slip is divided into forward and backward, u_t = v+ - v-, and friction has what it may grow by in either direction:
+//
+//     u = q + W p + G a,   G' p + f = 0
+//     p_n u_n = m,   (mu p_n + p_t) v+ = m,   (mu p_n - p_t) v- = m,   all factors > 0,   m -> 0
+//
+// The equations are linear but for the three products, and with u_n, v+ and v- eliminated the matrix of a step is
+// [W + D, G; G' 0], D of 2 x 2 blocks of the pairs:
+//
+//     D_nn = u_n / p_n,   D_tt = v+ / s+ + v- / s-,   D_tn = mu (v+ / s+ - v- / s-),   s+- = mu p_n +- p_t
+//
+// In contact/interior_point, for space, the same law is one of cones, y = (u_n + |u_t|, u_t): its path has a kink
+// wherever the friction of a pair changes its sign.
+#pragma once
+
+#include "scabo/contact/deadline.hpp"
+#include "scabo/contact/interior_point.hpp"
+
+namespace scabo::contact {
+
+class PlaneInteriorPoints {
+ public:
+  /// From forces p, in the cones or not, and motions a of the rigid bodies, W_ii being 1 in the mean. Where p_n - r u_n
+  /// is tension it becomes a gap, and what friction cannot carry a slip: x - y = p_n - r u_n, x y = r m, p_n = x and r
+  /// u_n = y, m being `start` times what is usual, 0.6 of the square of the mean friction bound, and alike with
+  /// friction.
+  PlaneInteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start);
+  ~PlaneInteriorPoints();
+
+  /// Steps until the largest |H|, over the largest force, is not above `aim`, or until they no longer lead on.
+  /// `residual` is that figure.
+  InteriorPointEnd advance(double aim, const std::function<bool(const Vector& p, const Vector& motion)>& content,
+                           const Deadline& deadline);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace scabo::contact
