@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scabo/contact/gmres.hpp"
+#include "scabo/contact/line_preconditioner.hpp"
 #include "scabo/contact/pair_operator.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/linalg/single_precision_solver.hpp"
@@ -18,6 +19,8 @@ struct NewtonDirection::Workspace {
   linalg::GeneralSolver solver;
   Eigen::MatrixXf single;
   linalg::SinglePrecisionSolver single_solver;
+  LinePreconditioner along_joints;
+  bool line_fails = false;     // pairs do not follow each other along joints, or W is too ill-conditioned
   bool single_fails = false;   // W is too ill-conditioned: of slender bodies
   bool holding_fails = false;  // it takes too many iterations, or none hold the bodies
   Vector column, full, image, residual;
@@ -38,6 +41,10 @@ constexpr Eigen::Index most_of_dense = 8000, most_of_formed = 2500;
 // Unknowns from which the factorisation is one in single precision, and up to which there is one.
 constexpr Eigen::Index least_of_single = 2500, most_of_single = 24000;
 constexpr GmresOptions refining_gmres{1e-13, 40, 80};
+// Unknowns from which the preconditioner by halves of joints comes before any LU.
+constexpr Eigen::Index least_of_line = 1200;
+constexpr GmresOptions line_gmres{1e-12, 30, 30};
+constexpr double as_good_as_double = 1e-11;  // residual of a direction by GMRES
 constexpr GmresOptions holding_gmres{1e-12, 60, 120};
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
 constexpr Eigen::Index least_sparse = 120;     // unknowns below which dense is faster
@@ -74,7 +81,8 @@ std::vector<bool> immovable_components(const Problem& problem) {
 
 bool holding_pays(const Problem& problem, Eigen::Index unknowns) {
   const PairHolder* const holder = problem.W.holder();
-  if (holder == nullptr || problem.W.is_sparse()) return false;
+  if (holder == nullptr) return false;
+  if (problem.W.is_sparse()) return problem.W.size() > least_held_of_many;
   if (!problem.W.is_dense()) return true;
   // Dense operations are faster than those of a sparse factor, to which its order and the iterations add.
   constexpr double dearer = 10.0;
@@ -231,9 +239,11 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   }
 
   bool solved = false;
-  if (problem.W.is_sparse() && size + m >= least_sparse)
+  if (holding_pays(problem, size + m) && solve_by_holding(regularisation))
+    solved = true;
+  else if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = solve_sparse(regularisation);
-  else if (holding_pays(problem, size + m) && solve_by_holding(regularisation))
+  else if (problem.W.is_dense() && !work_->line_fails && size + m > least_of_line && solve_along_joints(regularisation))
     solved = true;
   else if (problem.W.is_dense() && !work_->single_fails && size + m > least_of_single && size + m <= most_of_single &&
            solve_by_single_precision(regularisation))
@@ -326,6 +336,33 @@ bool NewtonDirection::solve_dense(double regularisation) {
   return y.allFinite() && left <= descending;
 }
 
+bool NewtonDirection::solve_along_joints(double regularisation) {
+  const Problem& problem = equations_.problem();
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index d = problem.dimension, n = size + problem.G.cols();
+  Combinations rows, columns;
+  Vector diagonal(size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    for (Eigen::Index k = 0; k < d; ++k) {
+      if (unknown.row[k] != 0.0) rows.add(d * unknown.pair + k, unknown.scale * unknown.row[k]);
+      if (unknown.column[k] != 0.0) columns.add(d * unknown.pair + k, unknown.column[k]);
+    }
+    rows.close();
+    columns.close();
+    diagonal[j] = regularisation * (1.0 - unknown.own) + unknown.own;
+  }
+  work_->line_fails = true;
+  if (!work_->along_joints.factorise(problem, rows, columns, diagonal)) return false;
+  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
+  const auto precondition = [&](const Vector& x, Vector& result) { work_->along_joints.solve(x, result); };
+  const Vector right = right_.head(n);
+  y_.setZero(n);
+  const double left = gmres(multiply, precondition, right, y_, line_gmres);
+  work_->line_fails = !(y_.allFinite() && left <= as_good_as_double);
+  return !work_->line_fails;
+}
+
 bool NewtonDirection::solve_by_single_precision(double regularisation) {
   const Problem& problem = equations_.problem();
   const Matrix &W = problem.W.matrix(), &G = problem.G.dense();
@@ -377,7 +414,6 @@ bool NewtonDirection::solve_by_single_precision(double regularisation) {
   const Vector right = right_.head(n);
   y_.setZero(n);
   const double left = gmres(multiply, precondition, right, y_, refining_gmres);
-  constexpr double as_good_as_double = 1e-11;
   work_->single_fails = !(y_.allFinite() && left <= as_good_as_double);
   return !work_->single_fails;
 }
@@ -523,7 +559,8 @@ bool NewtonDirection::solve_by_holding(double regularisation) {
   const Vector right = right_.head(n);
   y_.setZero(n);
   const double left = gmres(multiply, precondition, right, y_, holding_gmres);
-  work_->holding_fails = !(y_.allFinite() && left <= exact);
+  constexpr double of_redundant = 1e-4;  // many bodies, whose pairs may be redundant and their matrix singular
+  work_->holding_fails = !(y_.allFinite() && left <= (problem.W.is_sparse() ? of_redundant : exact));
   return !work_->holding_fails;
 }
 

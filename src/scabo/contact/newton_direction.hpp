@@ -16,8 +16,9 @@
 // Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Where bodies can
 // be joined at the pairs that hold (pair_operator.hpp), and that is cheaper than LU, or W is known by its products
 // alone, the joined bodies are the preconditioner: the matrix above but with n for n + mu e in C. Of more than
-// 2,500 unknowns of a dense W the LU is one in single precision, which takes half the time and a quarter of the memory,
-// and GMRES with it as its preconditioner solves in double precision, by products with W itself. Without any LU the
+// 1,200 unknowns of a dense W, GMRES solves in double precision, by products with W itself; its preconditioner is the
+// matrix above by halves of joints (line_preconditioner.hpp), and where pairs do not follow each other along joints, of
+// more than 2,500 unknowns, an LU in single precision. Without any LU the
 // preconditioner is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da =
 // ..., then y from D. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions GMRES
 // on the matrix itself.
@@ -64,6 +65,7 @@ class NewtonDirection {
   bool enumerate(Residual& at, double regularisation, Vector& d);
   void lay_out(const Residual& at);
   bool solve_dense(double regularisation);
+  bool solve_along_joints(double regularisation);
   bool solve_by_single_precision(double regularisation);
   void lay_out_sparse(double regularisation);
   bool solve_sparse(double regularisation);

@@ -43,8 +43,10 @@ Graph graph_of(const SparseMatrix& A, const std::vector<int>& groups) {
 }
 
 /// Nested dissection by coordinates: the vertices of a box are divided at the median of its longer side, and those that
-/// have a neighbour on the other side separate the two. Gives every vertex the number of its leaf or separator, in an
-/// order in which parts come before what separates them.
+/// have a neighbour on the other side separate the two. Where these are more than the side of a square of as many
+/// vertices has, the other side is tried as well: of a mesh that is fine at an edge only, most vertices of a box lie in
+/// a few rows along it, and a cut between two of the rows separates nothing. Gives every vertex the number of its leaf
+/// or separator, in an order in which parts come before what separates them.
 class DissectionByPosition {
  public:
   DissectionByPosition(const Graph& lower, std::vector<Vec2> positions)
@@ -86,37 +88,56 @@ class DissectionByPosition {
     Vec2 low = position(*begin), high = low;
     for (const int* v = begin; v != end; ++v) low = low.cwiseMin(position(*v)), high = high.cwiseMax(position(*v));
     const Eigen::Index axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
-    int* middle = begin + (end - begin) / 2;
-    std::nth_element(begin, middle, end, [&](int a, int b) { return position(a)[axis] < position(b)[axis]; });
-    const double cut = position(*middle)[axis];
-    middle = std::partition(begin, end, [&](int v) { return position(v)[axis] < cut; });
+    Cut chosen = cut(begin, end, axis);
+    const double large = 2.0 * std::sqrt(static_cast<double>(end - begin));
+    if (chosen.middle == begin || static_cast<double>(chosen.separator()) > large) {
+      const Cut other = cut(begin, end, 1 - axis);
+      const bool better = other.middle != begin && (chosen.middle == begin || other.separator() < chosen.separator());
+      chosen = better ? other : cut(begin, end, axis);
+    }
+    int* const middle = chosen.middle;
     if (middle == begin) return number(begin, end);  // all in one place
-    const int left = ++sides_, right = ++sides_;
-    for (int* v = begin; v != middle; ++v) side(*v) = left;
-    for (int* v = middle; v != end; ++v) side(*v) = right;
-    const auto inside = [&](int other_side) {
-      return [this, other_side](int v) {
-        for (std::size_t k = starts_[static_cast<std::size_t>(v)]; k < starts_[static_cast<std::size_t>(v) + 1]; ++k)
-          if (side(neighbours_[k]) == other_side) return false;
-        return true;
-      };
-    };
     // Either side of the cut separates; the smaller one is taken.
-    const auto of_left = std::count_if(begin, middle, std::not_fn(inside(right))),
-               of_right = std::count_if(middle, end, std::not_fn(inside(left)));
-    if (of_left <= of_right) {
-      int* const separator = std::partition(begin, middle, inside(right));
+    if (chosen.of_left <= chosen.of_right) {
+      int* const separator = std::partition(begin, middle, [&](int v) { return !touches(v, chosen.right); });
       std::rotate(separator, middle, end);  // parts first, then the separator
       int* const last = separator + (end - middle);
       divide(begin, separator);
       divide(separator, last);
       number(last, end);
     } else {
-      int* const separator = std::partition(middle, end, inside(left));
+      int* const separator = std::partition(middle, end, [&](int v) { return !touches(v, chosen.left); });
       divide(begin, middle);
       divide(middle, separator);
       number(separator, end);
     }
+  }
+
+  /// Vertices from `middle` on lie on the right; how many of each side have a neighbour on the other.
+  struct Cut {
+    int* middle = nullptr;  // the first one: all are in one place
+    int left = 0, right = 0;
+    std::ptrdiff_t of_left = 0, of_right = 0;
+    std::ptrdiff_t separator() const { return std::min(of_left, of_right); }
+  };
+  Cut cut(int* begin, int* end, Eigen::Index axis) {
+    Cut made;
+    int* const median = begin + (end - begin) / 2;
+    std::nth_element(begin, median, end, [&](int a, int b) { return position(a)[axis] < position(b)[axis]; });
+    const double at = position(*median)[axis];
+    made.middle = std::partition(begin, end, [&](int v) { return position(v)[axis] < at; });
+    if (made.middle == begin) return made;
+    made.left = ++sides_, made.right = ++sides_;
+    for (int* v = begin; v != made.middle; ++v) side(*v) = made.left;
+    for (int* v = made.middle; v != end; ++v) side(*v) = made.right;
+    made.of_left = std::count_if(begin, made.middle, [&](int v) { return touches(v, made.right); });
+    made.of_right = std::count_if(made.middle, end, [&](int v) { return touches(v, made.left); });
+    return made;
+  }
+  bool touches(int v, int other_side) {
+    for (std::size_t k = starts_[static_cast<std::size_t>(v)]; k < starts_[static_cast<std::size_t>(v) + 1]; ++k)
+      if (side(neighbours_[k]) == other_side) return true;
+    return false;
   }
   void number(const int* begin, const int* end) {
     for (const int* v = begin; v != end; ++v) group_[static_cast<std::size_t>(*v)] = groups_;

@@ -24,8 +24,8 @@ void add_side(Triplets& entries, int row, double sign, const Structure& structur
       const Eigen::RowVector3d map = directions[k].transpose() * rigid_point(point, part.reference(), part.lever());
       for (int j = 0; j < 3; ++j) entries.emplace_back(row + k, j, sign * map[j]);
     } else {
-      entries.emplace_back(row + k, dofs.of(body, node, 0), sign * directions[k].x());
-      entries.emplace_back(row + k, dofs.of(body, node, 1), sign * directions[k].y());
+      for (int j = 0; j < 2; ++j)  // of a joint along an axis half of them are 0
+        if (directions[k][j] != 0.0) entries.emplace_back(row + k, dofs.of(body, node, j), sign * directions[k][j]);
     }
   }
 }
@@ -100,6 +100,13 @@ bool is_sparse(const std::vector<TouchedPart>& touched, const Structure& structu
   for (std::size_t p = 0; p < touched.size(); ++p)
     if (structure.parts[p]->is_flexible()) entries += std::pow(static_cast<double>(touched[p].rows.size()), 2);
   return rows >= least_sparse && entries <= most_filled * static_cast<double>(rows) * static_cast<double>(rows);
+}
+
+/// The contact of each pair.
+std::vector<int> joints_of(const std::vector<ContactSystem::Pair>& pairs) {
+  std::vector<int> joints;
+  for (const ContactSystem::Pair& pair : pairs) joints.push_back(pair.contact);
+  return joints;
 }
 
 // Below, a dense LU takes less than a second, and nobody asks for a holder of the pairs.
@@ -242,8 +249,9 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   }
   const bool sparse = is_sparse(touched, structure, rows);
   std::shared_ptr<const JoinedBodies> joined;
-  if (!sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion);
-  const bool by_products = joined && rows > most_formed;
+  if (rows > (sparse ? contact::least_held_of_many : least_joined))
+    joined = JoinedBodies::of(structure, motion, joints_of(all));
+  const bool by_products = joined && !sparse && rows > most_formed;
   const auto products = by_products ? std::make_unique<const PairProducts>(structure, motion) : nullptr;
   std::vector<PartFlexibility> flexibilities(structure.parts.size());
   std::vector<Vector> diagonals(structure.parts.size());  // of what a part adds to W, on its rows
@@ -301,7 +309,7 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
       held.empty() ? std::vector<Eigen::SparseMatrix<double>>{} : motion_of(system.held, structure, model, mesh);
   system.motion = held.empty() ? motion : motion_of(system.pairs, structure, model, mesh);
   const auto kept = static_cast<Eigen::Index>(2 * moving.size());
-  if (joined && !held.empty()) joined = JoinedBodies::of(structure, system.motion);
+  if (joined && !held.empty()) joined = JoinedBodies::of(structure, system.motion, joints_of(system.pairs));
   system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion))
                          : sum_of(std::move(flexibilities), place, kept, sparse);
   if (joined) system.W = system.W.with_holder(joined);

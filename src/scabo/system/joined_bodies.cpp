@@ -12,6 +12,10 @@ namespace {
 using Entries = std::vector<Eigen::Triplet<double>>;
 
 constexpr double eps_of_softness = 1e-4;
+// Of the flexibility of single nodes: of springs in all directions that are not held, where several bodies have no
+// supports. They hold blocks that slip on all sides.
+constexpr double weak_of_softness = 1e6;
+constexpr std::size_t few_floating = 2;
 
 }  // namespace
 
@@ -97,18 +101,44 @@ Matrix PairProducts::diagonal_blocks() const {
 }
 
 std::shared_ptr<const JoinedBodies> JoinedBodies::of(const Structure& structure,
-                                                     std::vector<Eigen::SparseMatrix<double>> motion) {
+                                                     std::vector<Eigen::SparseMatrix<double>> motion,
+                                                     std::vector<int> joints) {
   for (const auto& part : structure.parts)
     if (part->is_divided()) return nullptr;
-  return std::make_shared<const JoinedBodies>(structure, std::move(motion));
+  return std::make_shared<const JoinedBodies>(structure, std::move(motion), std::move(joints));
 }
 
-JoinedBodies::JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion)
-    : motion_(std::move(motion)) {
+JoinedBodies::JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion,
+                           std::vector<int> joints)
+    : motion_(std::move(motion)), joints_(std::move(joints)) {
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
     parts_.push_back({structure.parts[p].get(), structure.dofs.nodes(p)});
     operations_ += 2.0 * parts_.back().body->operations();
   }
+}
+
+Matrix JoinedBodies::flexibility(const std::vector<int>& rows) const {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Matrix W = Matrix::Zero(n, n);
+  std::vector<int> place(motion_.empty() ? 0 : static_cast<std::size_t>(motion_.front().rows()), -1);
+  for (std::size_t k = 0; k < rows.size(); ++k) place[static_cast<std::size_t>(rows[k])] = static_cast<int>(k);
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    if (!parts_[p].body->is_flexible()) continue;
+    std::vector<int> dofs;
+    Entries entries;
+    for (Eigen::Index column = 0; column < motion_[p].cols(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(motion_[p], column); it; ++it) {
+        const int row = place[static_cast<std::size_t>(it.row())];
+        if (row < 0) continue;
+        if (dofs.empty() || dofs.back() != column) dofs.push_back(static_cast<int>(column));
+        entries.emplace_back(row, static_cast<int>(dofs.size()) - 1, it.value());
+      }
+    Eigen::SparseMatrix<double> C(n, static_cast<Eigen::Index>(dofs.size()));
+    C.setFromTriplets(entries.begin(), entries.end());
+    const Matrix half = C * parts_[p].body->flexibility_by_factor(dofs);
+    W += half * C.transpose();
+  }
+  return 0.5 * (W + W.transpose());
 }
 
 void JoinedBodies::make() const {
@@ -175,6 +205,11 @@ class JoinedPairs final : public contact::HeldPairs {
     const linalg::SparseMatrix held = hold_.asDiagonal() * C_, transposed = C_.transpose();
     const linalg::SparseMatrix springs = transposed * held;
     linalg::SparseMatrix joined = bodies.K + springs;
+    if (bodies.floating.size() > few_floating) {
+      const Vector weak = (weak_of_softness * bodies.softness).cwiseInverse();
+      const linalg::SparseMatrix C = weak.cwiseSqrt().asDiagonal() * bodies.C, of_all = C.transpose();
+      joined += linalg::SparseMatrix(of_all * C);
+    }
     joined.makeCompressed();
     linalg::SparseOptions options;
     options.positions = bodies.positions;

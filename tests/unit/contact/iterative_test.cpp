@@ -3,12 +3,15 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "scabo/contact/gmres.hpp"
+#include "scabo/contact/line_preconditioner.hpp"
 #include "scabo/contact/pair_operator.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/contact/starts/sampled_problem.hpp"
 #include "unit/contact/layer.hpp"
 
 namespace scabo::contact {
@@ -84,6 +87,88 @@ TEST(IterativeDirections, OfAFreeBodyHoldIt) {
   EXPECT_LT((solution.p - direct.p).lpNorm<Eigen::Infinity>(), 1e-9 * direct.p.lpNorm<Eigen::Infinity>());
 }
 
+// Directions by halves of joints, from 1,200 unknowns on, with and without a free body: the forces are those that LU
+// finds for the states of the pairs.
+TEST(DirectionsAlongJoints, LeadToTheForcesThatLUFindsForTheirStates) {
+  constexpr int pairs = 900;
+  constexpr double mu = 0.5;
+  for (const bool floating : {false, true}) {
+    Problem problem = floating ? plate_on_layer(pairs, 200.0) : test::layer_problem(pairs, 6, mu);
+    problem.W = Delassus(problem.W.dense());
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::solved) << solution.reason;
+    EXPECT_LE(solution.certificate.worst(), 1e-10);
+    const Eigen::Index m = problem.G.cols(), n = 2 * pairs + m;
+    Matrix A = Matrix::Zero(n, n);
+    A.topLeftCorner(2 * pairs, 2 * pairs) = problem.W.matrix();
+    A.topRightCorner(2 * pairs, m) = problem.G.dense();
+    A.bottomLeftCorner(m, 2 * pairs) = problem.G.dense().transpose();
+    Vector b(n);
+    b << -problem.q, -problem.f;
+    int unknowns = 0, slip = 0;
+    const auto prescribe = [&](int row, double of_normal) {  // p_t = of_normal p_n, or p = 0
+      A.row(row).setZero();
+      A(row, row) = 1.0;
+      if (of_normal != 0.0) A(row, row - 1) = -of_normal;
+      b[row] = 0.0;
+    };
+    for (int i = 0; i < pairs; ++i) {
+      const ContactState state = solution.states[static_cast<std::size_t>(i)];
+      if (state == ContactState::open) prescribe(2 * i, 0.0), prescribe(2 * i + 1, 0.0);
+      if (state == ContactState::slip) prescribe(2 * i + 1, solution.slip_increment[i] > 0.0 ? -mu : mu), ++slip;
+      unknowns += state == ContactState::open ? 0 : state == ContactState::slip ? 1 : 2;
+    }
+    EXPECT_GT(unknowns, 1200);
+    EXPECT_GT(slip, 50);
+    const Vector by_lu = A.partialPivLu().solve(b);
+    EXPECT_LT((by_lu.head(2 * pairs) - solution.p).lpNorm<Eigen::Infinity>(),
+              1e-8 * solution.p.lpNorm<Eigen::Infinity>());
+  }
+}
+
+TEST(DirectionsAlongJoints, HaveAPreconditionerThatIsNearlyTheInverse) {
+  constexpr int pairs = 700;
+  Problem problem = plate_on_layer(pairs, 200.0);
+  problem.W = Delassus(problem.W.dense()).scaled(3.0);
+  Combinations rows, columns;  // the first half slips with 0.3, the second sticks, every seventh is open
+  std::vector<Eigen::Triplet<double>> of_L, of_C;
+  int size = 0;
+  for (int i = 0; i < pairs; ++i) {
+    if (i % 7 == 0) continue;
+    const bool slips = 2 * i < pairs;
+    rows.add(2 * i, 2.0);
+    of_L.emplace_back(size, 2 * i, 2.0);
+    columns.add(2 * i, 1.0);
+    of_C.emplace_back(2 * i, size, 1.0);
+    if (slips) columns.add(2 * i + 1, 0.3), of_C.emplace_back(2 * i + 1, size, 0.3);
+    rows.close();
+    columns.close();
+    ++size;
+    if (slips) continue;
+    rows.add(2 * i + 1, 1.5);
+    of_L.emplace_back(size, 2 * i + 1, 1.5);
+    columns.add(2 * i + 1, 1.0);
+    of_C.emplace_back(2 * i + 1, size, 1.0);
+    rows.close();
+    columns.close();
+    ++size;
+  }
+  Eigen::SparseMatrix<double> L(size, 2 * pairs), C(2 * pairs, size);
+  L.setFromTriplets(of_L.begin(), of_L.end());
+  C.setFromTriplets(of_C.begin(), of_C.end());
+  Matrix A = Matrix::Zero(size + 3, size + 3);
+  A.topLeftCorner(size, size) = L * (3.0 * problem.W.matrix() * Matrix(C));
+  A.diagonal().head(size).array() += 0.01;
+  A.topRightCorner(size, 3) = L * problem.G.dense();
+  A.bottomLeftCorner(3, size) = problem.G.dense().transpose() * C;
+  LinePreconditioner preconditioner;
+  ASSERT_TRUE(preconditioner.factorise(problem, rows, columns, Vector::Constant(size, 0.01)));
+  const Vector b = Vector::LinSpaced(size + 3, -1.0, 1.0), exact = A.partialPivLu().solve(b);
+  Vector x;
+  preconditioner.solve(b, x);
+  EXPECT_LT((x - exact).norm(), 1e-5 * exact.norm());
+}
+
 /// Holds pairs by a dense W whose entries have errors of 1e-4.
 class ByDense final : public PairHolder {
  public:
@@ -114,10 +199,14 @@ class ByDense final : public PairHolder {
     ++times_;
     return std::make_unique<Held>(W_, G_, rows);
   }
+  Matrix flexibility(const std::vector<int>& rows) const override { return W_(rows, rows); }
+  std::vector<int> joints() const override { return joints_; }
   int times() const { return times_; }
+  void lie_on(std::vector<int> joints) { joints_ = std::move(joints); }
 
  private:
   Matrix W_, G_;
+  std::vector<int> joints_;
   mutable int times_ = 0;
 };
 
@@ -148,6 +237,64 @@ TEST(HeldDirections, AgreeWithDenseOnes) {
       EXPECT_LE(solution.iterations, 12);
       EXPECT_LT((solution.p - direct.p).lpNorm<Eigen::Infinity>(), 1e-8 * direct.p.lpNorm<Eigen::Infinity>());
     }
+}
+
+// A sparse W keeps its holder when it is scaled, and the holder answers for the scaled one.
+TEST(HeldDirections, OfASparseWInOtherUnits) {
+  const Problem plate = plate_on_layer(30, 40.0);
+  const Matrix &W = plate.W.dense(), &G = plate.G.dense();
+  const Delassus scaled =
+      Delassus(Eigen::SparseMatrix<double>(W.sparseView())).with_holder(std::make_shared<const ByDense>(W, G)).scaled(8.0);
+  ASSERT_TRUE(scaled.is_sparse());
+  ASSERT_NE(scaled.holder(), nullptr);
+  const std::vector<int> rows = {0, 1, 4, 17, 30, 31, 58};
+  const Vector u = Vector::LinSpaced(7, 0.1, 1.0), z = Eigen::Vector3d(-3.0, 1.0, 0.5);
+  Vector p, a;
+  scaled.holder()->hold(rows)->solve(u, z, p, a);
+  Matrix W_hh = 8.0 * W(rows, rows);
+  W_hh.diagonal() *= 1.0 + 1e-4;
+  const Matrix G_h = G(rows, Eigen::all);
+  EXPECT_LT((W_hh * p + G_h * a - u).norm(), 1e-9 * u.norm());
+  EXPECT_LT((G_h.transpose() * p - z).norm(), 1e-9 * z.norm());
+  EXPECT_LT((scaled.holder()->flexibility(rows).row(0) - W_hh.row(0)).tail(6).norm(), 1e-12 * W_hh.norm());
+}
+
+// Two joints, of 61 and of 9 pairs, and a third of one pair: samples do not reach across, the ends of a joint are among
+// them, and forces that are spread are as large as before.
+TEST(SampledProblem, TakesSomePairsOfEachJointAndSpreadsTheirForces) {
+  Problem problem = test::layer_problem(71, 6, 0.5);
+  const Matrix W = problem.W.dense();
+  auto holder = std::make_shared<ByDense>(W, Matrix(142, 0));
+  std::vector<int> joints(71, 0);
+  std::fill(joints.begin() + 61, joints.end(), 1);
+  joints.back() = 2;
+  holder->lie_on(joints);
+  problem.W = problem.W.with_holder(holder).scaled(2.0);
+  EXPECT_FALSE(sampled_problem(problem, 60).has_value());
+  const auto sampled = sampled_problem(problem, 12);  // every sixth
+  ASSERT_TRUE(sampled.has_value());
+  EXPECT_EQ(sampled->pairs, (std::vector<int>{0, 6, 12, 18, 24, 30, 36, 42, 48, 54, 60, 61, 69, 70}));
+  std::vector<int> rows;
+  for (const int pair : sampled->pairs) rows.insert(rows.end(), {2 * pair, 2 * pair + 1});
+  Matrix expected = 2.0 * W(rows, rows);
+  EXPECT_LT((sampled->problem.W.dense() - expected).cwiseAbs().maxCoeff(), 1e-3 * expected.cwiseAbs().maxCoeff());
+  EXPECT_EQ(sampled->problem.q, Vector(problem.q(rows)));
+  Vector p(28);
+  for (int k = 0; k < 28; ++k) p[k] = 1.0 + 0.3 * k;
+  const Vector all = sampled->spread(p);
+  double normal = 0.0, tangential = 0.0;
+  for (int i = 0; i < 61; ++i) normal += all[2 * i], tangential += all[2 * i + 1];
+  double expected_normal = 0.0, expected_tangential = 0.0;
+  for (int k = 0; k < 11; ++k) expected_normal += p[2 * k], expected_tangential += p[2 * k + 1];
+  EXPECT_NEAR(normal, expected_normal, 1e-12 * expected_normal);
+  EXPECT_NEAR(tangential, expected_tangential, 1e-12 * expected_tangential);
+  EXPECT_NEAR(all[2 * 15], 0.5 * (all[2 * 12] + all[2 * 18]), 1e-12);  // between two of them as along a line
+  EXPECT_EQ(all[140], p[26]);
+  EXPECT_EQ(sampled->nearest(14), 2);
+  EXPECT_EQ(sampled->nearest(16), 3);
+  EXPECT_EQ(sampled->nearest(60), 10);
+  EXPECT_EQ(sampled->nearest(61), 11);
+  EXPECT_EQ(sampled->nearest(70), 13);
 }
 
 }  // namespace

@@ -123,6 +123,35 @@ TEST(EliminationOrder, TheMiddleColumnOfAGridSeparatesItsHalves) {
   EXPECT_NEAR(static_cast<double>(*columns.begin()), 20.0, 1.0);
 }
 
+/// Rows of nodes, each with half as many as the one below and coupled to it, at heights that double: fine at one edge.
+/// Half of all nodes of a box lie in its lowest row, which separates nothing.
+TEST(EliminationOrder, AMeshThatIsFineAtAnEdgeIsCutAcrossIt) {
+  constexpr int finest = 1024;
+  std::vector<Vec2> places;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto couple = [&](std::size_t a, std::size_t b) {
+    entries.emplace_back(static_cast<int>(a), static_cast<int>(b), 1.0);
+    entries.emplace_back(static_cast<int>(b), static_cast<int>(a), 1.0);
+  };
+  std::size_t below = 0;
+  for (int count = finest, step = 1; count > 1; count /= 2, step *= 2) {
+    const std::size_t first = places.size();
+    for (int i = 0; i < count; ++i) {
+      const std::size_t at = places.size();
+      places.emplace_back((i + 0.5) * step, step - 1.0);
+      entries.emplace_back(static_cast<int>(at), static_cast<int>(at), 1.0);
+      if (i > 0) couple(at, at - 1);
+      if (first > 0) couple(at, below + 2 * static_cast<std::size_t>(i)), couple(at, below + 2 * static_cast<std::size_t>(i) + 1);
+    }
+    below = first;
+  }
+  const auto n = static_cast<Eigen::Index>(places.size());
+  SparseMatrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  EXPECT_LT(entries_of_factor(A, elimination_order(A, Ordering::dissection_by_position, places)),
+            2 * entries_of_factor(A, elimination_order(A, Ordering::minimum_degree)));
+}
+
 TEST(EliminationOrder, AllNodesInOnePlace) {
   auto order = elimination_order(grid(20, 1), Ordering::dissection_by_position, std::vector<Vec2>(400, Vec2(1, 1)));
   std::sort(order.begin(), order.end());

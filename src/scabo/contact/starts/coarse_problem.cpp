@@ -11,15 +11,15 @@ namespace {
 constexpr Eigen::Index components = 2;
 constexpr int none = -1;
 
-/// The free pair with which pair i forms a group, or none.
-Eigen::Index neighbour_of(Eigen::Index i, const Problem& problem, const std::vector<int>& group) {
+/// The free pair with which pair i forms a group, or none. `root`: N, of the diagonal of W_nn; it lies far apart.
+Eigen::Index neighbour_of(Eigen::Index i, const Problem& problem, const Vector& root, const std::vector<int>& group) {
   const Matrix& W = problem.W.matrix();
   const bool bonded = std::isinf(problem.tension_of(i));  // entries are compared: the factor of W does not count
   Eigen::Index nearest = none;
   double strongest = 0.0, most = 0.0;  // of all pairs, of the free pairs; times sqrt((W_nn)_ii)
   for (Eigen::Index j = 0; j < problem.pairs(); ++j) {
-    if (j == i || !(W(components * j, components * j) > 0.0) || std::isinf(problem.tension_of(j)) != bonded) continue;
-    const double coupling = W(components * j, components * i) / std::sqrt(W(components * j, components * j));
+    if (j == i || !(root[j] > 0.0) || std::isinf(problem.tension_of(j)) != bonded) continue;
+    const double coupling = W(components * j, components * i) / root[j];
     if (coupling > strongest) strongest = coupling;
     if (coupling > most && group[static_cast<std::size_t>(j)] == none) most = coupling, nearest = j;
   }
@@ -29,12 +29,15 @@ Eigen::Index neighbour_of(Eigen::Index i, const Problem& problem, const std::vec
 /// Sets group and share; returns the number of groups.
 int make_groups(const Problem& problem, CoarseProblem& coarse) {
   int groups = 0;
+  Vector root(problem.pairs());
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i)
+    root[i] = std::sqrt(std::max(problem.W.matrix()(components * i, components * i), 0.0));
   coarse.group.assign(static_cast<std::size_t>(problem.pairs()), none);
   coarse.share.setOnes(problem.pairs());
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     if (coarse.group[static_cast<std::size_t>(i)] != none) continue;
     coarse.group[static_cast<std::size_t>(i)] = groups;
-    if (const Eigen::Index j = neighbour_of(i, problem, coarse.group); j != none) {
+    if (const Eigen::Index j = neighbour_of(i, problem, root, coarse.group); j != none) {
       coarse.group[static_cast<std::size_t>(j)] = groups;
       coarse.share[i] = coarse.share[j] = 0.5;
     }

@@ -3,10 +3,12 @@
 #include <optional>
 
 #include "scabo/contact/newton.hpp"
+#include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/coarse_problem.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/starts/sampled_problem.hpp"
 
 namespace scabo::contact {
 
@@ -90,6 +92,47 @@ ColdStart nested_start(const Problem& problem, const Vector& a) {
   swept.coarse_iterations = start.coarse_iterations;
   swept.trace = std::move(start.trace);
   return swept;
+}
+
+namespace {
+
+/// The branch of pair i becomes `branch`, and H what it is there: b_differentiable.hpp, away from ties.
+void impose(const BDifferentiableEquations& equations, const Vector& p, Eigen::Index i, Branch branch, Residual& at) {
+  const Problem& problem = equations.problem();
+  const Eigen::Index n = 2 * i, t = n + 1;
+  branch.normal_tie = branch.edge = branch.tip = branch.bound_tie = false;
+  if (!branch.contact) {
+    branch.tangent = Branch::Tangent::free;
+    branch.slope = 0.0;
+  }
+  at.H[n] = branch.contact ? equations.r()[n] * at.motion[n] : p[n] + problem.tension_of(i);
+  at.H[t] = p[t];
+  if (branch.tangent == Branch::Tangent::stick) at.H[t] = equations.r()[t] * at.motion[t];
+  if (branch.tangent == Branch::Tangent::slip)
+    at.H[t] -= (problem.cohesion_of(i) + branch.slope * p[n]) * branch.along[0];
+  at.branches[static_cast<std::size_t>(i)] = branch;
+}
+
+}  // namespace
+
+std::optional<ColdStart> sampled_start(const Problem& problem, const Vector& a) {
+  constexpr int most = 1500;
+  const std::optional<SampledProblem> sampled = sampled_problem(problem, most);
+  if (!sampled) return std::nullopt;
+  ColdStart start = nested_start(sampled->problem, a);
+  if (!solve_from_either(sampled->problem, start).finite) return std::nullopt;
+  const Residual few = BDifferentiableEquations(sampled->problem, 1.0).residual(start.p, start.a);
+  start.p = sampled->spread(start.p);
+  const BDifferentiableEquations equations(problem, 1.0);
+  Residual at = equations.residual(start.p, start.a);
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i)
+    impose(equations, start.p, i, few.branches[static_cast<std::size_t>(sampled->nearest(i))], at);
+  Vector d;
+  if (NewtonDirection(equations).find(at, 0.0, NewtonDirection::Ties::as_d_takes_them, d)) {
+    start.p += d.head(start.p.size());
+    start.a += d.tail(start.a.size());
+  }
+  return start;
 }
 
 bool may_nest(const Problem& problem) {

@@ -18,6 +18,7 @@
 // docs/methods/12_contact_solver.md.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scabo/contact/solution.hpp"
@@ -36,6 +37,11 @@ ColdStart swept_start(const Problem& problem, const Vector& a);
 
 /// By problems of fewer pairs, if may_nest().
 ColdStart nested_start(const Problem& problem, const Vector& a);
+
+/// By a problem of some of the pairs where W is not formed (contact/starts/sampled_problem.hpp), which is solved as
+/// loosely as those of fewer pairs: the forces with which every pair is in the state of the nearest one among them.
+/// Nothing where there is none.
+std::optional<ColdStart> sampled_start(const Problem& problem, const Vector& a);
 
 /// Whether nested iteration is possible and worthwhile: plane problems with dense W and enough pairs.
 bool may_nest(const Problem& problem);
