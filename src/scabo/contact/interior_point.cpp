@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scabo/base/interruption.hpp"
+#include "scabo/contact/joint_system.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
@@ -196,16 +198,10 @@ class InteriorPoints {
       S_.segment<d>(d * i).setConstant(std::sqrt(std::max(diagonal.segment<d>(d * i).mean(), least)));
       S_[d * i] *= problem.mu[i];
     }
-    Sparse W = problem.W.is_sparse() ? problem.W.sparse() : Sparse(problem.W.dense().sparseView());
-    for (Index k = 0; k < W.outerSize(); ++k)
-      for (Sparse::InnerIterator at(W, k); at; ++at) at.valueRef() /= S_[at.row()] * S_[k];
+    if (auto joints = find_joints<d>(problem)) lay_out_joints(std::move(*joints));
+    if (!joints_) lay_out();
     q_ = in_frame(problem.q.cwiseQuotient(S_));
-    Sparse G = scaled_motions();
     f_ = C_.cwiseProduct(problem.f);
-    whole_ = in_whole_blocks<d>(W, G);
-    turn_to_frame();
-    W_ = whole_.topLeftCorner(d * N_, d * N_);
-    G_ = whole_.topRightCorner(d * N_, m_);
     size_of_loads_ = std::hypot(q_.norm(), f_.norm());
     const double start =
         start_factor * std::max(problem.q.cwiseQuotient(S_).template lpNorm<Eigen::Infinity>(), balancing_force());
@@ -249,6 +245,33 @@ class InteriorPoints {
   }
 
  private:
+  void lay_out() {
+    const Problem& problem = problem_;
+    Sparse W = problem.W.is_sparse() ? problem.W.sparse() : Sparse(problem.W.dense().sparseView());
+    for (Index k = 0; k < W.outerSize(); ++k)
+      for (Sparse::InnerIterator at(W, k); at; ++at) at.valueRef() /= S_[at.row()] * S_[k];
+    const Sparse G = scaled_motions();
+    whole_ = in_whole_blocks<d>(W, G);
+    turn_to_frame();
+    W_ = whole_.topLeftCorner(d * N_, d * N_);
+    G_ = whole_.topRightCorner(d * N_, m_);
+  }
+
+  /// Without rigid motions: the system is one of joints.
+  void lay_out_joints(Joints<d> joints) {
+    joints_.emplace(std::move(joints));
+    for (Index i = 0; i < N_; ++i) {
+      joints_->turn(i, C::frame() * part(S_, i).cwiseInverse().asDiagonal());
+      for (int k = 0; k < d; ++k) joints_->pair.push_back(static_cast<int>(i));
+    }
+    joints_->L.resize(d * N_, JointSystem<d>::R);
+    joints_->C.resize(d * N_, JointSystem<d>::R);
+    C_.setOnes(0);
+  }
+
+  /// W' v.
+  Vector product(const Vector& v) const { return joints_ ? joints_->times(v) : Vector(W_ * v); }
+
   std::size_t blocks() const { return static_cast<std::size_t>(N_); }
   V part(const Vector& v, Index i) const { return v.segment<d>(d * i); }
 
@@ -318,8 +341,12 @@ class InteriorPoints {
   }
 
   void evaluate() {
-    const Vector u = W_ * x_ + q_ + G_ * a_;
-    balance_ = G_.transpose() * x_ + f_;
+    Vector u = product(x_) + q_;
+    balance_ = f_;
+    if (m_ > 0) {
+      u += G_ * a_;
+      balance_ += G_.transpose() * x_;
+    }
     distance_ = u - y_;
     for (Index i = 0; i < N_; ++i) {
       const V u_t = C::tangential(part(u, i));
@@ -342,8 +369,7 @@ class InteriorPoints {
       phi_.segment<d>(d * i) = phi;
       lambda_.segment<d>(d * i) = scaled(i, part(x_, i));
     }
-    assemble();
-    if (!lu_.factorise(K_)) return false;
+    if (!(joints_ ? factorise_joints() : factorise())) return false;
     Vector affine(d * N_);
     for (Index i = 0; i < N_; ++i) affine.segment<d>(d * i) = -C::product(part(lambda_, i), part(lambda_, i));
     find_direction(affine);
@@ -382,6 +408,35 @@ class InteriorPoints {
     return Q * (Q.transpose() * v).cwiseQuotient(part(phi_, i));
   }
 
+  bool factorise() {
+    assemble();
+    return lu_.factorise(K_);
+  }
+
+  bool factorise_joints() {
+    for (Index i = 0; i < N_; ++i) {
+      const M& Q = Q_[static_cast<std::size_t>(i)];
+      joints_->L.template middleRows<d>(d * i) = Q.transpose() * T_[static_cast<std::size_t>(i)] * joints_->A(i);
+      joints_->C.template middleRows<d>(d * i) = Q.transpose() * joints_->A(i);
+    }
+    joints_->D = phi_.cwiseAbs2();
+    return joints_->factorise();
+  }
+
+  /// K z = b.
+  Vector solved(const Vector& b) const {
+    Vector z;
+    if (joints_) {
+      joints_->solve_refined(b, z);
+      return z;
+    }
+    Vector correction, rest = b;
+    lu_.solve(b, z);
+    rest -= K_ * z;  // once refined: the last digits of the forces hang on it
+    lu_.solve(rest, correction);
+    return z + correction;
+  }
+
   /// K = [diag(phi)^2 + Q' T W' Q, Q' T G'; G'^T Q, 0], by block columns.
   void assemble() {
     K_ = whole_;
@@ -406,15 +461,12 @@ class InteriorPoints {
       b.segment<d>(d * i) = part(c, i) - Q.transpose() * part(distance_, i);
     }
     b.tail(m_) = -balance_;
-    Vector z, correction, rest = b;
-    lu_.solve(b, z);
-    rest -= K_ * z;  // once refined: the last digits of the forces hang on it
-    lu_.solve(rest, correction);
-    z += correction;
+    const Vector z = solved(b);
     dx_.resize(d * N_);
     for (Index i = 0; i < N_; ++i) dx_.segment<d>(d * i) = Q_[static_cast<std::size_t>(i)] * part(z, i);
     da_ = z.tail(m_);
-    dy_ = W_ * dx_ + G_ * da_;
+    dy_ = product(dx_);
+    if (m_ > 0) dy_ += G_ * da_;
     for (Index i = 0; i < N_; ++i) {
       // Twice the same, y' = T u' + b and l o (F x' + F^-1 y') = right: each is taken where it loses no digits.
       const M& Q = Q_[static_cast<std::size_t>(i)];
@@ -440,6 +492,7 @@ class InteriorPoints {
   Sparse W_, G_, whole_, K_;
   std::vector<M> Q_, T_;
   linalg::SparseGeneralSolver lu_;
+  std::optional<JointSystem<d>> joints_;  // of rigid bodies
   double size_of_loads_ = 0.0, gap_ = 0.0, first_gap_ = 0.0, first_distance_ = 0.0, step_ = 0.0;
 };
 

@@ -284,7 +284,8 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
   double tried = 1e-5;  // natural map from which Newton was last tried
   // What a factorisation without fill would cost. Above, a step of interior points takes as long as a thousand sweeps.
   const double entries = inner ? static_cast<double>(problem_.W.sparse().nonZeros()) : 0.0;
-  const bool dear = entries * entries > 6e7 * static_cast<double>(problem_.W.size());
+  // That of joints never does.
+  const bool dear = !sweeps.of_joints() && entries * entries > 6e7 * static_cast<double>(problem_.W.size());
   for (const Turn turn :
        {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0}, Turn{25000, dear ? 1.0 : 0.1}, Turn{60000, dear ? 0.1 : 10.0}}) {
     if (better(swept_on(sweeps, turn.sweeps))) return best;
@@ -292,7 +293,11 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
       tried = sweeps.natural_map();
       if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4, 1.0, 12}))) return best;
     }
-    if (inner && turn.start > 0.0 && better(inside_from(turn.start))) return best;
+    if (inner && turn.start > 0.0) {
+      NewtonEnd reached = inside_from(turn.start);
+      sweeps.restart(reached.p);
+      if (better(std::move(reached))) return best;
+    }
   }
   if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4}))) return best;
   if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;
@@ -463,6 +468,7 @@ NewtonEnd Ladder::floating_proximal(Vector p, Vector a) {
 
 /// The same for forces: (w / r)(p - p_before) is added to the motions, w falls from one problem to the next.
 NewtonEnd Ladder::vanishing_proximal(Vector p) {
+  constexpr double exact = 1e-12;  // of the largest force: the next round starts from there
   NewtonEnd end = nothing();
   double weight = 1.0;
   for (int round = 0; round < 40; ++round) {
@@ -470,6 +476,7 @@ NewtonEnd Ladder::vanishing_proximal(Vector p) {
     equations.hold(weight, p);
     NewtonOptions options;
     options.small = small_;
+    options.relative = exact;
     options.iterations = options_.iterations;
     options.stage = "newton, forces held softly";
     options.deadline = options_.deadline;

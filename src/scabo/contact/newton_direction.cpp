@@ -4,8 +4,10 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scabo/contact/gmres.hpp"
+#include "scabo/contact/joint_system.hpp"
 #include "scabo/contact/line_preconditioner.hpp"
 #include "scabo/contact/pair_operator.hpp"
 #include "scabo/linalg/general_solver.hpp"
@@ -29,6 +31,9 @@ struct NewtonDirection::Workspace {
   std::vector<double> sum;
   std::vector<int> touched;
   linalg::SparseGeneralSolver sparse_solver;
+  bool joints_sought = false;
+  std::optional<JointSystem<2>> joints_in_plane;
+  std::optional<JointSystem<3>> joints_in_space;
   bool redundant = false;  // a sparse system was singular before: pairs of three bodies that meet in a point
   Matrix blocks;           // of W on its diagonal, for the preconditioner
 };
@@ -242,7 +247,8 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   if (holding_pays(problem, size + m) && solve_by_holding(regularisation))
     solved = true;
   else if (problem.W.is_sparse() && size + m >= least_sparse)
-    solved = solve_sparse(regularisation);
+    solved = (problem.dimension == 2 ? solve_by_joints<2>(regularisation) : solve_by_joints<3>(regularisation)) ||
+             solve_sparse(regularisation);
   else if (problem.W.is_dense() && !work_->line_fails && size + m > least_of_line && solve_along_joints(regularisation))
     solved = true;
   else if (problem.W.is_dense() && !work_->single_fails && size + m > least_of_single && size + m <= most_of_single &&
@@ -527,6 +533,48 @@ bool NewtonDirection::solve_softened() {
   work.sparse_solver.solve(work.residual, work.image);
   y_ += work.image;
   return y_.allFinite();
+}
+
+/// Rigid bodies with many pairs a joint. Pairs are redundant there: the raised matrix preconditions GMRES.
+template <int d>
+bool NewtonDirection::solve_by_joints(double regularisation) {
+  const Problem& problem = equations_.problem();
+  Workspace& work = *work_;
+  auto& joints = [&]() -> auto& {
+    if constexpr (d == 2)
+      return work.joints_in_plane;
+    else
+      return work.joints_in_space;
+  }();
+  if (!work.joints_sought) {
+    work.joints_sought = true;
+    if (auto found = find_joints<d>(problem)) joints.emplace(std::move(*found));
+  }
+  if (!joints) return false;
+  const auto size = static_cast<Eigen::Index>(unknowns_.size());
+  joints->pair.resize(unknowns_.size());
+  joints->L.resize(size, JointSystem<d>::R);
+  joints->C.resize(size, JointSystem<d>::R);
+  joints->D.resize(size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    joints->pair[static_cast<std::size_t>(j)] = unknown.pair;
+    const auto& A = joints->A(unknown.pair);
+    joints->L.row(j) = unknown.scale * (unknown.row.head<d>().transpose() * A);
+    joints->C.row(j) = unknown.column.head<d>().transpose() * A;
+    joints->D[j] = std::max(regularisation, raise) * (1.0 - unknown.own) + unknown.own;
+  }
+  if (!joints->factorise()) return false;
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const double own = unknowns_[static_cast<std::size_t>(j)].own;
+    joints->D[j] = regularisation * (1.0 - own) + own;
+  }
+  const auto multiply = [&](const Vector& x, Vector& result) { joints->apply(x, result); };
+  const auto precondition = [&](const Vector& x, Vector& result) { joints->solve(x, result); };
+  const Vector right = right_.head(size);
+  y_.setZero(size);
+  const double left = gmres(multiply, precondition, right, y_, singular_gmres);
+  return y_.allFinite() && left <= descending;
 }
 
 bool NewtonDirection::solve_by_holding(double regularisation) {

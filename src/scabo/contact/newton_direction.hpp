@@ -21,7 +21,7 @@
 // more than 2,500 unknowns, an LU in single precision. Without any LU the
 // preconditioner is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da =
 // ..., then y from D. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions GMRES
-// on the matrix itself.
+// on the matrix itself; that of rigid bodies is factorised by their joints (joint_system.hpp).
 #pragma once
 
 #include <Eigen/LU>
@@ -70,6 +70,8 @@ class NewtonDirection {
   void lay_out_sparse(double regularisation);
   bool solve_sparse(double regularisation);
   bool solve_softened();
+  template <int d>
+  bool solve_by_joints(double regularisation);
   bool solve_by_holding(double regularisation);
   bool solve_iteratively(double regularisation);
   /// The matrix above times x = [y; da].

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace scabo::contact {
 
@@ -99,15 +101,62 @@ double PairSweeps<d>::sweep(Vector& p, Vector& motion) {
 template class PairSweeps<2>;
 template class PairSweeps<3>;
 
-GaussSeidel::GaussSeidel(const Problem& problem)
-    : sweeps_(problem.dimension == 2 ? decltype(sweeps_)(PairSweeps<2>(problem)) : PairSweeps<3>(problem)) {}
+namespace {
+
+template <int d>
+constexpr bool of_pairs(const PairSweeps<d>*) {
+  return true;
+}
+template <int d>
+constexpr bool of_pairs(const JointSweeps<d>*) {
+  return false;
+}
+
+}  // namespace
+
+GaussSeidel::Sweeps GaussSeidel::sweeps_of(const Problem& problem, Form form) {
+  if (form == Form::of_joints) {
+    if (problem.dimension == 2) {
+      if (auto joints = find_joints<2>(problem)) return JointSweeps<2>(problem, std::move(*joints));
+    } else if (auto joints = find_joints<3>(problem)) {
+      return JointSweeps<3>(problem, std::move(*joints));
+    }
+  }
+  if (problem.dimension == 2) return PairSweeps<2>(problem);
+  return PairSweeps<3>(problem);
+}
+
+GaussSeidel::GaussSeidel(const Problem& problem, Form form) : sweeps_(sweeps_of(problem, form)) {}
 
 void GaussSeidel::start(const Vector& p) {
-  std::visit([&](const auto& sweeps) { sweeps.start(p, motion_); }, sweeps_);
+  std::visit(
+      [&](auto& sweeps) {
+        if constexpr (of_pairs(static_cast<std::decay_t<decltype(sweeps)>*>(nullptr)))
+          sweeps.start(p, motion_);
+        else
+          sweeps.start(p);
+      },
+      sweeps_);
 }
 
 double GaussSeidel::sweep(Vector& p) {
-  return std::visit([&](auto& sweeps) { return sweeps.sweep(p, motion_); }, sweeps_);
+  return std::visit(
+      [&](auto& sweeps) {
+        if constexpr (of_pairs(static_cast<std::decay_t<decltype(sweeps)>*>(nullptr)))
+          return sweeps.sweep(p, motion_);
+        else
+          return sweeps.sweep(p);
+      },
+      sweeps_);
+}
+
+const Vector& GaussSeidel::motion() {
+  std::visit(
+      [&](auto& sweeps) {
+        if constexpr (!of_pairs(static_cast<std::decay_t<decltype(sweeps)>*>(nullptr))) sweeps.read_motion(motion_);
+      },
+      sweeps_);
+  return motion_;
 }
 
 Vector gauss_seidel(const Problem& problem, Vector p, int sweeps) {

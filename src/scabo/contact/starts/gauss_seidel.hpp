@@ -8,6 +8,7 @@
 
 #include "scabo/contact/pair_problem.hpp"
 #include "scabo/contact/problem.hpp"
+#include "scabo/contact/starts/joint_sweeps.hpp"
 
 namespace scabo::contact {
 
@@ -40,13 +41,19 @@ extern template class PairSweeps<3>;
 /// The same for two or three components, with the motions included.
 class GaussSeidel {
  public:
-  explicit GaussSeidel(const Problem& problem);
+  /// of_joints: joints of rigid bodies are looked for (joints.hpp), which costs as much as some tens of sweeps.
+  enum class Form { of_pairs, of_joints };
+  explicit GaussSeidel(const Problem& problem, Form form = Form::of_pairs);
   void start(const Vector& p);
   double sweep(Vector& p);
-  const Vector& motion() const { return motion_; }
+  const Vector& motion();
+  bool of_joints() const { return sweeps_.index() >= 2; }
 
  private:
-  std::variant<PairSweeps<2>, PairSweeps<3>> sweeps_;
+  using Sweeps = std::variant<PairSweeps<2>, PairSweeps<3>, JointSweeps<2>, JointSweeps<3>>;
+  static Sweeps sweeps_of(const Problem& problem, Form form);
+
+  Sweeps sweeps_;
   Vector motion_;
 };
 

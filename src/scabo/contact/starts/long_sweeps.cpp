@@ -20,7 +20,7 @@ constexpr int least_patience = 500;  // sweeps in which the natural map is halve
 LongSweeps::LongSweeps(const Problem& problem, Vector p)
     : problem_(problem),
       measure_(problem),
-      iteration_(problem),
+      iteration_(problem, GaussSeidel::Form::of_joints),
       p_(std::move(p)),
       best_(p_),
       changes_f_(p_.size(), depth),
@@ -44,7 +44,8 @@ bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vec
       moved = iteration_.sweep(p_) > 0.0 || moved;
     }
     sweeps_ += round_of;
-    const double map = measure_.natural_map(problem_, p_, iteration_.motion());
+    const Vector& motion = iteration_.motion();
+    const double map = measure_.natural_map(problem_, p_, motion);
     if (extrapolated_ && !(map <= map_of_round_)) {
       p_ = round_;
       extrapolated_ = false;
@@ -56,12 +57,9 @@ bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vec
       least_ = map;
       best_ = p_;
     }
-    if (content && content(p_, iteration_.motion())) {
-      iteration_.start(p_);
-      if (content(p_, iteration_.motion())) {
-        best_ = p_;
-        return true;
-      }
+    if (content && content(p_, motion) && content(p_, motion_of(problem_, p_, Vector()))) {
+      best_ = p_;
+      return true;
     }
     if (!moved || !std::isfinite(map)) break;
     if (least_ <= 0.5 * halved_) {
@@ -74,6 +72,16 @@ bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vec
     extrapolated_ = extrapolate();
   }
   return false;
+}
+
+void LongSweeps::restart(const Vector& p) {
+  if (p.size() != p_.size()) return;
+  const double map = measure_.natural_map(problem_, p, motion_of(problem_, p, Vector()));
+  if (!(map < least_)) return;
+  p_ = best_ = p;
+  least_ = map;
+  extrapolated_ = false;
+  forget();
 }
 
 void LongSweeps::remember(const Vector& before) {

@@ -1,0 +1,100 @@
+#include "scabo/contact/starts/joint_sweeps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace scabo::contact {
+
+using Index = Eigen::Index;
+
+template <int d>
+JointSweeps<d>::JointSweeps(const Problem& problem, Joints<d> joints) : problem_(&problem), joints_(std::move(joints)) {
+  const Matrix blocks = problem.W.diagonal_blocks(d);
+  pairs_.reserve(static_cast<std::size_t>(problem.pairs()));
+  for (Index i = 0; i < problem.pairs(); ++i) {
+    const typename PairProblem<d>::Friction mu{problem.mu_against(i, -1.0), problem.mu_against(i, 1.0)};
+    pairs_.emplace_back(blocks.data() + d * d * i, mu, problem.cohesion_of(i), problem.tension_of(i));
+  }
+  const auto count = static_cast<std::size_t>(joints_.count());
+  own_.resize(count);
+  motion_.assign(count, Components::Zero());
+  for (std::size_t e = 0; e < count; ++e)
+    for (int at = joints_.first[e]; at < joints_.first[e + 1]; ++at)
+      if (joints_.neighbour[static_cast<std::size_t>(at)] == static_cast<int>(e))
+        own_[e] = joints_.K[static_cast<std::size_t>(at)];
+}
+
+template <int d>
+void JointSweeps<d>::start(const Vector& p) {
+  std::vector<Components> resultant(motion_.size(), Components::Zero());
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    resultant[static_cast<std::size_t>(joints_.joint[i])].noalias() +=
+        joints_.A[i].transpose() * p.segment<d>(d * static_cast<Index>(i));
+  std::fill(motion_.begin(), motion_.end(), Components::Zero());
+  for (std::size_t e = 0; e < motion_.size(); ++e)
+    for (int at = joints_.first[e]; at < joints_.first[e + 1]; ++at)
+      motion_[static_cast<std::size_t>(joints_.neighbour[static_cast<std::size_t>(at)])].noalias() +=
+          joints_.K[static_cast<std::size_t>(at)] * resultant[e];
+}
+
+template <int d>
+void JointSweeps<d>::leave(int joint) {
+  const auto e = static_cast<std::size_t>(joint);
+  if (left_.isZero(0.0)) return;
+  for (int at = joints_.first[e]; at < joints_.first[e + 1]; ++at) {
+    const int f = joints_.neighbour[static_cast<std::size_t>(at)];
+    if (f != joint) motion_[static_cast<std::size_t>(f)].noalias() += joints_.K[static_cast<std::size_t>(at)] * left_;
+  }
+  left_.setZero();
+}
+
+template <int d>
+double JointSweeps<d>::sweep(Vector& p) {
+  double largest = 0.0;
+  int joint = joints_.joint.empty() ? 0 : joints_.joint.front();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (joints_.joint[i] != joint) {
+      leave(joint);
+      joint = joints_.joint[i];
+    }
+    PairProblem<d>& pair = pairs_[i];
+    const auto first = d * static_cast<Index>(i);
+    double* const force = p.data() + first;
+    Components& motion = motion_[static_cast<std::size_t>(joint)];
+    Eigen::Matrix<double, d, 1> free = joints_.A[i] * motion, next, change;
+    double size = 0.0;
+    for (int k = 0; k < d; ++k) {
+      free[k] += problem_->q[first + k];
+      for (int j = 0; j < d; ++j) free[k] -= pair.W()[d * j + k] * force[j];
+    }
+    pair.solve(free.data(), next.data());
+    for (int k = 0; k < d; ++k) {
+      change[k] = next[k] - force[k];
+      size += std::abs(change[k]);
+    }
+    if (!(size > 0.0 && size < HUGE_VAL)) continue;
+    for (int k = 0; k < d; ++k) {
+      force[k] = next[k];
+      largest = std::max(largest, std::abs(change[k]));
+    }
+    const Components resultant = joints_.A[i].transpose() * change;
+    motion.noalias() += own_[static_cast<std::size_t>(joint)] * resultant;
+    left_ += resultant;
+  }
+  leave(joint);
+  return largest;
+}
+
+template <int d>
+void JointSweeps<d>::read_motion(Vector& motion) const {
+  motion = problem_->q;
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    motion.segment<d>(d * static_cast<Index>(i)).noalias() +=
+        joints_.A[i] * motion_[static_cast<std::size_t>(joints_.joint[i])];
+}
+
+template class JointSweeps<2>;
+template class JointSweeps<3>;
+
+}  // namespace scabo::contact
