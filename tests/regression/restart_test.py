@@ -147,6 +147,30 @@ output: {fields: []}
             for key in set(one) - {"step"}:
                 self.assertEqual(one[key], other[key])
 
+    def test_pairs_that_supports_hold_count_from_their_placing(self):
+        """The ground was 2 mm up when the block was placed on it: 1 mm less is no overlap, 1 mm more is one of 1 mm."""
+        text = """
+scabo: 1
+materials: {stuff: {young: 1e9, poisson: 0.2, density: 2000}}
+bodies:
+  ground: {material: stuff, shape: {rectangle: {corner: [0, -1], size: [1, 1]}}, mesh: {size: 0.5}}
+  block: {material: stuff, shape: {rectangle: {corner: [0, 0], size: [1, 0.5]}}, mesh: {size: 0.5}%s}
+supports: [{on: ground.top, displacement: [0, 2e-3], name: lift}, {on: block.bottom, fix: [x, y]}]
+loads: {weight: {gravity: [0, -10]}}
+contacts: {seat: {between: [ground.top, block.bottom], friction: 0.5}}
+steps: %s
+"""
+        (self.directory / "one.yaml").write_text(text % (", added: place", "[{name: raise}, {name: place}]"), encoding="utf-8")
+        done = scabo("run", self.directory / "one.yaml", "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for lift, status in ((0.5, 0), (1.5, 1)):
+            two = self.directory / "two.yaml"
+            two.write_text("restart: one.results" + text % ("", f"[{{name: more, loads: {{lift: {lift}}}}}]"), encoding="utf-8")
+            done = scabo("run", two, "--quiet")
+            self.assertEqual(done.returncode, status, done.stderr)
+            if status:
+                self.assertIn("keep it at an overlap of 0.001, which no contact force can remove", done.stderr)
+
     def test_its_own_directory_and_runs_without_an_end_are_refused(self):
         one = self.write("one.yaml", "[{name: a, loads: {weight: 1, push: 0.2}}]")
         self.assertEqual(scabo("run", one, "--quiet").returncode, 0)

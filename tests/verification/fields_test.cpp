@@ -208,6 +208,39 @@ loads:
   }
 }
 
+// The stress of ground grows along the faces of a slit in it: what they release is a pull K0 g (4 - y) along their normals,
+// 12.5 (1.9 + 2.1 xi) from the tip to the mouth.
+TEST(InitialStress, ThatGrowsIsReleasedByTheFacesOfASlit) {
+  const auto plate = [](const char* loads) {
+    return run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{soil: {{young: 200e3, poisson: 0.3}}}}
+bodies:
+  plate:
+    material: soil
+    shape: {{rectangle: {{corner: [0, 0], size: [4, 4]}}}}
+    mesh: {{size: 0.4, order: 6}}
+    cracks: [{{tip: [2, 2.1], mouth: [2, 0], name: flaw}}]
+supports: [{{on: plate.top, fix: [x, y]}}, {{on: plate.left, fix: [x, y]}}, {{on: plate.right, fix: [x, y]}}]
+loads:
+{}
+)",
+                           loads));
+  };
+  const auto released = plate(
+      "  insitu: {field: {vertical: {unit_weight: 25, surface: 4}, K0: 0.5}}\n"
+      "  below: {on: plate.bottom, pressure: 100}\n");
+  const auto pulled = plate(
+      "  left: {on: plate.flaw.left, pressure: {powers: {0: -23.75, 1: -26.25}}}\n"
+      "  right: {on: plate.flaw.right, pressure: {powers: {0: -23.75, 1: -26.25}}}\n");
+  const Vector &of_released = last(released).fields.displacements[0], &of_pulled = last(pulled).fields.displacements[0];
+  EXPECT_LT((of_released - of_pulled).norm(), 1e-8 * of_pulled.norm());
+  const double K_I = last(pulled).cracks.at(0).factors.K_I;
+  EXPECT_LT(K_I, -10.0);
+  EXPECT_NEAR(last(released).cracks.at(0).factors.K_I, K_I, 1e-7 * std::abs(K_I));
+}
+
 // Gravity between rollers makes K0 = nu / (1 - nu): ground with a tunnel has the same stress by gravity as by the
 // field.
 TEST(InitialStress, WithATunnelIsThatOfGravityBetweenRollers) {

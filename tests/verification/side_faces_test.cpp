@@ -259,6 +259,32 @@ loads: {{press: {{on: part.top, {}}}}}
   EXPECT_NEAR(last(quarter).reactions[1].x(), 0.0, 1e-2);
 }
 
+// A triangle with rollers on both faces that meet in its scaling centre, at any angle and turned: pressed on its third edge it
+// has the stress -p in all directions, u = -p (1 - nu) / E x.
+TEST(SideFaces, BothOnRollersLeaveAUniformPressureUniform) {
+  const double p = 3e6, E = 2e9, nu = 0.3;
+  for (const double degrees : {60.0, 90.0, 130.0})
+    for (const double turn : {0.0, 0.4, -2.0}) {
+      const double end = turn + degrees * pi / 180.0;
+      const auto solution = run(fmt::format(R"(scabo: 1
+materials: {{m: {{young: {}, poisson: {}}}}}
+bodies:
+  part: {{material: m, shape: {{polygon: {{vertices: [[0, 0], [{:.17g}, {:.17g}], [{:.17g}, {:.17g}]]}}}}, mesh: {{size: 0.5, order: 3, centre: [0, 0]}}}}
+supports: [{{on: part.edge_1, fix: normal}}, {{on: part.edge_3, fix: normal}}]
+loads: {{press: {{on: part.edge_2, pressure: {}}}}}
+)",
+                                            E, nu, std::cos(turn), std::sin(turn), std::cos(end), std::sin(end), p));
+      const Vector& u = last(solution).fields.displacements[0];
+      const std::vector<Vec2>& nodes = solution.mesh.bodies[0].nodes;
+      const double shortening = p * (1.0 - nu) / E;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        EXPECT_LT((u.segment<2>(static_cast<Eigen::Index>(2 * i)) + shortening * nodes[i]).norm(), 1e-9 * shortening)
+            << degrees << " " << turn;
+      const double area = 0.5 * std::sin(end - turn);
+      EXPECT_NEAR(last(solution).energy.elastic, p * shortening * area, 1e-9 * p * shortening);
+    }
+}
+
 /// A block of 2 x 1 with its scaling centre at the lower left corner.
 std::string block(const Placed& at, const std::string& conditions, const std::string& mesh, bool centre = true) {
   return fmt::format(R"(scabo: 1
