@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,6 +24,40 @@ const system::BodySystem& part_of(const Prepared& prepared, int body) {
   return *prepared.structure.parts[prepared.structure.dofs.part_of(body)];
 }
 
+/// Resultants up to this part of the sum of all forces on a part are rounding of that sum; far below the tolerance of
+/// the certificate, 1e-10.
+constexpr double rounding_of_sums = 1e-12;
+
+/// Sum of the sizes of all forces on part `p`.
+double sum_of_loads(const Prepared& prepared, std::size_t p, const Factors& factors,
+                    const std::vector<Vector>& released) {
+  double sum = 0.0;
+  for (std::size_t load = 0; load < factors.loads.size(); ++load)
+    if (prepared.structure.loads[load][p].size() > 0)
+      sum += std::abs(factors.loads[load]) * prepared.structure.loads[load][p].lpNorm<1>();
+  if (!released.empty()) sum += released[p].lpNorm<1>();
+  return sum;
+}
+
+/// Takes out of the forces on part `p` resultants along its free rigid motions that are rounding, spread over all
+/// forces. Contact balances the resultants without them (loads_on_motions); left in, they would be found unbalanced on
+/// the few degrees of freedom that hold the part in displacement(): with a thousand pairs, 5e-11 of the largest force.
+void take_out_rounding(const Matrix& rigid, double sum, Vector& forces) {
+  Vector resultants = rigid.transpose() * forces;
+  for (double& resultant : resultants)
+    if (std::abs(resultant) > rounding_of_sums * sum) resultant = 0.0;
+  if (resultants.isZero(0.0)) return;
+  std::vector<int> loaded;
+  for (Eigen::Index i = 0; i < forces.size(); ++i)
+    if (forces[i] != 0.0) loaded.push_back(static_cast<int>(i));
+  const Matrix motions = rigid(loaded, Eigen::all);
+  const Eigen::LDLT<Matrix> squares(motions.transpose() * motions);
+  if (squares.info() == Eigen::Success && squares.rcond() > 1e-6)
+    forces(loaded) -= motions * squares.solve(resultants);
+  else  // few forces, or parallel ones
+    forces -= rigid * Matrix(rigid.transpose() * rigid).ldlt().solve(resultants);
+}
+
 /// Loads, and what removed bodies still exert of the forces that they exerted.
 std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& factors,
                                    const std::vector<Vector>& released) {
@@ -36,6 +71,8 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& fact
         forces[p] += presence * factors.loads[load] * prepared.structure.loads[load][p];
     if (!released.empty() && released[p].size() > 0 && factors.release != 0.0)
       forces[p] += factors.release * released[p];
+    if (const Matrix& rigid = prepared.structure.parts[p]->rigid_motions(); rigid.cols() > 0)
+      take_out_rounding(rigid, sum_of_loads(prepared, p, factors, released), forces[p]);
   }
   return forces;
 }
@@ -44,15 +81,10 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& fact
 /// or the forces of a temperature, leave rounding of their sum, which nothing could balance where neither supports nor
 /// friction hold it: it is zero, whatever the unit of length makes of the last digits.
 Vector loads_on_motions(const Prepared& prepared, std::size_t p, const State& state) {
-  constexpr double rounding_of_sums = 1e-12;  // far below the tolerance of the certificate, 1e-10
-  double acting = 0.0;
-  for (std::size_t load = 0; load < state.factors.loads.size(); ++load)
-    if (prepared.structure.loads[load][p].size() > 0)
-      acting += std::abs(state.factors.loads[load]) * prepared.structure.loads[load][p].lpNorm<1>();
-  if (!state.released.empty()) acting += state.released[p].lpNorm<1>();
+  const double sum = sum_of_loads(prepared, p, state.factors, state.released);
   Vector f = prepared.structure.parts[p]->rigid_motions().transpose() * state.forces[p];
   for (double& resultant : f)
-    if (std::abs(resultant) <= rounding_of_sums * acting) resultant = 0.0;
+    if (std::abs(resultant) <= rounding_of_sums * sum) resultant = 0.0;
   return f;
 }
 
@@ -175,10 +207,30 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
   return energy;
 }
 
+/// Largest force at work in a state.
+double largest_force(const State& state) {
+  double largest = state.p.size() > 0 ? state.p.lpNorm<Eigen::Infinity>() : 0.0;
+  for (const auto* forces : {&state.forces, &state.reactions})
+    for (const Vector& of_part : *forces)
+      if (of_part.size() > 0) largest = std::max(largest, of_part.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+/// What displacements may leave unbalanced, a tenth of what the certificate allows; less where the tolerance is large.
+/// Without reactions, which are not known before: those of its own constraints every part adds.
+system::Balanced wanted_balance(const Prepared& prepared, const State& state) {
+  constexpr double well_below = 0.1;
+  system::Balanced wanted;
+  wanted.part = std::min(wanted.part, well_below * prepared.model.solver.tolerance);
+  wanted.at_least = std::max(prepared.force_scale, largest_force(state));
+  return wanted;
+}
+
 /// Displacements and reactions under the loads and contact forces of a state; `known`: the displacements without rigid
 /// motions.
 std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to) {
   const auto& parts = prepared.structure.parts;
+  const system::Balanced wanted = wanted_balance(prepared, to);
   std::vector<Balance> balances(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (prepared.is_absent(p)) {
@@ -189,11 +241,11 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
     Balance& balance = balances[p];
     balance.forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
     system::Displaced reached =
-        known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(balance.forces, to.prescribed[p]);
+        known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(balance.forces, to.prescribed[p], wanted);
     const Matrix& rigid = parts[p]->rigid_motions();
     if (rigid.cols() > 0) reached.u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
-    const bool is_known = reached.unbalanced.size() > 0 && rigid.cols() == 0;
-    balance.unbalanced = is_known ? std::move(reached.unbalanced) : parts[p]->unbalanced(reached.u, balance.forces);
+    balance.unbalanced = reached.unbalanced.size() > 0 ? std::move(reached.unbalanced)  // K resists no rigid motion
+                                                       : parts[p]->unbalanced(reached.u, balance.forces);
     to.reactions.push_back(parts[p]->reactions_of(balance.unbalanced));
     to.u.push_back(std::move(reached.u));
   }
@@ -208,15 +260,6 @@ Eigen::Vector3d resultant(const system::BodySystem& part, const std::vector<Vec2
     sum += system::rigid_point(nodes[i], part.reference(), part.lever()).transpose() *
            forces.segment<2>(static_cast<Eigen::Index>(2 * i));
   return sum;
-}
-
-/// Largest force at work in a state.
-double largest_force(const State& state) {
-  double largest = state.p.size() > 0 ? state.p.lpNorm<Eigen::Infinity>() : 0.0;
-  for (const auto* forces : {&state.forces, &state.reactions})
-    for (const Vector& of_part : *forces)
-      if (of_part.size() > 0) largest = std::max(largest, of_part.lpNorm<Eigen::Infinity>());
-  return largest;
 }
 
 /// Of K u, against resistance().

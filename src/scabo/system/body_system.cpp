@@ -1,5 +1,6 @@
 #include "scabo/system/body_system.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/linalg/sparse_factor.hpp"
 #include "scabo/linalg/twofold.hpp"
+#include "scabo/system/differences.hpp"
 #include "scabo/system/inclined_nodes.hpp"
 #include "scabo/system/ranks.hpp"
 
@@ -114,7 +116,9 @@ class ElasticBody final : public BodySystem {
     find_turn(nodes);
     for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
     solved_ = free_;
-    for (int dof : further_dofs()) solved_[static_cast<std::size_t>(dof)] = false;
+    further_ = further_dofs();
+    for (int dof : further_) solved_[static_cast<std::size_t>(dof)] = false;
+    find_forces_on_further();
     place_.assign(solved_.size(), -1);
     for (std::size_t i = 0; i < solved_.size(); ++i)
       if (solved_[i]) place_[i] = static_cast<int>(dofs_.size()), dofs_.push_back(static_cast<int>(i));
@@ -153,26 +157,32 @@ class ElasticBody final : public BodySystem {
 
   Eigen::Index size() const override { return stiffness().size(); }
 
-  Displaced displaced(const Vector& f, const Vector& prescribed) const override {
+  Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted) const override {
     Displaced to{held_displacement(prescribed), {}};
     const bool at_rest = to.u.isZero(0.0);
     if (at_rest && f.isZero(0.0)) return {std::move(to.u), Vector::Zero(size())};
     to.u += solved(at_rest ? f : Vector(f - internal_forces(to.u)));
     to.unbalanced = internal_forces(to.u) - f;
     const double acting = largest_acting(to.unbalanced, f);
-    if (!is_balanced(to.u, to.unbalanced, acting)) {
-      to.u -= solved(to.unbalanced);
-      to.unbalanced.resize(0);
+    if (is_large()) {
+      const double largest = std::max(acting, wanted.at_least), allowed = wanted.part * largest;
+      const Goal reached = goal(f, largest);
+      if (largest_left(to.unbalanced, reached) <= allowed) return to;
+      Refined exact = refined(to.u, f, allowed, reached);
+      return {linalg::rounded(exact.u), std::move(exact.left)};
     }
-    if (rounding_matters(to.u, acting)) return {linalg::rounded(refined(to.u, f).u), {}};
-    return to;
+    to.u -= solved(to.unbalanced);  // another solve of a small body costs nothing
+    to.unbalanced.resize(0);
+    if (!rounding_matters(to.u, acting, wanted)) return to;
+    Refined exact = refined(to.u, f, wanted);
+    return {linalg::rounded(exact.u), std::move(exact.left)};
   }
 
   Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const override {
     Vector u = held_displacement(prescribed);
     const bool at_rest = u.isZero(0.0);
     if (dofs.empty() || (at_rest && f.isZero(0.0))) return u;
-    if (!at_rest || !is_large()) return displaced(f, prescribed).u;
+    if (!at_rest || !is_large()) return displacement(f, prescribed);
     // A few others tell how far the body bends, and so whether rounding matters.
     constexpr std::size_t samples = 64;
     std::vector<int> wanted;
@@ -193,7 +203,7 @@ class ElasticBody final : public BodySystem {
     double acting = f.lpNorm<Eigen::Infinity>();  // and what holds a body without supports against its loads
     if (rigid_motions_.cols() > 0)
       acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
-    return rounding_matters(u, acting) ? displaced(f, prescribed).u : u;
+    return rounding_matters(u, acting) ? displacement(f, prescribed) : u;
   }
 
   Matrix flexibility(const std::vector<int>& dofs) const override { return flexibility(dofs, true); }
@@ -263,11 +273,10 @@ class ElasticBody final : public BodySystem {
     }
     free.map.resize(size(), static_cast<Eigen::Index>(free.dofs.size()));
     free.map.setFromTriplets(entries.begin(), entries.end());
-    const std::vector<int> further = further_dofs();
-    free.motions.resize(static_cast<Eigen::Index>(further.size()), rigid_motions_.cols());
+    free.motions.resize(static_cast<Eigen::Index>(further_.size()), rigid_motions_.cols());
     for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k)
-      free.motions.col(k) = inclined_.along(rigid_motions_.col(k))(further);
-    for (const int dof : further) free.further.push_back(place[static_cast<std::size_t>(dof)]);
+      free.motions.col(k) = inclined_.along(rigid_motions_.col(k))(further_);
+    for (const int dof : further_) free.further.push_back(place[static_cast<std::size_t>(dof)]);
     return free;
   }
 
@@ -280,8 +289,11 @@ class ElasticBody final : public BodySystem {
   /// it in more than its last digits.
   Vector unbalanced(const Vector& u, const Vector& f) const override {
     Vector plain = internal_forces(u) - f;
-    if (!u.allFinite() || !rounding_matters(u, largest_acting(plain, f))) return plain;
-    Refined exact = refined(u, f);
+    if (!u.allFinite()) return plain;
+    const double acting = largest_acting(plain, f), allowed = Balanced().part * acting;
+    const Goal reached = goal(f, acting);
+    if (is_large() ? largest_left(plain, reached) <= allowed : !rounding_matters(u, acting)) return plain;
+    Refined exact = is_large() ? refined(u, f, allowed, reached) : refined(u, f, {});
     constexpr double last_digits = 256 * std::numeric_limits<double>::epsilon();
     if (!((linalg::rounded(exact.u) - u).lpNorm<Eigen::Infinity>() <= last_digits * u.lpNorm<Eigen::Infinity>()))
       return plain;
@@ -306,16 +318,18 @@ class ElasticBody final : public BodySystem {
 
   double elastic_energy(const Vector& u) const override {
     const Vector resisting = internal_forces(u);
-    return energy_needs_digits(u, resisting) ? exact_energy(u) : 0.5 * u.dot(resisting);
+    return !by_differences() && energy_needs_digits(u, resisting) ? exact_energy(u) : 0.5 * u.dot(resisting);
   }
   double elastic_energy(const Vector& u, const Vector& f, const Vector& unbalanced) const override {
     const Vector resisting = f + unbalanced;
-    if (rounding_matters(u, resisting.lpNorm<Eigen::Infinity>())) return exact_energy(u);  // u is refined
+    // By differences, forces are known more exactly than rounding of u leaves them.
+    const bool exact = by_differences();
+    if (!exact && rounding_matters(u, resisting.lpNorm<Eigen::Infinity>())) return exact_energy(u);  // u is refined
     Vector acting = Vector::Zero(size());
     const Vector left = inclined_.components(unbalanced);
     for (const Constraint& constraint : constraints_) acting[constraint.dof] = left[constraint.dof];
     const double work = u.dot(f) + inclined_.along(u).dot(acting);
-    return work - (energy_needs_digits(u, resisting) ? exact_energy(u) : 0.5 * u.dot(resisting));
+    return work - (!exact && energy_needs_digits(u, resisting) ? exact_energy(u) : 0.5 * u.dot(resisting));
   }
   double energy_lost(const Vector& u) const override {
     Vector strained = u;  // an estimate: digits that the rigid motions take from it do not count
@@ -364,7 +378,7 @@ class ElasticBody final : public BodySystem {
         Vector force = none;
         force[dofs[static_cast<std::size_t>(at[j])]] = 1.0;
         force = inclined_.forces(std::move(force));
-        const Vector u = inclined_.along(linalg::rounded(refined(solved(force), force).u));
+        const Vector u = inclined_.along(linalg::rounded(refined(solved(force), force, {}).u));
         for (std::size_t i = 0; i < at.size(); ++i) A(at[i], at[j]) = u[dofs[static_cast<std::size_t>(at[i])]];
       }
       A = 0.5 * (A + A.transpose()).eval();
@@ -400,16 +414,33 @@ class ElasticBody final : public BodySystem {
     return inclined_.displacements(std::move(u));
   }
 
-  /// Whether another solve is not worth its time: in large bodies, where one left a thousandth of what the certificate
-  /// allows of the largest force, or no more than rounding u does. Smaller ones are always refined: their solves cost
-  /// nothing.
-  bool is_balanced(const Vector& u, const Vector& unbalanced, double acting) const {
-    constexpr double enough = 1e-13, of_rounding = 4.0 * std::numeric_limits<double>::epsilon();
-    if (!is_large()) return false;
+  /// What of the forces that are left another solve can make smaller.
+  struct Goal {
+    Vector held;          // m: on the degrees of freedom that hold the body in u_p, against the resultants of f
+    double spread = 1.0;  // all forces over the largest: resultants may be larger than forces by this factor
+  };
+  Goal goal(const Vector& f, double largest_force) const {
+    const Vector held = on_further_ * (rigid_motions_.transpose() * f);
+    return {held, is_large() ? std::max(1.0, f.lpNorm<1>() / largest_force) : HUGE_VAL};
+  }
+  /// Largest of the forces on degrees of freedom that are solved for, of what these add up to on those that hold the
+  /// body, and of their resultants over `spread`: each is small, but there are many, and rounding of equal elements is
+  /// equal.
+  double largest_left(const Vector& unbalanced, const Goal& of) const {
     const Vector left = inclined_.components(unbalanced);
     double largest = 0.0;
     for (const int dof : dofs_) largest = std::max(largest, std::abs(left[dof]));
-    return largest <= std::max(enough * acting, of_rounding * stiff_force(u));
+    for (std::size_t k = 0; k < further_.size(); ++k)
+      largest = std::max(largest, std::abs(left[further_[k]] + of.held[static_cast<Eigen::Index>(k)]));
+    double sums[2] = {0.0, 0.0}, moment = 0.0;
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+      if (!free_[i]) continue;
+      const double force = unbalanced[static_cast<Eigen::Index>(i)];
+      sums[i % 2] += force;
+      moment += force * turn_[i].high;
+    }
+    return std::max({largest, std::abs(sums[0]) / of.spread, std::abs(sums[1]) / of.spread,
+                     std::abs(moment) / (lever_ * of.spread)});
   }
 
   /// 1/2 u'(K + S) u in twice the working precision.
@@ -425,8 +456,15 @@ class ElasticBody final : public BodySystem {
     return inclined_.displacements(std::move(v));
   }
 
+  /// Whether K u comes from differences of displacements: in working precision it is then exact but for the rounding of
+  /// u.
+  bool by_differences() const {
+    return is_large() && !stiffness().unbounded && !stiffness().divided && !stiffness().dense;
+  }
+
   /// (K + S) u, without the part that a translation of the whole body would add to K u by rounding.
   Vector internal_forces(Vector u) const {
+    if (by_differences()) return forces_left(linalg::twofold(u), Vector::Zero(size()), Product::by_differences);
     const Vector springs = has_springs() ? stiffness().springs.times(u) : Vector();
     if (!stiffness().unbounded) {
       const Eigen::Index nodes = size() / 2;
@@ -441,9 +479,11 @@ class ElasticBody final : public BodySystem {
 
   /// Whether rounding u can leave forces that are not small beside those that act: in slender bodies K u is a small
   /// difference of large numbers.
-  bool rounding_matters(const Vector& u, double acting) const {
+  bool rounding_matters(const Vector& u, double acting, const Balanced& wanted = {}) const {
+    // Of a small body K u leaves some four units of rounding.
     constexpr double unit = std::numeric_limits<double>::epsilon(), small = 1e-12, small_enough = 1e-11;
-    return unit * stiff_force(u) > (is_large() ? small_enough : small) * acting;
+    const double part = is_large() ? small_enough : std::min(small, 0.25 * wanted.part);
+    return unit * stiff_force(u) > part * acting;
   }
   /// Differences of energies between meshes are 1e-13 of them: here rounding counts sooner.
   bool energy_needs_digits(const Vector& u, const Vector& resisting) const {
@@ -458,14 +498,23 @@ class ElasticBody final : public BodySystem {
     return largest;
   }
 
-  /// (K + S) u - f in twice the working precision. Bounded bodies: P K P for K, where P takes rigid motions out
-  /// (translations and the turn, orthogonal); K itself resists them by what rounding its entries left, and forces that
-  /// come from rounding have no resultant this way.
-  Vector forces_left(linalg::TwofoldVector u, const Vector& f) const {
+  enum class Product { twofold, by_differences };
+  /// (K + S) u - f, in twice the working precision or by differences. Bounded bodies: P K P for K, where P takes rigid
+  /// motions out (translations and the turn, orthogonal); K itself resists them by what rounding its entries left, which
+  /// is the same in all of many equal elements, and forces that come from rounding have no resultant this way.
+  Vector forces_left(linalg::TwofoldVector u, const Vector& f, Product product = Product::twofold,
+                     double* rounding = nullptr) const {
     linalg::TwofoldVector springs;
     if (has_springs()) springs = linalg::product(stiffness().springs.matrix, u);
     if (!stiffness().unbounded) take_out_rigid_motions(u);
-    linalg::TwofoldVector forces = stiffness().times(u);
+    linalg::TwofoldVector forces;
+    if (product == Product::by_differences) {
+      const ForcesByDifferences found = forces_by_differences(stiffness().sparse, u);
+      forces = linalg::twofold(found.forces);
+      if (rounding) *rounding = found.rounding;
+    } else {
+      forces = stiffness().times(u);
+    }
     if (!stiffness().unbounded) take_out_rigid_motions(forces);
     for (std::size_t i = 0; i < springs.size(); ++i) forces[i] = forces[i] + springs[i];
     Vector left(size());
@@ -477,20 +526,22 @@ class ElasticBody final : public BodySystem {
   }
 
   void take_out_rigid_motions(linalg::TwofoldVector& v) const {
-    const linalg::Twofold nodes{static_cast<double>(v.size() / 2), 0.0};
-    for (std::size_t k = 0; k < 2; ++k) {
-      linalg::Twofold sum;
-      for (std::size_t i = k; i < v.size(); i += 2) sum = sum + v[i];
-      const linalg::Twofold mean = sum / nodes;
-      for (std::size_t i = k; i < v.size(); i += 2) v[i] = v[i] - mean;
+    const std::size_t nodes = v.size() / 2;
+    for (int round = 0; round < 2; ++round) {  // sums in working precision: the second takes out what the first left
+      double x = 0.0, y = 0.0, turned = 0.0;
+      for (std::size_t i = 0; i < nodes; ++i) {
+        x += v[2 * i].high;
+        y += v[2 * i + 1].high;
+      }
+      const linalg::Twofold mean_x{x / static_cast<double>(nodes), 0.0}, mean_y{y / static_cast<double>(nodes), 0.0};
+      for (std::size_t i = 0; i < nodes; ++i) {
+        v[2 * i] = v[2 * i] - mean_x;
+        v[2 * i + 1] = v[2 * i + 1] - mean_y;
+        turned += v[2 * i].high * turn_[2 * i].high + v[2 * i + 1].high * turn_[2 * i + 1].high;
+      }
+      const linalg::Twofold angle{turned / turn_square_, 0.0};
+      for (std::size_t i = 0; i < v.size(); ++i) v[i] = v[i] - angle * turn_[i];
     }
-    linalg::Twofold product, square;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      product = product + v[i] * turn_[i];
-      square = square + turn_[i] * turn_[i];
-    }
-    const linalg::Twofold angle = product / square;
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = v[i] - angle * turn_[i];
   }
 
   /// The displacement under f in twice the working precision, refined from u, and the forces that are left with it.
@@ -498,40 +549,54 @@ class ElasticBody final : public BodySystem {
     linalg::TwofoldVector u;
     Vector left;
   };
+  Refined refined(const Vector& u, const Vector& f, const Balanced& wanted) const {
+    const double largest = f.lpNorm<Eigen::Infinity>();
+    return refined(u, f, std::min(1e-14, wanted.part) * largest, goal(f, largest));
+  }
   /// By conjugate gradients, whose preconditioner is the factor of K + S: exact but for few directions, the bending of
   /// a slender body or its motion on soft springs, in which rounding of the factor counts. Plain refinement is their
-  /// first step.
-  Refined refined(const Vector& u, const Vector& f) const {
+  /// first step. Until at most `allowed` (a force) is left at a node, or rounding allows no less; and in
+  /// a large body until u hardly changes: in bending, few forces change it much.
+  Refined refined(const Vector& u, const Vector& f, double allowed, const Goal& of) const {
     Refined best{linalg::twofold(u), {}};
-    best.left = forces_left(best.u, f);
+    // One product for all: to rounding, they are those of two matrices.
+    Product product = Product::twofold;
+    if (by_differences()) {
+      double rounding = 0.0;
+      best.left = forces_left(best.u, f, Product::by_differences, &rounding);
+      if (rounding <= 0.1 * allowed) product = Product::by_differences;
+    }
+    if (product == Product::twofold) best.left = forces_left(best.u, f);
     if (dofs_.empty()) return best;
-    const auto solved_part = [&](const Vector& left) { return Vector(inclined_.components(left)(dofs_)); };
-    const auto size_of = [&](const Vector& left) { return solved_part(left).lpNorm<Eigen::Infinity>(); };
+    const auto solved_part = [&](const Vector& forces) { return Vector(inclined_.components(forces)(dofs_)); };
     const Vector nothing = Vector::Zero(size());
     Refined now = best;
     Vector along = nothing;  // the direction, in the components of `solved_part`
-    double before = 0.0;
-    constexpr int most = 40, patience = 5;
+    double before = 0.0, least = largest_left(best.left, of);
+    constexpr int most = 40;
+    const int patience = is_large() ? 2 : 5;  // what resultants of many forces leave does not get less
+    constexpr double hardly = 1e-9;
     int since_best = 0;
-    for (int k = 0; k < most && since_best < patience && size_of(best.left) > 1e-14 * f.lpNorm<Eigen::Infinity>();
-         ++k) {
-      const Vector left = solved_part(now.left), correction = solver().solve(left).col(0);
-      const double decrease = left.dot(correction);
+    bool changes = false;
+    for (int k = 0; k < most && since_best < patience && (least > allowed || changes); ++k) {
+      const Vector remaining = solved_part(now.left), correction = solver().solve(remaining).col(0);
+      const double decrease = remaining.dot(correction);
       along *= before > 0.0 ? decrease / before : 0.0;
       along(dofs_) -= correction;
       before = decrease;
       const Vector direction = inclined_.displacements(along);
-      const double curvature = direction.dot(forces_left(linalg::twofold(direction), nothing));
+      const double curvature = direction.dot(forces_left(linalg::twofold(direction), nothing, product));
       if (!(curvature > 0.0)) break;
-      const linalg::Twofold step{-left.dot(Vector(along(dofs_))) / curvature, 0.0};
+      const linalg::Twofold step{-remaining.dot(Vector(along(dofs_))) / curvature, 0.0};
+      changes = is_large() && direction.lpNorm<Eigen::Infinity>() * step.high > hardly * u.lpNorm<Eigen::Infinity>();
       for (Eigen::Index dof = 0; dof < direction.size(); ++dof) {
         if (direction[dof] == 0.0) continue;
         linalg::Twofold& component = now.u[static_cast<std::size_t>(dof)];
         component = component + step * linalg::Twofold{direction[dof], 0.0};
       }
-      now.left = forces_left(now.u, f);
+      now.left = forces_left(now.u, f, product);
       ++since_best;
-      if (size_of(now.left) < size_of(best.left)) best = now, since_best = 0;
+      if (const double size = largest_left(now.left, of); size < least) best = now, least = size, since_best = 0;
     }
     return best;
   }
@@ -548,6 +613,7 @@ class ElasticBody final : public BodySystem {
       const linalg::Twofold mean = sum / count;
       for (std::size_t i = k; i < turn_.size(); i += 2) turn_[i] = turn_[i] - mean;
     }
+    for (const linalg::Twofold& turn : turn_) turn_square_ += turn.high * turn.high;
   }
 
   void find_rigid_motions(const std::vector<Vec2>& nodes) {
@@ -561,6 +627,14 @@ class ElasticBody final : public BodySystem {
       for (const Constraint& constraint : constraints_) along[constraint.dof] = 0.0;
       rigid_motions_.col(k) = inclined_.displacements(std::move(along));
     }
+  }
+
+  /// Of Goal::held: B' x = z for forces x on these degrees of freedom along which the motions are B, and resultants z.
+  void find_forces_on_further() {
+    const Eigen::Index m = rigid_motions_.cols();
+    Matrix B(m, m);
+    for (Eigen::Index k = 0; k < m; ++k) B.col(k) = inclined_.along(rigid_motions_.col(k))(further_);
+    on_further_ = m > 0 ? Matrix(B.transpose().inverse()) : Matrix(0, 0);
   }
 
   /// As many degrees of freedom as there are rigid motions, chosen so that holding them stops every motion.
@@ -583,9 +657,12 @@ class ElasticBody final : public BodySystem {
   std::shared_ptr<Factored> factored_;
   InclinedNodes inclined_;
   linalg::TwofoldVector turn_;  // the rotation about the mean of the nodes
+  double turn_square_ = 0.0;    // its square
   std::vector<bool> free_;      // by supports
   std::vector<bool> solved_;    // free, and not among the further dofs
   std::vector<int> dofs_, place_;
+  std::vector<int> further_;  // hold the body in u_p along its rigid motions
+  Matrix on_further_;         // m x m
 };
 
 }  // namespace

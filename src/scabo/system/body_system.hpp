@@ -15,6 +15,8 @@
 // (L/h)^3 times the load, and rounding u alone causes a relative error of 4e-9 at 100:1. In such bodies displacement,
 // flexibility, reactions, imbalance and energy are computed with twice the working precision (linalg/twofold.hpp): u is
 // refined to its last digit, and reactions and imbalance are those of the displacement of which u is the rounded value.
+// In large bodies, whose displacement is large beside its differences over an element, so are they wherever u as it is
+// leaves more than `Balanced` allows.
 #pragma once
 
 #include <limits>
@@ -84,9 +86,17 @@ struct FreeStiffness {
   Matrix motions;            ///< m x m: of `further`, per unit rigid motion
 };
 
-/// A displacement under given forces, and (K + S) u less these forces if that is known: else empty.
+/// A displacement under given forces, and (K + S) u less these forces if that is known, of the displacement that u is
+/// the rounded value of: else empty.
 struct Displaced {
   Vector u, unbalanced;
+};
+
+/// Forces that a displacement may leave unbalanced at a node: `part` of the largest that acts on the body, or of
+/// `at_least` if that is more. Where rounding does not allow that, as little as it allows.
+struct Balanced {
+  double part = 1e-11;
+  double at_least = 0.0;  ///< force
 };
 
 class BodySystem {
@@ -100,8 +110,8 @@ class BodySystem {
   const Matrix& rigid_coordinates() const { return rigid_coordinates_; }
 
   /// u_p for the applied forces f and the prescribed values of all constraints.
-  virtual Displaced displaced(const Vector& f, const Vector& prescribed) const = 0;
-  Vector displacement(const Vector& f, const Vector& prescribed) const { return displaced(f, prescribed).u; }
+  virtual Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted) const = 0;
+  Vector displacement(const Vector& f, const Vector& prescribed) const { return displaced(f, prescribed, {}).u; }
   /// The same on the given degrees of freedom, and anything on others: in much less time, where the body is large and
   /// they are few, but without the refinement that equilibrium at every node needs.
   virtual Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const = 0;

@@ -35,7 +35,7 @@ class RigidBody final : public BodySystem {
 
   Eigen::Index size() const override { return 3; }
 
-  Displaced displaced(const Vector& f, const Vector& prescribed) const override {
+  Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced&) const override {
     Vector u = Vector::Zero(3);
     if (held_.rows() > 0) u = constrained_.solve(prescribed);
     if (is_flexible())
@@ -45,7 +45,7 @@ class RigidBody final : public BodySystem {
   }
 
   Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&) const override {
-    return displaced(f, prescribed).u;
+    return displaced(f, prescribed, {}).u;
   }
 
   Matrix flexibility(const std::vector<int>& dofs) const override {
