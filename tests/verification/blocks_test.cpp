@@ -62,7 +62,8 @@ std::string shape_of(const Blocks& blocks, double left, double bottom, double wi
                        height * s);
   const auto vertex = [&](double x, double y) { return turned(blocks, x * s, y * s); };
   return fmt::format(
-      "{{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, right: edge_2, top: edge_3, left: edge_4}}}}}}",
+      "{{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, right: edge_2, top: edge_3, left: "
+      "edge_4}}}}}}",
       vertex(left, bottom), vertex(left + width, bottom), vertex(left + width, bottom + height),
       vertex(left, bottom + height));
 }
@@ -224,8 +225,8 @@ TEST(Wall, SlidesAtItsCollapsePush) {
 }
 
 // Accelerated along the wall by 0.35 g. By hand: a block or tower stands where 0.35 is below mu and below width over
-// height; the joint below the part of weight W and height h above it carries W and 0.35 W, and its resultant lies 0.35 h /
-// 2 beyond the middle.
+// height; the joint below the part of weight W and height h above it carries W and 0.35 W, and its resultant lies
+// 0.35 h / 2 beyond the middle.
 TEST(Shaken, BlocksTowersAndWallsStandAsStaticsSays) {
   constexpr double a = 0.35;
   struct Case {
@@ -261,9 +262,9 @@ TEST(Shaken, BlocksTowersAndWallsStandAsStaticsSays) {
   }
 }
 
-// A wall turned by 30 degrees together with gravity and push, and one in millimetres: the same verdict, the same gaps and
-// slips, and the same force of every pair that has a point for itself. Where three blocks meet in a point, forces around
-// it are not unique (docs/methods/06).
+// A wall turned by 30 degrees together with gravity and push, and one in millimetres: the same verdict, the same gaps
+// and slips, and the same force of every pair that has a point for itself. Where three blocks meet in a point, forces
+// around it are not unique (docs/methods/06).
 TEST(Wall, TurnedOrInOtherUnitsIsTheSame) {
   for (const auto& [friction, part] : {std::pair{0.6, 0.5}, std::pair{0.3, 0.9}}) {
     SCOPED_TRACE(fmt::format("mu {}, {} of the collapse push", friction, part));

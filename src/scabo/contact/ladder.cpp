@@ -150,7 +150,7 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   const bool small = problem_.pairs() <= most_of_paths_first;
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};
-  if (!small) how.patience = 2, how.fall = 0.03;  // what falls more slowly takes more iterations than interior points
+  if (!small) how.patience = 2, how.fall = 0.1;  // what falls more slowly takes more iterations than interior points
   return newton_alone(start.p, start.a, how);
 }
 
@@ -376,8 +376,9 @@ NewtonEnd Ladder::inside_from(double start_factor) {
   return newton_alone(end.p, Vector(), {"newton after interior points", 1e-6, 1.0, 12});
 }
 
-/// Interior points of a plane problem from forces and motions that are known roughly. When |H| has fallen far enough for
-/// nearly all states to be right, a few Newton iterations reach the solution; where they do not, steps follow once more.
+/// Interior points of a plane problem from forces and motions that are known roughly. When |H| has fallen far enough
+/// for nearly all states to be right, a few Newton iterations reach the solution; where they do not, steps follow once
+/// more.
 NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
   constexpr int few = 7, hardly = 2;
   PlaneInteriorPoints points(problem_, p, a, start);

@@ -60,8 +60,8 @@ constexpr Eigen::Index least_sparse = 120;     // unknowns below which dense is 
 // less rounding drifts in the null space (walls of blocks: 14 to 38 iterations instead of 1 to 5).
 constexpr double raise = 1e-4;
 constexpr GmresOptions singular_gmres{1e-12, 40, 80};
-/// What holds softly: of the force rows, and of the rows of balance for a motion that moves one component of one pair by
-/// 1. It is not taken back: an error is left, and the next step takes it.
+/// What holds softly: of the force rows, and of the rows of balance for a motion that moves one component of one pair
+/// by 1. It is not taken back: an error is left, and the next step takes it.
 constexpr double soft_raise = 1e-6, soft_hold = 1e-7;
 /// Residual, relative to the right-hand side, up to which a direction solves its equations; up to `descending` it is
 /// still one along which the merit falls.
@@ -510,8 +510,8 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   return y_.allFinite() && left <= descending;
 }
 
-/// Close to a solution a wall may be nearly a mechanism: most joints slip, and one wrong state lets a block go. The exact
-/// direction is then a thousand times too long.
+/// Close to a solution a wall may be nearly a mechanism: most joints slip, and one wrong state lets a block go. The
+/// exact direction is then a thousand times too long.
 bool NewtonDirection::solve_softened() {
   const auto size = static_cast<Eigen::Index>(unknowns_.size()), m = equations_.problem().G.cols();
   Workspace& work = *work_;

@@ -11,6 +11,7 @@
 
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/plane_interior_points.hpp"
+#include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/starts/long_sweeps.hpp"
@@ -208,14 +209,15 @@ TEST(InteriorPoints, BalanceTheRigidMotionsOfElasticBodies) {
   EXPECT_GE(10 * reached, 9 * asked) << reached << " of " << asked;
 }
 
-/// Floating blocks with random motions: the law, written out case by case, from a start that knows nothing but the load.
+/// Floating blocks with random motions: the law, written out case by case, from a start that knows only the load.
 TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
   std::mt19937 random(5);
-  int solved = 0;
+  int solved = 0, solvable = 0;
   constexpr int count = 40;
   for (int k = 0; k < count; ++k) {
     const Problem problem = scaled(test::floating_problem(random, 10 + k, 0.8)).problem;
-    if (problem.mu.minCoeff() <= 0.0) continue;
+    if (problem.mu.minCoeff() <= 0.0 || find_mechanism(problem)) continue;
+    ++solvable;
     Vector p = Vector::Zero(problem.q.size());
     for (int i = 0; i < problem.pairs(); ++i) p[2 * i] = problem.f.lpNorm<Eigen::Infinity>() / problem.pairs();
     PlaneInteriorPoints points(problem, p, Vector::Zero(problem.G.cols()), 1.0);
@@ -225,7 +227,8 @@ TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
     ++solved;
     EXPECT_LT(test::violation(problem, end.p, end.a), 1e-8 * end.p.lpNorm<Eigen::Infinity>()) << k;
   }
-  EXPECT_GE(solved, 35);
+  EXPECT_GT(solvable, 20);
+  EXPECT_GE(solved, solvable - 2);
 }
 
 }  // namespace
