@@ -206,8 +206,8 @@ std::string uniform_cycle(double p, double mu, double amplitude, int parts) {
                       steps + "]");
 }
 
-// It slides on while the pressure rises to three times: friction takes the mean of its bounds, 2 mu p, over the slip, which
-// is what the drive goes less what the block shears meanwhile.
+// It slides on while the pressure rises to three times: friction takes the mean of its bounds, 2 mu p, over the slip,
+// which is what the drive goes less what the block shears meanwhile.
 TEST(CyclicLoad, FrictionUnderRisingPressureTakesTheMeanOfItsBounds) {
   const double p = 1e6, mu = 0.3, A = 2e-3, tau = mu * p, shear = tau / 0.5e9, area = 2.0;
   const std::string steps = fmt::format(

@@ -208,8 +208,8 @@ loads:
   }
 }
 
-// The stress of ground grows along the faces of a slit in it: what they release is a pull K0 g (4 - y) along their normals,
-// 12.5 (1.9 + 2.1 xi) from the tip to the mouth.
+// The stress of ground grows along the faces of a slit in it: what they release is a pull K0 g (4 - y) along their
+// normals, 12.5 (1.9 + 2.1 xi) from the tip to the mouth.
 TEST(InitialStress, ThatGrowsIsReleasedByTheFacesOfASlit) {
   const auto plate = [](const char* loads) {
     return run(fmt::format(R"(

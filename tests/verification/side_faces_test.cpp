@@ -259,8 +259,8 @@ loads: {{press: {{on: part.top, {}}}}}
   EXPECT_NEAR(last(quarter).reactions[1].x(), 0.0, 1e-2);
 }
 
-// A triangle with rollers on both faces that meet in its scaling centre, at any angle and turned: pressed on its third edge it
-// has the stress -p in all directions, u = -p (1 - nu) / E x.
+// A triangle with rollers on both faces that meet in its scaling centre, at any angle and turned: pressed on its third
+// edge it has the stress -p in all directions, u = -p (1 - nu) / E x.
 TEST(SideFaces, BothOnRollersLeaveAUniformPressureUniform) {
   const double p = 3e6, E = 2e9, nu = 0.3;
   for (const double degrees : {60.0, 90.0, 130.0})

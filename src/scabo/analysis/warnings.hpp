@@ -25,7 +25,7 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
 /// the stiffest elastic body; empty where there are none.
 std::string stiff_springs(const model::Model& model, const system::Structure& structure, double least);
 constexpr double stiff_beside = 1e3;  ///< from which it may explain why forces are not balanced to 1e-10
-constexpr double very_stiff = 1e6;    ///< from which a warning says so: on an inclined edge forces are not balanced then
+constexpr double very_stiff = 1e6;    ///< from which a warning says so: on an inclined edge they are not balanced then
 
 /// Warnings about all increments so far.
 std::vector<Warning> contact_warnings(const StaticSolution& solution);

@@ -94,10 +94,10 @@ TEST(Certificate, OfAPairWithFrictionByDirection) {
   pair.mu_backward = Vector::Constant(1, 0.2);
   expect_figures(judged(pair, plane(4.0, -2.0), plane(0.0, 0.03)), {});
   expect_figures(judged(pair, plane(4.0, 0.8), plane(0.0, -0.03)), {});
-  expect_figures(judged(pair, plane(4.0, 1.8), plane(0.0, 0.0)), {.friction_excess = 0.1});                     // bound 0.8
-  expect_figures(judged(pair, plane(4.0, -3.0), plane(0.0, 0.0)), {.friction_excess = 0.1});                    // bound 2
-  expect_figures(judged(pair, plane(4.0, 0.8), plane(0.0, 0.03)), {.slip_direction = (2.0 - 0.8) * 0.03});      // drives
-  expect_figures(judged(pair, plane(4.0, 0.0), plane(0.0, 0.03)), {.slip_direction = 2.0 * 0.03});              // no friction
+  expect_figures(judged(pair, plane(4.0, 1.8), plane(0.0, 0.0)), {.friction_excess = 0.1});                 // bound 0.8
+  expect_figures(judged(pair, plane(4.0, -3.0), plane(0.0, 0.0)), {.friction_excess = 0.1});                // bound 2
+  expect_figures(judged(pair, plane(4.0, 0.8), plane(0.0, 0.03)), {.slip_direction = (2.0 - 0.8) * 0.03});  // drives it
+  expect_figures(judged(pair, plane(4.0, 0.0), plane(0.0, 0.03)), {.slip_direction = 2.0 * 0.03});
   expect_figures(judged(pair, plane(4.0, 0.0), plane(0.0, -0.03)), {.slip_direction = 0.8 * 0.03});
 }
 

@@ -260,7 +260,8 @@ TEST(SlipWeakening, FollowsItsLineOverTheSlipDistance) {
 // Where only the coefficient of backward slip falls: p_t = (0.6 - 0.8 s) p_n and s = w (force - p_t).
 TEST(SlipWeakening, OfBackwardSlipAloneFollowsItsLine) {
   const double w = 0.01, p_n = 50.0, force = 40.0, fall = 0.4 / 0.5 * p_n;  // per slip, against a spring of 100
-  const LawPointer law = std::make_shared<SlipWeakening>(SlipWeakening::Fall{0.5, 0.5}, SlipWeakening::Fall{0.6, 0.2}, 0.5);
+  const LawPointer law =
+      std::make_shared<SlipWeakening>(SlipWeakening::Fall{0.5, 0.5}, SlipWeakening::Fall{0.6, 0.2}, 0.5);
   const Evolution evolution = one(law, pair_on_springs(w, -w * p_n, -w * force));
   ASSERT_EQ(evolution.solution.status, Status::solved) << evolution.solution.reason;
   const double p_t = (0.6 * p_n - fall * w * force) / (1.0 - fall * w);
