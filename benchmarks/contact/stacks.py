@@ -153,8 +153,8 @@ def pile(random, bodies, points=1, ratio=1.0):
     return Stack(3, numpy.array(centres), masses, 0.1 * masses, contacts)
 
 
-def stacks():
-    """(name, W, q, mu): 34 problems, always the same."""
+def stacks(names=()):
+    """(name, dimension, W, q, mu): 34 problems, always the same; of `names` only, if there are any."""
     wanted = []
     for blocks, points, mu, ratio in ((14, 3, 0.1, 1), (20, 3, 0.4, 1), (20, 3, 0.8, 1), (30, 3, 0.6, 1), (50, 3, 0.3, 1), (100, 3, 0.5, 1),
                                       (40, 4, 1.5, 1), (20, 3, 0.5, 1000), (60, 2, 0.4, 30), (10, 5, 0.2, 100)):
@@ -175,6 +175,8 @@ def stacks():
         wanted.append((f"pile{bodies}" + (f"x{points}" if points > 1 else "") + f"_mu{mu}" + (f"_ratio{ratio}" if ratio > 1 else ""), mu, 0.2,
                        lambda random, b=bodies, p=points, r=ratio: pile(random, b, p, r)))
     for seed, (name, mu, speed, make) in enumerate(wanted):
+        if names and name not in names:
+            continue
         random = numpy.random.default_rng(1000 + seed)
         stack = make(random)
         yield (name, stack.dimension, *problem(stack, mu, random, speed))
