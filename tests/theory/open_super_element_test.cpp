@@ -1,6 +1,8 @@
 // Open and unbounded super-elements, sectors of different material, and loads inside, against closed forms.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "scabo/element/interior_field.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
 #include "scabo/system/loads.hpp"
@@ -12,7 +14,7 @@ namespace {
 
 using test::at_nodes, test::elasticity, test::largest, test::open_ring, test::polygon_ring, test::rectangle;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// A square plate with a crack from the middle of its left side to its centre.
 Ring cracked_plate(int divisions, int order) {

@@ -13,7 +13,7 @@
 namespace scabo::verification {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Coordinates times `length`, turned about the origin.
 struct Placed {
