@@ -30,36 +30,6 @@ namespace {
 
 constexpr Eigen::Index columns_at_a_time = 64;  // dense right-hand sides: bounded memory
 
-/// Holds pairs of factor W by a holder of W.
-class ScaledHolder final : public PairHolder {
- public:
-  ScaledHolder(std::shared_ptr<const PairHolder> holder, double factor) : holder_(std::move(holder)), factor_(factor) {}
-  std::unique_ptr<HeldPairs> hold(const std::vector<int>& rows) const override {
-    auto held = holder_->hold(rows);
-    return held ? std::make_unique<Held>(std::move(held), factor_) : nullptr;
-  }
-  double operations() const override { return holder_->operations(); }
-  Matrix flexibility(const std::vector<int>& rows) const override { return factor_ * holder_->flexibility(rows); }
-  std::vector<int> joints() const override { return holder_->joints(); }
-
- private:
-  class Held final : public HeldPairs {
-   public:
-    Held(std::unique_ptr<HeldPairs> held, double factor) : held_(std::move(held)), factor_(factor) {}
-    void solve(const Vector& u, const Vector& z, Vector& p, Vector& a) const override {
-      held_->solve(u / factor_, z, p, a);
-      a *= factor_;
-    }
-
-   private:
-    std::unique_ptr<HeldPairs> held_;
-    double factor_;
-  };
-
-  std::shared_ptr<const PairHolder> holder_;
-  double factor_;
-};
-
 /// Diagonal blocks from products with a few vectors (Bekas, Kokiopoulou, Saad, Appl. Numer. Math. 57 (2007) 1214): each
 /// vector has random signs on every 64th pair, so that contributions of distant pairs average out.
 Matrix probed_blocks(const Delassus& W, int d) {
@@ -266,10 +236,7 @@ const Eigen::SparseMatrix<double>& Delassus::sparse() const {
 
 Delassus Delassus::scaled(double factor) const {
   if (!data_) return *this;
-  if (data_->kind == Data::Kind::sparse) {
-    const Delassus entries(Eigen::SparseMatrix<double>(factor * data_->sparse));
-    return holder_ ? entries.with_holder(std::make_shared<const ScaledHolder>(holder_, factor)) : entries;
-  }
+  if (data_->kind == Data::Kind::sparse) return Delassus(Eigen::SparseMatrix<double>(factor * data_->sparse));
   Delassus result = *this;
   result.factor_ *= factor;
   result.formed_ = std::make_shared<const Formed>();

@@ -43,7 +43,8 @@ bool LinePreconditioner::factorise(const Problem& problem, const Combinations& r
       }
     }
   };
-  if (!A_.factorise(rows.size(), fill)) return false;
+  constexpr double fine = 1e-8, coarse = 1e-6;  // of each block; of thousands of pairs ranks are too large for more
+  if (!A_.factorise(rows.size(), fill, fine) && !A_.factorise(rows.size(), fill, coarse)) return false;
   const Eigen::Index m = problem.G.cols();
   if (m == 0) return true;
   const Matrix M = sums_of(rows, problem.G.dense());

@@ -48,7 +48,7 @@ constexpr Eigen::Index least_of_single = 2500, most_of_single = 24000;
 constexpr GmresOptions refining_gmres{1e-13, 40, 80};
 // Unknowns from which the preconditioner by halves of joints comes before any LU.
 constexpr Eigen::Index least_of_line = 1200;
-constexpr GmresOptions line_gmres{1e-12, 30, 30};
+constexpr GmresOptions line_gmres{1e-12, 40, 40};
 constexpr double as_good_as_double = 1e-11;  // residual of a direction by GMRES
 constexpr GmresOptions holding_gmres{1e-12, 60, 120};
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
@@ -86,8 +86,7 @@ std::vector<bool> immovable_components(const Problem& problem) {
 
 bool holding_pays(const Problem& problem, Eigen::Index unknowns) {
   const PairHolder* const holder = problem.W.holder();
-  if (holder == nullptr) return false;
-  if (problem.W.is_sparse()) return problem.W.size() > least_held_of_many;
+  if (holder == nullptr || problem.W.is_sparse()) return false;
   if (!problem.W.is_dense()) return true;
   // Dense operations are faster than those of a sparse factor, to which its order and the iterations add.
   constexpr double dearer = 10.0;
@@ -244,11 +243,11 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   }
 
   bool solved = false;
-  if (holding_pays(problem, size + m) && solve_by_holding(regularisation))
-    solved = true;
-  else if (problem.W.is_sparse() && size + m >= least_sparse)
+  if (problem.W.is_sparse() && size + m >= least_sparse)
     solved = (problem.dimension == 2 ? solve_by_joints<2>(regularisation) : solve_by_joints<3>(regularisation)) ||
              solve_sparse(regularisation);
+  else if (holding_pays(problem, size + m) && solve_by_holding(regularisation))
+    solved = true;
   else if (problem.W.is_dense() && !work_->line_fails && size + m > least_of_line && solve_along_joints(regularisation))
     solved = true;
   else if (problem.W.is_dense() && !work_->single_fails && size + m > least_of_single && size + m <= most_of_single &&
@@ -607,8 +606,7 @@ bool NewtonDirection::solve_by_holding(double regularisation) {
   const Vector right = right_.head(n);
   y_.setZero(n);
   const double left = gmres(multiply, precondition, right, y_, holding_gmres);
-  constexpr double of_redundant = 1e-4;  // many bodies, whose pairs may be redundant and their matrix singular
-  work_->holding_fails = !(y_.allFinite() && left <= (problem.W.is_sparse() ? of_redundant : exact));
+  work_->holding_fails = !(y_.allFinite() && left <= exact);
   return !work_->holding_fails;
 }
 

@@ -29,10 +29,6 @@ class HeldPairs {
   virtual void solve(const Vector& u, const Vector& z, Vector& p, Vector& a) const = 0;
 };
 
-/// Rows of a sparse W from which its pairs are held: of a wall of 1,013 blocks of 1,000 degrees of freedom, 70,326 rows,
-/// the stiffness of the joined blocks has a factor of a tenth of the operations.
-inline constexpr Eigen::Index least_held_of_many = 20000;
-
 /// Holds pairs: of an elastic structure that is one factorisation of the bodies joined there, which costs about as much
 /// as that of the single bodies, however many pairs there are. It is a preconditioner: eps is small beside the
 /// flexibility of an element.

@@ -249,9 +249,8 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   }
   const bool sparse = is_sparse(touched, structure, rows);
   std::shared_ptr<const JoinedBodies> joined;
-  if (rows > (sparse ? contact::least_held_of_many : least_joined))
-    joined = JoinedBodies::of(structure, motion, joints_of(all));
-  const bool by_products = joined && !sparse && rows > most_formed;
+  if (!sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion, joints_of(all));
+  const bool by_products = joined && rows > most_formed;
   const auto products = by_products ? std::make_unique<const PairProducts>(structure, motion) : nullptr;
   std::vector<PartFlexibility> flexibilities(structure.parts.size());
   std::vector<Vector> diagonals(structure.parts.size());  // of what a part adds to W, on its rows

@@ -12,10 +12,6 @@ namespace {
 using Entries = std::vector<Eigen::Triplet<double>>;
 
 constexpr double eps_of_softness = 1e-4;
-// Of the flexibility of single nodes: of springs in all directions that are not held, where several bodies have no
-// supports. They hold blocks that slip on all sides.
-constexpr double weak_of_softness = 1e6;
-constexpr std::size_t few_floating = 2;
 
 }  // namespace
 
@@ -205,11 +201,6 @@ class JoinedPairs final : public contact::HeldPairs {
     const linalg::SparseMatrix held = hold_.asDiagonal() * C_, transposed = C_.transpose();
     const linalg::SparseMatrix springs = transposed * held;
     linalg::SparseMatrix joined = bodies.K + springs;
-    if (bodies.floating.size() > few_floating) {
-      const Vector weak = (weak_of_softness * bodies.softness).cwiseInverse();
-      const linalg::SparseMatrix C = weak.cwiseSqrt().asDiagonal() * bodies.C, of_all = C.transpose();
-      joined += linalg::SparseMatrix(of_all * C);
-    }
     joined.makeCompressed();
     linalg::SparseOptions options;
     options.positions = bodies.positions;

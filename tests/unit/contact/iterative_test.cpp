@@ -239,26 +239,6 @@ TEST(HeldDirections, AgreeWithDenseOnes) {
     }
 }
 
-// A sparse W keeps its holder when it is scaled, and the holder answers for the scaled one.
-TEST(HeldDirections, OfASparseWInOtherUnits) {
-  const Problem plate = plate_on_layer(30, 40.0);
-  const Matrix &W = plate.W.dense(), &G = plate.G.dense();
-  const Delassus scaled =
-      Delassus(Eigen::SparseMatrix<double>(W.sparseView())).with_holder(std::make_shared<const ByDense>(W, G)).scaled(8.0);
-  ASSERT_TRUE(scaled.is_sparse());
-  ASSERT_NE(scaled.holder(), nullptr);
-  const std::vector<int> rows = {0, 1, 4, 17, 30, 31, 58};
-  const Vector u = Vector::LinSpaced(7, 0.1, 1.0), z = Eigen::Vector3d(-3.0, 1.0, 0.5);
-  Vector p, a;
-  scaled.holder()->hold(rows)->solve(u, z, p, a);
-  Matrix W_hh = 8.0 * W(rows, rows);
-  W_hh.diagonal() *= 1.0 + 1e-4;
-  const Matrix G_h = G(rows, Eigen::all);
-  EXPECT_LT((W_hh * p + G_h * a - u).norm(), 1e-9 * u.norm());
-  EXPECT_LT((G_h.transpose() * p - z).norm(), 1e-9 * z.norm());
-  EXPECT_LT((scaled.holder()->flexibility(rows).row(0) - W_hh.row(0)).tail(6).norm(), 1e-12 * W_hh.norm());
-}
-
 // Two joints, of 61 and of 9 pairs, and a third of one pair: samples do not reach across, the ends of a joint are among
 // them, and forces that are spread are as large as before.
 TEST(SampledProblem, TakesSomePairsOfEachJointAndSpreadsTheirForces) {

@@ -141,7 +141,8 @@ TEST(EliminationOrder, AMeshThatIsFineAtAnEdgeIsCutAcrossIt) {
       places.emplace_back((i + 0.5) * step, step - 1.0);
       entries.emplace_back(static_cast<int>(at), static_cast<int>(at), 1.0);
       if (i > 0) couple(at, at - 1);
-      if (first > 0) couple(at, below + 2 * static_cast<std::size_t>(i)), couple(at, below + 2 * static_cast<std::size_t>(i) + 1);
+      if (first > 0)
+        couple(at, below + 2 * static_cast<std::size_t>(i)), couple(at, below + 2 * static_cast<std::size_t>(i) + 1);
     }
     below = first;
   }

@@ -119,36 +119,6 @@ TEST_P(Joined, GiveBlocksOfW) {
   EXPECT_EQ(joined->joints(), (std::vector<int>{4, 4, 5}));
 }
 
-// A tower of three blocks without supports on a floor, held along the normals of its joints only: nothing holds them
-// along the joints, where a wall may slip on all sides for a while.
-TEST(JoinedBlocks, ThatSlipOnAllSidesAreHeldAllTheSame) {
-  std::string text =
-      "scabo: 1\nmaterials: {stone: {young: 20e9, poisson: 0.2}}\nbodies:\n"
-      "  floor: {material: stone, shape: {rectangle: {corner: [0, -1], size: [1, 1]}}, mesh: {size: 0.25}}\n";
-  std::string contacts;
-  for (int i = 0; i < 3; ++i) {
-    const std::string name = "block" + std::to_string(i), below = i == 0 ? "floor" : "block" + std::to_string(i - 1);
-    text += "  " + name + ": {material: stone, shape: {rectangle: {corner: [0, " + std::to_string(i) +
-            "], size: [1, 1]}}, mesh: {size: 0.25}}\n";
-    contacts += "  joint" + std::to_string(i) + ": {between: [" + below + ".top, " + name + ".bottom], friction: 0.5}\n";
-  }
-  text += "supports: [{on: floor.bottom, fix: [x, y]}]\nloads: {push: {on: block2.top, traction: [0, -1e6]}}\ncontacts:\n" +
-          contacts;
-  const Condensed bodies(text);
-  const Matrix& G = bodies.system.G.dense();
-  ASSERT_EQ(G.cols(), 9);
-  std::vector<int> rows;
-  for (int k = 0; k < G.rows(); k += 2) rows.push_back(k);
-  const auto held = JoinedBodies::of(bodies.structure, bodies.system.motion)->hold(rows);
-  ASSERT_NE(held, nullptr);
-  Vector z = Vector::Zero(9), p, a, weights = Vector::Zero(static_cast<Eigen::Index>(rows.size()));
-  for (Eigen::Index k = 0; k < weights.size(); ++k) weights[k] = 1e5 * (1.0 + static_cast<double>(k % 3));
-  const Matrix G_h = G(rows, Eigen::all);
-  z = G_h.transpose() * weights;  // forces along the normals balance it
-  held->solve(Vector::Zero(weights.size()), z, p, a);
-  EXPECT_LT(largest_of(G_h.transpose() * p - z), 1e-3 * largest_of(weights));
-}
-
 INSTANTIATE_TEST_SUITE_P(Bodies, Joined, testing::ValuesIn(cases()), [](const auto& info) { return info.param.name; });
 
 // 24,000 degrees of freedom and more: there only what the pairs need is computed.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/pair_operator.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
@@ -65,8 +64,6 @@ std::optional<Vector> solve_dense(const Problem& problem, const std::vector<int>
 }  // namespace
 
 std::optional<BondedStart> bonded_start(const Problem& problem, const std::vector<bool>& touching) {
-  if (holding_pays(problem, problem.q.size()))
-    if (std::optional<BondedStart> joined = joined_start(problem, touching)) return joined;
   const Eigen::Index N = problem.pairs(), d = problem.dimension, m = problem.G.cols();
   std::vector<int> rows, place(static_cast<std::size_t>(d * N), -1);
   const Vector diagonal = problem.W.diagonal();
