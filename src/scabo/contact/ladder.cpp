@@ -299,11 +299,11 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
       if (better(std::move(reached))) return best;
     }
     // Of rigid bodies a Newton iteration costs as much as fifty sweeps. pile100x4_mu0.8_ratio100 is solved so.
-    if (turn.sweeps == 8000 && sweeps.of_joints() && better(vanishing_proximal(sweeps.p()))) return best;
+    if (turn.sweeps == 25000 && sweeps.of_joints() && better(vanishing_proximal(best.p))) return best;
   }
   if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4}))) return best;
   if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;
-  if (better(vanishing_proximal(best.p))) return best;
+  if (!sweeps.of_joints() && better(vanishing_proximal(best.p))) return best;
   if (better(after_pivoting(problem_))) return best;
   if (better(growing_friction(p, Vector()))) return best;
   for (double factor : {0.1, 10.0, 0.01, 100.0})
