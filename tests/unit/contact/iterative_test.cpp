@@ -90,10 +90,10 @@ TEST(IterativeDirections, OfAFreeBodyHoldIt) {
 // Directions by halves of joints, from 1,200 unknowns on, with and without a free body: the forces are those that LU
 // finds for the states of the pairs.
 TEST(DirectionsAlongJoints, LeadToTheForcesThatLUFindsForTheirStates) {
-  constexpr int pairs = 900;
+  constexpr int pairs = 1400;
   constexpr double mu = 0.5;
   for (const bool floating : {false, true}) {
-    Problem problem = floating ? plate_on_layer(pairs, 200.0) : test::layer_problem(pairs, 6, mu);
+    Problem problem = floating ? plate_on_layer(pairs, 300.0) : test::layer_problem(pairs, 6, mu);
     problem.W = Delassus(problem.W.dense());
     const Solution solution = solve(problem);
     ASSERT_EQ(solution.status, Status::solved) << solution.reason;
