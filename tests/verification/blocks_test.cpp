@@ -71,9 +71,8 @@ std::string shape_of(const Blocks& blocks, double left, double bottom, double wi
 /// In a model whose unit of length is `unit` times smaller than the metre.
 std::string model_of(const Blocks& blocks, double push, int increments) {
   const double s = blocks.unit, area = s * s;
-  std::string bodies =
-                  fmt::format("  floor: {{rigid: true, shape: {}}}\n",
-                              shape_of(blocks, -1.0, -1.0, blocks.columns + 2, 1.0)),
+  std::string bodies = fmt::format("  floor: {{rigid: true, shape: {}}}\n",
+                                   shape_of(blocks, -1.0, -1.0, blocks.columns + 2, 1.0)),
               contacts, loads, factors;
   std::vector<std::pair<double, double>> below;
   int count = 0;
@@ -234,8 +233,13 @@ TEST(Shaken, BlocksTowersAndWallsStandAsStaticsSays) {
     double friction;
     bool stands;
   };
-  for (const Case& c : {Case{1, 1, 0.3, false}, {1, 1, 0.36, true}, {1, 2, 0.34, false}, {1, 2, 0.6, true},
-                        {1, 3, 1.0, false}, {4, 4, 0.3, false}, {4, 4, 0.6, true}}) {
+  for (const Case& c : {Case{1, 1, 0.3, false},
+                        {1, 1, 0.36, true},
+                        {1, 2, 0.34, false},
+                        {1, 2, 0.6, true},
+                        {1, 3, 1.0, false},
+                        {4, 4, 0.3, false},
+                        {4, 4, 0.6, true}}) {
     SCOPED_TRACE(fmt::format("{} x {}, mu {}", c.columns, c.courses, c.friction));
     Blocks blocks{c.columns, c.courses, c.friction};
     blocks.shake = a;
@@ -304,9 +308,9 @@ TEST(Wall, TurnedOrInOtherUnitsIsTheSame) {
           });
           ASSERT_NE(same, twins.end());
           const analysis::PairResult& b = *same;
-          length_error = std::max({length_error, std::abs(b.gap / twin.unit - a.gap),
-                                   std::abs(b.slip / twin.unit - a.slip),
-                                   (b.displacement_b / twin.unit - a.displacement_b).norm()});
+          length_error =
+              std::max({length_error, std::abs(b.gap / twin.unit - a.gap), std::abs(b.slip / twin.unit - a.slip),
+                        (b.displacement_b / twin.unit - a.displacement_b).norm()});
           if (pairs_at.at(point_of(upright, a)) > 1) continue;
           ++compared;
           force_error = std::max({force_error, std::abs(b.normal_force - a.normal_force),

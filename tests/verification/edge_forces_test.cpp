@@ -85,7 +85,8 @@ output:
 // A block on a floor with water in the joint, pressed from both sides and from above: every edge has its own load.
 TEST_P(EdgeForcesOnMeshes, OfABlockInContactAreThoseOfItsLoadsAndContacts) {
   for (const bool block_is_b : {true, false}) {
-    const auto values = history_of(run(fmt::format(R"(scabo: 1
+    const auto values =
+        history_of(run(fmt::format(R"(scabo: 1
 materials: {{stone: {{young: 10e9, poisson: 0.2, density: 2500}}}}
 bodies:
   floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [4, 1]}}}}}}
@@ -108,8 +109,7 @@ output:
     t: joint.force_x
     m: joint.moment
 )",
-                                                   GetParam(),
-                                                   block_is_b ? "floor.top, block.bottom" : "block.bottom, floor.top")));
+                                   GetParam(), block_is_b ? "floor.top, block.bottom" : "block.bottom, floor.top")));
     const double weight = 2.0 * 2500.0 * 10.0, near = 1e-9 * weight;
     const double on_block = block_is_b ? 1.0 : -1.0;  // `force` and `moment` are those on B
     const double n = on_block * values.at("n"), tangential = on_block * values.at("t"), m = on_block * values.at("m");

@@ -176,8 +176,8 @@ TEST(SideFaces, HalfOfACrackedPlateIsTheWholeOne) {
 TEST(SideFaces, PressureInHalfOfACrackIsThatInTheWholeOne) {
   const auto whole = run(whole_cracked_plate(), {"loads.left={on: plate.slit.left, pressure: 1e6}",
                                                  "loads.right={on: plate.slit.right, pressure: 1e6}"});
-  const auto half = run(half_of_a_cracked_plate({}, "{on: half.ligament, fix: y}"),
-                        {"loads.press={on: half.crack, pressure: 1e6}"});
+  const auto half =
+      run(half_of_a_cracked_plate({}, "{on: half.ligament, fix: y}"), {"loads.press={on: half.crack, pressure: 1e6}"});
   ASSERT_EQ(last(whole).cracks.size(), 1u);
   ASSERT_EQ(last(half).cracks.size(), 1u);
   const element::StressIntensity &of_whole = last(whole).cracks[0].factors, &of_half = last(half).cracks[0].factors;

@@ -221,8 +221,8 @@ steps: [{name: move}, {name: place}, {name: back, loads: {drive: 0}}]
   EXPECT_NEAR(contact_of(last(solution)).normal_force, 10e3, 1e-5);
 }
 
-// Pairs that supports hold on both sides count from the placing as well: the ground has come up by 2 mm before the block
-// is placed on it. It may sink by 1 mm then, but not rise by 1 mm, because supports hold the block.
+// Pairs that supports hold on both sides count from the placing as well: the ground has come up by 2 mm before the
+// block is placed on it. It may sink by 1 mm then, but not rise by 1 mm, because supports hold the block.
 TEST(Stages, HeldPairsCountFromThePlacing) {
   const auto model = [](const char* after) {
     return fmt::format(R"(

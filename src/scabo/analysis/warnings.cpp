@@ -232,8 +232,8 @@ void warn_of_lost_loads(const model::Model& model, const system::Structure& stru
       {WarningKind::rounding, names,
        fmt::format("{}: the nodal forces are only {:.0e} times those of load '{}', whose rounding {}: check the values "
                    "and units of these loads and of the materials",
-                   names, least / *largest,
-                   model.loads[static_cast<std::size_t>(largest - sizes.begin())].name, effect)});
+                   names, least / *largest, model.loads[static_cast<std::size_t>(largest - sizes.begin())].name,
+                   effect)});
 }
 
 /// Stiffness of a part against the motion of one node alone; 0 of a rigid one.
@@ -256,11 +256,11 @@ std::string stiff_springs(const model::Model& model, const system::Structure& st
   if (!(largest > least)) return {};
   const model::Spring& spring = model.springs[found];
   const model::Body& body = model.bodies[static_cast<std::size_t>(spring.on.body)];
-  return fmt::format("springs '{}' are {:.0e} times as stiff as {}: the rounding of their stiffness may leave forces "
-                     "unbalanced, except on edges along x or y; use a support instead, or a stiffness of at most {:.0e}",
-                     spring.name, largest,
-                     body.rigid ? std::string("the stiffest elastic body") : fmt::format("body '{}'", body.name),
-                     std::max(spring.stiffness[0], spring.stiffness[1]) * stiff_beside / largest);
+  return fmt::format(
+      "springs '{}' are {:.0e} times as stiff as {}: the rounding of their stiffness may leave forces "
+      "unbalanced, except on edges along x or y; use a support instead, or a stiffness of at most {:.0e}",
+      spring.name, largest, body.rigid ? std::string("the stiffest elastic body") : fmt::format("body '{}'", body.name),
+      std::max(spring.stiffness[0], spring.stiffness[1]) * stiff_beside / largest);
 }
 
 std::vector<Warning> load_warnings(const model::Model& model, const system::Structure& structure) {

@@ -19,7 +19,8 @@ JointSystem<d>::JointSystem(Joints<d> joints) : joints_(std::move(joints)) {
   for (double& s : size)
     if (!(s > 0.0)) s = 1.0;  // beyond the rank of the joint
   for (int e = 0; e < J; ++e)
-    for (int at = joints_.first[static_cast<std::size_t>(e)]; at < joints_.first[static_cast<std::size_t>(e) + 1]; ++at) {
+    for (int at = joints_.first[static_cast<std::size_t>(e)]; at < joints_.first[static_cast<std::size_t>(e) + 1];
+         ++at) {
       auto& K = joints_.K[static_cast<std::size_t>(at)];
       K.array().colwise() /= size.segment<R>(R * joints_.neighbour[static_cast<std::size_t>(at)]).array();
       K.array().rowwise() /= size.segment<R>(R * e).transpose().array();
@@ -48,8 +49,7 @@ template <int d>
 Vector JointSystem<d>::times(const Vector& v) const {
   Vector s = Vector::Zero(R * joints_.count()), u(v.size());
   for (std::size_t i = 0; i < joints_.A.size(); ++i)
-    s.segment<R>(R * joints_.joint[i]).noalias() +=
-        joints_.A[i].transpose() * v.segment<d>(d * static_cast<Index>(i));
+    s.segment<R>(R * joints_.joint[i]).noalias() += joints_.A[i].transpose() * v.segment<d>(d * static_cast<Index>(i));
   s = spread(s);
   for (std::size_t i = 0; i < joints_.A.size(); ++i)
     u.segment<d>(d * static_cast<Index>(i)).noalias() = joints_.A[i] * s.segment<R>(R * joints_.joint[i]);
@@ -97,8 +97,8 @@ bool JointSystem<d>::factorise() {
   for (int f = 0; f < J; ++f) {
     const auto first = joints_.first[static_cast<std::size_t>(f)];
     const Index rows = R * (joints_.first[static_cast<std::size_t>(f) + 1] - first);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, R>> column(
-        matrix_.valuePtr() + matrix_.outerIndexPtr()[R * f], rows, R);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, R>> column(matrix_.valuePtr() + matrix_.outerIndexPtr()[R * f],
+                                                                rows, R);
     for (Index k = 0; R * k < rows; ++k) {
       const auto at = static_cast<std::size_t>(first + k);
       const int e = joints_.neighbour[at];

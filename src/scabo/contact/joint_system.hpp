@@ -3,10 +3,10 @@
 //     (D + L K C') z = b        n unknowns, each of one pair; D diagonal, positive; L, C: n x R, in the columns of the
 //                               joint of the pair
 //
-// With the resultants y = C'z of the joints and their motions w = K y this is D z + L w = b. The unknowns of a joint are
-// eliminated one after the other: what the first j of them say about y and w are R equations F y + M w = h, at first y =
-// 0. With one more, y grows by c z, and its own equation d z + l'w = b is added; a reflection (Householder) of the R + 1
-// equations leaves z in the last one alone. At the end
+// With the resultants y = C'z of the joints and their motions w = K y this is D z + L w = b. The unknowns of a joint
+// are eliminated one after the other: what the first j of them say about y and w are R equations F y + M w = h, at
+// first y = 0. With one more, y grows by c z, and its own equation d z + l'w = b is added; a reflection (Householder)
+// of the R + 1 equations leaves z in the last one alone. At the end
 //
 //     (F + M K) y = h           R equations and unknowns a joint, sparse
 //
@@ -33,9 +33,7 @@ class JointSystem {
   explicit JointSystem(Joints<d> joints);
 
   /// A of pair i, scaled.
-  const typename Joints<d>::Combination& A(Eigen::Index i) const {
-    return joints_.A[static_cast<std::size_t>(i)];
-  }
+  const typename Joints<d>::Combination& A(Eigen::Index i) const { return joints_.A[static_cast<std::size_t>(i)]; }
   /// A of pair i is multiplied by `by` from the left: other units or axes of the pairs.
   void turn(Eigen::Index i, const Eigen::Matrix<double, d, d>& by);
 

@@ -11,14 +11,14 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double independent = 1e-10;  // of W_ii: what is left of a row that is a pivot of its own
-constexpr double equal_within = 1e-12;         // of W_ii: largest difference of W and A K A'
-constexpr double paying = 0.4;         // of the entries of W
-constexpr int most_of_class = 4;       // joints whose pairs have the same neighbours: a tower of two blocks has two
+constexpr double independent = 1e-10;   // of W_ii: what is left of a row that is a pivot of its own
+constexpr double equal_within = 1e-12;  // of W_ii: largest difference of W and A K A'
+constexpr double paying = 0.4;          // of the entries of W
+constexpr int most_of_class = 4;        // joints whose pairs have the same neighbours: a tower of two blocks has two
 
 double entry(const Sparse& W, int row, int column) {
-  const int *const begin = W.innerIndexPtr() + W.outerIndexPtr()[column],
-                  *const end = W.innerIndexPtr() + W.outerIndexPtr()[column + 1];
+  const int *const begin = W.innerIndexPtr() + W.outerIndexPtr()[column], *const end = W.innerIndexPtr() +
+                                                                                       W.outerIndexPtr()[column + 1];
   const int* const at = std::lower_bound(begin, end, row);
   return at != end && *at == row ? W.valuePtr()[at - W.innerIndexPtr()] : 0.0;
 }
@@ -145,8 +145,10 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
     for (auto at = begin; at != end && found < 0; ++at) {
       const auto e = static_cast<std::size_t>(at->second);
       if (!pattern.same(i, example[e])) continue;
-      if (pivots[e].take(W, i)) found = at->second;
-      else if (++alike == most_of_class) return {};
+      if (pivots[e].take(W, i))
+        found = at->second;
+      else if (++alike == most_of_class)
+        return {};
     }
     if (found < 0) {
       found = static_cast<int>(pivots.size());
@@ -188,8 +190,7 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
 
   joints.A.reserve(static_cast<std::size_t>(N));
   for (int i = 0; i < N; ++i)
-    joints.A.push_back(
-        pivots[static_cast<std::size_t>(joints.joint[static_cast<std::size_t>(i)])].combination(W, i));
+    joints.A.push_back(pivots[static_cast<std::size_t>(joints.joint[static_cast<std::size_t>(i)])].combination(W, i));
   // Every entry, by block columns: K A' of a pair once for every joint.
   const Vector diagonal = W.diagonal();
   std::vector<Eigen::Matrix<double, Joints<d>::R, d>> of_joint(static_cast<std::size_t>(count));
@@ -200,8 +201,7 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
           joints.K[static_cast<std::size_t>(at)] * joints.A[static_cast<std::size_t>(j)].transpose();
     for (const int* at = pattern.begin(j); at != pattern.end(j); ++at) {
       const auto i = static_cast<std::size_t>(*at);
-      const Eigen::Matrix<double, d, d> block =
-          joints.A[i] * of_joint[static_cast<std::size_t>(joints.joint[i])];
+      const Eigen::Matrix<double, d, d> block = joints.A[i] * of_joint[static_cast<std::size_t>(joints.joint[i])];
       const double size = std::sqrt(diagonal.segment<d>(d * *at).maxCoeff() * diagonal.segment<d>(d * j).maxCoeff());
       for (int k = 0; k < d; ++k)
         for (int c = 0; c < d; ++c)

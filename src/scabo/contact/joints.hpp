@@ -27,10 +27,10 @@ struct Joints {
   using Combination = Eigen::Matrix<double, d, R, Eigen::RowMajor>;
   using Block = Eigen::Matrix<double, R, R>;
 
-  std::vector<int> joint;               ///< N, of every pair
-  std::vector<Combination> A;           ///< N; columns beyond the rank of the joint are zero, as those of K
-  std::vector<int> first, neighbour;    ///< J + 1; joints coupled with joint e: first[e] .. first[e + 1], e included
-  std::vector<Block> K;                 ///< K(neighbour, e)
+  std::vector<int> joint;             ///< N, of every pair
+  std::vector<Combination> A;         ///< N; columns beyond the rank of the joint are zero, as those of K
+  std::vector<int> first, neighbour;  ///< J + 1; joints coupled with joint e: first[e] .. first[e + 1], e included
+  std::vector<Block> K;               ///< K(neighbour, e)
   int count() const { return static_cast<int>(first.size()) - 1; }
 };
 

@@ -544,7 +544,8 @@ bool NewtonDirection::solve_by_joints(double regularisation) {
       return work.joints_in_plane;
     else
       return work.joints_in_space;
-  }();
+  }
+  ();
   if (!work.joints_sought) {
     work.joints_sought = true;
     if (auto found = find_joints<d>(problem)) joints.emplace(std::move(*found));

@@ -12,10 +12,10 @@ namespace scabo::linalg {
 
 namespace {
 
-/// An order of elimination for a matrix of saddle type, [W G; G' 0]. Unknowns without a positive diagonal entry have none to be
-/// eliminated with, or a small one that only holds them: each is put right behind a group of its neighbours with equal columns, whose elimination fills it,
-/// at most half as many as the group has members. The groups, with what was put behind them, are dissected. Empty where
-/// every diagonal entry is positive.
+/// An order of elimination for a matrix of saddle type, [W G; G' 0]. Unknowns without a positive diagonal entry have
+/// none to be eliminated with, or a small one that only holds them: each is put right behind a group of its neighbours
+/// with equal columns, whose elimination fills it, at most half as many as the group has members. The groups, with what
+/// was put behind them, are dissected. Empty where every diagonal entry is positive.
 std::vector<int> saddle_order(const Eigen::SparseMatrix<double>& A) {
   const auto n = static_cast<int>(A.rows());
   std::vector<char> bare(static_cast<std::size_t>(n), 1);

@@ -500,8 +500,8 @@ class ElasticBody final : public BodySystem {
 
   enum class Product { twofold, by_differences };
   /// (K + S) u - f, in twice the working precision or by differences. Bounded bodies: P K P for K, where P takes rigid
-  /// motions out (translations and the turn, orthogonal); K itself resists them by what rounding its entries left, which
-  /// is the same in all of many equal elements, and forces that come from rounding have no resultant this way.
+  /// motions out (translations and the turn, orthogonal); K itself resists them by what rounding its entries left,
+  /// which is the same in all of many equal elements, and forces that come from rounding have no resultant this way.
   Vector forces_left(linalg::TwofoldVector u, const Vector& f, Product product = Product::twofold,
                      double* rounding = nullptr) const {
     linalg::TwofoldVector springs;

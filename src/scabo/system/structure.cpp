@@ -335,15 +335,15 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     for (std::size_t k = 0; k < elastic.size(); ++k) structure.parts[elastic[k]] = std::move(bodies[k]);
   } catch (const NotPositiveDefinitePart& failed) {
     const bool on_springs = !structure.springs.of_part[elastic[failed.part]].none();
-    throw InputError(model.file,
-                     {{body_of(elastic[failed.part]).source,
-                       fmt::format("its stiffness matrix is not positive definite to working precision: the body is "
-                                   "too slender (3000:1 or more), or its material constants (by a factor of about "
-                                   "1e12) or its element sizes differ too much{}",
-                                   on_springs ? ", or its springs are too soft or too stiff beside it (by a factor of "
-                                                "about 1e12): make it rigid if only its motion matters, or use supports "
-                                                "instead of stiff springs"
-                                              : "")}});
+    throw InputError(
+        model.file, {{body_of(elastic[failed.part]).source,
+                      fmt::format("its stiffness matrix is not positive definite to working precision: the body is "
+                                  "too slender (3000:1 or more), or its material constants (by a factor of about "
+                                  "1e12) or its element sizes differ too much{}",
+                                  on_springs ? ", or its springs are too soft or too stiff beside it (by a factor of "
+                                               "about 1e12): make it rigid if only its motion matters, or use supports "
+                                               "instead of stiff springs"
+                                             : "")}});
   }
   return structure;
 }

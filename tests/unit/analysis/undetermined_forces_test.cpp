@@ -1,5 +1,7 @@
 // Forces of pairs that are not unique although displacements are: bodies that meet in a point, and rigid bodies with
 // more pairs than equations of equilibrium. How many pairs, and which totals, follows by hand.
+#include "scabo/analysis/undetermined_forces.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +11,6 @@
 
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/static_analysis.hpp"
-#include "scabo/analysis/undetermined_forces.hpp"
 #include "scabo/input/read_model.hpp"
 
 namespace scabo::analysis {
@@ -96,7 +97,8 @@ std::string block_on_held_points(const std::string& friction, const std::string&
   return "scabo: 1\n"
          "materials: {stone: {young: 1e9, poisson: 0.2}}\n"
          "bodies:\n"
-         "  floor: {material: stone, shape: {rectangle: {corner: [0, -1], size: [2, 1]}}, mesh: {size: 0.5, order: 1}}\n"
+         "  floor: {material: stone, shape: {rectangle: {corner: [0, -1], size: [2, 1]}}, mesh: {size: 0.5, order: "
+         "1}}\n"
          "  block: {rigid: true, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}}\n"
          "loads: {press: {on: block, force: " +
          force + "}}\ncontacts: {base: {between: [floor.top, block.bottom], friction: " + friction + "}}\n" + rest;
@@ -112,11 +114,11 @@ TEST(UndeterminedForces, OfARigidBlockOnHeldPointsWithoutFriction) {
 
 // Springs determine how the block moves, and so the total force on it, but not what each of the points takes.
 TEST(UndeterminedForces, OfARigidBlockOnSpringsKeepTheirTotal) {
-  EXPECT_THAT(warned(block_on_held_points("0.5", "[1, -10]",
-                                          "supports: [{on: floor.top, fix: [x, y]}]\n"
-                                          "springs: [{on: block.top, k_n: 1e6, k_t: 1e6}]\n")),
-              AllOf(HasSubstr("contact 'base': the forces of "),
-                    HasSubstr("the total force of every contact are unique")));
+  EXPECT_THAT(
+      warned(block_on_held_points("0.5", "[1, -10]",
+                                  "supports: [{on: floor.top, fix: [x, y]}]\n"
+                                  "springs: [{on: block.top, k_n: 1e6, k_t: 1e6}]\n")),
+      AllOf(HasSubstr("contact 'base': the forces of "), HasSubstr("the total force of every contact are unique")));
 }
 
 // A block that presses by a millionth of the largest force and less is left out, however undetermined its forces are.

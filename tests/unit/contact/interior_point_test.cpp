@@ -9,13 +9,13 @@
 #include <random>
 #include <tuple>
 
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
-#include "scabo/contact/starts/gauss_seidel.hpp"
-#include "scabo/contact/judge.hpp"
-#include "scabo/contact/starts/long_sweeps.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/starts/long_sweeps.hpp"
 #include "unit/contact/problems.hpp"
 #include "unit/contact/towers.hpp"
 

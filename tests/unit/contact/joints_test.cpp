@@ -83,8 +83,8 @@ TEST(Joints, AreFoundOnlyWherePairsMoveAsRigidBodies) {
 }
 
 TEST(Joints, SweepsAreThoseOfThePairs) {
-  for (const Problem& problem : {tower_of_blocks(3, 6, 3, 0.4, 100.0), shuffled(tower_of_blocks(3, 6, 3, 0.4)),
-                                 tower_of_blocks(2, 9, 5, 0.3)}) {
+  for (const Problem& problem :
+       {tower_of_blocks(3, 6, 3, 0.4, 100.0), shuffled(tower_of_blocks(3, 6, 3, 0.4)), tower_of_blocks(2, 9, 5, 0.3)}) {
     GaussSeidel pairs(problem), joints(problem, GaussSeidel::Form::of_joints);
     ASSERT_TRUE(joints.of_joints());
     EXPECT_FALSE(pairs.of_joints());

@@ -1,6 +1,6 @@
-// Sweeps of Gauss-Seidel (gauss_seidel.hpp) over pairs of rigid bodies with W = A K A' of their joints (joints.hpp). The
-// same pairs in the same order with the same result; the motion of a joint is kept by its R components, those of its
-// own forces are added at once and those of other joints when the sweep leaves it.
+// Sweeps of Gauss-Seidel (gauss_seidel.hpp) over pairs of rigid bodies with W = A K A' of their joints (joints.hpp).
+// The same pairs in the same order with the same result; the motion of a joint is kept by its R components, those of
+// its own forces are added at once and those of other joints when the sweep leaves it.
 #pragma once
 
 #include <vector>
