@@ -18,7 +18,7 @@
 namespace scabo::contact {
 namespace {
 
-Vector random_vector(Eigen::Index size, unsigned seed) {
+Vector random_numbers(Eigen::Index size, unsigned seed) {
   std::mt19937 random(seed);
   Vector v(size);
   for (double& component : v) component = static_cast<double>(random()) / 4294967296.0 - 0.5;
@@ -46,7 +46,7 @@ void expect_products_of_W(const Problem& problem, int joints_wanted) {
   ASSERT_TRUE(joints);
   EXPECT_EQ(joints->count(), joints_wanted);
   const JointSystem<d> system(std::move(*joints));
-  const Vector p = random_vector(problem.q.size(), 1), u = problem.W * p;
+  const Vector p = random_numbers(problem.q.size(), 1), u = problem.W * p;
   EXPECT_LE((system.times(p) - u).cwiseAbs().maxCoeff(), 1e-13 * u.cwiseAbs().maxCoeff());
 }
 
@@ -128,7 +128,7 @@ TEST(Joints, SystemsAreSolvedWithTinyAndHugeDiagonals) {
   }
   ASSERT_TRUE(system.factorise());
   const Matrix full = Matrix(system.D.asDiagonal()) + T * Matrix(problem.W.sparse());
-  const Vector z = random_vector(n, 5), b = full * z;
+  const Vector z = random_numbers(n, 5), b = full * z;
   Vector image, found;
   system.apply(z, image);
   EXPECT_LE((image - b).cwiseQuotient(system.D.cwiseMax(1.0)).lpNorm<Eigen::Infinity>(), 1e-11);
