@@ -1,42 +1,13 @@
 #include "scabo/contact/newton_direction.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "scabo/contact/gmres.hpp"
-#include "scabo/contact/joint_system.hpp"
-#include "scabo/contact/line_preconditioner.hpp"
+#include "scabo/contact/newton_direction_workspace.hpp"
 #include "scabo/contact/pair_operator.hpp"
-#include "scabo/linalg/general_solver.hpp"
-#include "scabo/linalg/single_precision_solver.hpp"
-#include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
-
-struct NewtonDirection::Workspace {
-  Matrix A, factor;
-  linalg::GeneralSolver solver;
-  Eigen::MatrixXf single;
-  linalg::SinglePrecisionSolver single_solver;
-  LinePreconditioner along_joints;
-  bool line_fails = false;     // pairs do not follow each other along joints, or W is too ill-conditioned
-  bool single_fails = false;   // W is too ill-conditioned: of slender bodies
-  bool holding_fails = false;  // it takes too many iterations, or none hold the bodies
-  Vector column, full, image, residual;
-  Eigen::SparseMatrix<double> sparse, raised;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> G;  // by rows, for sparse saddle systems
-  std::vector<double> sum;
-  std::vector<int> touched;
-  linalg::SparseGeneralSolver sparse_solver;
-  bool joints_sought = false;
-  std::optional<JointSystem<2>> joints_in_plane;
-  std::optional<JointSystem<3>> joints_in_space;
-  bool redundant = false;  // a sparse system was singular before: pairs of three bodies that meet in a point
-  Matrix blocks;           // of W on its diagonal, for the preconditioner
-};
 
 namespace {
 
@@ -45,27 +16,10 @@ namespace {
 constexpr Eigen::Index most_of_dense = 8000, most_of_formed = 2500;
 // Unknowns from which the factorisation is one in single precision, and up to which there is one.
 constexpr Eigen::Index least_of_single = 2500, most_of_single = 24000;
-constexpr GmresOptions refining_gmres{1e-13, 40, 80};
 // Unknowns from which the preconditioner by halves of joints comes before any LU.
 constexpr Eigen::Index least_of_line = 1200;
-constexpr GmresOptions line_gmres{1e-12, 40, 40};
-constexpr double as_good_as_double = 1e-11;  // residual of a direction by GMRES
 constexpr GmresOptions holding_gmres{1e-12, 60, 120};
-constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
-constexpr Eigen::Index least_sparse = 120;     // unknowns below which dense is faster
-
-// Pairs of three bodies that meet in a point, or of a body wedged between others, are redundant: their forces are not
-// unique, and the matrix is singular for good. It is factorised with this much on the diagonal of the force rows (the
-// mean W_ii is 1), and GMRES with that factor as its preconditioner solves the singular system itself. With 1e-6 and
-// less rounding drifts in the null space (walls of blocks: 14 to 38 iterations instead of 1 to 5).
-constexpr double raise = 1e-4;
-constexpr GmresOptions singular_gmres{1e-12, 40, 80};
-/// What holds softly: of the force rows, and of the rows of balance for a motion that moves one component of one pair
-/// by 1. It is not taken back: an error is left, and the next step takes it.
-constexpr double soft_raise = 1e-6, soft_hold = 1e-7;
-/// Residual, relative to the right-hand side, up to which a direction solves its equations; up to `descending` it is
-/// still one along which the merit falls.
-constexpr double exact = 1e-9, descending = 0.5;
+constexpr Eigen::Index least_sparse = 120;  // unknowns below which dense is faster
 
 /// Components that no contact force and no rigid motion moves (a support holds the pair along the joint): rows and
 /// columns of W and rows of G that are zero. Empty where there are none.
@@ -267,316 +221,6 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   return d.allFinite();
 }
 
-bool NewtonDirection::solve_dense(double regularisation) {
-  const Problem& problem = equations_.problem();
-  const bool is_dense = problem.W.is_dense();
-  const Matrix &W = is_dense ? problem.W.matrix() : problem.W.dense(), &G = problem.G.dense();
-  const double factor = is_dense ? problem.W.factor() : 1.0;
-  const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
-  Matrix& A = work_->A;
-  if (A.rows() < W.rows() + m) A.resize(W.rows() + m, W.rows() + m), work_->factor.resize(A.rows(), A.rows());
-  y_.resize(right_.size());
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
-    work_->column.setZero(W.rows());
-    for (Eigen::Index k = 0; k < d; ++k)
-      if (from.column[k] != 0.0) work_->column.noalias() += from.column[k] * W.col(d * from.pair + k);
-    for (Eigen::Index row = 0; row < size; ++row) {
-      const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
-      double sum = 0.0;
-      for (Eigen::Index k = 0; k < d; ++k) sum += to.row[k] * work_->column[d * to.pair + k];
-      A(row, j) = to.scale * (factor * sum);
-    }
-    A(j, j) += regularisation * (1.0 - from.own) + from.own;
-    for (Eigen::Index g = 0; g < m; ++g) {
-      double force = 0.0, motion = 0.0;
-      for (Eigen::Index k = 0; k < d; ++k) {
-        force += from.column[k] * G(d * from.pair + k, g);
-        motion += from.row[k] * G(d * from.pair + k, g);
-      }
-      A(size + g, j) = force;
-      A(j, size + g) = from.scale * motion;
-    }
-  }
-  if (m > 0) A.block(size, size, m, m).setZero();
-  if (n == 0) return true;
-  const auto right = right_.head(n);
-  auto y = y_.head(n);
-  work_->residual.resize(right_.size());
-  auto residual = work_->residual.head(n);
-  const auto matrix = A.topLeftCorner(n, n);
-  work_->factor.topLeftCorner(n, n) = matrix;
-  const double scale = 1e-9 * right.lpNorm<Eigen::Infinity>();
-  if (work_->solver.factorise(work_->factor, n) && work_->solver.reciprocal_condition() > 1e-13) {
-    y = right;
-    work_->solver.solve_in_place(y_);
-    residual = right;
-    residual.noalias() -= matrix * y;
-    work_->solver.solve_in_place(work_->residual);
-    y += residual;  // one step of refinement: the certificate is judged at 1e-10
-    residual = right;
-    residual.noalias() -= matrix * y;
-    if (y.allFinite() && residual.lpNorm<Eigen::Infinity>() <= scale) return true;
-  }
-  if (n <= most_orthogonal) {  // the shortest solution, if there is one
-    Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
-    shortest.setThreshold(1e-11);
-    shortest.compute(matrix);
-    y = shortest.solve(right);
-    return y.allFinite() && (matrix * y - right).lpNorm<Eigen::Infinity>() <= scale;
-  }
-  work_->factor.topLeftCorner(n, n) = matrix;
-  for (Eigen::Index j = 0; j < size; ++j)
-    work_->factor(j, j) += raise * (1.0 - unknowns_[static_cast<std::size_t>(j)].own);
-  if (!work_->solver.factorise(work_->factor, n)) return false;
-  const auto multiply = [&](const Vector& x, Vector& result) { result = matrix * x; };
-  const auto precondition = [&](const Vector& x, Vector& result) {
-    result = x;
-    work_->solver.solve_in_place(result);
-  };
-  Vector x = Vector::Zero(n);
-  const double left = gmres(multiply, precondition, right, x, singular_gmres);
-  y = x;
-  return y.allFinite() && left <= descending;
-}
-
-bool NewtonDirection::solve_along_joints(double regularisation) {
-  const Problem& problem = equations_.problem();
-  const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  const Eigen::Index d = problem.dimension, n = size + problem.G.cols();
-  Combinations rows, columns;
-  Vector diagonal(size);
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
-    for (Eigen::Index k = 0; k < d; ++k) {
-      if (unknown.row[k] != 0.0) rows.add(d * unknown.pair + k, unknown.scale * unknown.row[k]);
-      if (unknown.column[k] != 0.0) columns.add(d * unknown.pair + k, unknown.column[k]);
-    }
-    rows.close();
-    columns.close();
-    diagonal[j] = regularisation * (1.0 - unknown.own) + unknown.own;
-  }
-  work_->line_fails = true;
-  if (!work_->along_joints.factorise(problem, rows, columns, diagonal)) return false;
-  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
-  const auto precondition = [&](const Vector& x, Vector& result) { work_->along_joints.solve(x, result); };
-  const Vector right = right_.head(n);
-  y_.setZero(n);
-  const double left = gmres(multiply, precondition, right, y_, line_gmres);
-  work_->line_fails = !(y_.allFinite() && left <= as_good_as_double);
-  return !work_->line_fails;
-}
-
-bool NewtonDirection::solve_by_single_precision(double regularisation) {
-  const Problem& problem = equations_.problem();
-  const Matrix &W = problem.W.matrix(), &G = problem.G.dense();
-  const double factor = problem.W.factor();
-  const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  const Eigen::Index m = problem.G.cols(), d = problem.dimension, n = size + m;
-  Eigen::MatrixXf& A = work_->single;
-  A.resize(n, n);
-  // Rows and columns of a motion, [component of a pair, weight], without those of weight 0.
-  struct Entry {
-    Eigen::Index component;
-    double weight;
-  };
-  std::vector<Entry> rows;
-  std::vector<Eigen::Index> first_of_row(static_cast<std::size_t>(size + 1), 0);
-  for (Eigen::Index row = 0; row < size; ++row) {
-    const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
-    for (Eigen::Index k = 0; k < d; ++k)
-      if (to.row[k] != 0.0) rows.push_back({d * to.pair + k, to.scale * to.row[k]});
-    first_of_row[static_cast<std::size_t>(row + 1)] = static_cast<Eigen::Index>(rows.size());
-  }
-  const auto motions_of_rows = [&](const auto& motion, auto&& into) {
-    for (Eigen::Index row = 0; row < size; ++row) {
-      double sum = 0.0;
-      for (Eigen::Index e = first_of_row[static_cast<std::size_t>(row)];
-           e < first_of_row[static_cast<std::size_t>(row + 1)]; ++e)
-        sum += rows[static_cast<std::size_t>(e)].weight * motion[rows[static_cast<std::size_t>(e)].component];
-      into[row] = static_cast<float>(sum);
-    }
-  };
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
-    work_->column.setZero(W.rows());
-    for (Eigen::Index k = 0; k < d; ++k)
-      if (from.column[k] != 0.0) work_->column.noalias() += (factor * from.column[k]) * W.col(d * from.pair + k);
-    motions_of_rows(work_->column, A.col(j));
-    A(j, j) += static_cast<float>(regularisation * (1.0 - from.own) + from.own);
-    for (Eigen::Index g = 0; g < m; ++g) {
-      double force = 0.0;
-      for (Eigen::Index k = 0; k < d; ++k) force += from.column[k] * G(d * from.pair + k, g);
-      A(size + g, j) = static_cast<float>(force);
-    }
-  }
-  for (Eigen::Index g = 0; g < m; ++g) motions_of_rows(G.col(g), A.col(size + g));
-  if (m > 0) A.block(size, size, m, m).setZero();
-  if (!work_->single_solver.factorise(A)) return false;
-  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
-  const auto precondition = [&](const Vector& x, Vector& result) { work_->single_solver.solve(x, result); };
-  const Vector right = right_.head(n);
-  y_.setZero(n);
-  const double left = gmres(multiply, precondition, right, y_, refining_gmres);
-  work_->single_fails = !(y_.allFinite() && left <= as_good_as_double);
-  return !work_->single_fails;
-}
-
-void NewtonDirection::lay_out_sparse(double regularisation) {
-  const Problem& problem = equations_.problem();
-  const Eigen::SparseMatrix<double>& W = problem.W.sparse();
-  const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  const Eigen::Index m = problem.G.cols(), n = size + m;
-  const int d = problem.dimension;
-  Workspace& work = *work_;
-  if (m > 0 && work.G.rows() != problem.G.rows()) work.G = problem.G.sparse();
-  if (static_cast<Eigen::Index>(work.sum.size()) < n) work.sum.assign(static_cast<std::size_t>(n), 0.0);
-  const auto add = [&](Eigen::Index row, double value) {
-    double& sum = work.sum[static_cast<std::size_t>(row)];
-    if (sum == 0.0) work.touched.push_back(static_cast<int>(row));
-    sum += value == 0.0 ? 1e-300 : value;  // stays in the pattern
-  };
-  // Adds `value` of motion component `component` (a row of W or G) to the rows of the unknowns that it enters.
-  const auto add_motion = [&](Eigen::Index component, double value) {
-    const auto pair = static_cast<std::size_t>(component / d);
-    for (int row = first_of_pair_[pair]; row < first_of_pair_[pair + 1]; ++row) {
-      const Unknown& to = unknowns_[static_cast<std::size_t>(row)];
-      if (to.row[component % d] != 0.0) add(row, to.scale * to.row[component % d] * value);
-    }
-  };
-  Eigen::SparseMatrix<double>& A = work.sparse;
-  A.resize(n, n);
-  A.reserve(3 * W.nonZeros() / 2 + n + 3 * problem.G.sparse().nonZeros());
-  const auto finish_column = [&](Eigen::Index column) {
-    std::sort(work.touched.begin(), work.touched.end());
-    work.touched.erase(std::unique(work.touched.begin(), work.touched.end()), work.touched.end());
-    A.startVec(column);
-    for (int row : work.touched) {
-      A.insertBack(row, column) = work.sum[static_cast<std::size_t>(row)];
-      work.sum[static_cast<std::size_t>(row)] = 0.0;
-    }
-    work.touched.clear();
-  };
-  work.touched.clear();
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const Unknown& from = unknowns_[static_cast<std::size_t>(j)];
-    add(j, regularisation * (1.0 - from.own) + from.own);
-    for (int k = 0; k < d; ++k) {
-      if (from.column[k] == 0.0) continue;
-      const Eigen::Index force = d * static_cast<Eigen::Index>(from.pair) + k;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(W, force); it; ++it)
-        add_motion(it.row(), it.value() * from.column[k]);
-      if (m > 0)
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(work.G, force); it; ++it)
-          add(size + it.col(), it.value() * from.column[k]);
-    }
-    finish_column(j);
-  }
-  for (Eigen::Index g = 0; g < m; ++g) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(problem.G.sparse(), g); it; ++it)
-      add_motion(it.row(), it.value());
-    finish_column(size + g);
-  }
-  A.finalize();
-}
-
-bool NewtonDirection::solve_sparse(double regularisation) {
-  lay_out_sparse(regularisation);
-  const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  Workspace& work = *work_;
-  const Eigen::SparseMatrix<double>& A = work.sparse;
-  const Vector right = right_.head(A.rows());
-  const double largest = right.lpNorm<Eigen::Infinity>() + 1e-300;
-  if (soft_) return solve_softened();
-  if (!work.redundant && work.sparse_solver.factorise(A) && work.sparse_solver.reciprocal_condition() > 1e-13) {
-    work.sparse_solver.solve(right, y_);
-    work.residual = right - A * y_;
-    work.sparse_solver.solve(work.residual, work.image);
-    y_ += work.image;  // one step of refinement: the certificate is judged at 1e-10
-    work.residual = right - A * y_;
-    if (y_.allFinite() && work.residual.lpNorm<Eigen::Infinity>() <= exact * largest) return true;
-  }
-  work.redundant = true;
-  work.raised = A;
-  for (Eigen::Index j = 0; j < size; ++j)
-    work.raised.coeffRef(j, j) += raise * (1.0 - unknowns_[static_cast<std::size_t>(j)].own);
-  if (!work.sparse_solver.factorise(work.raised) || !(work.sparse_solver.reciprocal_condition() > 1e-16)) return false;
-  const auto multiply = [&](const Vector& x, Vector& result) { result.noalias() = A * x; };
-  const auto precondition = [&](const Vector& x, Vector& result) { work.sparse_solver.solve(x, result); };
-  y_.setZero(A.rows());
-  const double left = gmres(multiply, precondition, right, y_, singular_gmres);
-  return y_.allFinite() && left <= descending;
-}
-
-/// Close to a solution a wall may be nearly a mechanism: most joints slip, and one wrong state lets a block go. The
-/// exact direction is then a thousand times too long.
-bool NewtonDirection::solve_softened() {
-  const auto size = static_cast<Eigen::Index>(unknowns_.size()), m = equations_.problem().G.cols();
-  Workspace& work = *work_;
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(size + m));
-  for (Eigen::Index j = 0; j < size; ++j)
-    entries.emplace_back(static_cast<int>(j), static_cast<int>(j),
-                         soft_raise * (1.0 - unknowns_[static_cast<std::size_t>(j)].own));
-  const Eigen::SparseMatrix<double>& G = equations_.problem().G.sparse();
-  for (Eigen::Index k = 0; k < m; ++k)
-    entries.emplace_back(static_cast<int>(size + k), static_cast<int>(size + k), -soft_hold * G.col(k).squaredNorm());
-  Eigen::SparseMatrix<double> diagonal(size + m, size + m);
-  diagonal.setFromTriplets(entries.begin(), entries.end());
-  work.raised = work.sparse + diagonal;
-  if (!work.sparse_solver.factorise(work.raised)) return false;
-  const Vector right = right_.head(size + m);
-  work.sparse_solver.solve(right, y_);
-  work.residual = right - work.raised * y_;
-  work.sparse_solver.solve(work.residual, work.image);
-  y_ += work.image;
-  return y_.allFinite();
-}
-
-/// Rigid bodies with many pairs a joint. Pairs are redundant there: the raised matrix preconditions GMRES.
-template <int d>
-bool NewtonDirection::solve_by_joints(double regularisation) {
-  const Problem& problem = equations_.problem();
-  Workspace& work = *work_;
-  auto& joints = [&]() -> auto& {
-    if constexpr (d == 2)
-      return work.joints_in_plane;
-    else
-      return work.joints_in_space;
-  }
-  ();
-  if (!work.joints_sought) {
-    work.joints_sought = true;
-    if (auto found = find_joints<d>(problem)) joints.emplace(std::move(*found));
-  }
-  if (!joints) return false;
-  const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  joints->pair.resize(unknowns_.size());
-  joints->L.resize(size, JointSystem<d>::R);
-  joints->C.resize(size, JointSystem<d>::R);
-  joints->D.resize(size);
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
-    joints->pair[static_cast<std::size_t>(j)] = unknown.pair;
-    const auto& A = joints->A(unknown.pair);
-    joints->L.row(j) = unknown.scale * (unknown.row.head<d>().transpose() * A);
-    joints->C.row(j) = unknown.column.head<d>().transpose() * A;
-    joints->D[j] = std::max(regularisation, raise) * (1.0 - unknown.own) + unknown.own;
-  }
-  if (!joints->factorise()) return false;
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const double own = unknowns_[static_cast<std::size_t>(j)].own;
-    joints->D[j] = regularisation * (1.0 - own) + own;
-  }
-  const auto multiply = [&](const Vector& x, Vector& result) { joints->apply(x, result); };
-  const auto precondition = [&](const Vector& x, Vector& result) { joints->solve(x, result); };
-  const Vector right = right_.head(size);
-  y_.setZero(size);
-  const double left = gmres(multiply, precondition, right, y_, singular_gmres);
-  return y_.allFinite() && left <= descending;
-}
-
 bool NewtonDirection::solve_by_holding(double regularisation) {
   const Problem& problem = equations_.problem();
   const PairHolder* const holder = problem.W.holder();
@@ -607,7 +251,7 @@ bool NewtonDirection::solve_by_holding(double regularisation) {
   const Vector right = right_.head(n);
   y_.setZero(n);
   const double left = gmres(multiply, precondition, right, y_, holding_gmres);
-  work_->holding_fails = !(y_.allFinite() && left <= exact);
+  work_->holding_fails = !(y_.allFinite() && left <= Workspace::exact);
   return !work_->holding_fails;
 }
 

@@ -3,6 +3,7 @@
 #include <umfpack.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "scabo/base/error.hpp"
@@ -12,16 +13,22 @@ namespace scabo::linalg {
 
 namespace {
 
-/// An order of elimination for a matrix of saddle type, [W G; G' 0]. Unknowns without a positive diagonal entry have
-/// none to be eliminated with, or a small one that only holds them: each is put right behind a group of its neighbours
-/// with equal columns, whose elimination fills it, at most half as many as the group has members. The groups, with what
-/// was put behind them, are dissected. Empty where every diagonal entry is positive.
+/// An order of elimination for a matrix of saddle type, [W G; G' 0]. Unknowns without a diagonal entry, or with a small
+/// negative one that only holds them, have none to be eliminated with: each is put right behind a group of its
+/// neighbours with equal columns, whose elimination fills it, at most half as many as the group has members. The
+/// groups, with what was put behind them, are dissected. Empty where there are no such unknowns.
 std::vector<int> saddle_order(const Eigen::SparseMatrix<double>& A) {
   const auto n = static_cast<int>(A.rows());
+  constexpr double small = 1e-3;  // of the largest entry of its column
   std::vector<char> bare(static_cast<std::size_t>(n), 1);
-  for (int j = 0; j < n; ++j)
-    for (SparseMatrix::InnerIterator it(A, j); it; ++it)
-      if (it.row() == j && it.value() > 0.0) bare[static_cast<std::size_t>(j)] = 0;
+  for (int j = 0; j < n; ++j) {
+    double own = 0.0, largest = 0.0;
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+      largest = std::max(largest, std::abs(it.value()));
+      if (it.row() == j) own = it.value();
+    }
+    if (own > 0.0 || own < -small * largest) bare[static_cast<std::size_t>(j)] = 0;
+  }
   if (std::find(bare.begin(), bare.end(), 1) == bare.end()) return {};
   const SparseMatrix both = A + SparseMatrix(A.transpose());
   const std::vector<int> groups = equal_columns(both);
