@@ -96,5 +96,25 @@ contacts: {joint: {between: [lower.top, upper.bottom], friction: 0.5}}
   }
 }
 
+/// Weight is many small forces. What rounding leaves of the balance between weight and contact forces must not be found
+/// at one of the nodes that hold the floating body in its equations.
+TEST(CertificateOfARun, OfAHeavyBodyDoesNotGrowWithItsNodes) {
+  const auto solution = run(R"(
+scabo: 1
+materials: {stone: {young: 20e9, poisson: 0.2, density: 2300}}
+bodies:
+  ground: {material: stone, shape: {rectangle: {corner: [-1, -1], size: [42, 1]}},
+           mesh: {kind: quadtree, size: 0.25, order: 1}}
+  wall: {material: stone, shape: {rectangle: {corner: [0, 0], size: [40, 12]}},
+         mesh: {kind: quadtree, size: 0.2, order: 1}}
+supports: [{on: ground.bottom, fix: [x, y]}]
+loads: {weight: {gravity: [0.981, -9.81]}}
+contacts: {joint: {between: [ground.top, wall.bottom], friction: 0.6}}
+)");
+  const analysis::IncrementResult& increment = last(solution);
+  EXPECT_LE(increment.certificate.equilibrium, 1e-12);
+  EXPECT_LE(increment.certificate.rigid_balance, 1e-14);
+}
+
 }  // namespace
 }  // namespace scabo::verification

@@ -269,7 +269,6 @@ TEST_P(RatesOfCells, KirschsPlate) {
   for (int order = 1; order <= highest_order(); ++order) {
     const bool fine = kind() == "imported" || few || polygons;
     const double size = order == 4 && polygons                   ? 0.18
-                        : order >= 3 && few                      ? 0.15
                         : fine || (is_fem(kind()) && order == 2) ? 0.125
                                                                  : 0.25,
                  finer = order == 4 && polygons ? 0.125 / 0.18

@@ -9,6 +9,7 @@
 
 #include "scabo/analysis/branch.hpp"
 #include "scabo/analysis/large_slip.hpp"
+#include "scabo/linalg/twofold.hpp"
 #include "scabo/system/contact_laws.hpp"
 
 namespace scabo::analysis {
@@ -43,7 +44,12 @@ double sum_of_loads(const Prepared& prepared, std::size_t p, const Factors& fact
 /// forces. Contact balances the resultants without them (loads_on_motions); left in, they would be found unbalanced on
 /// the few degrees of freedom that hold the part in displacement(): with a thousand pairs, 5e-11 of the largest force.
 void take_out_rounding(const Matrix& rigid, double sum, Vector& forces) {
-  Vector resultants = rigid.transpose() * forces;
+  Vector resultants(rigid.cols());
+  for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
+    linalg::Twofold work;  // of many small forces, as weight, a sum in working precision is rounding itself
+    for (Eigen::Index i = 0; i < forces.size(); ++i) work = work + linalg::exact_product(rigid(i, k), forces[i]);
+    resultants[k] = work.high;
+  }
   for (double& resultant : resultants)
     if (std::abs(resultant) > rounding_of_sums * sum) resultant = 0.0;
   if (resultants.isZero(0.0)) return;
@@ -240,12 +246,16 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
     }
     Balance& balance = balances[p];
     balance.forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
-    system::Displaced reached =
-        known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(balance.forces, to.prescribed[p], wanted);
+    // What rounding of the contact forces leaves of the balance of a part that they hold: the certificate judges it as
+    // a resultant, against all forces, and not at one of the nodes that hold the part in displaced().
     const Matrix& rigid = parts[p]->rigid_motions();
+    Vector forces = balance.forces;
+    if (rigid.cols() > 0 && !prepared.structure.dofs.is_rigid(p)) take_out_rounding(rigid, forces.lpNorm<1>(), forces);
+    system::Displaced reached =
+        known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(forces, to.prescribed[p], wanted);
     if (rigid.cols() > 0) reached.u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
     balance.unbalanced = reached.unbalanced.size() > 0 ? std::move(reached.unbalanced)  // K resists no rigid motion
-                                                       : parts[p]->unbalanced(reached.u, balance.forces);
+                                                       : parts[p]->unbalanced(reached.u, forces);
     to.reactions.push_back(parts[p]->reactions_of(balance.unbalanced));
     to.u.push_back(std::move(reached.u));
   }
