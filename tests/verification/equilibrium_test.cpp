@@ -106,14 +106,14 @@ bodies:
   ground: {material: stone, shape: {rectangle: {corner: [-1, -1], size: [42, 1]}},
            mesh: {kind: quadtree, size: 0.25, order: 1}}
   wall: {material: stone, shape: {rectangle: {corner: [0, 0], size: [40, 12]}},
-         mesh: {kind: quadtree, size: 0.2, order: 1}}
+         mesh: {kind: quadtree, size: 0.125, order: 1}}
 supports: [{on: ground.bottom, fix: [x, y]}]
 loads: {weight: {gravity: [0.981, -9.81]}}
 contacts: {joint: {between: [ground.top, wall.bottom], friction: 0.6}}
 )");
   const analysis::IncrementResult& increment = last(solution);
-  EXPECT_LE(increment.certificate.equilibrium, 1e-12);
-  EXPECT_LE(increment.certificate.rigid_balance, 1e-14);
+  EXPECT_LE(increment.certificate.equilibrium, 1e-13);  // 6.9e-12 with sums in working precision
+  EXPECT_LE(increment.certificate.rigid_balance, 1e-12);
 }
 
 }  // namespace
