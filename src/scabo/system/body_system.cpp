@@ -540,7 +540,7 @@ class ElasticBody final : public BodySystem {
       v[2 * i + 1] = v[2 * i + 1] - mean_y;
       turned = turned + v[2 * i] * turn_[2 * i] + v[2 * i + 1] * turn_[2 * i + 1];
     }
-    const linalg::Twofold angle = turned / linalg::Twofold{turn_square_, 0.0};
+    const linalg::Twofold angle = turned / turn_square_;
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = v[i] - angle * turn_[i];
   }
 
@@ -613,7 +613,7 @@ class ElasticBody final : public BodySystem {
       const linalg::Twofold mean = sum / count;
       for (std::size_t i = k; i < turn_.size(); i += 2) turn_[i] = turn_[i] - mean;
     }
-    for (const linalg::Twofold& turn : turn_) turn_square_ += turn.high * turn.high;
+    for (const linalg::Twofold& turn : turn_) turn_square_ = turn_square_ + turn * turn;
   }
 
   void find_rigid_motions(const std::vector<Vec2>& nodes) {
@@ -657,7 +657,7 @@ class ElasticBody final : public BodySystem {
   std::shared_ptr<Factored> factored_;
   InclinedNodes inclined_;
   linalg::TwofoldVector turn_;  // the rotation about the mean of the nodes
-  double turn_square_ = 0.0;    // its square
+  linalg::Twofold turn_square_;  // its square
   std::vector<bool> free_;      // by supports
   std::vector<bool> solved_;    // free, and not among the further dofs
   std::vector<int> dofs_, place_;
