@@ -525,7 +525,8 @@ class ElasticBody final : public BodySystem {
     return left;
   }
 
-  /// By sums in twice the working precision: those of half a million forces of weight lose 1e-10 of the largest otherwise.
+  /// By sums in twice the working precision: those of half a million forces of weight lose 1e-10 of the largest
+  /// otherwise.
   void take_out_rigid_motions(linalg::TwofoldVector& v) const {
     const std::size_t nodes = v.size() / 2;
     const linalg::Twofold count{static_cast<double>(nodes), 0.0};
@@ -656,10 +657,10 @@ class ElasticBody final : public BodySystem {
 
   std::shared_ptr<Factored> factored_;
   InclinedNodes inclined_;
-  linalg::TwofoldVector turn_;  // the rotation about the mean of the nodes
+  linalg::TwofoldVector turn_;   // the rotation about the mean of the nodes
   linalg::Twofold turn_square_;  // its square
-  std::vector<bool> free_;      // by supports
-  std::vector<bool> solved_;    // free, and not among the further dofs
+  std::vector<bool> free_;       // by supports
+  std::vector<bool> solved_;     // free, and not among the further dofs
   std::vector<int> dofs_, place_;
   std::vector<int> further_;  // hold the body in u_p along its rigid motions
   Matrix on_further_;         // m x m
