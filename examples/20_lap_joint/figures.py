@@ -26,11 +26,11 @@ def main():
 
 def picture(options, summary, history):
     figure = plt.figure(figsize=(9.6, 4.6), layout="constrained")
-    parts = figure.subfigures(2, 1, height_ratios=[1.05, 1.3])
+    parts = figure.subfigures(2, 1, height_ratios=[1.0, 1.4])
     top = parts[0].subplots()
     mesh = pictures.fields(options.results, 11)
     drawn = pictures.draw(top, mesh, pictures.values_of(mesh, "stress_yy", 1e-6), pictures.signed_levels(80, bands=8))
-    pictures.colour_bar(parts[0], drawn, top, "normal stress (MPa)", aspect=10)
+    pictures.colour_bar(parts[0], drawn, top, "normal stress (MPa)", orientation="horizontal", aspect=45, shrink=0.6)
     top.set(title="slipping: stress from the plane of symmetry to the washers")
     left, right = parts[1].subplots(1, 2)
     for number, name, colour, style in ((1, "tightened", pictures.BLUE, "-"), (11, "slipping", pictures.RED, "--")):
