@@ -432,10 +432,13 @@ class ElasticBody final : public BodySystem {
     for (const int dof : dofs_) largest = std::max(largest, std::abs(left[dof]));
     for (std::size_t k = 0; k < further_.size(); ++k)
       largest = std::max(largest, std::abs(left[further_[k]] + of.held[static_cast<Eigen::Index>(k)]));
+    Vector free = left;  // without reactions, which at an inclined node have both components
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      if (!free_[i]) free[static_cast<Eigen::Index>(i)] = 0.0;
+    free = inclined_.forces(std::move(free));
     double sums[2] = {0.0, 0.0}, moment = 0.0;
-    for (std::size_t i = 0; i < free_.size(); ++i) {
-      if (!free_[i]) continue;
-      const double force = unbalanced[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < turn_.size(); ++i) {
+      const double force = free[static_cast<Eigen::Index>(i)];
       sums[i % 2] += force;
       moment += force * turn_[i].high;
     }
