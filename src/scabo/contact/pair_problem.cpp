@@ -148,6 +148,26 @@ void PairProblem<d>::slide(const Tangential& A, double a_n, const double* c, dou
   p_t[1] = N[1] / determinant;
 }
 
+template <int d>
+bool PairProblem<d>::step(const double* motion, double* force, double* change, double& largest) {
+  double free[d], next[d], size = 0.0;
+  for (int k = 0; k < d; ++k) {
+    free[k] = motion[k];
+    for (int j = 0; j < d; ++j) free[k] -= W_[d * j + k] * force[j];
+  }
+  solve(free, next);
+  for (int k = 0; k < d; ++k) {
+    change[k] = next[k] - force[k];
+    size += std::abs(change[k]);
+  }
+  if (!(size > 0.0 && size < HUGE_VAL)) return false;
+  for (int k = 0; k < d; ++k) {
+    force[k] = next[k];
+    largest = std::max(largest, std::abs(change[k]));
+  }
+  return true;
+}
+
 template class PairProblem<2>;
 template class PairProblem<3>;
 

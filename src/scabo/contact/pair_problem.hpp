@@ -33,6 +33,11 @@ class PairProblem {
   /// `free`, `force`: d.
   [[gnu::hot]] void solve(const double* free, double* force);
 
+  /// One step of a sweep: `force` (d) becomes the solution for a pair that moves by `motion` under its present force.
+  /// `change` (d) is what that adds, and `largest` grows to its largest component; false, and nothing changed, where it
+  /// adds nothing.
+  [[gnu::hot]] bool step(const double* motion, double* force, double* change, double& largest);
+
   const double* W() const { return W_; }
   double inverse() const { return inverse_; }  ///< 1 / W_nn; 0 if no force moves the pair along its normal
 

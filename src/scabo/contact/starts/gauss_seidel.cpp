@@ -76,24 +76,9 @@ template <int d>
 double PairSweeps<d>::sweep(Vector& p, Vector& motion) {
   double largest = 0.0;
   for (Index i = 0; i < problem_->pairs(); ++i) {
-    PairProblem<d>& pair = pairs_[static_cast<std::size_t>(i)];
-    double* const force = p.data() + d * i;
-    double free[d], next[d], change[d], size = 0.0;
-    for (int k = 0; k < d; ++k) {
-      free[k] = motion[d * i + k];
-      for (int j = 0; j < d; ++j) free[k] -= pair.W()[d * j + k] * force[j];
-    }
-    pair.solve(free, next);
-    for (int k = 0; k < d; ++k) {
-      change[k] = next[k] - force[k];
-      size += std::abs(change[k]);
-    }
-    if (!(size > 0.0 && size < HUGE_VAL)) continue;
-    for (int k = 0; k < d; ++k) {
-      force[k] = next[k];
-      largest = std::max(largest, std::abs(change[k]));
-    }
-    add(i, change, motion.data());
+    double change[d];
+    if (pairs_[static_cast<std::size_t>(i)].step(motion.data() + d * i, p.data() + d * i, change, largest))
+      add(i, change, motion.data());
   }
   return largest;
 }

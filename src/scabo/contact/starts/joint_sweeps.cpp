@@ -58,26 +58,11 @@ double JointSweeps<d>::sweep(Vector& p) {
       leave(joint);
       joint = joints_.joint[i];
     }
-    PairProblem<d>& pair = pairs_[i];
     const auto first = d * static_cast<Index>(i);
-    double* const force = p.data() + first;
     Components& motion = motion_[static_cast<std::size_t>(joint)];
-    Eigen::Matrix<double, d, 1> free = joints_.A[i] * motion, next, change;
-    double size = 0.0;
-    for (int k = 0; k < d; ++k) {
-      free[k] += problem_->q[first + k];
-      for (int j = 0; j < d; ++j) free[k] -= pair.W()[d * j + k] * force[j];
-    }
-    pair.solve(free.data(), next.data());
-    for (int k = 0; k < d; ++k) {
-      change[k] = next[k] - force[k];
-      size += std::abs(change[k]);
-    }
-    if (!(size > 0.0 && size < HUGE_VAL)) continue;
-    for (int k = 0; k < d; ++k) {
-      force[k] = next[k];
-      largest = std::max(largest, std::abs(change[k]));
-    }
+    Eigen::Matrix<double, d, 1> moved = joints_.A[i] * motion, change;
+    moved += problem_->q.template segment<d>(first);
+    if (!pairs_[i].step(moved.data(), p.data() + first, change.data(), largest)) continue;
     const Components resultant = joints_.A[i].transpose() * change;
     motion.noalias() += own_[static_cast<std::size_t>(joint)] * resultant;
     left_ += resultant;
