@@ -578,7 +578,7 @@ class ElasticBody final : public BodySystem {
     Vector along = nothing;  // the direction, in the components of `solved_part`
     double before = 0.0, least = largest_left(best.left, of);
     constexpr int most = 40;
-    const int patience = is_large() ? 2 : 5;  // what resultants of many forces leave does not get less
+    const int patience = is_large() ? 2 : 5;  // its solves take long
     constexpr double hardly = 1e-9;
     int since_best = 0;
     bool changes = false;
