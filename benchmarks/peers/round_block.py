@@ -35,8 +35,10 @@ def grid(n):
     return nodes, elements
 
 
-def scabo_model(size, along):
-    """`size` of the elements of the boundary, `along` of those of the round side and at the corner where the held top meets the free side, m."""
+def scabo_model(size, along, kind="superelement"):
+    """`size` of the elements, `along` of those of the round side and at the corner where the held top meets the free side, m; `kind` of mesh.
+    One super-element is divided along its boundary, a quadtree inside too: its elements grow by half of the distance from both places."""
+    growth = "" if kind == "superelement" else ", growth: 0.5"
     return f"""scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: {YOUNG!r}, poisson: {POISSON!r}}}}}
@@ -50,7 +52,7 @@ bodies:
         - {{arc: {{to: [{WIDTH!r}, {bottom(WIDTH)!r}], centre: [0, {RADIUS!r}]}}, name: round}}
         - {{line: {{to: [{WIDTH!r}, {HEIGHT!r}]}}, name: side}}
         - {{line: {{to: [0, {HEIGHT!r}]}}, name: top}}
-    mesh: {{size: {size!r}, refine: [{{on: round, size: {along!r}}}, {{near: [{WIDTH!r}, {HEIGHT!r}], size: {along!r}}}]}}
+    mesh: {{kind: {kind}, size: {size!r}, refine: [{{on: round, size: {along!r}{growth}}}, {{near: [{WIDTH!r}, {HEIGHT!r}], size: {along!r}{growth}}}]}}
 supports:
   - {{on: floor, fix: [x, y]}}
   - {{on: block.middle, fix: [x]}}

@@ -7,8 +7,8 @@ Two problems: the double cantilever beam (calculix_beams.py, getfem_beams.py) an
 Whole processes are measured, files included: wall and processor seconds, peak memory; one thread each; median of --repeat runs, of runs of
 more than 5 s one run. A process ends after --seconds of processor time.
 
-Every row of a peer is compared with the cheapest row of Scabo of which it and all finer rows have at most the error of the peer, so that no
-accidental zero of Scabo counts; those of the peers do. REFERENCE holds the converged forces. Degrees of freedom of CalculiX are those of its plane mesh; it
+Every row of a peer is compared with the cheapest row of Scabo of which it and all finer rows of the same kind of mesh have at most the error
+of the peer, so that no accidental zero of Scabo counts; those of the peers do. The block is one super-element, or a quadtree of them. REFERENCE holds the converged forces. Degrees of freedom of CalculiX are those of its plane mesh; it
 computes with a layer of solid elements.
 """
 import argparse
@@ -33,7 +33,9 @@ REFERENCE = {"beams": CONVERGED_FORCE, "block": 7188.04}  # kN; the block by Sca
 BEAMS = (8, 15, 24, 44)        # elements over the height of a beam: 3.4e3, 1.1e4, 2.8e4, 9.4e4 degrees of freedom
 BLOCK = (16, 40, 72, 128)      # elements along a side: 1.6e3, 9.9e3, 3.1e4, 9.9e4
 SCABO_BEAMS = (0.375, 0.1875, 0.09375, 0.046875)  # size of elements, m
-SCABO_BLOCK = ((0.1, 0.05), (0.1, 0.025), (0.1, 0.0125), (0.05, 0.00625))  # size, size along the round side and at a corner, m
+# Kind of mesh: sizes, and sizes along the round side and at a corner, m.
+SCABO_BLOCK = {"superelement": ((0.1, 0.05), (0.1, 0.025), (0.1, 0.0125), (0.05, 0.00625)),
+               "quadtree": ((0.125, 0.05), (0.125, 0.025), (0.125, 0.0125), (0.125, 0.00625))}
 LONG = 5.0                     # s
 ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
@@ -45,6 +47,7 @@ class Case:
     command: list
     files: dict                  # name: text, written before the clock starts
     read: object                 # folder -> (force, kN; degrees of freedom)
+    mesh: str = ""               # kind of Scabo's mesh: rows of one kind are refinements of each other
 
 
 def of_scabo(folder):
@@ -96,8 +99,10 @@ def cases(problem, most, scabo, python, ccx):
                 deck = calculix_beams.deck(size, 0.2)
                 yield Case("CalculiX", f"{size:.4g} m", [ccx, "deck"], {"deck.inp": deck}, of_calculix(2 * nodes_in(deck)))
     else:
-        for size, along in SCABO_BLOCK:
-            yield Case("Scabo", f"{along:g} m", [*run, "block.yaml"], {"block.yaml": round_block.scabo_model(size, along)}, of_scabo)
+        for kind, sizes in SCABO_BLOCK.items():
+            for size, along in sizes:
+                model = round_block.scabo_model(size, along, kind)
+                yield Case("Scabo", f"{kind}, {along:g} m", [*run, "block.yaml"], {"block.yaml": model}, of_scabo, kind)
         for n in BLOCK:
             if 6 * n * n > 1.3 * most:
                 continue
@@ -144,13 +149,14 @@ def measured(case, repeat, seconds):
 
 
 def as_exact_as(ours, error):
-    """The cheapest of our rows of which it and all finer ones have at most this error; None if the finest has more."""
-    found = None
-    for row in sorted(ours, key=lambda row: -row["dofs"]):
-        if abs(row["error"]) > abs(error):
-            break
-        found = row if found is None or row["processor"] < found["processor"] else found
-    return found
+    """The cheapest of our rows of which it and all finer ones of its kind of mesh have at most this error; None if the finest have more."""
+    exact = []
+    for mesh in {row["mesh"] for row in ours}:
+        for row in sorted((row for row in ours if row["mesh"] == mesh), key=lambda row: -row["dofs"]):
+            if abs(row["error"]) > abs(error):
+                break
+            exact.append(row)
+    return min(exact, key=lambda row: row["processor"], default=None)
 
 
 def compare(problem, rows):
@@ -197,7 +203,7 @@ def main():
                 continue
             if key not in kept:
                 result = measured(case, arguments.repeat, arguments.seconds)
-                kept[key] = {"program": case.program, "name": case.name} | ({"why": result} if isinstance(result, str) else result)
+                kept[key] = {"program": case.program, "name": case.name, "mesh": case.mesh} | ({"why": result} if isinstance(result, str) else result)
                 print(f"{key}: {result if isinstance(result, str) else round(result['processor'], 2)}", file=sys.stderr, flush=True)
                 if arguments.json:
                     arguments.json.write_text(json.dumps(kept, indent=1))
