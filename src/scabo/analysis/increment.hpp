@@ -28,6 +28,10 @@ struct Prepared {
   bool is_absent(std::size_t part) const { return !absent.empty() && absent[part] != 0; }
 };
 
+const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::ContactSystem::Pair& at);
+/// The part that a body belongs to.
+const system::BodySystem& part_of(const Prepared& prepared, int body);
+
 /// Displacement of the reference point, which belongs to all bodies: results are relative to it, and so are the work of
 /// loads and the elastic energy. `u`: per part. Zero where there is none.
 Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>& u);

@@ -1,0 +1,170 @@
+#include "scabo/analysis/increment_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/analysis/increment_loads.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Resultant of nodal forces.
+Vec2 resultant_of(const Vector& forces) { return forces.reshaped(2, forces.size() / 2).rowwise().sum(); }
+
+/// What displacements may leave unbalanced, a tenth of what the certificate allows; less where the tolerance is large.
+/// Without reactions, which are not known before: those of its own constraints every part adds.
+system::Balanced wanted_balance(const Prepared& prepared, const State& state) {
+  constexpr double well_below = 0.1;
+  system::Balanced wanted;
+  wanted.part = std::min(wanted.part, well_below * prepared.model.solver.tolerance);
+  wanted.at_least = std::max(prepared.force_scale, largest_force(state));
+  return wanted;
+}
+
+/// Force and moment of everything that acts on a part, as [F_x, F_y, M / L] about its reference point.
+Eigen::Vector3d resultant(const system::BodySystem& part, const std::vector<Vec2>& nodes, const Vector& forces) {
+  if (nodes.empty()) return forces;  // a rigid body's forces are resultants
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    sum += system::rigid_point(nodes[i], part.reference(), part.lever()).transpose() *
+           forces.segment<2>(static_cast<Eigen::Index>(2 * i));
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to) {
+  const auto& parts = prepared.structure.parts;
+  const system::Balanced wanted = wanted_balance(prepared, to);
+  std::vector<Balance> balances(parts.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (prepared.is_absent(p)) {
+      to.u.push_back(Vector::Zero(parts[p]->size()));
+      to.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(parts[p]->constraints().size())));
+      continue;
+    }
+    Balance& balance = balances[p];
+    balance.forces = to.forces[p] + prepared.contact.motion[p].transpose() * to.p;
+    // What rounding of the contact forces leaves of the balance of a part that they hold: the certificate judges it as
+    // a resultant, against all forces, and not at one of the nodes that hold the part in displaced().
+    const Matrix& rigid = parts[p]->rigid_motions();
+    Vector forces = balance.forces;
+    if (rigid.cols() > 0 && !prepared.structure.dofs.is_rigid(p)) take_out_rounding(rigid, forces.lpNorm<1>(), forces);
+    system::Displaced reached =
+        known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(forces, to.prescribed[p], wanted);
+    if (rigid.cols() > 0) reached.u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
+    balance.unbalanced = reached.unbalanced.size() > 0 ? std::move(reached.unbalanced)  // K resists no rigid motion
+                                                       : parts[p]->unbalanced(reached.u, forces);
+    to.reactions.push_back(parts[p]->reactions_of(balance.unbalanced));
+    to.u.push_back(std::move(reached.u));
+  }
+  return balances;
+}
+
+void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions) {
+  state.forces = applied_forces(prepared, state.factors, state.released);
+  state.prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
+  state.u.clear();
+  state.reactions.clear();
+  add_displacements(prepared, without_motions, state);
+}
+
+std::vector<Vector> displacements_without_motions(const Prepared& prepared, const State& state) {
+  const std::vector<Vector> forces = applied_forces(prepared, state.factors, state.released),
+                            prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
+  std::vector<Vector> u;
+  for (std::size_t p = 0; p < forces.size(); ++p)
+    u.push_back(prepared.structure.parts[p]->displacement(forces[p] + prepared.contact.motion[p].transpose() * state.p,
+                                                          prescribed[p]));
+  return u;
+}
+
+Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>& u) {
+  if (!prepared.reference) return Vec2::Zero();
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const auto& [body, N] = *prepared.reference;
+  return N * dofs.of_body(body, u[dofs.part_of(body)]);
+}
+
+Energy energy_between(const Prepared& prepared, const State& from, const State& to,
+                      const std::vector<Balance>& balances) {
+  Energy energy = from.energy;
+  energy.elastic = 0.0;
+  for (std::size_t p = 0; p < to.u.size(); ++p) {
+    energy.external += 0.5 * (from.forces[p] + to.forces[p]).dot(to.u[p] - from.u[p]);
+    energy.external += 0.5 * (from.reactions[p] + to.reactions[p]).dot(to.prescribed[p] - from.prescribed[p]);
+    if (!prepared.is_absent(p))
+      energy.elastic +=
+          prepared.structure.parts[p]->elastic_energy(to.u[p], balances[p].forces, balances[p].unbalanced);
+  }
+  if (prepared.reference) {
+    const Vec2 reached = reference_displacement(prepared, to.u),
+               moved = reached - reference_displacement(prepared, from.u);
+    for (std::size_t p = 0; p < to.u.size(); ++p) {
+      const auto loads = [&](const State& state) {  // of a rigid part: force and moment about its centroid
+        return prepared.structure.dofs.is_rigid(p) ? Vec2(state.forces[p].head<2>()) : resultant_of(state.forces[p]);
+      };
+      energy.external -= 0.5 * (loads(from) + loads(to)).dot(moved);
+    }
+    const std::size_t part = prepared.structure.dofs.part_of(prepared.reference->body);
+    energy.elastic -=
+        0.5 * resultant_of(to.forces[part] + prepared.contact.motion[part].transpose() * to.p).dot(reached);
+  }
+  for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
+    const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)],
+                               &after = to.history[static_cast<std::size_t>(i)];
+    // Where the strength fell at once, the slip took place under what was left of it; friction never gives energy back.
+    const bool fell = before.broken != after.broken || before.slipped != after.slipped;
+    const double slip = to.slip[i] - from.slip[i], at_end = -to.p[2 * i + 1] * slip;
+    const double mean = 0.5 * (at_end - from.p[2 * i + 1] * slip);
+    energy.friction += fell || mean < 0.0 ? std::max(at_end, 0.0) : mean;
+  }
+  return energy;
+}
+
+double largest_force(const State& state) {
+  double largest = state.p.size() > 0 ? state.p.lpNorm<Eigen::Infinity>() : 0.0;
+  for (const auto* forces : {&state.forces, &state.reactions})
+    for (const Vector& of_part : *forces)
+      if (of_part.size() > 0) largest = std::max(largest, of_part.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+double resistance(const Prepared& prepared, const State& state) {
+  double largest = 0.0;
+  for (std::size_t p = 0; p < state.u.size(); ++p)
+    largest = std::max(largest, prepared.structure.parts[p]->stiff_force(state.u[p]));
+  return largest;
+}
+
+double scale_of(const Prepared& prepared, const State& state, double largest_at_work) {
+  if (prepared.force_scale > 0.0) return largest_at_work;
+  const double resisting = resistance(prepared, state);
+  return largest_at_work <= rounding_of_resistance * resisting ? resisting : largest_at_work;
+}
+
+void certify_structure(const Prepared& prepared, const State& state, std::vector<Balance> balances, double scale,
+                       contact::Certificate& certificate) {
+  if (scale == 0.0) return;
+  const system::Dofs& dofs = prepared.structure.dofs;
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    if (!state.u[p].allFinite() || !state.reactions[p].allFinite()) {  // comparisons with nan would all look right
+      certificate.equilibrium = HUGE_VAL;
+      return;
+    }
+    if (prepared.is_absent(p)) continue;
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    Vector& forces = balances[p].forces;
+    certificate.equilibrium = std::max(certificate.equilibrium, part.imbalance_of(balances[p].unbalanced) / scale);
+    // Of a rigid body imbalance() is the balance; what acts on an unbounded part goes to infinity.
+    if (dofs.is_rigid(p) || dofs.is_unbounded(p)) continue;
+    system::add_reactions(part.constraints(), state.reactions[p], forces);
+    if (part.has_springs()) forces += part.spring_forces(state.u[p]);
+    // Against all forces on the part: those of a fine mesh are small, and many.
+    const double unbalanced = resultant(part, dofs.nodes(p), forces).lpNorm<Eigen::Infinity>();
+    certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / std::max(scale, forces.lpNorm<1>()));
+  }
+}
+
+}  // namespace scabo::analysis
