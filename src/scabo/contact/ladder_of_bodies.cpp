@@ -1,0 +1,172 @@
+// Strategies of the ladder for many bodies that only contact holds: from bonded pairs, along paths of equilibria, by
+// interior points.
+#include <optional>
+
+#include "scabo/contact/interior_point.hpp"
+#include "scabo/contact/ladder.hpp"
+#include "scabo/contact/plane_interior_points.hpp"
+#include "scabo/contact/rigid_motions.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+/// Pairs from which most of a path is taken in leaps. Of fewer a factorisation costs as much as fifty changes.
+constexpr int least_of_leaps = 4000;
+
+/// Whether a path was followed to where bodies move on. Not if that is where the loads are reached but for rounding, as
+/// where all loads are taken away.
+bool tells_of_a_fall(const PathEnd& end) {
+  constexpr double rounding = 1e-6;
+  return end.how != PathEnd::How::broken && end.left > rounding;
+}
+
+}  // namespace
+
+NewtonEnd Ladder::bonded(const BondedStart& start) {
+  // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
+  const bool small = problem_.pairs() <= most_of_paths_first;
+  const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
+  Run how{"newton", 0.0, 1.0, most};
+  if (!small) how.patience = 2, how.fall = 0.1;  // what falls more slowly takes more iterations than interior points
+  return newton_alone(start.p, start.a, how);
+}
+
+/// The path of the loads from the last increment to this one.
+NewtonEnd Ladder::along_loads(const Vector& p, const Vector& a) {
+  PathStart start{p, a, {}, 1e-6, 0.0};
+  for (Eigen::Index i = 0; i < problem_.pairs(); ++i)
+    start.states.push_back(p[2 * i] > 0.0 ? ContactState::stick : ContactState::open);
+  PathEnd end = along_path(start);
+  if (end.how == PathEnd::How::arrived) return arrived(std::move(end));
+  may_fall_ = tells_of_a_fall(end);
+  if (may_fall_) collapse_ = Collapse{std::move(end.motion), 1.0 - end.left};
+  return nothing();
+}
+
+/// Paths from bonded pairs, pressed together first. Where none arrives although each was followed to its end, and that
+/// of the loads as well if there is one, the bodies fall.
+NewtonEnd Ladder::along_paths(const BondedStart& bonded, const std::vector<bool>& touching) {
+  PathStart start{bonded.p, bonded.a, {}, 1e-2, 0.0};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(problem_.pairs()); ++i)
+    start.states.push_back(touching.empty() || touching[i] ? ContactState::stick : ContactState::open);
+  for (const double pressure : {10.0, 1.0}) {
+    start.pressure = pressure;
+    PathEnd end = along_path(start);
+    if (end.how == PathEnd::How::arrived) {
+      NewtonEnd found = arrived(std::move(end));
+      if (found.converged) return found;
+      may_fall_ = false;
+    } else if (!tells_of_a_fall(end)) {
+      may_fall_ = false;
+    } else if (!collapse_) {
+      collapse_ = Collapse{std::move(end.motion), 0.0};
+    }
+    if (late()) break;
+  }
+  return nothing();
+}
+
+NewtonEnd Ladder::arrived(PathEnd end) {
+  NewtonEnd found = nothing();
+  found.p = std::move(end.p);
+  found.a = std::move(end.a);
+  constexpr int few = 4;
+  return confirmed(std::move(found), few, "path");
+}
+
+/// One iteration for every matrix factorised.
+PathEnd Ladder::along_path(const PathStart& start) {
+  const BDifferentiableEquations equations(problem_, options_.r_factor);
+  PathOptions options;
+  options.deadline = options_.deadline;
+  if (problem_.pairs() > most_of_paths_first) {
+    const int pairs = problem_.pairs();
+    options.changes = 100;
+    options.leap = pairs > least_of_leaps ? 6 : 0;
+    // Paths that arrive take up to two changes for each pair; of more pairs it would take minutes.
+    options.most = pairs > least_of_leaps ? 1500 + pairs / 10 : 2 * pairs + 100;
+    options.patience = 300 + pairs / 20;
+  }
+  options.on_factorisation = [&](const Vector& p, const Vector& a) {
+    const Residual at = equations.residual(p, a);
+    trace_.push_back({++iterations_ + coarse_iterations_, at.largest(), at.merit(), 1.0, 0, "path"});
+    if (options_.on_iteration) options_.on_iteration(trace_.back());
+  };
+  return follow_path(problem_, start, options);
+}
+
+/// States are certain when Newton has confirmed them. Where pairs are redundant it may not; then the point itself is
+/// kept if it is a solution.
+NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
+  const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(found.p, found.a);
+  found.residual = at.largest();
+  found.converged = content_ && content_(found.p, at.motion);
+  Run how{"newton after " + name, 0.0, 1.0, few};
+  how.soft = has_many_motions(problem_);
+  NewtonEnd end = newton_alone(found.p, found.a, how);
+  if ((end.converged && end.residual <= found.residual) || !found.converged) return end;
+  trace_.push_back({iterations_ + coarse_iterations_, found.residual, at.merit(), 0.0, 0, name + " kept"});
+  return found;
+}
+
+/// Interior points of a plane problem from forces and motions that are known roughly. When |H| has fallen far enough
+/// for nearly all states to be right, a few Newton iterations reach the solution; where they do not, steps follow once
+/// more.
+NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
+  constexpr int few = 7, hardly = 2;
+  PlaneInteriorPoints points(problem_, p, a, start);
+  NewtonEnd best = nothing();
+  for (const double aim : {2e-3, 1e-4, 0.0}) {
+    InteriorPointEnd reached = points.advance(aim, content_, options_.deadline);
+    for (Iteration& iteration : reached.trace) {
+      iteration.iteration += iterations_ + coarse_iterations_;
+      trace_.push_back(std::move(iteration));
+    }
+    iterations_ += reached.iterations;
+    if (reached.p.size() == 0) return best;
+    if (reached.content) {
+      NewtonEnd found = nothing();
+      found.p = std::move(reached.p);
+      found.a = std::move(reached.a);
+      return confirmed(std::move(found), hardly, "interior points");
+    }
+    if (late()) return best;
+    Run how{"newton after interior points", 0.0, 1.0, few, hardly};
+    how.soft = true;
+    NewtonEnd end = newton_alone(reached.p, reached.a, how);
+    if (end.converged || end.residual < best.residual) best = std::move(end);
+    if (best.converged || late() || reached.residual > aim) return best;
+  }
+  return best;
+}
+
+/// Interior points for elastic bodies from starts with these factors, then Newton from the best of them.
+NewtonEnd Ladder::inside(std::initializer_list<double> start_factors) {
+  NewtonEnd best = nothing();
+  // Walls near their collapse load (mu 1, 8 x 8 blocks, 0.80 to 0.92 of it) are solved from one of these and not from
+  // the others.
+  for (const double factor : start_factors) {
+    InteriorPointEnd reached = interior_points_from(factor);
+    if (reached.p.size() > 0 && (reached.content || reached.residual < best.residual)) {
+      best.p = std::move(reached.p);
+      best.a = std::move(reached.a);
+      best.residual = reached.residual;
+      best.converged = reached.content;
+    }
+    if (best.converged || late()) break;
+  }
+  if (best.p.size() == 0) return best;
+  if (!best.converged) {
+    constexpr int few = 10;
+    return newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few});
+  }
+  if (late()) {
+    best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
+    return best;
+  }
+  constexpr int few = 2;
+  return confirmed(std::move(best), few, "interior points");
+}
+
+}  // namespace scabo::contact
