@@ -6,7 +6,7 @@
 //     F_t = p_t - P_D(b)(s_t)            s_t = p_t - r_t ds,  b = mu (s_n)+            dN equations
 //     F_R = G'p + f                                                                    m equations
 //
-// (cohesion and tension as in road.hpp). One element of the generalised Jacobian, on the branches at the point; d(.)
+// (cohesion and tension as in common.hpp). One element of the generalised Jacobian, on the branches at the point; d(.)
 // along a direction, e = s_t / |s_t|:
 //
 //     dF_n = r_n dg                                              s_n > 0
@@ -23,7 +23,7 @@
 // reports it.
 #pragma once
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

@@ -23,7 +23,7 @@
 // Coulomb's law only: no cohesion, no tension.
 #pragma once
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

@@ -5,7 +5,7 @@
 // guaranteed.
 #pragma once
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

@@ -12,7 +12,7 @@
 // unique end near their start.
 #pragma once
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

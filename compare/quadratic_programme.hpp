@@ -13,7 +13,7 @@
 // Exact in finitely many steps, for mu = 0 at all pairs. Other problems are refused.
 #pragma once
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

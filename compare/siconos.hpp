@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

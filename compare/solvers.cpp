@@ -23,14 +23,14 @@ namespace scabo::compare {
 namespace {
 
 /// Name of a method and the problems that it handles.
-struct Road {
+struct Solver {
   Method method;
   const char* name;
   bool plane, space, friction, strength, rigid;
   Eigen::Index most = 0;  ///< largest number of contact unknowns, if its matrices are dense; 0: no limit
 };
 constexpr Eigen::Index dense = 6000;  // 0.3 GB a matrix
-constexpr Road roads[] = {
+constexpr Solver solvers[] = {
     {Method::b_differentiable, "b_differentiable", true, true, true, true, true},
     {Method::newton_only, "newton_only", true, true, true, true, true},
     {Method::trial_and_error, "trial_and_error", true, true, true, false, true, dense},
@@ -47,28 +47,28 @@ constexpr Road roads[] = {
     {Method::siconos_nsn_fb, "siconos_nsn_fb", false, true, true, false, false, dense},
 };
 
-const Road& road_of(Method method) {
-  for (const Road& road : roads)
-    if (road.method == method) return road;
-  return roads[0];
+const Solver& solver_of(Method method) {
+  for (const Solver& solver : solvers)
+    if (solver.method == method) return solver;
+  return solvers[0];
 }
 
-bool is_built(const Road& road) { return road.method < Method::siconos_nsgs || siconos_is_built(); }
+bool is_built(const Solver& solver) { return solver.method < Method::siconos_nsgs || siconos_is_built(); }
 
 /// Why the method cannot be used; empty if it can.
-std::string refusal(const Road& road, const Problem& problem) {
-  const std::string who = std::string(road.name) + " does not handle ";
-  if (!is_built(road)) return std::string(road.name) + " is not in this build (CMake option SCABO_SICONOS)";
-  if (problem.dimension == 2 && !road.plane) return who + "problems in the plane";
-  if (problem.dimension == 3 && !road.space) return who + "problems in space";
-  if (!road.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0) return who + "friction: mu must be 0";
-  if (road.method != Method::b_differentiable && problem.mu_backward.size() > 0)
+std::string refusal(const Solver& solver, const Problem& problem) {
+  const std::string who = std::string(solver.name) + " does not handle ";
+  if (!is_built(solver)) return std::string(solver.name) + " is not in this build (CMake option SCABO_SICONOS)";
+  if (problem.dimension == 2 && !solver.plane) return who + "problems in the plane";
+  if (problem.dimension == 3 && !solver.space) return who + "problems in space";
+  if (!solver.friction && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0) return who + "friction: mu must be 0";
+  if (solver.method != Method::b_differentiable && problem.mu_backward.size() > 0)
     return who + "coefficients of friction that differ by the direction of slip";
   const auto some = [](const Vector& v) { return v.size() > 0 && v.maxCoeff() > 0.0; };
-  if (!road.strength && (some(problem.cohesion) || some(problem.tension))) return who + "cohesion and tension";
-  if (!road.rigid && problem.G.cols() > 0) return who + "rigid motions that contact alone holds";
-  if (road.most > 0 && problem.q.size() > road.most)
-    return who + "more than " + std::to_string(road.most) + " contact unknowns (its matrices are dense), here " +
+  if (!solver.strength && (some(problem.cohesion) || some(problem.tension))) return who + "cohesion and tension";
+  if (!solver.rigid && problem.G.cols() > 0) return who + "rigid motions that contact alone holds";
+  if (solver.most > 0 && problem.q.size() > solver.most)
+    return who + "more than " + std::to_string(solver.most) + " contact unknowns (its matrices are dense), here " +
            std::to_string(problem.q.size());
   return {};
 }
@@ -102,9 +102,9 @@ End pivoted(const Problem& problem, const Vector& p_start, const Control& contro
   return end;
 }
 
-End travel(const Road& road, const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options,
+End run_by(const Solver& solver, const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options,
            const Control& control) {
-  switch (road.method) {
+  switch (solver.method) {
     case Method::newton_only:
       return newton_only(problem, p, a, options, control);
     case Method::trial_and_error:
@@ -126,7 +126,7 @@ End travel(const Road& road, const Problem& problem, const Vector& p, const Vect
     case Method::b_differentiable:
       break;  // handled by solve()
     default:
-      return siconos(road.name, problem, p, control);
+      return siconos(solver.name, problem, p, control);
   }
   return {};
 }
@@ -154,29 +154,29 @@ void describe(Solution& solution, const Problem& problem, const Vector& motion, 
 }  // namespace
 
 std::optional<Method> method_named(std::string_view name) {
-  for (const Road& road : roads)
-    if (name == road.name && is_built(road)) return road.method;
+  for (const Solver& solver : solvers)
+    if (name == solver.name && is_built(solver)) return solver.method;
   return std::nullopt;
 }
 
-std::string method_name(Method method) { return road_of(method).name; }
+std::string method_name(Method method) { return solver_of(method).name; }
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
-  for (const Road& road : roads)
-    if (is_built(road)) names.emplace_back(road.name);
+  for (const Solver& solver : solvers)
+    if (is_built(solver)) names.emplace_back(solver.name);
   return names;
 }
 
 Solution solve_with(Method method, const Problem& problem, const Start& start, const SolverOptions& options) {
   // Without pairs there is nothing to solve.
   if (method == Method::b_differentiable || problem.q.size() == 0) return solve(problem, start, options);
-  const Road& road = road_of(method);
+  const Solver& solver = solver_of(method);
   const Eigen::Index size = problem.q.size(), m = problem.G.cols();
   Solution solution;
   solution.p = start.p.size() == size ? start.p : Vector(Vector::Zero(size));
   solution.a = start.a.size() == m ? start.a : Vector(Vector::Zero(m));
-  solution.reason = refusal(road, problem);
+  solution.reason = refusal(solver, problem);
   const bool refused = !solution.reason.empty();
   const auto motion = refused ? std::nullopt : find_mechanism(problem);
   if (motion) {
@@ -199,7 +199,7 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
     Problem in_forces = problem;
     in_forces.W = problem.W.scaled(stiffness);
     in_forces.q = stiffness * problem.q;
-    end = travel(road, in_forces, solution.p, stiffness * solution.a, options, control);
+    end = run_by(solver, in_forces, solution.p, stiffness * solution.a, options, control);
     solution.p = end.p;
     solution.a = m > 0 ? Vector(end.a / stiffness) : Vector(0);
     solution.iterations = end.iterations;
@@ -223,12 +223,12 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
     solution.undetermined = undetermined_motions(problem, solution.states);
   } else if (options.deadline.passed()) {
     char limit[80];
-    std::snprintf(limit, sizeof limit, "%s: the time limit of %g s ended the search", road.name,
+    std::snprintf(limit, sizeof limit, "%s: the time limit of %g s ended the search", solver.name,
                   options.deadline.seconds());
     solution.reason = reason_of(judgement, options.judge, options.tolerance, limit);
   } else {
     solution.reason =
-        std::string(road.name) + ": " +
+        std::string(solver.name) + ": " +
         (end.reason.empty() ? reason_of(judgement, options.judge, options.tolerance, "it ended") : end.reason);
   }
   if (solution.status == Status::not_converged && options.judge == Judge::natural_map)

@@ -11,7 +11,7 @@
 // friction, slow or not convergent for high friction.
 #pragma once
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

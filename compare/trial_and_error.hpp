@@ -12,7 +12,7 @@
 // stored, and the method ends with that reason when one occurs again. Coulomb's law only: no cohesion, no tension.
 #pragma once
 
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 namespace scabo::compare {
 

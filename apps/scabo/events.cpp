@@ -220,7 +220,7 @@ void Events::write(std::string line) {
   while (on_ && !rest.empty()) {
     const ssize_t count = ::write(STDOUT_FILENO, rest.data(), rest.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) on_ = false;  // nobody reads, or the disk is full: the results are files
+    if (count < 0) on_ = false;  // there is no reader, or the disk is full: the results are files
     if (count > 0) rest.remove_prefix(static_cast<std::size_t>(count));
   }
 }

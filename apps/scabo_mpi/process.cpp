@@ -138,7 +138,7 @@ std::vector<Bytes> Process::gathered(const Bytes& own) const {
 }
 
 void Process::end_all(const std::string& why) const {
-  // All may fail at once; who speaks first ends the others before they speak.
+  // All may fail at once; the first one to report ends the others before they report.
   std::this_thread::sleep_for(std::chrono::milliseconds(std::min(300 * rank_, 3000)));
   const std::string text = fmt::format("rank {} of {} ({}): {}", rank_, count_, machine_, why);
   std::fprintf(stderr, "scabo: %s\n", text.c_str());

@@ -52,7 +52,7 @@ struct FactorRequest {
   std::vector<int> condensed;  // those whose flexibility contact needs, among the solved ones; ascending, distinct
 };
 
-/// What rank 0 hears after a part was divided or factorised.
+/// What rank 0 is told after a part was divided or factorised.
 struct ShareFacts {
   double entries = 0.0, largest_diagonal = 0.0, rounding = 0.0;
   double seconds_cells = 0.0, seconds_assembly = 0.0;  // of the slowest rank

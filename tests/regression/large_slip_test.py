@@ -161,6 +161,29 @@ class LargeSlip(LargeSlipRuns):
                 self.assertAlmostEqual(-increment["springs"]["block.bottom_left"][0], pushed - FRICTION * WEIGHT, delta=10)
                 self.assertAlmostEqual(increment["contacts"]["joint"]["tangential_force"] / WEIGHT, -FRICTION, delta=1e-6)
 
+    def test_what_rides_along_on_small_slip(self):
+        """A block that a soft spring k holds to the ground rides, stuck, on the one that is dragged: of the two contacts only
+        that below has large slip. The spring pulls with k times the way, and the pairs above have not slipped."""
+        stiffness, way = 2e5, 0.5
+        text = model_of({
+            "scabo": 1, "materials": {"steel": {"young": 210e9, "poisson": 0.3}},
+            "bodies": {name: {"material": "steel", "mesh": {"size": SIZE}, "shape": rectangle(low, high, 0.0, 1.0)}
+                       for name, low, high in (("ground", [0, -1], [4, 0]), ("block", [1, 0], [2, 0.5]), ("rider", [1, 0.5], [2, 0.75]))},
+            "supports": [{"on": "ground.bottom", "fix": ["x", "y"]},
+                         {"name": "drag", "on": "block.left", "displacement": [1.0, None]}],
+            "springs": [{"name": "tether", "on": "rider.vertex_4", "k_x": stiffness, "k_y": 0}],
+            "loads": {"weight": {"on": "rider.top", "traction": [0, -WEIGHT]}},
+            "contacts": {"joint": {"between": ["ground.top", "block.bottom"], "friction": FRICTION, "slip": "large"},
+                         "seat": {"between": ["block.top", "rider.bottom"], "friction": 0.5}},
+            "steps": [{"loads": {"weight": 1, "drag": 0}}, {"increments": 4, "loads": {"weight": 1, "drag": way}}]})
+        increments = self.solve(text)
+        self.assertGreaterEqual(sum(one["pairs_found_anew"]["times"] for one in increments), 3)
+        for increment in increments[1:]:
+            pull = stiffness * increment["factors"]["drag"]
+            self.assertAlmostEqual(increment["springs"]["tether"][0] / pull, -1, delta=1e-3)
+            self.assertAlmostEqual(increment["contacts"]["seat"]["tangential_force"] / pull, 1, delta=1e-3)
+            self.assertEqual(increment["contacts"]["seat"]["slip"], 0)
+
     def test_long_increments_are_divided(self):
         """One increment of ten elements: attempts that go too far are made in parts."""
         last = self.solve(block(increments=1))[-1]

@@ -205,6 +205,7 @@ TEST(Wall, WithStrongFrictionFallsBeforeItsLimitLoad) {
   EXPECT_EQ(run(model_of(blocks, 0.92 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::solved);
   const auto solution = run(model_of(blocks, 0.99 * blocks.collapse_push(), 1));
   EXPECT_EQ(solution.outcome, analysis::Outcome::collapse) << solution.reason;
+  ASSERT_FALSE(solution.increments.empty());
   EXPECT_EQ(solution.increments.back().halvings, 0);
 }
 

@@ -42,8 +42,8 @@ TEST(PushedBlock, SlidesAtFrictionTimesWeight) {
     const auto slides = run(pushed_block(mu * 40e3 * (1.0 + 1e-6), mu));
     expect_mechanism(slides, "body 'block': translation along (1, 0)");
     ASSERT_EQ(slides.increments.size(), 3u);  // what was reached before stays
-    EXPECT_TRUE(slides.increments[1].converged);
-    EXPECT_EQ(slides.increments[2].halvings, 0);  // no smaller load is tried
+    EXPECT_TRUE(slides.increments.at(1).converged);
+    EXPECT_EQ(slides.increments.at(2).halvings, 0);  // no smaller load is tried
   }
 }
 
@@ -222,7 +222,7 @@ TEST(CyclicLoad, FrictionUnderRisingPressureTakesTheMeanOfItsBounds) {
                        steps));
   last(solution);
   ASSERT_EQ(solution.increments.size(), 4u);
-  const double before = solution.increments[2].energy.friction, after = solution.increments[3].energy.friction;
+  const double before = increment_at(solution, 2).energy.friction, after = increment_at(solution, 3).energy.friction;
   EXPECT_NEAR(before, tau * area * (A - shear), 1e-9 * after);
   EXPECT_NEAR(after - before, 2.0 * tau * area * (A - 2.0 * shear), 1e-9 * after);
 }

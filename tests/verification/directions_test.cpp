@@ -192,7 +192,7 @@ supports:
 {})",
                                         supports));
   ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
-  const Vector& u = solution.increments.back().fields.displacements.front();
+  const Vector& u = last(solution).fields.displacements.front();
   for (Eigen::Index i = 0; i < u.size(); i += 2) EXPECT_LT((u.segment<2>(i) - shift).norm(), 1e-17);
 }
 

@@ -92,8 +92,8 @@ steps:
   - {name: back, loads: {drive: -0.5}}
 )");
   ASSERT_EQ(solution.increments.size(), 2u);
-  EXPECT_NEAR(*solution.increments[1].moments[1], -0.5 * *solution.increments[0].moments[1],
-              1e-10 * *solution.increments[0].moments[1]);
+  EXPECT_NEAR(*increment_at(solution, 1).moments[1], -0.5 * *increment_at(solution, 0).moments[1],
+              1e-10 * *increment_at(solution, 0).moments[1]);
 }
 
 }  // namespace

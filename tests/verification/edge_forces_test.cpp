@@ -170,7 +170,7 @@ output: {history: {base: {edge: low.bottom}, joint: {edge: high.bottom}, sides: 
   ASSERT_EQ(solution.increments.size(), 5u);
   const double weight = 2000.0 * 10.0 * 2.0;
   for (std::size_t k = 0; k < 5; ++k) {
-    const std::vector<analysis::EdgeForces>& edges = solution.increments[k].edges;
+    const std::vector<analysis::EdgeForces>& edges = increment_at(solution, k).edges;
     const double placed = 0.25 * static_cast<double>(k);
     EXPECT_NEAR(edges[0].force.y(), weight * (1.0 + placed), 1e-8 * weight) << k;
     EXPECT_NEAR(edges[1].force.y(), weight * placed, 1e-8 * weight) << k;

@@ -161,7 +161,7 @@ TEST(Refinement, SaysWhyAToleranceIsNotReachedAndKeepsTheLastMesh) {
   EXPECT_NE(few.reason.find("mesh.tolerance was not reached: the estimated error is"), std::string::npos) << few.reason;
   EXPECT_NE(few.reason.find("more than 150"), std::string::npos) << few.reason;
   ASSERT_EQ(few.increments.size(), 1u);
-  EXPECT_TRUE(few.increments[0].converged);
+  EXPECT_TRUE(few.increments.at(0).converged);
   EXPECT_EQ(reported, 1);
   EXPECT_LE(2 * few.mesh.nodes(), 150);
   limits = {};

@@ -405,10 +405,10 @@ TEST(ErrorBars, OfEveryIncrement) {
                         "output: {error_of: [joint.normal_force, upper.left.reaction_y]}\n");
   ASSERT_EQ(with.increments.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    ASSERT_EQ(with.increments[i].quantities.size(), 2u);
-    const double force = without.increments[i].contacts[0].normal_force;
-    EXPECT_EQ(with.increments[i].quantities[0].value, force);
-    EXPECT_GE(with.increments[i].quantities[0].bar,
+    ASSERT_EQ(increment_at(with, i).quantities.size(), 2u);
+    const double force = increment_at(without, i).contacts[0].normal_force;
+    EXPECT_EQ(increment_at(with, i).quantities[0].value, force);
+    EXPECT_GE(increment_at(with, i).quantities[0].bar,
               std::abs(force - double_cantilever_force * static_cast<double>(i + 1) / 3.0));
   }
 }

@@ -67,9 +67,9 @@ TEST(Halving, TriesHalvesOfTheWayFromTheLastAcceptedPart) {
   EXPECT_EQ(six.solution.outcome, analysis::Outcome::not_converged);
   expect_path(six, {1.0, 0.5, 1.0, 0.75, 0.625, 0.75, 0.6875, 0.75, 0.71875, 0.703125}, 0.7);
   ASSERT_EQ(six.solution.increments.size(), 1u);
-  EXPECT_FALSE(six.solution.increments[0].converged);
-  EXPECT_EQ(six.solution.increments[0].halvings, 6);
-  EXPECT_EQ(six.solution.increments[0].attempts.size(), 10u);
+  EXPECT_FALSE(six.solution.increments.at(0).converged);
+  EXPECT_EQ(six.solution.increments.at(0).halvings, 6);
+  EXPECT_EQ(six.solution.increments.at(0).attempts.size(), 10u);
   EXPECT_NE(six.solution.reason.find("after 6 halvings"), std::string::npos) << six.solution.reason;
   EXPECT_NE(six.solution.reason.find("the problem has no solution"), std::string::npos) << six.solution.reason;
 }

@@ -115,15 +115,15 @@ TEST(BrittleJoint, BreaksAtItsClosedFormLiftAndStaysBroken) {
       limit * just_above, "[{increments: 3}, {name: back, loads: {lift: 0.5}}, {name: press, loads: {lift: -1}}]"));
   last(breaks);
   ASSERT_EQ(breaks.increments.size(), 5u);
-  EXPECT_NEAR(breaks.increments[1].contacts.front().normal_force, -force * just_above * 2 / 3, 1e-8 * force);
+  EXPECT_NEAR(contact_of(increment_at(breaks, 1)).normal_force, -force * just_above * 2 / 3, 1e-8 * force);
   for (std::size_t k : {2u, 3u}) {
-    const analysis::ContactResult& open = breaks.increments[k].contacts.front();
+    const analysis::ContactResult& open = contact_of(increment_at(breaks, k));
     EXPECT_EQ(open.open, static_cast<int>(open.pairs.size()));
     EXPECT_EQ(open.broken, static_cast<int>(open.pairs.size()));
     EXPECT_EQ(open.normal_force, 0.0);
     EXPECT_NEAR(open.max_gap, limit * just_above * (k == 2 ? 1.0 : 0.5), 1e-15);
   }
-  EXPECT_NEAR(breaks.increments[4].contacts.front().normal_force, force * just_above, 1e-8 * force);
+  EXPECT_NEAR(contact_of(increment_at(breaks, 4)).normal_force, force * just_above, 1e-8 * force);
 }
 
 // Once all pairs slide, the whole force falls from at most mu_s N to mu_d N.

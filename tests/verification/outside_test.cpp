@@ -179,5 +179,37 @@ TEST(Outside, BlockAndContactAreShownRelativeToTheReferencePointToo) {
   EXPECT_LE((shown - block.at(node)->displacement).norm(), 1e-8 * largest);
 }
 
+// A pressure p in a round hole has no resultant. A soft spring at its rim, which moves by p R (1 + nu) / E, has: that is
+// what the ground far away must balance, and what the warning names.
+TEST(Outside, TheForceOfASpringAloneNeedsAReferencePoint) {
+  const auto warning = [](const std::string& springs) {
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{rock: {{young: 2e9, poisson: 0.25}}}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {{circle: {{centre: [0, 0], radius: 1}}}}
+    mesh: {{size: 0.4, order: 3}}
+loads: {{water: {{on: ground.rim, pressure: 1e6}}}}
+{}
+)",
+                                          springs));
+    std::string text;
+    for (const Warning& one : solution.warnings)
+      if (one.kind == WarningKind::no_reference) text += one.text;
+    if (!springs.empty()) {
+      const double force = -1e6 * (1e6 * 1.0 * 1.25 / 2e9);
+      EXPECT_NEAR(last(solution).springs[0].x(), force, 5e-3 * -force);
+      EXPECT_NE(text.find(fmt::format("resultant ({:.4g}, ", last(solution).springs[0].x())), std::string::npos) << text;
+    }
+    return text;
+  };
+  EXPECT_EQ(warning(""), "");
+  EXPECT_NE(warning("springs: [{on: ground.rim_start, k_x: 1e6, k_y: 0}]"), "");
+}
+
 }  // namespace
 }  // namespace scabo::verification

@@ -121,15 +121,15 @@ steps:
 )");
   ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
   ASSERT_EQ(solution.increments.size(), 6u);
-  EXPECT_EQ(contact_of(solution.increments[1]).pore_force.value(), 0.0);
+  EXPECT_EQ(contact_of(increment_at(solution, 1)).pore_force.value(), 0.0);
   for (std::size_t i = 2; i < 6; ++i) {
-    const auto& joint = contact_of(solution.increments[i]);
+    const auto& joint = contact_of(increment_at(solution, i));
     const double U = 200e3 * 0.5 * static_cast<double>(i - 1);
     EXPECT_NEAR(*joint.pore_force, U, 1e-9 * U);
     EXPECT_NEAR(joint.normal_force, 400e3 - U, 1e-8 * 400e3);
-    EXPECT_NEAR(solution.increments[i].reactions[0].y(), 400e3, 1e-8 * 400e3);
+    EXPECT_NEAR(increment_at(solution, i).reactions[0].y(), 400e3, 1e-8 * 400e3);
     // What friction cannot hold goes into the stop.
-    EXPECT_NEAR(-solution.increments[i].springs[0].x(), std::max(0.0, 150e3 - 0.5 * (400e3 - U)), 2e-3 * 150e3) << i;
+    EXPECT_NEAR(-increment_at(solution, i).springs[0].x(), std::max(0.0, 150e3 - 0.5 * (400e3 - U)), 2e-3 * 150e3) << i;
   }
 }
 
@@ -163,6 +163,29 @@ loads:
     if (safety < 1.0) continue;
     EXPECT_NEAR(contact_of(last(solution)).normal_force, 10.0 * depth * (gamma - gamma_w) * c, 1e-8 * 10.0 * gamma);
   }
+}
+
+// The rigid base ends within the first element of the block, which has a pair at its corner and no element with pairs
+// only: the pressure there times the length of the corner, half an element, and the thickness. The block hangs from its
+// top, and the pressure opens the joint.
+TEST(PorePressure, AtAPairWithoutAWholeElementActsOnItsTributaryLength) {
+  const auto solution = run(R"(
+scabo: 1
+analysis: {thickness: 0.5}
+materials: {concrete: {young: 30e9, poisson: 0.2}}
+bodies:
+  base: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [1.1, 1]}}}
+  block: {material: concrete, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5, order: 1}}
+supports: [{on: base, fix: [x, y]}, {on: block.top, fix: [x, y]}]
+contacts: {joint: {between: [base.top, block.bottom], friction: 0.6}}
+loads: {uplift: {in: joint, pressure: 150e3}}
+)");
+  const auto& joint = contact_of(last(solution));
+  ASSERT_EQ(joint.pairs.size(), 1u);
+  EXPECT_EQ(joint.open, 1);
+  const double uplift = 150e3 * 0.25 * 0.5;
+  EXPECT_NEAR(*joint.pore_force, uplift, 1e-12 * uplift);
+  EXPECT_NEAR(last(solution).reactions[1].y(), -uplift, 1e-9 * uplift);
 }
 
 // In an open crack it is the pressure on both faces; in a closed one it takes as much off the pairs, and the factors

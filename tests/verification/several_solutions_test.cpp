@@ -43,10 +43,10 @@ TEST(LeaningStrut, StaysOnTheBranchOfItsHistoryAndIsToldToHaveOthers) {
   EXPECT_EQ(end.uniqueness->index, 1);
   EXPECT_TRUE(std::any_of(jammed.warnings.begin(), jammed.warnings.end(),
                           [](const Warning& warning) { return warning.kind == WarningKind::several_solutions; }));
-  double before = jammed.increments.front().contacts.front().normal_force;
+  double before = contact_of(increment_at(jammed, 0)).normal_force;
   double step = 0.0;  // the thrust goes on in equal steps: no jump to another branch
   for (std::size_t k = 1; k < jammed.increments.size(); ++k) {
-    const double force = jammed.increments[k].contacts.front().normal_force;
+    const double force = contact_of(increment_at(jammed, k)).normal_force;
     if (k > 1) EXPECT_NEAR(force - before, step, 1e-3 * std::abs(step)) << k;
     step = force - before;
     before = force;

@@ -355,7 +355,7 @@ steps: [{{name: tighten}}, {{increments: 3, loads: {{jack: wave}}}}, {{loads: {{
       // As a load k a on a spring that was at rest at 0.
       EXPECT_NEAR(increment.energy.external, increment.energy.elastic, 1e-9 * k * a * a * scale * scale);
     }
-    EXPECT_NEAR(solution.increments.back().factors.at("jack"), -2.0, 0.0);
+    EXPECT_NEAR(last(solution).factors.at("jack"), -2.0, 0.0);
   }
 }
 

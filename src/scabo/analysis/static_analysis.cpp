@@ -10,18 +10,17 @@
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/edge_forces.hpp"
 #include "scabo/analysis/goal.hpp"
-#include "scabo/analysis/increment.hpp"
+#include "scabo/analysis/increment_warnings.hpp"
 #include "scabo/analysis/large_slip.hpp"
 #include "scabo/analysis/outside.hpp"
+#include "scabo/analysis/reach.hpp"
 #include "scabo/analysis/restart.hpp"
 #include "scabo/analysis/stages.hpp"
-#include "scabo/analysis/undetermined_forces.hpp"
+#include "scabo/analysis/step_factors.hpp"
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/worthwhile_threads.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/contact/laws/evolution.hpp"
-#include "scabo/contact/uniqueness.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/mesh/output_points.hpp"
 #include "scabo/model/validate.hpp"
@@ -29,220 +28,6 @@
 namespace scabo::analysis {
 
 namespace {
-
-/// Part of an increment that is no longer divided because its sides pass each other too far.
-constexpr double smallest_part_of_slip = 1e-5;
-
-/// Result of an attempt to reach the end of an increment.
-struct Reached {
-  State state;
-  double part = 0.0;  ///< of the increment that was reached: 1, or less of an automatic increment
-  Changes changes;    ///< of an automatic increment
-  contact::Certificate certificate;
-  int last_iterations = 0;  ///< of the attempt that was accepted
-  int iterations = 0, coarse_iterations = 0, halvings = 0;
-  double residual = 0.0;
-  Matrix undetermined;
-  contact::Problem problem;  ///< that was solved last
-  std::optional<UniquenessResult> uniqueness;
-  bool mechanism = false, collapse = false, stopped = false;
-  std::string reason;          ///< empty if the end was reached
-  bool pairs_are_due = false;  ///< the end was not reached: before going on, pairs are to be found anew
-  std::vector<AttemptResult> attempts;
-  std::vector<DiscreteProblem> problems;  ///< of the attempts, if requested
-};
-
-/// Whether the model has joints whose strength is lost when they fail.
-bool breaks(const Prepared& prepared) {
-  const auto& contacts = prepared.model.contacts;
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const model::Contact& contact) { return contact.cohesion > 0.0; });
-}
-
-/// Reason why an increment with a contact solution is not accepted.
-std::string above_tolerance(const Prepared& prepared, const Attempt& tried, double tolerance) {
-  const double worst = tried.certificate.worst();
-  std::string reason =
-      fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
-  if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
-    reason +=
-        "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
-        "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
-  else if (const std::string stiff = stiff_springs(prepared.model, prepared.structure, stiff_beside); !stiff.empty())
-    reason += "; " + stiff;
-  return reason;
-}
-
-/// Where motions are so large beside deformations that forces are lost in rounding; empty where they are not.
-std::string lost_in_rounding(const Attempt& tried, double tolerance) {
-  constexpr double allowance = 1e-3;  // Attempt::rounding allows for a thousand roundings
-  const double lost = allowance * tried.rounding;
-  if (!(lost > tolerance) || !std::isfinite(lost)) return {};
-  return fmt::format(
-      "; the motion is so large beside the deformation of the bodies that rounding of the displacements may leave "
-      "{:.1g} of the forces unbalanced: a smaller motion, or a larger interference or load, is needed",
-      lost);
-}
-
-/// In an attempt to go from part `from` of an increment to part `to`.
-std::string describe_collapse(const Prepared& prepared, const contact::Solution& solution, double from, double to) {
-  std::string text = "collapse: ";
-  if (solution.held > 0.0)
-    text +=
-        fmt::format("equilibrium ends at {:.4g} of the increment, where the bodies move on without any further load",
-                    from + solution.held * (to - from));
-  else
-    text +=
-        "no equilibrium was found, and on every path of equilibria that was followed the bodies in the end move on "
-        "without any further load";
-  return text + " (" + describe_motions(prepared, solution.motion) + ")";
-}
-
-/// Proceeds from `from` along `factors_at` (0: its factors, 1: the end of the increment), halving the step if an
-/// attempt is not accepted; every part starts from the last accepted state. With `least`, that of an automatic
-/// increment, it ends with the first attempt that is accepted, and is halved as long as its part is not less than that.
-/// With large slip it also ends where pairs are to be found anew, and goes on from what it then `reached`; an attempt
-/// whose sides pass each other too far is made again in equal smaller parts.
-Reached reach(const Prepared& prepared, Reached reached, const std::function<Factors(double)>& factors_at,
-              std::optional<double> least, const LargeSlip* large, const Options& options) {
-  const IncrementRule rule;
-  const State from = reached.state;
-  double part = 1.0 - reached.part;
-  int repeats = 0;
-  reached.pairs_are_due = false;
-  while (reached.part < 1.0) {
-    const double next = std::min(1.0, reached.part + part);
-    Attempt tried = attempt(prepared, reached.state, factors_at(next));
-    reached.iterations += tried.solution.iterations;
-    reached.coarse_iterations += tried.solution.coarse_iterations;
-    if (large && tried.accepted) {
-      const double passed = large->passed(prepared, reached.state, tried.state);
-      if (passed > 1.0 && part > smallest_part_of_slip) {
-        part = (next - reached.part) / std::min(std::ceil(passed - 0.01), 64.0);
-        reached.attempts.push_back({tried.solution.trace, false});
-        if (options.on_problems && tried.problem.pairs() > 0) {
-          tried.accepted = false;
-          reached.problems.push_back(discrete_problem(prepared, tried));
-        }
-        continue;
-      }
-    }
-    const bool may_halve = least ? 0.5 * part >= *least : reached.halvings < prepared.model.solver.halvings;
-    if (tried.accepted && least) {
-      reached.changes = changes_between(prepared, from, tried.state);
-      if (reached.changes.too_many(rule) && may_halve && repeats < rule.repeats) {
-        ++repeats;
-        tried.accepted = false;
-      }
-    }
-    reached.attempts.push_back({tried.solution.trace, tried.accepted});
-    if (options.on_problems && tried.problem.pairs() > 0) reached.problems.push_back(discrete_problem(prepared, tried));
-    if (tried.accepted) {
-      reached.state = std::move(tried.state);
-      reached.certificate = tried.certificate;
-      reached.residual = tried.solution.residual;
-      reached.undetermined = std::move(tried.solution.undetermined);
-      reached.problem = std::move(tried.problem);
-      reached.uniqueness = tried.uniqueness;
-      reached.part = next;
-      reached.last_iterations = tried.solution.iterations;
-      if (least) break;
-      reached.pairs_are_due = large && reached.part < 1.0 && large->is_due(prepared, reached.state);
-      if (reached.pairs_are_due) break;
-      continue;
-    }
-    const bool mechanism = tried.solution.status == contact::Status::mechanism,
-               collapse = tried.solution.status == contact::Status::collapse;
-    const bool smaller_steps_may_help = !mechanism && !collapse;
-    reached.stopped = smaller_steps_may_help && options.stop && *options.stop;
-    if (reached.stopped) return reached;
-    if (!smaller_steps_may_help || !may_halve) {
-      reached.residual = tried.solution.residual;
-      reached.certificate = tried.certificate;
-      reached.mechanism = mechanism;
-      reached.collapse = collapse;
-      if (mechanism)
-        reached.reason = fmt::format("mechanism: {}, held neither by supports nor by contact and friction",
-                                     describe_motions(prepared, tried.solution.motion));
-      else if (collapse)
-        reached.reason = describe_collapse(prepared, tried.solution, reached.part, next);
-      else if (tried.solution.status == contact::Status::solved)
-        reached.reason = above_tolerance(prepared, tried, prepared.model.solver.tolerance);
-      else
-        reached.reason =
-            fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
-      if (tried.solution.status == contact::Status::not_converged) {
-        if (const auto motion = breaks(prepared)
-                                    ? contact::mechanism_once_broken(
-                                          tried.problem, laws_at(prepared, tried.state.factors), reached.state.history)
-                                    : std::nullopt) {
-          reached.mechanism = true;
-          reached.reason = fmt::format(
-              "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
-              "remaining strength after {} halvings",
-              describe_motions(prepared, *motion), reached.halvings);
-          return reached;
-        }
-        contact::SolverOptions solver;
-        solver.tolerance = prepared.model.solver.tolerance;
-        solver.force_scale = tried.force_scale;
-        if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
-          reached.reason += "; " + why;
-        reached.reason += lost_in_rounding(tried, prepared.model.solver.tolerance);
-      }
-      return reached;
-    }
-    ++reached.halvings;
-    part *= 0.5;
-  }
-  return reached;
-}
-
-/// Adds each kind of warning once, for the increment where it first applies.
-void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
-                  std::vector<Warning>& warnings) {
-  const auto add = [&](WarningKind kind, const std::string& subject, const std::string& sentence) {
-    for (const Warning& warning : warnings)
-      if (warning.kind == kind && warning.subject == subject) return;
-    warnings.push_back({kind, subject, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
-  };
-  for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
-    const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
-    add(WarningKind::undetermined_motion, motion,
-        fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
-                    "add a support if the position matters",
-                    motion));
-  }
-  const bool told_of_forces = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
-    return warning.kind == WarningKind::undetermined_force;
-  });
-  if (!told_of_forces && reached.problem.pairs() == static_cast<int>(prepared.contact.pairs.size()))
-    if (const auto forces = undetermined_forces_warning(prepared, reached.state, reached.problem))
-      add(forces->kind, forces->subject, forces->text);
-  if (reached.uniqueness && reached.uniqueness->others > 0)
-    add(WarningKind::several_solutions, "",
-        fmt::format("other solutions exist ({} found); the one closest to the previous "
-                    "increment was chosen: see 'uniqueness' in summary.json",
-                    reached.uniqueness->others));
-  for (std::size_t c = 0; c < at.contacts.size(); ++c) {
-    if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
-    if (at.contacts[c].open > 0)
-      add(WarningKind::open_shear, at.contacts[c].name,
-          fmt::format("open pairs of contact '{}' carry shear: a prescribed shear strength does not depend on pressure",
-                      at.contacts[c].name));
-  }
-  constexpr double worth_saying = 3e-5;  // errors of three times the estimate were seen
-  if (at.lost_to_rounding > worth_saying)
-    add(WarningKind::rounding, "",
-        fmt::format("rounding of the stiffness of a body this slender may change its displacements by a part of about "
-                    "{:.0e}: give it mesh {{kind: fem}}, or longer elements",
-                    at.lost_to_rounding));
-  if (const std::string large = too_large(prepared, reached.state); !large.empty())
-    add(WarningKind::large_displacement, "", large);
-  if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
-    add(WarningKind::no_reference, "", relative);
-  for (const Warning& warning : crack_warnings(at.cracks)) add(warning.kind, warning.subject, warning.text);
-}
 
 /// The results of an accepted state, apart from the history of its increment.
 IncrementResult described(const Prepared& prepared, const State& state) {
@@ -255,47 +40,6 @@ IncrementResult described(const Prepared& prepared, const State& state) {
 void drop_fields(IncrementResult& increment) {
   increment.fields = {};
   for (ContactResult& contact : increment.contacts) contact.pairs = {};
-}
-
-/// Factors at the start of a step.
-Factors start_of(const model::Model& model, std::size_t step) {
-  const std::vector<double> presence = presence_at(model, static_cast<int>(step) - 1);
-  const double release = takes_away(model, step) ? 1.0 : 0.0;
-  if (step == 0 && model.restart)
-    return {
-        model.restart->load_factors, model.restart->support_factors, coefficients_at_start(model), presence, release,
-        fits_at(model, -1)};
-  if (step == 0)
-    return {std::vector<double>(model.loads.size(), 0.0),
-            std::vector<double>(model.supports.size(), 0.0),
-            coefficients_at_start(model),
-            presence,
-            release,
-            fits_at(model, -1)};
-  const model::Step& before = model.steps[step - 1];
-  return {before.load_factors,
-          before.support_factors,
-          model::coefficients_of(before),
-          presence,
-          release,
-          fits_at(model, static_cast<int>(step) - 1)};
-}
-
-/// Factors at part `s` of a step.
-Factors factors_in(const model::Model& model, std::size_t index, double s) {
-  const model::Step& step = model.steps[index];
-  Factors factors = between(start_of(model, index),
-                            {step.load_factors, step.support_factors, model::coefficients_of(step),
-                             presence_at(model, static_cast<int>(index)), 0.0, fits_at(model, static_cast<int>(index))},
-                            s);
-  if (s == 1.0) return factors;  // those of the curves
-  const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {
-    for (std::size_t i = 0; i < curves.size(); ++i)
-      if (curves[i] >= 0) of[i] = model::value_of(model.curves[static_cast<std::size_t>(curves[i])], s);
-  };
-  follow(step.load_curves, factors.loads);
-  follow(step.support_curves, factors.supports);
-  return factors;
 }
 
 /// Finds pairs anew in the state that was reached; false, with the reason, if that fails. `since`: as find_pairs_anew.
@@ -340,19 +84,6 @@ Reached reach_with_pairs(StaticSolution& solution, std::unique_ptr<const Assembl
   return reached;
 }
 
-void add_slid_off(const LargeSlip& large, const State& state, const IncrementResult& at, StaticSolution& solution) {
-  if (state.replaced.placement.empty()) return;
-  for (const auto& [contact, sentence] : large.slid_off(solution.model, state.replaced.placement)) {
-    const std::string& name = solution.model.contacts[contact].name;
-    const bool told = std::any_of(solution.warnings.begin(), solution.warnings.end(), [&](const Warning& warning) {
-      return warning.kind == WarningKind::slides_off && warning.subject == name;
-    });
-    if (!told)
-      solution.warnings.push_back({WarningKind::slides_off, name,
-                                   fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
-  }
-}
-
 RunState start_of_run(const Prepared& prepared, StaticSolution& solution, const Options& options) {
   if (!options.from && prepared.model.restart) return {0, {}, state_of_restart(prepared)};
   if (!options.from) return {0, {}, initial_state(prepared)};
@@ -375,6 +106,43 @@ RunState start_of_run(const Prepared& prepared, StaticSolution& solution, const 
 void interrupt(StaticSolution& solution) {
   solution.outcome = Outcome::interrupted;
   solution.reason = "interrupted: the increments finished so far are kept";
+}
+
+/// Reports that increment `k` of a step begins.
+void tell_begin(const Options& options, const model::Step& step, std::size_t index, int k) {
+  if (options.on_increment_begin)
+    options.on_increment_begin(
+        {static_cast<int>(index) + 1, step.name, k, step.automatic ? std::nullopt : std::optional(step.increments)});
+  if (options.on_stage)
+    options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, k)
+                                    : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
+}
+
+/// The results of what was reached, if that is the end of the increment; otherwise its history alone. The reason of
+/// `reached` says so if the results are no finite numbers.
+IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolution& solution) {
+  IncrementResult result;
+  if (reached.reason.empty())
+    result = timed(solution.timing.recover, [&] {
+      IncrementResult of_state = described(prepared, reached.state);
+      of_state.cracks = crack_results(solution, of_state);
+      of_state.edges = edge_forces(prepared, reached.state, solution);
+      return of_state;
+    });
+  if (reached.reason.empty() && !std::isfinite(result.energy.elastic))
+    reached.reason =
+        "the elastic energy exceeds the range of floating-point numbers: check the units of stiffness, loads and "
+        "temperature";
+  result.converged = reached.reason.empty();
+  result.newton_iterations = reached.iterations;
+  result.coarse_iterations = reached.coarse_iterations;
+  result.halvings = reached.halvings;
+  result.residual = reached.residual;
+  result.certificate = reached.certificate;
+  result.reason = reached.reason;
+  result.attempts = std::move(reached.attempts);
+  result.uniqueness = reached.uniqueness;
+  return result;
 }
 
 void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large, StaticSolution& solution,
@@ -400,12 +168,7 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
       interrupt(solution);
       return;
     }
-    if (options.on_increment_begin)
-      options.on_increment_begin({static_cast<int>(run.step) + 1, step.name, k,
-                                  step.automatic ? std::nullopt : std::optional(step.increments)});
-    if (options.on_stage)
-      options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, k)
-                                      : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
+    tell_begin(options, step, run.step, k);
     const double begin = progress.reached,
                  end = next_end(step, progress, model::corners_of(step, solution.model.curves));
     const Factors target = factors_in(solution.model, run.step, end);
@@ -423,35 +186,13 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
       interrupt(solution);
       return;
     }
-    bool there = reached.reason.empty();
-    IncrementResult result;
-    if (there)
-      result = timed(solution.timing.recover, [&] {
-        IncrementResult of_state = described(prepared, reached.state);
-        of_state.cracks = crack_results(solution, of_state);
-        of_state.edges = edge_forces(prepared, reached.state, solution);
-        return of_state;
-      });
-    if (there && !std::isfinite(result.energy.elastic)) {
-      there = false;
-      reached.reason =
-          "the elastic energy exceeds the range of floating-point numbers: check the units of stiffness, loads and "
-          "temperature";
-    }
+    IncrementResult result = result_of(prepared, reached, solution);
+    const bool there = result.converged;
     result.step = static_cast<int>(run.step) + 1;
     result.step_name = step.name;
     result.increment = k;
     result.reached = reached.part == 1.0 ? end : begin + reached.part * (end - begin);
-    result.converged = there;
-    result.newton_iterations = reached.iterations;
-    result.coarse_iterations = reached.coarse_iterations;
-    result.halvings = reached.halvings;
     result.pairs_found = found;
-    result.residual = reached.residual;
-    result.certificate = reached.certificate;
-    result.reason = reached.reason;
-    result.attempts = std::move(reached.attempts);
-    result.uniqueness = reached.uniqueness;
     if (there) add_warnings(prepared, reached, result, solution.warnings);
     if (there && large) add_slid_off(*large, reached.state, result, solution);
     solution.increments.push_back(std::move(result));

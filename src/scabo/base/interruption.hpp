@@ -1,8 +1,8 @@
-// Interruption points: places within long work at which whoever asked for the work may end it.
+// Interruption points: places within long work at which its caller may end it.
 //
-// Who runs long work makes an `Interruptible` with a function that every point in its thread calls while the object
+// A caller of long work makes an `Interruptible` with a function that every point in its thread calls while the object
 // exists, and that ends the work by throwing what the same caller catches. linalg::parallel_for passes the function on
-// to its threads: it is called by several at once. Where nobody asks, a point costs a nanosecond.
+// to its threads: it is called by several at once. Without an `Interruptible` a point costs a nanosecond.
 #pragma once
 
 #include <functional>

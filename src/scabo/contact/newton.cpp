@@ -65,7 +65,7 @@ class Newton {
 
   /// Of a wall hundreds of joints change their state together, and have ties besides: they just touch or are about to
   /// slip. One kink after the other stops the line search, while full steps pass them all: up to `watched` full steps
-  /// without descent are tried before the search is believed (watchdog of Chamberlain, Powell, Lemarechal and Pedersen,
+  /// without descent are tried before the search is used (watchdog of Chamberlain, Powell, Lemarechal and Pedersen,
   /// Math. Programming Study 16 (1982) 1). A tower of 50 blocks at half of its overturning load: 43 iterations with the
   /// search alone.
   bool step_of_many_bodies(double first) {

@@ -25,10 +25,12 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/gmres.hpp"
 
 namespace scabo::contact {
 
@@ -67,6 +69,9 @@ class NewtonDirection {
   bool solve_dense(double regularisation);
   bool solve_along_joints(double regularisation);
   bool solve_by_single_precision(double regularisation);
+  /// y_ by GMRES, with products with the matrix itself; false if it is less exact than LU in double precision.
+  bool solve_preconditioned(double regularisation, const std::function<void(const Vector&, Vector&)>& precondition,
+                            const GmresOptions& options);
   void lay_out_sparse(double regularisation);
   bool solve_sparse(double regularisation);
   bool solve_softened();

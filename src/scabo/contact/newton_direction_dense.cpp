@@ -12,7 +12,7 @@ namespace {
 constexpr GmresOptions refining_gmres{1e-13, 40, 80};
 constexpr GmresOptions line_gmres{1e-12, 40, 40};
 constexpr double as_good_as_double = 1e-11;    // residual of a direction by GMRES
-constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as dear
+constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as expensive
 
 }  // namespace
 
@@ -90,10 +90,21 @@ bool NewtonDirection::solve_dense(double regularisation) {
   return y.allFinite() && left <= Workspace::descending;
 }
 
+bool NewtonDirection::solve_preconditioned(double regularisation,
+                                           const std::function<void(const Vector&, Vector&)>& precondition,
+                                           const GmresOptions& options) {
+  const auto n = static_cast<Eigen::Index>(unknowns_.size()) + equations_.problem().G.cols();
+  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
+  const Vector right = right_.head(n);
+  y_.setZero(n);
+  const double left = gmres(multiply, precondition, right, y_, options);
+  return y_.allFinite() && left <= as_good_as_double;
+}
+
 bool NewtonDirection::solve_along_joints(double regularisation) {
   const Problem& problem = equations_.problem();
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
-  const Eigen::Index d = problem.dimension, n = size + problem.G.cols();
+  const Eigen::Index d = problem.dimension;
   Combinations rows, columns;
   Vector diagonal(size);
   for (Eigen::Index j = 0; j < size; ++j) {
@@ -108,12 +119,8 @@ bool NewtonDirection::solve_along_joints(double regularisation) {
   }
   work_->line_fails = true;
   if (!work_->along_joints.factorise(problem, rows, columns, diagonal)) return false;
-  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
   const auto precondition = [&](const Vector& x, Vector& result) { work_->along_joints.solve(x, result); };
-  const Vector right = right_.head(n);
-  y_.setZero(n);
-  const double left = gmres(multiply, precondition, right, y_, line_gmres);
-  work_->line_fails = !(y_.allFinite() && left <= as_good_as_double);
+  work_->line_fails = !solve_preconditioned(regularisation, precondition, line_gmres);
   return !work_->line_fails;
 }
 
@@ -163,12 +170,8 @@ bool NewtonDirection::solve_by_single_precision(double regularisation) {
   for (Eigen::Index g = 0; g < m; ++g) motions_of_rows(G.col(g), A.col(size + g));
   if (m > 0) A.block(size, size, m, m).setZero();
   if (!work_->single_solver.factorise(A)) return false;
-  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, regularisation, result); };
   const auto precondition = [&](const Vector& x, Vector& result) { work_->single_solver.solve(x, result); };
-  const Vector right = right_.head(n);
-  y_.setZero(n);
-  const double left = gmres(multiply, precondition, right, y_, refining_gmres);
-  work_->single_fails = !(y_.allFinite() && left <= as_good_as_double);
+  work_->single_fails = !solve_preconditioned(regularisation, precondition, refining_gmres);
   return !work_->single_fails;
 }
 

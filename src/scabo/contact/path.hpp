@@ -1,5 +1,5 @@
 // Path of solutions of a plane problem from forces that need not solve it to those that do, one change of state after
-// the other. Newton's method guesses the states of all pairs at once and may jump between guesses for ever; where
+// the other. Newton's method guesses the states of all pairs at once and may jump between guesses without end; where
 // friction lets a load have several equilibria, or bodies are about to fall, this finds its way, and tells where the
 // way ends.
 //
@@ -53,7 +53,7 @@ struct PathOptions {
 };
 
 struct PathEnd {
-  /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on for ever. turned_back: t has grown
+  /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on without end. turned_back: t has grown
   /// again and `patience` changes, or more, do not lead below its least. broken: rounding, `most`, or the deadline.
   enum class How { arrived, endless, turned_back, broken } how = How::broken;
   Vector p, a;        ///< where the path ends

@@ -7,10 +7,10 @@
 //     M = diag(sqrt(mu_i)),  D = diag(sqrt((W_tt)_ii)),
 //
 // with lambda the largest eigenvalue, mu_i the larger coefficient where it differs by direction: for two solutions,
-// dp'W dp = sum dp_i.du_i <= sum mu_i |dp_n,i| |du_t,i|. For up
-// to `most_enumerated` plane pairs all combinations of states (open, stick, slip in either direction) are solved
-// instead, which gives all solutions. In other cases, other solutions are searched by Newton from other starts; if none
-// is found, nothing is proven.
+// dp'W dp = sum dp_i.du_i <= sum mu_i |dp_n,i| |du_t,i|. For up to
+// `most_enumerated` plane pairs all combinations of states (open, stick, slip in either direction) are solved instead,
+// which gives all solutions. In other cases, other solutions are searched by Newton from other starts; if none is
+// found, nothing is proven.
 //
 // The sign of (-1)^m det H'(z) on the active branches is the index of a solution. For mu = 0 there is one solution,
 // with index +1, and unless a ray interferes the sum over all solutions remains 1, so that a solution of index -1 is

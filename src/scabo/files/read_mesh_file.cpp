@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "scabo/files/abaqus.hpp"
 #include "scabo/files/abaqus_lines.hpp"
+#include "scabo/files/bytes_of_file.hpp"
 #include "scabo/files/gmsh.hpp"
 #include "scabo/files/read_deck_file.hpp"
 #include "scabo/files/text_cursor.hpp"
@@ -18,19 +17,6 @@
 namespace scabo::files {
 
 namespace {
-
-/// All bytes of a regular file.
-std::optional<std::string> bytes_of_file(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) return std::nullopt;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) return std::nullopt;
-  std::string bytes(size, '\0');
-  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
-  return bytes;
-}
 
 std::optional<IncludedFile> read_beside(const std::string& name, const std::string& from) {
   const std::filesystem::path path = std::filesystem::path(from).parent_path() / name;

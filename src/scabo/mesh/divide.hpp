@@ -4,10 +4,10 @@
 //
 // Unless a Division (division.hpp) specifies otherwise, every edge is divided into n equal elements, none longer than
 // `size` and none turning by more than 60 degrees; with mesh.refine into elements of graded lengths (graded_edge.hpp).
-// Nodes are at the Gauss-Lobatto-Legendre points of the arc length of
-// the edge. Between the nodes of an arc the boundary is the interpolating polynomial. The visibility of the whole
-// boundary from the scaling centre must therefore be checked again: |J| = x y,eta - y x,eta > 0, with x and y relative
-// to the centre.
+// Nodes are at the Gauss-Lobatto-Legendre points of the arc length of the edge. Between the nodes of an arc the
+// boundary is the interpolating polynomial. The visibility of the whole boundary from the scaling centre must therefore
+// be checked again: |J| = x y,eta - y x,eta > 0, with x and y relative to the
+// centre.
 #pragma once
 
 #include <string>

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
 
+#include "scabo/mesh/distinct_points.hpp"
 #include "scabo/mesh/interior_points.hpp"
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/refusal.hpp"
@@ -19,33 +19,6 @@ constexpr double largest_facet_turn =
 constexpr int rounds_of_smoothing = 3;
 
 std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
-
-// Points closer than `tolerance` to each other have one number.
-class DistinctPoints {
- public:
-  DistinctPoints(const Vec2& origin, double tolerance) : origin_(origin), tolerance_(tolerance) {}
-
-  int number(const Vec2& p) {
-    const Vec2 place = (p - origin_) / (4.0 * tolerance_);
-    const auto i = static_cast<std::int64_t>(std::floor(place.x())),
-               j = static_cast<std::int64_t>(std::floor(place.y()));
-    for (std::int64_t a = i - 1; a <= i + 1; ++a)
-      for (std::int64_t b = j - 1; b <= j + 1; ++b)
-        if (const auto found = boxes_.find({a, b}); found != boxes_.end())
-          for (const int n : found->second)
-            if ((points[index_of(n)] - p).norm() <= tolerance_) return n;
-    boxes_[{i, j}].push_back(static_cast<int>(points.size()));
-    points.push_back(p);
-    return static_cast<int>(points.size()) - 1;
-  }
-
-  std::vector<Vec2> points;
-
- private:
-  Vec2 origin_;
-  double tolerance_;
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<int>> boxes_;
-};
 
 // The middle of a facet: of the chord, or of the arc.
 Vec2 middle_of(const DomainLine& line, int facet) {
@@ -204,7 +177,7 @@ DualVertices vertices_on_lines(const Domain& domain, bool divide_arcs) {
       shortest = std::min(shortest, facet_length(line, k));
   }
   ensure(!domain.lines.empty() && shortest > 0.0, "the facets of a domain have a length");
-  DistinctPoints corners(low, std::max(1e-9 * shortest, 1e-14 * (high - low).maxCoeff()));
+  DistinctPoints corners(std::max(1e-9 * shortest, 1e-14 * (high - low).maxCoeff()), low);
   for (const DomainLine& line : domain.lines) {
     const int start = corners.number(line.points.front());
     vertices.ends.emplace_back(start, corners.number(line.points.back()));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <utility>
@@ -11,38 +10,11 @@
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/geometry/pieces.hpp"
+#include "scabo/mesh/distinct_points.hpp"
 
 namespace scabo::mesh {
 
 namespace {
-
-/// Numbers points; those closer than a tolerance to each other have one number and the coordinates of the first.
-class NetPoints {
- public:
-  explicit NetPoints(double tolerance) : tolerance_(tolerance) {}
-
-  int number(Vec2& point) {
-    const Vec2 place = point / (4.0 * tolerance_);
-    const auto i = static_cast<std::int64_t>(std::floor(place.x())),
-               j = static_cast<std::int64_t>(std::floor(place.y()));
-    for (std::int64_t a = i - 1; a <= i + 1; ++a)
-      for (std::int64_t b = j - 1; b <= j + 1; ++b)
-        if (const auto found = boxes_.find({a, b}); found != boxes_.end())
-          for (const int n : found->second)
-            if ((points_[static_cast<std::size_t>(n)] - point).norm() <= tolerance_) {
-              point = points_[static_cast<std::size_t>(n)];
-              return n;
-            }
-    boxes_[{i, j}].push_back(static_cast<int>(points_.size()));
-    points_.push_back(point);
-    return static_cast<int>(points_.size()) - 1;
-  }
-
- private:
-  double tolerance_;
-  std::vector<Vec2> points_;
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<int>> boxes_;
-};
 
 constexpr int of_outline = -1;
 
@@ -123,9 +95,16 @@ class Builder {
     std::sort(positions.begin(), positions.end());
   }
 
+  /// The number of a point, which moves to the first point near it.
+  int number_of(Vec2& point) {
+    const int number = points_.number(point);
+    point = points_.points[static_cast<std::size_t>(number)];
+    return number;
+  }
+
   void add(NetLine line, int region) {
-    line.start = points_.number(line.edge.start);
-    line.end = points_.number(line.edge.end);
+    line.start = number_of(line.edge.start);
+    line.end = number_of(line.edge.end);
     const Vec2 middle = line.edge.at(0.5);
     std::vector<std::size_t>& between = between_[std::minmax(line.start, line.end)];
     for (const std::size_t k : between) {
@@ -170,8 +149,8 @@ class Builder {
         line.edge.end = path[k + 1];
         line.crack = true;
         line.of_crack = static_cast<int>(p);
-        line.start = points_.number(line.edge.start);
-        line.end = points_.number(line.edge.end);
+        line.start = number_of(line.edge.start);
+        line.end = number_of(line.edge.end);
         crack.middle = line.edge.at(0.5);
         line.left = line.right = region_beside(crack, true);
         net_.push_back(std::move(line));
@@ -182,7 +161,7 @@ class Builder {
   const model::Body& body_;
   const CrackNet& cracks_;
   const double tolerance_;
-  NetPoints points_;
+  DistinctPoints points_;
   std::vector<double> areas_;  // of the regions
   std::vector<geometry::Box> boxes_;
   std::vector<Shared> shared_;

@@ -19,50 +19,14 @@
 // leaves more than `Balanced` allows.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "scabo/linalg/symmetric_positive_solver.hpp"
-#include "scabo/linalg/twofold.hpp"
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/system/stiffness.hpp"
 
 namespace scabo::system {
-
-/// A point of a body that springs hold along a direction.
-struct HeldDirection {
-  Vec2 point, direction;  ///< the squares of the directions of one spring add up to 1 along it, however soft it is
-};
-
-/// Springs between a body and the ground (springs.hpp). Their forces on the body are -S u.
-struct Springs {
-  linalg::SparseMatrix matrix;            ///< S, as large as u, positive semidefinite; 0 x 0 without springs
-  std::vector<HeldDirection> directions;  ///< motions that leave all of them at rest are free: S is zero along them
-
-  bool none() const { return matrix.size() == 0; }
-  Vector times(const Vector& u) const { return none() ? Vector(Vector::Zero(u.size())) : Vector(matrix * u); }
-};
-
-class DividedStiffness;  // ranks.hpp
-
-/// Stiffness of an elastic body: dense for one super-element, sparse for finite elements, or divided among several
-/// processes. Springs are kept apart from it: it resists no rigid motion, they do.
-struct Stiffness {
-  std::shared_ptr<const Matrix> dense;
-  linalg::SparseMatrix sparse;
-  std::shared_ptr<const DividedStiffness> divided;
-  double rounding = std::numeric_limits<double>::epsilon();  ///< relative error of its entries
-  bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
-  Springs springs;
-
-  Eigen::Index size() const;
-  Vector times(const Vector& u) const;
-  linalg::TwofoldVector times(const linalg::TwofoldVector& u) const;  ///< in twice the working precision
-  double largest_diagonal() const;
-  Vector times_squares(const Vector& u) const;  ///< product of the matrix of the squared entries
-  double entries() const;
-};
 
 /// The displacement of a point along a direction, which a support holds at a prescribed value.
 struct Constraint {
@@ -144,7 +108,7 @@ class BodySystem {
   /// Estimated error of elastic_energy(u) by the rounding of the entries of K. Its ratio to the energy is the relative
   /// error of the displacement under the load.
   virtual double energy_lost(const Vector& u) const = 0;
-  /// Force by which K would answer if one component of u were alone: max_i K_ii max_i |u_i|; 0 of a rigid body.
+  /// Force by which K would resist one component of u alone: max_i K_ii max_i |u_i|; 0 of a rigid body.
   virtual double stiff_force(const Vector& u) const = 0;
 
   /// Which factorisation it uses: equal bodies share one. None of a rigid body.

@@ -109,7 +109,7 @@ std::vector<int> joints_of(const std::vector<ContactSystem::Pair>& pairs) {
   return joints;
 }
 
-// Below, a dense LU takes less than a second, and nobody asks for a holder of the pairs.
+// Below, a dense LU takes less than a second, and the joined bodies are not used.
 constexpr Eigen::Index least_joined = 2500;
 
 /// W on the rows kept by `place` (-1: left out).

@@ -48,6 +48,7 @@ TEST(Warnings, AnOrdinaryModelHasNone) {
 
 TEST(Warnings, OfADeepOverlapWithItsPressure) {
   const StaticSolution solution = solve(stack(0.2));
+  ASSERT_EQ(solution.outcome, Outcome::solved) << solution.reason;
   ASSERT_NEAR(solution.increments.back().contacts[0].max_pressure, 21e9, 1e6);
   EXPECT_THAT(texts_of(solution.warnings),
               ElementsAre(AllOf(HasSubstr("contact 'joint': the bodies overlap at the start by up to 0.2, 20 %"),

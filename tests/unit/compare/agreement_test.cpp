@@ -1,4 +1,4 @@
-// Where the solution is unique, all roads that say solved have it, and the roads that should not fail do not.
+// Where the solution is unique, all solvers that report it as solved have it, and those that should not fail do not.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -8,7 +8,7 @@
 namespace scabo::test {
 namespace {
 
-/// Failures of the roads that may fail, of every 60: those without a line search, and Siconos's at our
+/// Failures of the solvers that may fail, of every 60: those without a line search, and Siconos's at our
 /// tolerance.
 const std::map<Method, int> may_fail = {{Method::trial_and_error, 10}, {Method::siconos_nsgs, 60},
                                         {Method::siconos_lemke, 60},   {Method::siconos_nsn_ac, 60},
@@ -40,9 +40,9 @@ void expect_agreement(int dimension, double mu, int cases) {
   }
 }
 
-TEST(AllRoads, AgreeInThePlane) { expect_agreement(2, 0.2, 60); }
-TEST(AllRoads, AgreeInSpace) { expect_agreement(3, 0.2, 60); }
-TEST(AllRoads, AgreeWithoutFriction) {
+TEST(AllSolvers, AgreeInThePlane) { expect_agreement(2, 0.2, 60); }
+TEST(AllSolvers, AgreeInSpace) { expect_agreement(3, 0.2, 60); }
+TEST(AllSolvers, AgreeWithoutFriction) {
   expect_agreement(2, 0.0, 30);
   expect_agreement(3, 0.0, 30);
 }

@@ -1,4 +1,4 @@
-// One pair, by hand: open, stick, slip, in the plane and in space; every road must find it.
+// One pair, by hand: open, stick, slip, in the plane and in space; every solver must find it.
 #include <gtest/gtest.h>
 
 #include "problems.hpp"

@@ -1,4 +1,4 @@
-// Bodies that contact alone holds, and pairs with cohesion and tension, on the roads that take them.
+// Bodies that contact alone holds, and pairs with cohesion and tension, by the solvers that handle them.
 #include <gtest/gtest.h>
 
 #include "problems.hpp"

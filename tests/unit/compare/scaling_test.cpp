@@ -1,4 +1,4 @@
-// W and q in other units, scaled by powers of two: every solver takes the same road, bit by bit.
+// W and q in other units, scaled by powers of two: every solver does the same, bit by bit.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

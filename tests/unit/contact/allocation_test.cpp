@@ -1,6 +1,6 @@
 // The inner loop of Newton's method takes no memory: direction, line search and evaluation of H reuse what the first
-// iteration took. Every call of malloc is counted: operator new and Eigen's
-// aligned memory end there.
+// iteration took. Every call of malloc is counted: operator new and Eigen's aligned
+// memory end there.
 #include <gtest/gtest.h>
 
 #include <atomic>

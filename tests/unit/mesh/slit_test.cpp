@@ -6,12 +6,15 @@
 #include <memory>
 #include <set>
 
+#include "matched_meshes.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/imported_cells.hpp"
 #include "scabo/model/imported_body.hpp"
 
 namespace scabo::mesh {
 namespace {
+
+using test::area_of;
 
 /// Columns x rows unit squares, of which those from column `from` on are of region 1.
 model::Body squares(int columns, int rows, model::MeshKind kind, int from = 1000) {
@@ -52,15 +55,6 @@ BodyMesh whole(const model::Body& body) {
 
 BodyMesh slit_mesh(const model::Body& body, int layers) {
   return std::get<BodyMesh>(slit(whole(body), body, {.layers = layers}));
-}
-
-double area_of(const BodyMesh& mesh) {
-  double area = 0.0;
-  for (const Cell& cell : mesh.cells)
-    for (const LineElement& element : cell.boundary)
-      area += 0.5 * cross(Vec2(mesh.nodes[static_cast<std::size_t>(element.nodes.front())] - cell.centre),
-                          Vec2(mesh.nodes[static_cast<std::size_t>(element.nodes.back())] - cell.centre));
-  return area;
 }
 
 // By hand: 35 nodes; the three nodes behind the tip are doubled, the tip is a centre, and each of the eight sides

@@ -19,8 +19,8 @@
 //           `col 0 : locations 0 to 2` and `row : value` for each of its entries
 //
 // The layout cannot store rigid motions, history, cohesion, tension and coefficients that differ by direction; these
-// need HDF5 (fclib.hpp). Siconos writes
-// sparse values with six digits, Scabo with all digits.
+// need HDF5 (fclib.hpp). Siconos writes sparse values with six digits, Scabo with
+// all digits.
 #pragma once
 
 #include <string>

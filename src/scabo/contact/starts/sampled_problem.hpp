@@ -3,13 +3,13 @@
 //
 //     W_c = W_ss     q_c = q_s     G_c = G_s     f_c = f                     s: the sampled pairs
 //
-// What lies between two sampled pairs bends a little more than under a force that is spread; further away nobody can
-// tell. Forces are spread again in proportion to hat functions phi_j over the pairs of a joint,
+// What lies between two sampled pairs bends a little more than under a force that is spread; further away the
+// difference is small. Forces are spread again in proportion to hat functions phi_j over the pairs of a joint,
 //
 //     p_i = sum_j phi_j(i) p_cj / sum_k phi_j(k),
 //
 // which keeps the force of each sampled pair, and with it the balance of forces. Motions do not agree with them: a
-// force that is spread leaves less of a dent. What can be believed is whether a pair is open, sticks or slips.
+// force that is spread leaves less of a dent. What is reliable is whether a pair is open, sticks or slips.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Common parts of the other solvers of a discrete contact problem ("roads"). They exist for comparison and as
+// Common parts of the other solvers of a discrete contact problem. They exist for comparison and as
 // alternatives where Newton on the B-differentiable equations fails; ../solvers.hpp lists and calls them.
 //
 // A solver receives the problem in forces: W and q times one stiffness, the inverse of the mean of W_ii, so that

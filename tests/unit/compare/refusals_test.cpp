@@ -1,4 +1,4 @@
-// What a road cannot do it says, and it always ends.
+// Every solver names the problems that it does not handle, and it always ends.
 #include <gtest/gtest.h>
 
 #include "problems.hpp"
@@ -19,7 +19,7 @@ Problem coupled(double q_t) {
   return one_pair(W, Vec2(-1.0, q_t), 2.0);
 }
 
-TEST(Roads, SayWhyWhereNothingSolves) {
+TEST(OtherSolvers, SayWhyWhereNothingSolves) {
   for (int dimension : {2, 3})
     for (Method method : frictional_methods(dimension)) {
       const Solution solution = compare::solve_with(method, unsolvable(dimension));
@@ -32,7 +32,7 @@ TEST(Roads, SayWhyWhereNothingSolves) {
   EXPECT_EQ(solution.reason, "quadratic_programme: no forces can close the gaps");
 }
 
-TEST(Roads, NeverCertifyWhatIsNot) {
+TEST(OtherSolvers, NeverCertifyWhatIsNot) {
   for (double q_t : {-3.0, -1.0, -0.8, 0.0, 0.5, 3.0})
     for (Method method : frictional_methods(2)) {
       const Problem problem = coupled(q_t);
@@ -46,7 +46,7 @@ TEST(Roads, NeverCertifyWhatIsNot) {
     }
 }
 
-TEST(Roads, RefuseWhatTheyDoNotHandle) {
+TEST(OtherSolvers, RefuseWhatTheyDoNotHandle) {
   std::mt19937 random(3);
   const auto reason = [](Method method, const Problem& problem) {
     const Solution solution = compare::solve_with(method, problem);
@@ -65,7 +65,7 @@ TEST(Roads, RefuseWhatTheyDoNotHandle) {
   EXPECT_EQ(reason(Method::lemke, floating), "lemke does not handle rigid motions that contact alone holds");
 }
 
-TEST(Roads, RefuseWhatIsTooLargeForDenseMatrices) {
+TEST(OtherSolvers, RefuseWhatIsTooLargeForDenseMatrices) {
   const int N = 3500;
   Eigen::SparseMatrix<double> W(2 * N, 2 * N);
   W.setIdentity();
@@ -96,7 +96,7 @@ TEST(TrialAndError, SaysThatItGoesAround) {
   EXPECT_GT(around, 0);
 }
 
-TEST(Roads, EndWithinTheirLimit) {
+TEST(OtherSolvers, EndWithinTheirLimit) {
   std::mt19937 random(2);
   contact::SolverOptions few;
   few.iterations = 1;

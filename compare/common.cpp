@@ -1,4 +1,4 @@
-#include "compare/road.hpp"
+#include "compare/common.hpp"
 
 #include <cmath>
 

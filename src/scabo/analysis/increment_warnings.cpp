@@ -1,0 +1,71 @@
+#include "scabo/analysis/increment_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/outside.hpp"
+#include "scabo/analysis/undetermined_forces.hpp"
+
+namespace scabo::analysis {
+
+void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
+                  std::vector<Warning>& warnings) {
+  const auto add = [&](WarningKind kind, const std::string& subject, const std::string& sentence) {
+    for (const Warning& warning : warnings)
+      if (warning.kind == kind && warning.subject == subject) return;
+    warnings.push_back({kind, subject, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
+  };
+  for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
+    const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
+    add(WarningKind::undetermined_motion, motion,
+        fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
+                    "add a support if the position matters",
+                    motion));
+  }
+  const bool told_of_forces = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.kind == WarningKind::undetermined_force;
+  });
+  if (!told_of_forces && reached.problem.pairs() == static_cast<int>(prepared.contact.pairs.size()))
+    if (const auto forces = undetermined_forces_warning(prepared, reached.state, reached.problem))
+      add(forces->kind, forces->subject, forces->text);
+  if (reached.uniqueness && reached.uniqueness->others > 0)
+    add(WarningKind::several_solutions, "",
+        fmt::format("other solutions exist ({} found); the one closest to the previous "
+                    "increment was chosen: see 'uniqueness' in summary.json",
+                    reached.uniqueness->others));
+  for (std::size_t c = 0; c < at.contacts.size(); ++c) {
+    if (prepared.model.contacts[c].shear_strength.value_or(0.0) == 0.0) continue;
+    if (at.contacts[c].open > 0)
+      add(WarningKind::open_shear, at.contacts[c].name,
+          fmt::format("open pairs of contact '{}' carry shear: a prescribed shear strength does not depend on pressure",
+                      at.contacts[c].name));
+  }
+  constexpr double worth_saying = 3e-5;  // errors of three times the estimate were seen
+  if (at.lost_to_rounding > worth_saying)
+    add(WarningKind::rounding, "",
+        fmt::format("rounding of the stiffness of a body this slender may change its displacements by a part of about "
+                    "{:.0e}: give it mesh {{kind: fem}}, or longer elements",
+                    at.lost_to_rounding));
+  if (const std::string large = too_large(prepared, reached.state); !large.empty())
+    add(WarningKind::large_displacement, "", large);
+  if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
+    add(WarningKind::no_reference, "", relative);
+  for (const Warning& warning : crack_warnings(at.cracks)) add(warning.kind, warning.subject, warning.text);
+}
+
+void add_slid_off(const LargeSlip& large, const State& state, const IncrementResult& at, StaticSolution& solution) {
+  if (state.replaced.placement.empty()) return;
+  for (const auto& [contact, sentence] : large.slid_off(solution.model, state.replaced.placement)) {
+    const std::string& name = solution.model.contacts[contact].name;
+    const bool told = std::any_of(solution.warnings.begin(), solution.warnings.end(), [&](const Warning& warning) {
+      return warning.kind == WarningKind::slides_off && warning.subject == name;
+    });
+    if (!told)
+      solution.warnings.push_back({WarningKind::slides_off, name,
+                                   fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
+  }
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,172 @@
+#include "scabo/analysis/reach.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/analysis/warnings.hpp"
+#include "scabo/contact/laws/evolution.hpp"
+#include "scabo/contact/uniqueness.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Part of an increment that is no longer divided because its sides pass each other too far.
+constexpr double smallest_part_of_slip = 1e-5;
+
+/// Whether the model has joints whose strength is lost when they fail.
+bool breaks(const Prepared& prepared) {
+  const auto& contacts = prepared.model.contacts;
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const model::Contact& contact) { return contact.cohesion > 0.0; });
+}
+
+/// Reason why an increment with a contact solution is not accepted.
+std::string above_tolerance(const Prepared& prepared, const Attempt& tried, double tolerance) {
+  const double worst = tried.certificate.worst();
+  std::string reason =
+      fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
+  if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
+    reason +=
+        "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
+        "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
+  else if (const std::string stiff = stiff_springs(prepared.model, prepared.structure, stiff_beside); !stiff.empty())
+    reason += "; " + stiff;
+  return reason;
+}
+
+/// Where motions are so large beside deformations that forces are lost in rounding; empty where they are not.
+std::string lost_in_rounding(const Attempt& tried, double tolerance) {
+  constexpr double allowance = 1e-3;  // Attempt::rounding allows for a thousand roundings
+  const double lost = allowance * tried.rounding;
+  if (!(lost > tolerance) || !std::isfinite(lost)) return {};
+  return fmt::format(
+      "; the motion is so large beside the deformation of the bodies that rounding of the displacements may leave "
+      "{:.1g} of the forces unbalanced: a smaller motion, or a larger interference or load, is needed",
+      lost);
+}
+
+/// In an attempt to go from part `from` of an increment to part `to`.
+std::string describe_collapse(const Prepared& prepared, const contact::Solution& solution, double from, double to) {
+  std::string text = "collapse: ";
+  if (solution.held > 0.0)
+    text +=
+        fmt::format("equilibrium ends at {:.4g} of the increment, where the bodies move on without any further load",
+                    from + solution.held * (to - from));
+  else
+    text +=
+        "no equilibrium was found, and on every path of equilibria that was followed the bodies in the end move on "
+        "without any further load";
+  return text + " (" + describe_motions(prepared, solution.motion) + ")";
+}
+
+/// The attempt ends at part `part` of the increment.
+void accept(Attempt tried, double part, Reached& reached) {
+  reached.state = std::move(tried.state);
+  reached.certificate = tried.certificate;
+  reached.residual = tried.solution.residual;
+  reached.undetermined = std::move(tried.solution.undetermined);
+  reached.problem = std::move(tried.problem);
+  reached.uniqueness = tried.uniqueness;
+  reached.part = part;
+  reached.last_iterations = tried.solution.iterations;
+}
+
+/// Why an attempt to reach part `part` of the increment is the last one.
+void give_up(const Prepared& prepared, const Attempt& tried, double part, Reached& reached) {
+  using contact::Status;
+  const Status status = tried.solution.status;
+  const double tolerance = prepared.model.solver.tolerance;
+  reached.residual = tried.solution.residual;
+  reached.certificate = tried.certificate;
+  reached.mechanism = status == Status::mechanism;
+  reached.collapse = status == Status::collapse;
+  if (status == Status::mechanism)
+    reached.reason = fmt::format("mechanism: {}, held neither by supports nor by contact and friction",
+                                 describe_motions(prepared, tried.solution.motion));
+  else if (status == Status::collapse)
+    reached.reason = describe_collapse(prepared, tried.solution, reached.part, part);
+  else if (status == Status::solved)
+    reached.reason = above_tolerance(prepared, tried, tolerance);
+  else
+    reached.reason =
+        fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
+  if (status != Status::not_converged) return;
+  if (breaks(prepared))
+    if (const auto motion = contact::mechanism_once_broken(
+            tried.problem, laws_at(prepared, tried.state.factors), reached.state.history)) {
+      reached.mechanism = true;
+      reached.reason = fmt::format(
+          "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
+          "remaining strength after {} halvings",
+          describe_motions(prepared, *motion), reached.halvings);
+      return;
+    }
+  contact::SolverOptions solver;
+  solver.tolerance = tolerance;
+  solver.force_scale = tried.force_scale;
+  if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
+    reached.reason += "; " + why;
+  reached.reason += lost_in_rounding(tried, tolerance);
+}
+
+}  // namespace
+
+Reached reach(const Prepared& prepared, Reached reached, const std::function<Factors(double)>& factors_at,
+              std::optional<double> least, const LargeSlip* large, const Options& options) {
+  const IncrementRule rule;
+  const State from = reached.state;
+  double part = 1.0 - reached.part;
+  int repeats = 0;
+  reached.pairs_are_due = false;
+  while (reached.part < 1.0) {
+    const double next = std::min(1.0, reached.part + part);
+    Attempt tried = attempt(prepared, reached.state, factors_at(next));
+    reached.iterations += tried.solution.iterations;
+    reached.coarse_iterations += tried.solution.coarse_iterations;
+    if (large && tried.accepted) {
+      const double passed = large->passed(prepared, reached.state, tried.state);
+      if (passed > 1.0 && part > smallest_part_of_slip) {
+        part = (next - reached.part) / std::min(std::ceil(passed - 0.01), 64.0);
+        reached.attempts.push_back({tried.solution.trace, false});
+        if (options.on_problems && tried.problem.pairs() > 0) {
+          tried.accepted = false;
+          reached.problems.push_back(discrete_problem(prepared, tried));
+        }
+        continue;
+      }
+    }
+    const bool may_halve = least ? 0.5 * part >= *least : reached.halvings < prepared.model.solver.halvings;
+    if (tried.accepted && least) {
+      reached.changes = changes_between(prepared, from, tried.state);
+      if (reached.changes.too_many(rule) && may_halve && repeats < rule.repeats) {
+        ++repeats;
+        tried.accepted = false;
+      }
+    }
+    reached.attempts.push_back({tried.solution.trace, tried.accepted});
+    if (options.on_problems && tried.problem.pairs() > 0) reached.problems.push_back(discrete_problem(prepared, tried));
+    if (tried.accepted) {
+      accept(std::move(tried), next, reached);
+      if (least) break;
+      reached.pairs_are_due = large && reached.part < 1.0 && large->is_due(prepared, reached.state);
+      if (reached.pairs_are_due) break;
+      continue;
+    }
+    const bool smaller_steps_may_help = tried.solution.status != contact::Status::mechanism &&
+                                        tried.solution.status != contact::Status::collapse;
+    reached.stopped = smaller_steps_may_help && options.stop && *options.stop;
+    if (reached.stopped) return reached;
+    if (!smaller_steps_may_help || !may_halve) {
+      give_up(prepared, tried, next, reached);
+      return reached;
+    }
+    ++reached.halvings;
+    part *= 0.5;
+  }
+  return reached;
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,168 @@
+#include "scabo/result/body_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "scabo/base/interruption.hpp"
+#include "scabo/element/finite_element.hpp"
+
+namespace scabo::result {
+
+namespace {
+
+/// Position of a point of a ring.
+Vec2 on_ring(const mesh::BodyMesh& body, const mesh::Cell& cell, int node, double xi) {
+  const Vec2& x = body.nodes[static_cast<std::size_t>(node)];
+  return xi == 1.0 ? x : Vec2(cell.centre + xi * (x - cell.centre));
+}
+
+CellType type_of(element::FiniteElementKind kind) {
+  switch (kind) {
+    case element::FiniteElementKind::triangle3:
+      return CellType::triangle;
+    case element::FiniteElementKind::triangle6:
+      return CellType::quadratic_triangle;
+    case element::FiniteElementKind::quad4:
+      return CellType::quad;
+    case element::FiniteElementKind::quad8:
+      return CellType::quadratic_quad;
+  }
+  throw BrokenInvariant("a finite element of unknown kind");
+}
+
+/// The outline as a polygon, arcs in pieces of at most 3 degrees.
+std::vector<Vec2> polygon_of(const model::Outline& outline) {
+  constexpr double largest_turn = 3.0 / 180.0 * 3.14159265358979323846;
+  std::vector<Vec2> points;
+  for (const model::Edge& edge : outline.edges) {
+    const int pieces =
+        edge.arc ? std::max(1, static_cast<int>(std::ceil(std::abs(edge.arc->sweep) / largest_turn))) : 1;
+    for (int i = 0; i < pieces; ++i) points.push_back(edge.at(static_cast<double>(i) / pieces));
+  }
+  return points;
+}
+
+}  // namespace
+
+void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSampling& sampling, std::int32_t number) {
+  const mesh::Cell& whole = body.cells.front();
+  const auto first = static_cast<std::int32_t>(grid.point_count());
+  const auto n = static_cast<std::int32_t>(sampling.nodes.size());
+  for (const double xi : sampling.levels)
+    for (const int node : sampling.nodes) grid.add_point(on_ring(body, whole, node, xi), number);
+  const bool unbounded = sampling.levels.back() > 1.0;
+  if (!unbounded)
+    for (int c = 0; c <= sampling.centre.back(); ++c) grid.add_point(whole.centre, number);
+  const auto rings = static_cast<std::int32_t>(sampling.levels.size());
+  for (std::int32_t ring = 0; ring < rings; ++ring) {
+    const std::int32_t outer = first + ring * n, inner = outer + n;
+    for (std::size_t e = 0; e < sampling.points.size(); ++e)
+      for (std::size_t i = 0; i + 1 < sampling.points[e].size(); ++i) {
+        const std::int32_t a = sampling.points[e][i], b = sampling.points[e][i + 1];
+        if (ring + 1 < rings && unbounded)
+          grid.add_cell(CellType::quad, std::array{outer + a, inner + a, inner + b, outer + b}, number);
+        else if (ring + 1 < rings)
+          grid.add_cell(CellType::quad, std::array{inner + a, outer + a, outer + b, inner + b}, number);
+        else if (!unbounded)
+          grid.add_cell(CellType::triangle, std::array{inner + sampling.centre[e], outer + a, outer + b}, number);
+      }
+  }
+}
+
+CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::SolvedCells& cells, SamplingLibrary& library,
+                    const UsesOfCells& uses, std::int32_t number) {
+  const auto first = static_cast<std::int32_t>(grid.point_count());
+  CellsBody made;
+  made.cells.resize(cells.size());
+  // The first points are the nodes; where materials meet, there is one more for each further material.
+  for (std::size_t node = 0; node < body.nodes.size(); ++node) {
+    made.nodes.push_back(static_cast<int>(node));
+    made.materials.push_back(-1);
+    grid.add_point(body.nodes[node], number);
+  }
+  std::map<std::pair<int, int>, std::int32_t> further;  // node and material
+  const auto shared_point = [&](int node, int material) {
+    int& of_node = made.materials[static_cast<std::size_t>(node)];
+    if (of_node < 0) of_node = material;
+    if (of_node == material) return static_cast<std::int32_t>(node);
+    const auto key = std::pair(node, material);
+    if (const auto found = further.find(key); found != further.end()) return found->second;
+    const auto point = static_cast<std::int32_t>(made.nodes.size());
+    further.emplace(key, point);
+    made.nodes.push_back(node);
+    made.materials.push_back(material);
+    grid.add_point(body.nodes[static_cast<std::size_t>(node)], number);
+    return point;
+  };
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    interruption_point();
+    const mesh::Cell& cell = body.cells[c];
+    if (!cells[c]) {
+      const element::FiniteElement element = element::finite_element_of(cell, body.nodes);
+      for (const int node : element.nodes()) made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
+      continue;
+    }
+    made.cells[c].sampling = library.of_cell(*cells[c], uses.at(cells[c].get()));
+    const RingSampling& sampling = *made.cells[c].sampling;
+    const std::vector<int> nodes = cell.nodes();
+    for (std::size_t k = 0; k < sampling.nodes.size(); ++k)
+      made.cells[c].outer.push_back(shared_point(nodes[static_cast<std::size_t>(sampling.nodes[k])],
+                                                 cells[c]->sectors.material_of(sampling.sectors[k])));
+  }
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    interruption_point();
+    CellsBody::OfCell& of_cell = made.cells[c];
+    if (!cells[c]) {
+      std::vector<std::int32_t> points = of_cell.outer;
+      for (std::int32_t& point : points) point += first;
+      grid.add_cell(type_of(element::finite_element_of(body.cells[c], body.nodes).kind), points, number);
+      continue;
+    }
+    const RingSampling& sampling = *of_cell.sampling;
+    const mesh::Cell& cell = body.cells[c];
+    const std::vector<int> nodes = cell.nodes();
+    of_cell.inner = static_cast<std::int32_t>(grid.point_count()) - first;
+    const auto n = static_cast<std::int32_t>(sampling.nodes.size());
+    const auto rings = static_cast<std::int32_t>(sampling.levels.size());
+    for (std::int32_t ring = 1; ring < rings; ++ring)
+      for (const int node : sampling.nodes)
+        grid.add_point(
+            on_ring(body, cell, nodes[static_cast<std::size_t>(node)], sampling.levels[static_cast<std::size_t>(ring)]),
+            number);
+    const std::int32_t centre = first + of_cell.inner + (rings - 1) * n;
+    for (int k = 0; k <= sampling.centre.back(); ++k) grid.add_point(cell.centre, number);
+    const auto point = [&](std::int32_t ring, std::int32_t k) {
+      return first + (ring == 0 ? of_cell.outer[static_cast<std::size_t>(k)] : of_cell.inner + (ring - 1) * n + k);
+    };
+    for (std::int32_t ring = 0; ring < rings; ++ring)
+      for (std::size_t e = 0; e < sampling.points.size(); ++e)
+        for (std::size_t i = 0; i + 1 < sampling.points[e].size(); ++i) {
+          const std::int32_t a = sampling.points[e][i], b = sampling.points[e][i + 1];
+          if (ring + 1 < rings)
+            grid.add_cell(CellType::quad,
+                          std::array{point(ring + 1, a), point(ring, a), point(ring, b), point(ring + 1, b)}, number);
+          else
+            grid.add_cell(CellType::triangle, std::array{centre + sampling.centre[e], point(ring, a), point(ring, b)},
+                          number);
+        }
+  }
+  return made;
+}
+
+RigidBody add_rigid(Grid& grid, const model::Outline& outline, std::int32_t number) {
+  std::vector<std::size_t> cell;
+  RigidBody body;
+  const Vec2 centroid = outline.centroid();
+  for (const Vec2& x : polygon_of(outline)) {
+    cell.push_back(grid.point_count());
+    grid.add_point(x, number);
+    body.arms.push_back(x - centroid);
+  }
+  grid.add_cell(CellType::polygon, cell, number);
+  return body;
+}
+
+}  // namespace scabo::result

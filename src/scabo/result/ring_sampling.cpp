@@ -1,0 +1,152 @@
+#include "scabo/result/ring_sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/base/components.hpp"
+#include "scabo/element/interior_field.hpp"
+#include "scabo/geometry/line_basis.hpp"
+#include "scabo/result/ring_values.hpp"
+
+namespace scabo::result {
+
+namespace {
+
+constexpr int ring_count = 10, inner_rings = 6;
+
+}  // namespace
+
+std::vector<double> ring_levels(const element::Ring& ring) {
+  double length = 0.0, radius = 0.0;
+  for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
+    length += (ring.nodes[(i + 1) % ring.nodes.size()] - ring.nodes[i]).norm();
+    radius += ring.nodes[i].norm();
+  }
+  // Widths w, w g, w g^2 ... of `ring_count` rings add up to 1; g grows with the sum.
+  const double width = std::clamp(length / radius, 0.02, 1.0 / ring_count);
+  double low = 1.0, high = 2.0;
+  for (int halving = 0; halving < 50; ++halving) {
+    const double growth = 0.5 * (low + high);
+    double sum = 0.0, next = width;
+    for (int i = 0; i < ring_count; ++i, next *= growth) sum += next;
+    (sum < 1.0 ? low : high) = growth;
+  }
+  std::vector<double> levels;
+  double xi = 1.0, next = width;
+  for (int i = 0; i < ring_count; ++i, xi -= next, next *= low) levels.push_back(xi);
+  // Stresses may be unbounded towards the centre of an open super-element: each ring is at half the distance of the
+  // previous one.
+  if (ring.is_open())
+    for (int i = 0; i < inner_rings; ++i) levels.push_back(0.5 * levels.back());
+  return levels;
+}
+
+std::vector<double> outer_ring_levels() {
+  std::vector<double> levels{1.0};
+  constexpr int rings = 16;
+  for (int i = 1; i <= rings; ++i) levels.push_back(std::pow(farthest, static_cast<double>(i) / rings));
+  return levels;
+}
+
+namespace {
+
+/// Points of the elements of a ring: where materials meet, one point for each of them.
+void share_points(const element::Ring& ring, const element::Sectors& sectors, RingSampling& sampling) {
+  const std::size_t count = ring.elements.size();
+  std::vector<int> point_of(ring.nodes.size(), -1), material_at(ring.nodes.size(), -1);
+  for (std::size_t node = 0; node < ring.nodes.size(); ++node) sampling.nodes.push_back(static_cast<int>(node));
+  sampling.sectors.assign(ring.nodes.size(), 0);
+  for (std::size_t e = 0; e < count; ++e) {
+    const int material = sectors.material_of(e);
+    const bool goes_on = e > 0 && sectors.material_of(e - 1) == material;
+    sampling.centre.push_back(e == 0 ? 0 : sampling.centre.back() + (goes_on ? 0 : 1));
+    std::vector<int>& points = sampling.points.emplace_back();
+    for (const int node : ring.elements[e].nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      if (material_at[i] == -1) {
+        material_at[i] = material;
+        point_of[i] = node;
+        sampling.sectors[i] = e;
+      } else if (material_at[i] != material) {
+        point_of[i] = static_cast<int>(sampling.nodes.size());
+        sampling.nodes.push_back(node);
+        sampling.sectors.push_back(e);
+        material_at[i] = material;
+      }
+      points.push_back(point_of[i]);
+    }
+  }
+}
+
+}  // namespace
+
+RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded) {
+  RingSampling sampling;
+  share_points(ring, sectors, sampling);
+  std::vector<int> elements_at(sampling.nodes.size(), 0);
+  for (const std::vector<int>& points : sampling.points)
+    for (const int point : points) ++elements_at[static_cast<std::size_t>(point)];
+  for (std::size_t e = 0; e < ring.elements.size(); ++e) {
+    const mesh::LineElement& element = ring.elements[e];
+    const int order = static_cast<int>(element.nodes.size()) - 1;
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
+    const std::vector<double> lobatto = geometry::lobatto_points(order);
+    for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+      element::StrainMatrices strain =
+          element::strain_matrices(ring, element, basis.values(lobatto[i]), basis.derivatives(lobatto[i]));
+      const int point = sampling.points[e][i];
+      sampling.samples.push_back(
+          {point, 1.0 / elements_at[static_cast<std::size_t>(point)], e, std::move(strain.B1), std::move(strain.B2)});
+    }
+  }
+  sampling.levels = unbounded ? outer_ring_levels() : ring_levels(ring);
+  return sampling;
+}
+
+std::shared_ptr<const RingSampling> SamplingLibrary::of_body(const element::SolvedSuperElement& super_element) {
+  std::shared_ptr<const RingSampling>& sampling = known_[&super_element];
+  if (!sampling)
+    sampling = std::make_shared<const RingSampling>(
+        ring_sampling(super_element.ring, super_element.sectors, super_element.domain.unbounded));
+  return sampling;
+}
+
+namespace {
+
+/// Column by column: the values of a unit displacement.
+CellMap cell_map(const element::SolvedSuperElement& super_element, const RingSampling& sampling) {
+  CellMap map;
+  const auto n = places_of(super_element.ring.nodes.size());
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const element::RadialField field(super_element.solution(), super_element.modes(), Vector::Unit(n, j));
+    std::vector<double> column;
+    map.materials.clear();
+    values_inside(super_element, Vec2::Zero(), sampling, field, {}, 1,
+                  [&](const Vec2& u, const element::Vec3& stress, int material, const Vec2&) {
+                    column.insert(column.end(), {u[0], u[1], stress[0], stress[1], stress[2]});
+                    map.materials.push_back(material);
+                  });
+    const Eigen::Matrix3Xd outer = ring_stresses(super_element, sampling, field.at(1.0), Vec2::Zero(), 1.0, {});
+    column.insert(column.end(), outer.data(), outer.data() + outer.size());
+    if (j == 0) map.values.resize(static_cast<Eigen::Index>(column.size()), n);
+    map.values.col(j) = Eigen::Map<const Vector>(column.data(), map.values.rows());
+  }
+  return map;
+}
+
+}  // namespace
+
+std::shared_ptr<const RingSampling> SamplingLibrary::of_cell(const element::SolvedSuperElement& super_element,
+                                                             std::size_t cells) {
+  std::shared_ptr<const RingSampling>& sampling = known_cells_[&super_element];
+  if (sampling) return sampling;
+  RingSampling made = ring_sampling(super_element.ring, super_element.sectors, false);
+  if (!super_element.ring.is_open()) {
+    made.levels = {1.0, 0.5};  // small: a ring between sides and centre
+    if (cells > 4 * super_element.ring.nodes.size()) made.map = cell_map(super_element, made);
+  }
+  sampling = std::make_shared<const RingSampling>(std::move(made));
+  return sampling;
+}
+
+}  // namespace scabo::result

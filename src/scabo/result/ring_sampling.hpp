@@ -1,0 +1,62 @@
+// Rings on which fields of a super-element are given, and what is needed to compute strains there.
+//
+// A ring is xi = const at the boundary nodes, with smaller distances between rings towards the boundary. Where two
+// boundary elements meet, the mean of both is given, or two points if their materials differ. An unbounded body is
+// shown up to `farthest` radii.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "scabo/element/cell_library.hpp"
+
+namespace scabo::result {
+
+/// Values in a cell without loads inside, as a linear map of the displacements of its nodes: u_x, u_y and the stress
+/// xx, yy, xy of every point inside, in their order, then the stress of the points on its sides.
+struct CellMap {
+  Matrix values;               ///< (5 points inside + 3 points on sides) x n
+  std::vector<int> materials;  ///< of the points inside
+};
+
+/// Strain matrices of a super-element at the points of a ring. They are valid on every ring and for all bodies that
+/// share the super-element.
+struct RingSampling {
+  struct Sample {
+    int point = 0;        // point of the ring to which the strain belongs
+    double weight = 1.0;  // 1 / number of boundary elements that meet there
+    std::size_t element = 0;
+    Eigen::Matrix<double, 3, Eigen::Dynamic> B1, B2;
+  };
+  std::vector<int> nodes;            ///< boundary node of every point: all in order, then those where materials meet
+  std::vector<std::size_t> sectors;  ///< a boundary element at every point, for its material
+  std::vector<std::vector<int>> points;  ///< points of every element, one for each of its nodes
+  std::vector<int> centre;               ///< centre point of every element; one for each run of equal material
+  std::vector<Sample> samples;
+  std::vector<double> levels;  ///< xi of the rings, from the boundary (1) inwards; the centres come after them
+  std::optional<CellMap> map;  ///< of a cell that occurs so often that the map saves time
+};
+RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded);
+
+/// Samplings, each distinct one computed once: of a super-element that is a body, on many rings, and of a small one.
+class SamplingLibrary {
+ public:
+  std::shared_ptr<const RingSampling> of_body(const element::SolvedSuperElement& super_element);
+  std::shared_ptr<const RingSampling> of_cell(const element::SolvedSuperElement& super_element,
+                                              std::size_t cells);  ///< `cells`: how many are equal to it
+
+ private:
+  std::unordered_map<const element::SolvedSuperElement*, std::shared_ptr<const RingSampling>> known_, known_cells_;
+};
+
+/// Rings on which a super-element is sampled: the outermost is about as wide as boundary nodes are apart, and those
+/// further inside are wider by a constant factor.
+std::vector<double> ring_levels(const element::Ring& ring);
+
+/// Rings of an unbounded domain, outwards.
+std::vector<double> outer_ring_levels();
+constexpr double farthest = 6.0;
+
+}  // namespace scabo::result

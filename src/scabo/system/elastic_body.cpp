@@ -1,0 +1,333 @@
+#include "scabo/system/elastic_body.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "scabo/base/components.hpp"
+#include "scabo/base/error.hpp"
+#include "scabo/linalg/sparse_factor.hpp"
+#include "scabo/system/ranks.hpp"
+
+namespace scabo::system {
+
+ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes,
+                         std::vector<Constraint> constraints)
+    : factored_(std::move(factored)), motions_(nodes), free_(static_cast<std::size_t>(2 * nodes.size()), true) {
+  constraints_ = std::move(constraints);
+  inclined_ = InclinedNodes(constraints_);
+  find_rigid_motions(nodes);
+  for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
+  solved_ = free_;
+  further_ = further_dofs();
+  for (int dof : further_) solved_[static_cast<std::size_t>(dof)] = false;
+  find_forces_on_further();
+  place_.assign(solved_.size(), -1);
+  for (std::size_t i = 0; i < solved_.size(); ++i)
+    if (solved_[i]) place_[i] = static_cast<int>(dofs_.size()), dofs_.push_back(static_cast<int>(i));
+}
+
+void ElasticBody::find_rigid_motions(const std::vector<Vec2>& nodes) {
+  rigid_coordinates_ = free_motions(nodes, constraints_, stiffness().springs.directions, reference_, lever_);
+  if (stiffness().unbounded) rigid_coordinates_ = Matrix::Zero(3, 0);
+  rigid_motions_.resize(size(), rigid_coordinates_.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    rigid_motions_.middleRows<2>(place_of(i)) = rigid_point(nodes[i], reference_, lever_) * rigid_coordinates_;
+  for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) {
+    Vector along = inclined_.along(rigid_motions_.col(k));
+    for (const Constraint& constraint : constraints_) along[constraint.dof] = 0.0;
+    rigid_motions_.col(k) = inclined_.displacements(std::move(along));
+  }
+}
+
+std::vector<int> ElasticBody::further_dofs() const {
+  std::vector<int> chosen;
+  if (rigid_motions_.cols() == 0) return chosen;
+  // Equal pivots are common, of equal corners for one. Rounded, they are equal in every unit of length, and the
+  // choice, on which W and the iterations depend, is the same.
+  Matrix along = rigid_motions_;
+  for (Eigen::Index k = 0; k < along.cols(); ++k) along.col(k) = inclined_.along(along.col(k));
+  const Matrix rounded = (along.transpose().array() * 0x1p30).round() * 0x1p-30;
+  const Eigen::ColPivHouseholderQR<Matrix> qr(rounded);
+  for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) chosen.push_back(qr.colsPermutation().indices()[k]);
+  return chosen;
+}
+
+void ElasticBody::find_forces_on_further() {
+  const Eigen::Index m = rigid_motions_.cols();
+  Matrix B(m, m);
+  for (Eigen::Index k = 0; k < m; ++k) B.col(k) = inclined_.along(rigid_motions_.col(k))(further_);
+  on_further_ = m > 0 ? Matrix(B.transpose().inverse()) : Matrix(0, 0);
+}
+
+void ElasticBody::factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes,
+                            const std::vector<int>& contact_dofs) {
+  // Many of them are condensed fast in a balanced tree only, that of dissection: of a layer of 1,500 x 54 eight-node
+  // elements with 3,001 pairs in 1.6 s instead of 9.1 s, while the factorisation takes as long.
+  constexpr std::size_t many = 1000;
+  if (contact_dofs.size() >= many && options.ordering == linalg::Ordering::automatic)
+    options.ordering = linalg::Ordering::dissection_by_position;
+  for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
+  const bool alone = inclined_.none() && stiffness().springs.none();
+  if (stiffness().divided) {
+    linalg::FactorisationCosts costs;
+    auto factor = stiffness().divided->factorise(dofs_, inclined_, stiffness().springs.matrix, contact_dofs, costs);
+    factored_->solver = linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), costs);
+  } else if (stiffness().dense) {
+    factored_->solver = linalg::SymmetricPositiveSolver(alone ? Matrix((*stiffness().dense)(dofs_, dofs_))
+                                                              : Matrix(whole_dense()(dofs_, dofs_)));
+  } else {
+    factored_->solver = linalg::SymmetricPositiveSolver(
+        principal_part(alone ? stiffness().sparse : whole_sparse(), dofs_, place_), options);
+  }
+}
+
+Displaced ElasticBody::displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted) const {
+  Displaced to{held_displacement(prescribed), {}};
+  const bool at_rest = to.u.isZero(0.0);
+  if (at_rest && f.isZero(0.0)) return {std::move(to.u), Vector::Zero(size())};
+  to.u += solved(at_rest ? f : Vector(f - internal_forces(to.u)));
+  to.unbalanced = internal_forces(to.u) - f;
+  const double acting = largest_acting(to.unbalanced, f);
+  if (is_large()) {
+    const double largest = std::max(acting, wanted.at_least), allowed = wanted.part * largest;
+    const Goal reached = goal(f, largest);
+    if (largest_left(to.unbalanced, reached) <= allowed) return to;
+    Refined exact = refined(to.u, f, allowed, reached);
+    return {linalg::rounded(exact.u), std::move(exact.left)};
+  }
+  to.u -= solved(to.unbalanced);  // another solve of a small body costs nothing
+  to.unbalanced.resize(0);
+  if (!rounding_matters(to.u, acting, wanted)) return to;
+  Refined exact = refined(to.u, f, wanted);
+  return {linalg::rounded(exact.u), std::move(exact.left)};
+}
+
+Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const {
+  Vector u = held_displacement(prescribed);
+  const bool at_rest = u.isZero(0.0);
+  if (dofs.empty() || (at_rest && f.isZero(0.0))) return u;
+  if (!at_rest || !is_large()) return displacement(f, prescribed);
+  // A few others tell how far the body bends, and so whether rounding matters.
+  constexpr std::size_t samples = 64;
+  std::vector<int> wanted;
+  std::vector<char> chosen(place_.size(), 0);
+  const auto want = [&](int dof) {
+    for (const int component : both_if_inclined(dof)) {
+      const auto i = static_cast<std::size_t>(component);
+      if (place_[i] >= 0 && !chosen[i]) chosen[i] = 1, wanted.push_back(component);
+    }
+  };
+  for (const int dof : dofs) want(dof);
+  for (std::size_t k = 0; k < samples; ++k) want(dofs_[k * dofs_.size() / samples]);
+  std::vector<int> places;
+  for (const int dof : wanted) places.push_back(place_[static_cast<std::size_t>(dof)]);
+  Vector v = Vector::Zero(size());
+  v(wanted) = solver().solve_at(inclined_.components(f)(dofs_), places);
+  u = inclined_.displacements(std::move(v));
+  double acting = f.lpNorm<Eigen::Infinity>();  // and what holds a body without supports against its loads
+  if (rigid_motions_.cols() > 0)
+    acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
+  return rounding_matters(u, acting) ? displacement(f, prescribed) : u;
+}
+
+Matrix ElasticBody::flexibility(const std::vector<int>& dofs, bool refines) const {
+  const bool any = !inclined_.none() &&
+                   std::any_of(dofs.begin(), dofs.end(), [&](int dof) { return inclined_.of(dof / 2) != nullptr; });
+  if (!any) return flexibility_along(dofs, refines);
+  // u = T v on these degrees of freedom, with both of every inclined node.
+  std::vector<int> both;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::map<int, int> column_of;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto row = static_cast<int>(i);
+    const int node = dofs[i] / 2;
+    const Mat2* M = inclined_.of(node);
+    if (!M) {
+      entries.emplace_back(row, static_cast<int>(both.size()), 1.0);
+      both.push_back(dofs[i]);
+      continue;
+    }
+    const auto [at, added] = column_of.emplace(node, static_cast<int>(both.size()));
+    if (added) both.insert(both.end(), {static_cast<int>(place_of(node)), static_cast<int>(place_of(node, 1))});
+    for (int k = 0; k < 2; ++k) entries.emplace_back(row, at->second + k, (*M)(dofs[i] % 2, k));
+  }
+  Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(both.size()));
+  T.setFromTriplets(entries.begin(), entries.end());
+  const Matrix half = T * flexibility_along(both, refines), A = T * half.transpose();
+  return 0.5 * (A + A.transpose());
+}
+
+Matrix ElasticBody::flexibility_along(const std::vector<int>& dofs, bool refines) const {
+  std::vector<int> places, at;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const int place = place_[static_cast<std::size_t>(dofs[i])];
+    if (place >= 0) places.push_back(place), at.push_back(static_cast<int>(i));
+  }
+  Matrix A = solver().inverse_block(places);
+  if (at.size() < dofs.size()) {
+    const Matrix of_solved = std::move(A);
+    A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
+    A(at, at) = of_solved;
+  }
+  // The factor alone gives it to about this condition times the unit of rounding.
+  constexpr double most_entries = 1e9;  // some seconds
+  const double entries = stiffness().entries() * static_cast<double>(at.size());
+  if (refines && !at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 &&
+      entries < most_entries) {
+    const Vector none = Vector::Zero(size());
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      Vector force = none;
+      force[dofs[static_cast<std::size_t>(at[j])]] = 1.0;
+      force = inclined_.forces(std::move(force));
+      const Vector u = inclined_.along(linalg::rounded(refined(solved(force), force, {}).u));
+      for (std::size_t i = 0; i < at.size(); ++i) A(at[i], at[j]) = u[dofs[static_cast<std::size_t>(at[i])]];
+    }
+    A = 0.5 * (A + A.transpose()).eval();
+  }
+  return A;
+}
+
+Vector ElasticBody::flexed(const std::vector<int>& dofs, const Vector& forces) const {
+  Vector load = Vector::Zero(size());
+  load(dofs) = forces;
+  load = inclined_.components(std::move(load));
+  std::vector<int> wanted, places;
+  for (const int dof : dofs)
+    for (const int component : both_if_inclined(dof))
+      if (const int place = place_[static_cast<std::size_t>(component)]; place >= 0)
+        wanted.push_back(component), places.push_back(place);
+  Vector v = Vector::Zero(size());
+  v(wanted) = solver().solve_at(load(dofs_), places);
+  return inclined_.displacements(std::move(v))(dofs);
+}
+
+FreeStiffness ElasticBody::free_stiffness() const {
+  ensure(!is_divided(), "the stiffness of a divided body is not here");
+  FreeStiffness free;
+  std::vector<int> place(free_.size(), -1);
+  for (std::size_t i = 0; i < free_.size(); ++i)
+    if (free_[i]) place[i] = static_cast<int>(free.dofs.size()), free.dofs.push_back(static_cast<int>(i));
+  if (stiffness().dense)
+    free.K = Matrix(whole_dense()(free.dofs, free.dofs)).sparseView();
+  else
+    free.K = principal_part(whole_sparse(), free.dofs, place);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < free.dofs.size(); ++k) {
+    const int dof = free.dofs[k], column = static_cast<int>(k);
+    const Mat2* const M = inclined_.of(dof / 2);
+    if (!M)
+      entries.emplace_back(dof, column, 1.0);
+    else
+      for (int row = 0; row < 2; ++row) entries.emplace_back(dof / 2 * 2 + row, column, (*M)(row, dof % 2));
+  }
+  free.map.resize(size(), static_cast<Eigen::Index>(free.dofs.size()));
+  free.map.setFromTriplets(entries.begin(), entries.end());
+  free.motions.resize(static_cast<Eigen::Index>(further_.size()), rigid_motions_.cols());
+  for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k)
+    free.motions.col(k) = inclined_.along(rigid_motions_.col(k))(further_);
+  for (const int dof : further_) free.further.push_back(place[static_cast<std::size_t>(dof)]);
+  return free;
+}
+
+double ElasticBody::operations() const {
+  const double dense = std::pow(static_cast<double>(dofs_.size()), 3.0) / 3.0;
+  return stiffness().dense ? dense : solver().costs().operations;
+}
+
+Vector ElasticBody::unbalanced(const Vector& u, const Vector& f) const {
+  Vector plain = internal_forces(u) - f;
+  if (!u.allFinite()) return plain;
+  const double acting = largest_acting(plain, f), allowed = Balanced().part * acting;
+  const Goal reached = goal(f, acting);
+  if (is_large() ? largest_left(plain, reached) <= allowed : !rounding_matters(u, acting)) return plain;
+  Refined exact = is_large() ? refined(u, f, allowed, reached) : refined(u, f, {});
+  constexpr double last_digits = 256 * std::numeric_limits<double>::epsilon();
+  if (!((linalg::rounded(exact.u) - u).lpNorm<Eigen::Infinity>() <= last_digits * u.lpNorm<Eigen::Infinity>()))
+    return plain;
+  return std::move(exact.left);
+}
+
+Vector ElasticBody::reactions_of(const Vector& unbalanced) const {
+  const Vector remaining = inclined_.components(unbalanced);
+  Vector forces(static_cast<Eigen::Index>(constraints_.size()));
+  for (std::size_t c = 0; c < constraints_.size(); ++c)
+    forces[static_cast<Eigen::Index>(c)] = remaining[constraints_[c].dof];
+  return forces;
+}
+
+double ElasticBody::imbalance_of(const Vector& unbalanced) const {
+  const Vector remaining = inclined_.components(unbalanced);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < free_.size(); ++i)
+    if (free_[i]) largest = std::max(largest, std::abs(remaining[static_cast<Eigen::Index>(i)]));
+  return largest;
+}
+
+double ElasticBody::elastic_energy(const Vector& u) const {
+  const Vector resisting = internal_forces(u);
+  return !by_differences() && energy_needs_digits(u, resisting) ? exact_energy(u) : 0.5 * u.dot(resisting);
+}
+
+double ElasticBody::elastic_energy(const Vector& u, const Vector& f, const Vector& unbalanced) const {
+  const Vector resisting = f + unbalanced;
+  // By differences, forces are known more exactly than rounding of u leaves them.
+  const bool exact = by_differences();
+  if (!exact && rounding_matters(u, resisting.lpNorm<Eigen::Infinity>())) return exact_energy(u);  // u is refined
+  Vector acting = Vector::Zero(size());
+  const Vector left = inclined_.components(unbalanced);
+  for (const Constraint& constraint : constraints_) acting[constraint.dof] = left[constraint.dof];
+  const double work = u.dot(f) + inclined_.along(u).dot(acting);
+  return work - (!exact && energy_needs_digits(u, resisting) ? exact_energy(u) : 0.5 * u.dot(resisting));
+}
+
+double ElasticBody::energy_lost(const Vector& u) const {
+  // An estimate: digits that the rigid motions take from it do not count.
+  const Vector strained = stiffness().unbounded ? u : motions_.taken_out_of(u);
+  const Vector square = strained.cwiseAbs2();
+  const double sum = square.dot(stiffness().times_squares(square));
+  return 0.5 * stiffness().rounding * std::sqrt(sum);  // errors of single entries, independent of each other
+}
+
+double ElasticBody::stiff_force(const Vector& u) const {
+  return factored_->largest_diagonal * u.lpNorm<Eigen::Infinity>();
+}
+
+double ElasticBody::exact_energy(const Vector& u) const {
+  return 0.5 * u.dot(forces_left(linalg::twofold(u), Vector::Zero(size())));
+}
+
+Matrix ElasticBody::whole_dense() const {
+  Matrix K = *stiffness().dense;
+  if (has_springs()) K += stiffness().springs.matrix;
+  return inclined_.none() ? K : inclined_.stiffness(std::move(K));
+}
+
+linalg::SparseMatrix ElasticBody::whole_sparse() const {
+  const linalg::SparseMatrix K = has_springs() ? with_springs(stiffness()) : stiffness().sparse;
+  return inclined_.none() ? K : inclined_.stiffness(K);
+}
+
+std::vector<int> ElasticBody::both_if_inclined(int dof) const {
+  if (!inclined_.of(dof / 2)) return {dof};
+  return {dof / 2 * 2, dof / 2 * 2 + 1};
+}
+
+Vector ElasticBody::held_displacement(const Vector& prescribed) const {
+  Vector u = Vector::Zero(size());
+  for (std::size_t c = 0; c < constraints_.size(); ++c)
+    u[constraints_[c].dof] = prescribed[static_cast<Eigen::Index>(c)];
+  return inclined_.displacements(std::move(u));
+}
+
+Vector ElasticBody::solved(const Vector& f) const {
+  const Vector load = inclined_.components(f);
+  Vector v = Vector::Zero(size());
+  v(dofs_) = solver().solve(load(dofs_)).col(0);
+  return inclined_.displacements(std::move(v));
+}
+
+}  // namespace scabo::system
