@@ -68,6 +68,7 @@ class NewtonDirection {
   bool solve_along_joints(double regularisation);
   bool solve_by_single_precision(double regularisation);
   void lay_out_sparse(double regularisation);
+  bool factorise_sparse(const Eigen::SparseMatrix<double>& A);
   bool solve_sparse(double regularisation);
   bool solve_softened();
   template <int d>
