@@ -73,6 +73,7 @@ class NewtonDirection {
   bool solve_preconditioned(double regularisation, const std::function<void(const Vector&, Vector&)>& precondition,
                             const GmresOptions& options);
   void lay_out_sparse(double regularisation);
+  bool factorise_sparse(const Eigen::SparseMatrix<double>& A);
   bool solve_sparse(double regularisation);
   bool solve_softened();
   template <int d>

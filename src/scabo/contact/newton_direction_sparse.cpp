@@ -72,6 +72,17 @@ void NewtonDirection::lay_out_sparse(double regularisation) {
   A.finalize();
 }
 
+bool NewtonDirection::factorise_sparse(const Eigen::SparseMatrix<double>& A) {
+  if (equations_.problem().G.cols() == 0) return work_->sparse_solver.factorise(A);
+  return work_->sparse_solver.factorise(A, [&] {
+    if (!work_->joint_order) work_->joint_order.emplace(equations_.problem());
+    std::vector<int> pair_of;
+    pair_of.reserve(unknowns_.size());
+    for (const Unknown& unknown : unknowns_) pair_of.push_back(unknown.pair);
+    return work_->joint_order->blocks(pair_of);
+  });
+}
+
 bool NewtonDirection::solve_sparse(double regularisation) {
   lay_out_sparse(regularisation);
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
@@ -80,7 +91,7 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   const Vector right = right_.head(A.rows());
   const double largest = right.lpNorm<Eigen::Infinity>() + 1e-300;
   if (soft_) return solve_softened();
-  if (!work.redundant && work.sparse_solver.factorise(A) && work.sparse_solver.reciprocal_condition() > 1e-13) {
+  if (!work.redundant && factorise_sparse(A) && work.sparse_solver.reciprocal_condition() > 1e-13) {
     work.sparse_solver.solve(right, y_);
     work.residual = right - A * y_;
     work.sparse_solver.solve(work.residual, work.image);
@@ -92,7 +103,7 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   work.raised = A;
   for (Eigen::Index j = 0; j < size; ++j)
     work.raised.coeffRef(j, j) += Workspace::raise * (1.0 - unknowns_[static_cast<std::size_t>(j)].own);
-  if (!work.sparse_solver.factorise(work.raised) || !(work.sparse_solver.reciprocal_condition() > 1e-16)) return false;
+  if (!factorise_sparse(work.raised) || !(work.sparse_solver.reciprocal_condition() > 1e-16)) return false;
   const auto multiply = [&](const Vector& x, Vector& result) { result.noalias() = A * x; };
   const auto precondition = [&](const Vector& x, Vector& result) { work.sparse_solver.solve(x, result); };
   y_.setZero(A.rows());
@@ -116,7 +127,7 @@ bool NewtonDirection::solve_softened() {
   Eigen::SparseMatrix<double> diagonal(size + m, size + m);
   diagonal.setFromTriplets(entries.begin(), entries.end());
   work.raised = work.sparse + diagonal;
-  if (!work.sparse_solver.factorise(work.raised)) return false;
+  if (!factorise_sparse(work.raised)) return false;
   const Vector right = right_.head(size + m);
   work.sparse_solver.solve(right, y_);
   work.residual = right - work.raised * y_;

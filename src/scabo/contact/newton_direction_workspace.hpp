@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scabo/contact/gmres.hpp"
+#include "scabo/contact/joint_order.hpp"
 #include "scabo/contact/joint_system.hpp"
 #include "scabo/contact/line_preconditioner.hpp"
 #include "scabo/contact/newton_direction.hpp"
@@ -30,6 +31,7 @@ struct NewtonDirection::Workspace {
   std::vector<double> sum;
   std::vector<int> touched;
   linalg::SparseGeneralSolver sparse_solver;
+  std::optional<JointOrder> joint_order;  // of sparse saddle systems with many unknowns
   bool joints_sought = false;
   std::optional<JointSystem<2>> joints_in_plane;
   std::optional<JointSystem<3>> joints_in_space;

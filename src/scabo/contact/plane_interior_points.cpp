@@ -8,6 +8,7 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/joint_order.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
@@ -124,14 +125,15 @@ class PlaneInteriorPoints::Implementation {
       G_.col(k) *= length_[k];
     }
     f_ = m_ > 0 ? Vector(problem_.f.cwiseProduct(length_)) : Vector();
-    W_ = problem_.W.is_sparse() ? problem_.W.sparse() : Sparse(problem_.W.dense().sparseView());
+    const Sparse of_dense = problem_.W.is_sparse() ? Sparse() : Sparse(problem_.W.dense().sparseView());
+    const Sparse& W = problem_.W.is_sparse() ? problem_.W.sparse() : of_dense;
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(static_cast<std::size_t>(W_.nonZeros() + 2 * G_.nonZeros() + 4 * N_));
+    entries.reserve(static_cast<std::size_t>(W.nonZeros() + 2 * G_.nonZeros() + 4 * N_));
     const auto add = [&](Index row, Index column, double value) {
       entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
     };
     for (Index column = 0; column < 2 * N_; ++column) {
-      for (Sparse::InnerIterator it(W_, column); it; ++it) add(it.row(), column, it.value());
+      for (Sparse::InnerIterator it(W, column); it; ++it) add(it.row(), column, it.value());
       for (Index k = 0; k < 2; ++k) add(column - column % 2 + k, column, 0.0);
     }
     for (Index k = 0; k < m_; ++k)
@@ -197,7 +199,11 @@ class PlaneInteriorPoints::Implementation {
       row_[2 * i + 1] = 1.0 / (1.0 + plus + minus);
     }
     for (Index k = 0; k < K_.nonZeros(); ++k) K_.valuePtr()[k] *= row_[K_.innerIndexPtr()[k]];
-    return lu_.factorise(K_);
+    return lu_.factorise(K_, [&] {
+      std::vector<int> pair_of(static_cast<std::size_t>(2 * N_));
+      for (std::size_t row = 0; row < pair_of.size(); ++row) pair_of[row] = static_cast<int>(row / 2);
+      return JointOrder(problem_).blocks(pair_of);
+    });
   }
 
   /// Of the equations linearised, with these changes of the products; distance and balance go to zero if `whole`.
@@ -275,7 +281,7 @@ class PlaneInteriorPoints::Implementation {
   Array mu_, p_n_, p_t_, u_n_, forward_, backward_, s_forward_, s_backward_;
   Vector a_, length_, f_, distance_, balance_, row_;
   Products now_;
-  Sparse W_, G_, whole_, K_;
+  Sparse G_, whole_, K_;
   std::vector<std::array<Index, 3>> diagonal_;  // entries nn, tn and tt of every pair
   linalg::SparseGeneralSolver lu_;
   double middle_ = 0.0, step_ = 0.0, least_middle_ = HUGE_VAL, least_residual_ = HUGE_VAL;

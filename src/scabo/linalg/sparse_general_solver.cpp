@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/elimination_order.hpp"
@@ -13,34 +14,59 @@ namespace scabo::linalg {
 
 namespace {
 
-/// An order of elimination for a matrix of saddle type, [W G; G' 0]. Unknowns without a diagonal entry, or with a small
-/// negative one that only holds them, have none to be eliminated with: each is put right behind a group of its
-/// neighbours with equal columns, whose elimination fills it, at most half as many as the group has members. The
-/// groups, with what was put behind them, are dissected. Empty where there are no such unknowns.
-std::vector<int> saddle_order(const Eigen::SparseMatrix<double>& A) {
+/// Unknowns from which a saddle matrix is factorised by fronts of blocks instead of UMFPACK. The answers agree; of fewer
+/// unknowns neither takes long.
+constexpr int least_of_fronts = 4000;
+
+/// A matrix of saddle type, [W G; G' 0], for its elimination. Unknowns without a diagonal entry, or with a small negative
+/// one that only holds them, have none to be eliminated with: they are bare.
+struct Saddle {
+  SparseMatrix both;                     // with the pattern of A + A'
+  std::vector<char> bare;                // of each unknown
+  std::vector<int> groups;               // first unknown of each group with equal columns, and n
+  std::vector<int> group_of;             // of each unknown; of a bare one the group that it is put behind
+  std::vector<std::vector<int>> behind;  // bare unknowns of each group
+  std::vector<std::int64_t> order;       // of the groups
+  bool is_own(int group, int j) const {
+    return group_of[static_cast<std::size_t>(j)] == group && j >= groups[static_cast<std::size_t>(group)] &&
+           j < groups[static_cast<std::size_t>(group) + 1];
+  }
+};
+
+/// Each bare unknown is put behind a group of its neighbours with equal columns, whose elimination fills it, at most half
+/// as many as the group has members. The groups, with what was put behind them, are dissected. Nothing where no unknown
+/// is bare.
+std::optional<Saddle> saddle_of(const Eigen::SparseMatrix<double>& A) {
   const auto n = static_cast<int>(A.rows());
   constexpr double small = 1e-3;  // of the largest entry of its column
-  std::vector<char> bare(static_cast<std::size_t>(n), 1);
+  Saddle saddle;
+  saddle.bare.assign(static_cast<std::size_t>(n), 1);
   for (int j = 0; j < n; ++j) {
     double own = 0.0, largest = 0.0;
     for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
       largest = std::max(largest, std::abs(it.value()));
       if (it.row() == j) own = it.value();
     }
-    if (own > 0.0 || own < -small * largest) bare[static_cast<std::size_t>(j)] = 0;
+    if (own > 0.0 || own < -small * largest) saddle.bare[static_cast<std::size_t>(j)] = 0;
   }
-  if (std::find(bare.begin(), bare.end(), 1) == bare.end()) return {};
-  const SparseMatrix both = A + SparseMatrix(A.transpose());
-  const std::vector<int> groups = equal_columns(both);
+  const std::vector<char>& bare = saddle.bare;
+  if (std::find(bare.begin(), bare.end(), 1) == bare.end()) return std::nullopt;
+  saddle.both = A + SparseMatrix(A.transpose());
+  const SparseMatrix& both = saddle.both;
+  saddle.groups = equal_columns(both);
+  const std::vector<int>& groups = saddle.groups;
+  std::vector<int>& group_of = saddle.group_of;
+  std::vector<std::vector<int>>& behind = saddle.behind;
   const auto count = static_cast<int>(groups.size()) - 1;
-  std::vector<int> group_of(static_cast<std::size_t>(n)), room(static_cast<std::size_t>(count), 0);
+  group_of.resize(static_cast<std::size_t>(n));
+  std::vector<int> room(static_cast<std::size_t>(count), 0);
   for (int g = 0; g < count; ++g)
     for (int j = groups[static_cast<std::size_t>(g)]; j < groups[static_cast<std::size_t>(g) + 1]; ++j) {
       group_of[static_cast<std::size_t>(j)] = g;
       room[static_cast<std::size_t>(g)] += bare[static_cast<std::size_t>(j)] ? 0 : 1;
     }
   for (int& of_group : room) of_group = (of_group + 1) / 2;
-  std::vector<std::vector<int>> behind(static_cast<std::size_t>(count));
+  behind.resize(static_cast<std::size_t>(count));
   for (int j = 0; j < n; ++j) {
     if (!bare[static_cast<std::size_t>(j)]) continue;
     int most = 0, best = -1;
@@ -71,14 +97,70 @@ std::vector<int> saddle_order(const Eigen::SparseMatrix<double>& A) {
   for (int g = 0; g < count; ++g) entries.emplace_back(g, g, 1.0);
   SparseMatrix quotient(count, count);
   quotient.setFromTriplets(entries.begin(), entries.end());
+  saddle.order = elimination_order(quotient, Ordering::nested_dissection);
+  return saddle;
+}
+
+/// Pivots that stay on the diagonal: each group, then what is behind it.
+std::vector<int> order_of(const Saddle& saddle) {
   std::vector<int> order;
-  order.reserve(static_cast<std::size_t>(n));
-  for (const std::int64_t g : elimination_order(quotient, Ordering::nested_dissection)) {
-    for (int j = groups[static_cast<std::size_t>(g)]; j < groups[static_cast<std::size_t>(g) + 1]; ++j)
-      if (group_of[static_cast<std::size_t>(j)] == g) order.push_back(j);
-    for (const int j : behind[static_cast<std::size_t>(g)]) order.push_back(j);
+  order.reserve(saddle.bare.size());
+  for (const std::int64_t g : saddle.order) {
+    const auto group = static_cast<std::size_t>(g);
+    for (int j = saddle.groups[group]; j < saddle.groups[group + 1]; ++j)
+      if (saddle.is_own(static_cast<int>(g), j)) order.push_back(j);
+    order.insert(order.end(), saddle.behind[group].begin(), saddle.behind[group].end());
   }
   return order;
+}
+
+/// Each group, then the bare unknowns of which it is the last neighbour: what all neighbours together leave them as
+/// pivots is largest there.
+OrderedBlocks blocks_of(const Saddle& saddle) {
+  const std::size_t n = saddle.bare.size();
+  std::vector<int> place(n, -1);  // of the group of each unknown that is not bare, in the order of groups
+  for (std::size_t k = 0; k < saddle.order.size(); ++k) {
+    const auto g = static_cast<std::size_t>(saddle.order[k]);
+    for (int j = saddle.groups[g]; j < saddle.groups[g + 1]; ++j)
+      if (!saddle.bare[static_cast<std::size_t>(j)]) place[static_cast<std::size_t>(j)] = static_cast<int>(k);
+  }
+  std::vector<std::vector<int>> last_of(saddle.order.size());  // bare unknowns
+  for (std::size_t j = 0; j < n; ++j) {
+    if (!saddle.bare[j]) continue;
+    int last = static_cast<int>(saddle.order.size()) - 1;
+    bool any = false;
+    for (SparseMatrix::InnerIterator it(saddle.both, static_cast<Eigen::Index>(j)); it; ++it)
+      if (const int at = place[static_cast<std::size_t>(it.row())]; at >= 0) {
+        last = any ? std::max(last, at) : at;
+        any = true;
+      }
+    last_of[static_cast<std::size_t>(last)].push_back(static_cast<int>(j));
+  }
+  OrderedBlocks blocks;
+  std::vector<int> block_of(n, -1);
+  const auto add = [&](std::vector<int> members) {
+    for (const int j : members) block_of[static_cast<std::size_t>(j)] = static_cast<int>(blocks.members.size());
+    blocks.members.push_back(std::move(members));
+  };
+  for (std::size_t k = 0; k < saddle.order.size(); ++k) {
+    const auto g = static_cast<std::size_t>(saddle.order[k]);
+    std::vector<int> members;
+    for (int j = saddle.groups[g]; j < saddle.groups[g + 1]; ++j)
+      if (!saddle.bare[static_cast<std::size_t>(j)]) members.push_back(j);
+    if (!members.empty()) add(std::move(members));
+    for (const int j : last_of[k]) add({j});
+  }
+  blocks.later.resize(blocks.members.size());
+  for (std::size_t v = 0; v < blocks.members.size(); ++v) {
+    std::vector<int>& later = blocks.later[v];
+    for (SparseMatrix::InnerIterator it(saddle.both, blocks.members[v].front()); it; ++it)
+      if (const int other = block_of[static_cast<std::size_t>(it.row())];
+          other > static_cast<int>(v) && (later.empty() || later.back() != other))
+        later.push_back(other);
+    std::sort(later.begin(), later.end());
+    later.erase(std::unique(later.begin(), later.end()), later.end());
+  }
+  return blocks;
 }
 
 }  // namespace
@@ -90,6 +172,8 @@ struct SparseGeneralSolver::Factor {
   double control[UMFPACK_CONTROL];
   std::vector<int> indices;
   std::vector<double> room;
+  std::optional<MultifrontalLU> fronts;
+  bool by_fronts = false;  // the matrix at hand is factorised by them
 
   Factor() { of_any(); }
   void of_any() {
@@ -118,9 +202,11 @@ struct SparseGeneralSolver::Factor {
   void forget_pattern() {
     if (symbolic != nullptr) umfpack_di_free_symbolic(&symbolic);
     symbolic = nullptr;
+    fronts.reset();
   }
   bool same_pattern(const Eigen::SparseMatrix<double>& other) const {
-    return symbolic != nullptr &&
+    return (symbolic != nullptr || fronts) && static_cast<Eigen::Index>(outer.size()) == other.outerSize() + 1 &&
+           static_cast<Eigen::Index>(inner.size()) == other.nonZeros() &&
            std::equal(outer.begin(), outer.end(), other.outerIndexPtr(),
                       other.outerIndexPtr() + other.outerSize() + 1) &&
            std::equal(inner.begin(), inner.end(), other.innerIndexPtr(), other.innerIndexPtr() + other.nonZeros());
@@ -132,7 +218,8 @@ SparseGeneralSolver::~SparseGeneralSolver() = default;
 SparseGeneralSolver::SparseGeneralSolver(SparseGeneralSolver&&) noexcept = default;
 SparseGeneralSolver& SparseGeneralSolver::operator=(SparseGeneralSolver&&) noexcept = default;
 
-bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A) {
+bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A,
+                                    const std::function<OrderedBlocks()>& blocks) {
   ensure(A.rows() == A.cols() && A.isCompressed(),
          "SparseGeneralSolver: a square matrix in compressed columns is wanted");
   factor_->forget();
@@ -140,14 +227,26 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A) {
   reciprocal_condition_ = 1.0;
   if (A.rows() == 0) return true;
   const auto n = static_cast<int>(A.rows());
-  double info[UMFPACK_INFO];
-  int status = UMFPACK_OK;
   if (!factor_->same_pattern(A)) {
     factor_->forget_pattern();
     factor_->outer.assign(A.outerIndexPtr(), A.outerIndexPtr() + n + 1);
     factor_->inner.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
-    if (const std::vector<int> order = saddle_order(A); !order.empty()) {
+    if (n >= least_of_fronts && blocks)
+      factor_->fronts.emplace(blocks());
+    else if (n >= least_of_fronts)
+      if (const std::optional<Saddle> saddle = saddle_of(A)) factor_->fronts.emplace(blocks_of(*saddle));
+  }
+  factor_->by_fronts = factor_->fronts && factor_->fronts->factorise(A);
+  if (factor_->by_fronts) {
+    reciprocal_condition_ = factor_->fronts->reciprocal_condition();
+    return true;
+  }
+  double info[UMFPACK_INFO];
+  int status = UMFPACK_OK;
+  if (factor_->symbolic == nullptr) {
+    if (const std::optional<Saddle> saddle = saddle_of(A)) {
       factor_->of_saddle();
+      const std::vector<int> order = order_of(*saddle);
       status = umfpack_di_qsymbolic(n, n, A.outerIndexPtr(), A.innerIndexPtr(), nullptr, order.data(),
                                     &factor_->symbolic, factor_->control, info);
     } else {
@@ -169,6 +268,7 @@ void SparseGeneralSolver::solve(const Vector& b, Vector& x) const {
   ensure(b.size() == A.rows(), "SparseGeneralSolver: matrix and right-hand side differ in size");
   x.resize(b.size());
   if (b.size() == 0) return;
+  if (factor_->by_fronts) return factor_->fronts->solve(b, x);
   factor_->indices.resize(static_cast<std::size_t>(b.size()));
   factor_->room.resize(static_cast<std::size_t>(b.size()));
   umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), x.data(), b.data(), factor_->numeric,

@@ -2,12 +2,15 @@
 // (2004) 196), ordered by METIS. Of a saddle matrix [W G; G' 0] the unknowns without a diagonal entry stand right
 // behind neighbours that fill it, and pivots stay on the diagonal. UMFPACK by itself takes such a matrix for an
 // unsymmetric one and orders A'A, which takes three times the operations (walls of 40 x 40 blocks: 4.1e9 and 1.2e10).
+// Large saddle matrices are factorised by fronts of blocks (multifrontal_lu.hpp) wherever that is accurate.
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <functional>
 #include <memory>
 
 #include "scabo/base/types.hpp"
+#include "scabo/linalg/multifrontal_lu.hpp"
 
 namespace scabo::linalg {
 
@@ -20,7 +23,10 @@ class SparseGeneralSolver {
 
   /// Of `A`, n x n and compressed, which must outlive the solves. False where a pivot is zero. The ordering is kept for
   /// the next matrix with the same pattern: about half of the time.
-  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& A);
+  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& A) { return factorise(A, {}); }
+  /// The same where the caller knows `blocks` and their order, which is asked for when the pattern is new: of large
+  /// matrices it is found for all patterns at once.
+  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& A, const std::function<OrderedBlocks()>& blocks);
   /// Smallest over largest pivot: a coarse estimate of 1 / (|A| |A^-1|).
   double reciprocal_condition() const { return reciprocal_condition_; }
   /// x = A^-1 b.

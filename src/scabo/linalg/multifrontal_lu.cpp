@@ -1,0 +1,264 @@
+#include "scabo/linalg/multifrontal_lu.hpp"
+
+#include <cblas.h>
+#include <lapacke.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/base/error.hpp"
+#include "scabo/base/interruption.hpp"
+#include "scabo/linalg/dense.hpp"
+
+namespace scabo::linalg {
+
+namespace {
+
+/// Time of a front with k pivots and b neighbours, in operations of large products; what is left of it is added to
+/// another front, which takes as long as so many operations an entry.
+double cost_of(double k, double b) {
+  constexpr double of_adding = 60.0;
+  return k * k * (2.0 / 3.0 * k + 2.0 * b) + 2.0 * k * b * b + of_adding * b * b;
+}
+
+constexpr int least_halved = 64;  // triangular solves of fewer unknowns are left to BLAS, whose kernels are slow there
+
+/// X <- L^-1 X, L lower with unit diagonal.
+void solve_lower(const Eigen::Ref<const Matrix>& L, Eigen::Ref<Matrix> X) {
+  const Eigen::Index n = L.rows(), half = n / 2;
+  if (n <= least_halved) {
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, static_cast<int>(n),
+                static_cast<int>(X.cols()), 1.0, L.data(), static_cast<int>(L.outerStride()), X.data(),
+                static_cast<int>(X.outerStride()));
+    return;
+  }
+  solve_lower(L.topLeftCorner(half, half), X.topRows(half));
+  add_product(-1.0, L.bottomLeftCorner(n - half, half), X.topRows(half), X.bottomRows(n - half));
+  solve_lower(L.bottomRightCorner(n - half, n - half), X.bottomRows(n - half));
+}
+
+/// X <- X U^-1.
+void solve_upper_from_right(const Eigen::Ref<const Matrix>& U, Eigen::Ref<Matrix> X) {
+  const Eigen::Index n = U.rows(), half = n / 2;
+  if (n <= least_halved) {
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, static_cast<int>(X.rows()),
+                static_cast<int>(n), 1.0, U.data(), static_cast<int>(U.outerStride()), X.data(),
+                static_cast<int>(X.outerStride()));
+    return;
+  }
+  solve_upper_from_right(U.topLeftCorner(half, half), X.leftCols(half));
+  add_product(-1.0, X.leftCols(half), U.topRightCorner(half, n - half), X.rightCols(n - half));
+  solve_upper_from_right(U.bottomRightCorner(n - half, n - half), X.rightCols(n - half));
+}
+
+}  // namespace
+
+MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) {
+  // What is left of each block when it is eliminated: its later neighbours and those of the blocks below it.
+  const std::size_t count = blocks.members.size();
+  std::vector<std::vector<int>> left = std::move(blocks.later), below(count);
+  std::vector<int> both, roots;
+  for (std::size_t v = 0; v < count; ++v) {
+    for (const int child : below[v]) {
+      const std::vector<int>& theirs = left[static_cast<std::size_t>(child)];
+      both.clear();
+      std::set_union(left[v].begin(), left[v].end(), theirs.begin() + 1, theirs.end(), std::back_inserter(both));
+      left[v].swap(both);
+    }
+    if (left[v].empty())
+      roots.push_back(static_cast<int>(v));
+    else
+      below[static_cast<std::size_t>(left[v].front())].push_back(static_cast<int>(v));
+  }
+
+  // A front for each block, merged with those below where that is worth it.
+  std::vector<double> pivots(count), border(count, 0.0);
+  std::vector<std::vector<int>> merged(count), children(count);  // blocks; fronts, by their last block
+  for (std::size_t v = 0; v < count; ++v) {
+    pivots[v] = static_cast<double>(blocks.members[v].size());
+    for (const int w : left[v]) border[v] += static_cast<double>(blocks.members[static_cast<std::size_t>(w)].size());
+    merged[v] = {static_cast<int>(v)};
+    std::sort(below[v].begin(), below[v].end(),
+              [&](int c, int d) { return border[static_cast<std::size_t>(c)] > border[static_cast<std::size_t>(d)]; });
+    for (const int c : below[v]) {
+      const auto child = static_cast<std::size_t>(c);
+      const double apart = cost_of(pivots[child], border[child]) + cost_of(pivots[v], border[v]);
+      if (cost_of(pivots[child] + pivots[v], border[v]) > apart) {
+        children[v].push_back(c);
+        continue;
+      }
+      pivots[v] += pivots[child];
+      merged[v].insert(merged[v].end(), merged[child].begin(), merged[child].end());
+      children[v].insert(children[v].end(), children[child].begin(), children[child].end());
+      merged[child].clear();
+    }
+  }
+
+  // Fronts, each after its children: these one after the other, so that few rests wait.
+  std::vector<int> number(count, -1);
+  std::vector<std::pair<int, std::size_t>> path;
+  for (const int root : roots) {
+    path.emplace_back(root, 0);
+    while (!path.empty()) {
+      auto& [at, next] = path.back();
+      const auto v = static_cast<std::size_t>(at);
+      if (next < children[v].size()) {
+        path.emplace_back(children[v][next++], 0);
+        continue;
+      }
+      Front front;
+      std::sort(merged[v].begin(), merged[v].end());
+      for (const int w : merged[v])
+        front.unknowns.insert(front.unknowns.end(), blocks.members[static_cast<std::size_t>(w)].begin(),
+                              blocks.members[static_cast<std::size_t>(w)].end());
+      front.pivots = static_cast<int>(front.unknowns.size());
+      for (const int w : left[v])
+        front.unknowns.insert(front.unknowns.end(), blocks.members[static_cast<std::size_t>(w)].begin(),
+                              blocks.members[static_cast<std::size_t>(w)].end());
+      for (const int c : children[v]) front.children.push_back(number[static_cast<std::size_t>(c)]);
+      number[v] = static_cast<int>(fronts_.size());
+      n_ += front.pivots;
+      const double k = front.pivots, b = front.border();
+      operations_ += k * k * (2.0 / 3.0 * k + 2.0 * b) + 2.0 * k * b * b;
+      entries_ += k * (k + 2.0 * b);
+      fronts_.push_back(std::move(front));
+      path.pop_back();
+    }
+  }
+  place_.resize(static_cast<std::size_t>(n_));
+}
+
+/// Entries of A in the rows and columns of the pivots, but for those of fronts that have been left.
+void MultifrontalLU::gather(Front& front, const Eigen::SparseMatrix<double>& A,
+                            const Eigen::SparseMatrix<double, Eigen::RowMajor>& by_rows) {
+  const int k = front.pivots, b = front.border();
+  front.F11.setZero(k, k);
+  front.U12.setZero(k, b);
+  front.L21.setZero(b, k);
+  front.rest.setZero(b, b);
+  for (std::size_t at = 0; at < front.unknowns.size(); ++at)
+    place_[static_cast<std::size_t>(front.unknowns[at])] = static_cast<int>(at);
+  for (int at = 0; at < k; ++at) {
+    const int unknown = front.unknowns[static_cast<std::size_t>(at)];
+    for (Eigen::SparseMatrix<double>::InnerIterator it(A, unknown); it; ++it) {
+      if (done_[static_cast<std::size_t>(it.row())]) continue;
+      const int row = place_[static_cast<std::size_t>(it.row())];
+      const double value = row_scale_[it.row()] * it.value();
+      if (row < k)
+        front.F11(row, at) = value;
+      else
+        front.L21(row - k, at) = value;
+    }
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_rows, unknown); it; ++it) {
+      if (done_[static_cast<std::size_t>(it.col())]) continue;
+      const int column = place_[static_cast<std::size_t>(it.col())];
+      if (column >= k) front.U12(at, column - k) = row_scale_[unknown] * it.value();
+    }
+  }
+}
+
+/// Both have their unknowns in the order of elimination: pivots of the front come first in the child as well.
+void MultifrontalLU::add_rest(Front& front, Front& child) {
+  const int k = front.pivots, size = child.border();
+  const int* const unknowns = child.unknowns.data() + child.pivots;
+  int inner = 0;
+  std::vector<int> place(static_cast<std::size_t>(size));
+  for (int i = 0; i < size; ++i) {
+    place[static_cast<std::size_t>(i)] = place_[static_cast<std::size_t>(unknowns[i])];
+    if (place[static_cast<std::size_t>(i)] < k)
+      ++inner;
+    else
+      place[static_cast<std::size_t>(i)] -= k;
+  }
+  for (int j = 0; j < size; ++j) {
+    const double* const from = child.rest.col(j).data();
+    const int column = place[static_cast<std::size_t>(j)];
+    double* const above = (j < inner ? front.F11 : front.U12).col(column).data();
+    double* const below = (j < inner ? front.L21 : front.rest).col(column).data();
+    for (int i = 0; i < inner; ++i) above[place[static_cast<std::size_t>(i)]] += from[i];
+    for (int i = inner; i < size; ++i) below[place[static_cast<std::size_t>(i)]] += from[i];
+  }
+  child.rest.resize(0, 0);
+}
+
+bool MultifrontalLU::eliminate(Front& front) {
+  const int k = front.pivots;
+  front.exchanged.resize(static_cast<std::size_t>(k));
+  if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, k, k, front.F11.data(), k, front.exchanged.data()) != 0) return false;
+  if (front.border() == 0) return true;
+  LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, front.border(), front.U12.data(), k, 1, k, front.exchanged.data(), 1);
+  solve_lower(front.F11, front.U12);
+  solve_upper_from_right(front.F11, front.L21);
+  add_product(-1.0, front.L21, front.U12, front.rest);
+  return true;
+}
+
+bool MultifrontalLU::factorise(const Eigen::SparseMatrix<double>& A) {
+  ensure(A.rows() == n_ && A.cols() == n_ && A.isCompressed(), "MultifrontalLU: a matrix of another size");
+  constexpr double largest_error = 1e-6;
+  reciprocal_condition_ = 0.0;
+  if (n_ == 0) return true;
+  row_scale_.setZero(n_);
+  for (int j = 0; j < n_; ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it) row_scale_[it.row()] += std::abs(it.value());
+  if (!(row_scale_.minCoeff() > 0.0) || !row_scale_.allFinite()) return false;
+  row_scale_ = row_scale_.cwiseInverse();
+  done_.assign(static_cast<std::size_t>(n_), 0);
+  double least = HUGE_VAL, largest = 0.0;
+  {
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = A;
+    for (Front& front : fronts_) {
+      interruption_point();
+      gather(front, A, by_rows);
+      for (const int child : front.children) add_rest(front, fronts_[static_cast<std::size_t>(child)]);
+      if (!eliminate(front)) return false;
+      const auto pivots = front.F11.diagonal().cwiseAbs();
+      least = std::min(least, pivots.minCoeff());
+      largest = std::max(largest, pivots.maxCoeff());
+      for (int at = 0; at < front.pivots; ++at)
+        done_[static_cast<std::size_t>(front.unknowns[static_cast<std::size_t>(at)])] = 1;
+    }
+  }
+  if (!(least > 0.0) || !std::isfinite(largest)) return false;
+  reciprocal_condition_ = least / largest;
+  const Vector ones = Vector::Ones(n_), b = A * ones;
+  Vector x;
+  solve(b, x);
+  const Vector left = row_scale_.cwiseProduct(b - A * x);  // of rows whose entries add up to 1
+  return left.lpNorm<Eigen::Infinity>() <= largest_error * x.lpNorm<Eigen::Infinity>();
+}
+
+void MultifrontalLU::solve(const Vector& b, Vector& x) const {
+  ensure(b.size() == n_, "MultifrontalLU: matrix and right-hand side differ in size");
+  x = row_scale_.cwiseProduct(b);
+  Vector of_front, of_border;
+  const auto take = [&](const Front& front) {
+    of_front = x(Eigen::Map<const Eigen::VectorXi>(front.unknowns.data(), front.pivots));
+  };
+  for (const Front& front : fronts_) {
+    take(front);
+    for (int at = 0; at < front.pivots; ++at)
+      std::swap(of_front[at], of_front[front.exchanged[static_cast<std::size_t>(at)] - 1]);
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasUnit, front.pivots, front.F11.data(), front.pivots,
+                of_front.data(), 1);
+    x(Eigen::Map<const Eigen::VectorXi>(front.unknowns.data(), front.pivots)) = of_front;
+    if (front.border() == 0) continue;
+    of_border.resize(front.border());
+    cblas_dgemv(CblasColMajor, CblasNoTrans, front.border(), front.pivots, 1.0, front.L21.data(), front.border(),
+                of_front.data(), 1, 0.0, of_border.data(), 1);
+    x(Eigen::Map<const Eigen::VectorXi>(front.unknowns.data() + front.pivots, front.border())) -= of_border;
+  }
+  for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
+    take(*front);
+    if (front->border() > 0) {
+      of_border = x(Eigen::Map<const Eigen::VectorXi>(front->unknowns.data() + front->pivots, front->border()));
+      cblas_dgemv(CblasColMajor, CblasNoTrans, front->pivots, front->border(), -1.0, front->U12.data(), front->pivots,
+                  of_border.data(), 1, 1.0, of_front.data(), 1);
+    }
+    cblas_dtrsv(CblasColMajor, CblasUpper, CblasNoTrans, CblasNonUnit, front->pivots, front->F11.data(), front->pivots,
+                of_front.data(), 1);
+    x(Eigen::Map<const Eigen::VectorXi>(front->unknowns.data(), front->pivots)) = of_front;
+  }
+}
+
+}  // namespace scabo::linalg
