@@ -87,15 +87,17 @@ def terms_of(run, costs):
             if run["kind"] == "polygons":
                 add(memory, "own_cell_bytes", n)
                 add(stages["super_elements"], "own_cell_seconds", n)
+                add(stages["fields"], "own_field_seconds", n)
             add(stages["factorise"], "order_seconds", n * log)
             add(stages["factorise"], "factor_seconds", n**1.5)
             add(stages["condense"], "sweep_seconds", n)
-            add(stages["condense"], "condense_seconds", k * k * math.sqrt(n))
+            add(stages["condense"], "condense_seconds", k * math.sqrt(n))
+            add(stages["condense"], "flexibility_seconds", k * k)
             add(stages["increments"], "solve_seconds", 2.0 * n * log)
         add(stages["fields"], "field_seconds", n)
     components = 2.0 * pairs
     add(memory, "contact_bytes", min(2.0 * components**2, components**2))
-    add(stages["increments"], "contact_seconds", components**3)  # two bodies: the width is all components
+    add(stages["increments"], "contact_seconds", components**2)  # two bodies
     return stages, memory
 
 
@@ -129,7 +131,7 @@ def fit(lines, costs):
 def fitted(runs, costs):
     """Times of bodies of many cells. The constants of memory stay: too much of it is better than too little, as a machine that seems large
     enough must be; so does that of a single super-element."""
-    before, costs = costs, dict(costs)
+    costs = dict(costs)
     costs["order_seconds"] = costs["order_seconds"] or 1e-7
     for stage in STAGES:
         lines = []
@@ -138,8 +140,6 @@ def fitted(runs, costs):
             if measured >= MEASURABLE and run["kind"] != "superelement":
                 lines.append((terms, measured))
         costs.update(fit(lines, costs))
-    # The estimate of walls, which no run here tells of, stays as it is.
-    costs["least_width"] = float(f"{costs['least_width'] * before['contact_seconds'] / costs['contact_seconds']:.1e}")
     return costs
 
 
@@ -152,7 +152,7 @@ def with_constants(text, costs, before):
         if value == before[name]:
             continue
         number = f"{value:.0f}.0" if 1.0 <= value < 1e5 else f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e").replace(".0e", "e")
-        text = re.sub(rf"^(  double {name} = )[-+.\de]+;( *)///<", lambda at: (at[1] + number + ";").ljust(36) + "///<", text, flags=re.MULTILINE)
+        text = re.sub(rf"^(  double {name} = )[-+.\de]+;( *)///<", lambda at: (at[1] + number + ";").ljust(38) + "///<", text, flags=re.MULTILINE)
     return text
 
 

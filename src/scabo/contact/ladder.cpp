@@ -92,7 +92,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.
     if (has_many_motions(problem_)) return best;
   }
-  if (cold && !problem_.W.is_dense() && !problem_.W.is_sparse())
+  if (cold && holding_pays(problem_, problem_.q.size()))
     if (std::optional<ColdStart> sampled = sampled_start(problem_, a))
       if (better(after_start(std::move(*sampled), "newton"))) return best;
   if (cold && holding_pays(problem_, problem_.q.size()))

@@ -21,7 +21,7 @@ double cost_of(double k, double b) {
   return k * k * (2.0 / 3.0 * k + 2.0 * b) + 2.0 * k * b * b + of_adding * b * b;
 }
 
-constexpr int least_halved = 64;  // triangular solves of fewer unknowns are left to BLAS, whose kernels are slow there
+constexpr int least_halved = 32;  // triangular solves of fewer unknowns are left to BLAS, whose kernels are slow there
 
 /// X <- L^-1 X, L lower with unit diagonal.
 void solve_lower(const Eigen::Ref<const Matrix>& L, Eigen::Ref<Matrix> X) {

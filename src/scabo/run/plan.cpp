@@ -129,6 +129,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       if (cells_differ) {
         plan.bytes += costs.own_cell_bytes * n;
         plan.cells += costs.own_cell_seconds * n;
+        plan.fields += written * costs.own_field_seconds * n;
       }
       for (const mesh::Cell& cell : mesh.bodies[b].cells) {
         if (cell.kind != mesh::CellKind::superelement) continue;
@@ -144,7 +145,9 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       plan.factorise += factor;
       joined_bytes += costs.fill_bytes * n * log2_of(n);
       joined_seconds += 2.0 * factor;
-      if (k > 0.0) plan.condense += costs.sweep_seconds * n + costs.condense_seconds * k * k * std::sqrt(n);
+      if (k > 0.0)
+        plan.condense +=
+            costs.sweep_seconds * n + costs.condense_seconds * k * std::sqrt(n) + costs.flexibility_seconds * k * k;
       plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
     }
     plan.fields += written * costs.field_seconds * n;
@@ -164,8 +167,8 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
   const bool many_bodies = width < 0.5 * components;                          // W and the systems are sparse
-  plan.contact += plan.increments * costs.contact_seconds * components * components *
-                  (many_bodies ? std::max(width, costs.least_width) : width);
+  plan.contact += plan.increments * (many_bodies ? costs.wall_seconds * std::pow(components * width, 1.5)
+                                                 : costs.contact_seconds * components * components);
   return plan;
 }
 

@@ -75,7 +75,7 @@ std::optional<SampledProblem> sampled_problem(const Problem& problem, int most) 
   sample(problem, joints, step, sampled);
   std::vector<int> rows;
   for (const int pair : sampled.pairs) rows.insert(rows.end(), {of_pair * pair, of_pair * pair + 1});
-  Matrix W = holder->flexibility(rows);
+  Matrix W = problem.W.is_dense() ? Matrix(problem.W.matrix()(rows, rows)) : holder->flexibility(rows);
   if (W.rows() != static_cast<Eigen::Index>(rows.size())) return std::nullopt;
   Problem& few = sampled.problem;
   few.W = Delassus(std::move(W)).scaled(problem.W.factor());
