@@ -40,7 +40,7 @@ def picture(options, glued, plain):
     left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1.25, 1, 1]})
     count = len(glued["increments"])
     last = pictures.fields(options.results / "cohesion", count)
-    drawn = pictures.draw(left, last, pictures.values_of(last, "stress_yy", 1e-6), pictures.signed_levels(1.4, bands=14),
+    drawn = pictures.draw(left, last, pictures.values_of(last, "stress_yy", 1e-6), pictures.signed_levels(1.4, bands=8),
                           magnification=1500)
     pictures.colour_bar(figure, drawn, left, "vertical stress (MPa)", shrink=0.85)
     left.set(xlim=(-9, 24), ylim=(-9, 22), title=f"thrust {flood(glued)[-1]:.1f}")

@@ -90,7 +90,7 @@ def picture(options):
     s = np.linspace(-1, 1, 401)
     right.plot(s * 1e3 * HALF_WIDTH, hertz(s * HALF_WIDTH) / 1e6, color=pictures.GREY, label="Hertz")
     right.plot(1e3 * x, pressure / 1e6, "o", color=pictures.RED, markersize=3.5, label="Scabo, every pair of nodes")
-    right.set(xlim=(-1.6, 1.6), ylim=(0, 700), xlabel="x (mm)", ylabel="pressure (MPa)", title="pressure between roller and block")
+    right.set(xlim=(-1.6, 1.6), ylim=(0, 750), xlabel="x (mm)", ylabel="pressure (MPa)", title="pressure between roller and block")
     right.legend(loc="upper left")
     right.grid(True)
     return figure

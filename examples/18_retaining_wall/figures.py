@@ -39,9 +39,9 @@ def picture(options):
     numbers = hand.calculate()
     mu = np.linspace(0.3, 0.75, 50)
     right.plot(mu, mu * hand.WEIGHT / 1e3, color=pictures.GREY, lw=1, label="friction in the base, by hand")
-    for at, text in ((numbers["at_rest"], "at rest"), (numbers["active"], "active")):
+    for at, text, beside in ((numbers["at_rest"], "at rest", (0, 2)), (numbers["active"], "active", (0, -11))):  # below the markers
         right.axhline(at / 1e3, color="black", lw=0.7)
-        right.annotate(f"{text}, by hand", (0.74, at / 1e3), (0, 2), textcoords="offset points")
+        right.annotate(f"{text}, by hand", (0.74, at / 1e3), beside, textcoords="offset points")
     for directory, (name, _, colour, style) in GROUNDS.items():
         thrust = pictures.table_of(options.results / directory, "history.csv")["thrust"]
         right.plot(np.linspace(0.7, 0.345, len(thrust)), thrust / 1e3, style, ms=4, color=colour, label=f"run, on {name}")

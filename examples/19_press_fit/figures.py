@@ -41,7 +41,7 @@ def picture(options, history, area):
     right.plot([0, numbers["release"], 90], [numbers["pressure"] / 1e6, 0, 0], color=pictures.GREY, label="by hand", zorder=0)
     right.set(xlabel="temperature of the hub (K)", ylabel="pressure (MPa)", ylim=(-2, 75), title="heated until it is loose")
     for axis in (middle, right):
-        axis.legend(loc="lower left")
+        axis.legend(loc="lower right" if axis is middle else "lower left")  # where no curve is
         axis.grid(True)
     return figure
 

@@ -1,4 +1,4 @@
-"""Examples 17 to 21, 23 and 24 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21, 23 to 25 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
@@ -44,7 +44,7 @@ class Practice(support.InTemporaryDirectory):
         return scabo("run", ROOT / "examples" / folder / model, "-o", directory, "--quiet", *arguments,
                      "--set", "output.fields=[]")
 
-    def check(self, folder):
+    def check(self, folder, page=PAGE):
         self.runs, self.cracks = {}, {}
         example = ROOT / "examples" / folder
         self.assertLess(len((example / "model.yaml").read_text(encoding="utf-8").splitlines()), 60)
@@ -65,7 +65,7 @@ class Practice(support.InTemporaryDirectory):
                 self.assertEqual(run.returncode, status, run.stderr)
                 self.assertEqual("mechanism" in run.stderr, status == 2, run.stderr)
             written.append(f"| {limit['quantity']} | {hand:.{limit['digits']}f} | stands at {stands:g}, slides at {slides:g} |")
-        for page in (example / "README.md", PAGE):
+        for page in (example / "README.md", page):
             lines = page.read_text(encoding="utf-8").splitlines()
             for row in written:
                 self.assertIn(row, lines, page)
@@ -103,6 +103,13 @@ class Practice(support.InTemporaryDirectory):
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             whole = summary_of(directory)["increments"][-1]["cracks"]["slab.flaw.end"]["K_I"]
             self.assertAlmostEqual(whole / factor, 1, delta=1e-3)
+
+
+    def test_sled_test(self):
+        readme = ROOT / "examples" / "25_sled_test" / "README.md"
+        self.check("25_sled_test", page=readme)
+        forces = [row["force"] for row in self.history("25_sled_test", [])]
+        self.assertEqual((forces.index(max(forces)), forces.index(min(forces))), (6, 29))
 
 
 class ClosedFormOfTheLining(support.unittest.TestCase):

@@ -174,6 +174,12 @@ class LongRuns(support.InTemporaryDirectory):
                 self.assertIn(summary_of(self.directory / "out")["status"], ("failed", "running"))
                 self.assertGreaterEqual(len(numbers), 1)
 
+    def test_a_limit_that_the_contact_problems_meet(self):
+        ended = run("run", BEAM, "-q", "-o", self.directory / "out", "--set", "output={discrete_problems: true}",
+                    before=limited(resource.RLIMIT_FSIZE, 30 * 1024))
+        self.assertEqual(ended.returncode, FAILURE, ended.stderr)
+        self.assertRegex(ended.stderr, r"^scabo: cannot write .*problems/press_1.hdf5: File too large\n$")
+
 
 class Places(support.InTemporaryDirectory):
     def test_places_that_cannot_be(self):

@@ -49,6 +49,7 @@ output:
   every: 3
   discrete_problems: true
   history: {tip: upper.top_left.ux, shear: joint.tangential_force, centre: joint.centre_x, work: friction_energy,
+            sliding: joint.slip, first: joint.first_pair_in_contact,
             cut: {section: {from: [0, 1.4e-2], to: [4e-2, 1.4e-2]}}}
 """.replace("LONG", "20" if SANITIZED else "80")
 

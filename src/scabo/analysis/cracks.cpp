@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "scabo/mesh/crack_faces.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::analysis {
 
@@ -114,8 +115,7 @@ std::string name_of_tip(const model::Body& body, const Vec2& tip) {
   }
   if (!body.cracks.empty()) return body.name;
   if (body.mesh.centre_corner < 0) return body.name;
-  const std::vector<std::string>& names = body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)].names;
-  return body.name + "." + (names.size() > 1 ? names[1] : names[0]);  // the name given by the user, if there is one
+  return body.name + "." + model::name_of_centre_corner(body);
 }
 
 std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {

@@ -6,6 +6,7 @@
 
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/outside.hpp"
+#include "scabo/analysis/quantities.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
 
 namespace scabo::analysis {
@@ -53,6 +54,7 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
     add(WarningKind::no_reference, "", relative);
   for (const Warning& warning : crack_warnings(at.cracks)) add(warning.kind, warning.subject, warning.text);
+  for (const Warning& warning : quantity_warnings(prepared.model, at)) add(warning.kind, warning.subject, warning.text);
 }
 
 void add_slid_off(const LargeSlip& large, const State& state, const IncrementResult& at, StaticSolution& solution) {

@@ -76,6 +76,40 @@ std::optional<double> displacement_of_point(const StaticSolution& solution, cons
   return (at - increment.fields.reference_displacement)[quantity.component];
 }
 
+/// The results at the tip or corner that a quantity names; null where its body is absent.
+const CrackResult* tip_of(const model::Model& model, const IncrementResult& increment,
+                          const model::Quantity& quantity) {
+  const auto found = std::find_if(increment.cracks.begin(), increment.cracks.end(),
+                                  [&](const CrackResult& crack) { return is_named(crack.name, model, quantity); });
+  return found == increment.cracks.end() ? nullptr : &*found;
+}
+
+/// Whether a tip of this kind has the figure; summary.json gives each kind other ones.
+bool has_figure(element::CornerKind kind, const model::Quantity& quantity) {
+  switch (quantity.kind) {
+    case Kind::corner_stress:
+      return kind == element::CornerKind::corner;
+    case Kind::t_stress:
+      return kind == (quantity.component == 0 ? element::CornerKind::crack : element::CornerKind::interface_crack);
+    default:
+      return kind != element::CornerKind::corner;
+  }
+}
+
+std::optional<double> figure_of(const element::StressIntensity& factors, const model::Quantity& quantity) {
+  if (!has_figure(factors.kind, quantity)) return std::nullopt;
+  switch (quantity.kind) {
+    case Kind::t_stress:
+      return quantity.component == 2 ? factors.T_right : factors.T_left;
+    case Kind::energy_release:
+      return quantity.component == 0 ? factors.G : factors.J;
+    default: {
+      const double factor = quantity.component == 0 ? factors.K_I : factors.K_II;
+      return std::isfinite(factor) ? std::optional(factor) : std::nullopt;
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<double> value_of(const StaticSolution& solution, const IncrementResult& increment,
@@ -95,11 +129,10 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
     case Kind::displacement:
       return displacement_of_point(solution, increment, quantity);
     case Kind::stress_intensity:
-      for (const CrackResult& crack : increment.cracks)
-        if (is_named(crack.name, solution.model, quantity)) {
-          const double factor = quantity.component == 0 ? crack.factors.K_I : crack.factors.K_II;
-          return std::isfinite(factor) ? std::optional(factor) : std::nullopt;
-        }
+    case Kind::t_stress:
+    case Kind::energy_release:
+    case Kind::corner_stress:
+      if (const CrackResult* tip = tip_of(solution.model, increment, quantity)) return figure_of(tip->factors, quantity);
       return std::nullopt;
     case Kind::elastic_energy:
       return increment.energy.elastic;
@@ -112,6 +145,22 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
       return std::nullopt;
     case Kind::max_pressure:
       return increment.contacts[index].max_pressure;
+    case Kind::pairs_in_state: {
+      const ContactResult& contact = increment.contacts[index];
+      return quantity.component == 0 ? contact.open : quantity.component == 1 ? contact.stick : contact.slip;
+    }
+    case Kind::broken_pairs:
+      return increment.contacts[index].broken;
+    case Kind::end_pair:
+      return quantity.component == 0 ? increment.contacts[index].first_in_contact
+                                     : increment.contacts[index].last_in_contact;
+    case Kind::pore_force:
+      return increment.contacts[index].pore_force;
+    case Kind::total_normal_force:
+      if (const auto& pores = increment.contacts[index].pore_force) return increment.contacts[index].normal_force + *pores;
+      return std::nullopt;
+    case Kind::support_moment:
+      return increment.moments[index];
     case Kind::external_energy:
       return increment.energy.external;
     case Kind::friction_energy:
@@ -380,7 +429,7 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
              fmt::format("the point lies in body '{}' and in body '{}', which may move apart: give it a 'body'",
                          model.bodies[static_cast<std::size_t>(bodies[0])].name,
                          model.bodies[static_cast<std::size_t>(bodies[1])].name)});
-    } else if (quantity->kind == Kind::stress_intensity) {
+    } else if (quantity->is_of_tip()) {
       const auto b = static_cast<std::size_t>(quantity->index);
       std::vector<std::string> tips;
       for (const mesh::Cell& cell : mesh.bodies[b].cells)
@@ -388,7 +437,7 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
           if (std::string name = name_of_tip(model.bodies[b], cell.centre); is_named(name, model, *quantity))
             tips.push_back(std::move(name));
       if (tips.size() == 1) continue;
-      const std::string word = quantity->component == 0 ? "K_I" : "K_II";
+      const std::string word = quantity->name.substr(quantity->name.rfind('.') + 1);
       mistakes.push_back(
           {quantity->source,
            tips.empty() ? fmt::format("'{}' is no crack tip: this end lies on the boundary or on another "
@@ -398,6 +447,30 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
     }
   }
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+}
+
+std::vector<Warning> quantity_warnings(const model::Model& model, const IncrementResult& increment) {
+  std::vector<Warning> warnings;
+  for (const model::HistoryItem& item : model.output.history) {
+    const auto* quantity = std::get_if<model::Quantity>(&item.of);
+    const CrackResult* tip = quantity && quantity->is_of_tip() ? tip_of(model, increment, *quantity) : nullptr;
+    if (!tip || has_figure(tip->factors.kind, *quantity)) continue;
+    const auto [what, figures] = [&]() -> std::pair<const char*, const char*> {
+      switch (tip->factors.kind) {
+        case element::CornerKind::crack:
+          return {"crack in one material", "K_I, K_II, T, G and J"};
+        case element::CornerKind::interface_crack:
+          return {"crack between two materials", "K_I, K_II, T_left, T_right, G and J"};
+        case element::CornerKind::corner:
+          break;
+      }
+      return {"corner", "K_tt and K_rt"};
+    }();
+    warnings.push_back({WarningKind::crack, item.name + " history",
+                        fmt::format("the column '{}' of history.csv stays empty: '{}' is a {}, which has {}", item.name,
+                                    tip->name, what, figures)});
+  }
+  return warnings;
 }
 
 }  // namespace scabo::analysis

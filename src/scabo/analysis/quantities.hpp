@@ -15,6 +15,9 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
 double rounding_of(const StaticSolution& solution, const IncrementResult& increment, const model::Quantity& quantity,
                    double tolerance);
 
+/// A warning for every column of the history that stays empty, because its tip is of a kind that has other figures.
+std::vector<Warning> quantity_warnings(const model::Model& model, const IncrementResult& increment);
+
 /// Throws InputError for points that lie in no body or in several, and for cracks with two tips of which none is named.
 void check_quantities(const model::Model& model, const mesh::Mesh& mesh);
 

@@ -23,12 +23,24 @@ bool breaks(const Prepared& prepared) {
                      [](const model::Contact& contact) { return contact.cohesion > 0.0; });
 }
 
+/// The next power of ten above three times a figure of the certificate that is below the default tolerance, `1e-12`; empty
+/// for larger figures.
+std::string tolerance_that_is_reached(double figure) {
+  if (!(3.0 * figure < model::SolverOptions().tolerance)) return {};
+  return fmt::format("1e{}", static_cast<int>(std::ceil(std::log10(3.0 * figure))));
+}
+
 /// Reason why an increment with a contact solution is not accepted.
 std::string above_tolerance(const Prepared& prepared, const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
   std::string reason =
       fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
-  if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
+  if (const std::string wanted = tolerance_that_is_reached(worst); !wanted.empty())
+    reason += fmt::format(
+        "; this is what rounding leaves in {} degrees of freedom: set solver.tolerance to {} or leave it out, as its "
+        "default of {:g} is far below the error of any mesh",
+        2 * prepared.mesh.nodes(), wanted, model::SolverOptions().tolerance);
+  else if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason +=
         "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
         "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";

@@ -7,6 +7,7 @@
 
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::input {
 
@@ -31,7 +32,15 @@ constexpr QuantityWord quantity_words[] = {
 constexpr QuantityWord history_words[] = {
     {"force_x", Quantity::Kind::contact_force, 0},       {"force_y", Quantity::Kind::contact_force, 1},
     {"moment", Quantity::Kind::contact_moment, 0},       {"max_pressure", Quantity::Kind::max_pressure, 0},
-    {"centre_x", Quantity::Kind::centre_of_pressure, 0}, {"centre_y", Quantity::Kind::centre_of_pressure, 1}};
+    {"centre_x", Quantity::Kind::centre_of_pressure, 0}, {"centre_y", Quantity::Kind::centre_of_pressure, 1},
+    {"open", Quantity::Kind::pairs_in_state, 0},         {"stick", Quantity::Kind::pairs_in_state, 1},
+    {"slip", Quantity::Kind::pairs_in_state, 2},         {"broken", Quantity::Kind::broken_pairs, 0},
+    {"first_pair_in_contact", Quantity::Kind::end_pair, 0}, {"last_pair_in_contact", Quantity::Kind::end_pair, 1},
+    {"pore_force", Quantity::Kind::pore_force, 0},       {"total_normal_force", Quantity::Kind::total_normal_force, 0},
+    {"T", Quantity::Kind::t_stress, 0},                  {"T_left", Quantity::Kind::t_stress, 1},
+    {"T_right", Quantity::Kind::t_stress, 2},            {"G", Quantity::Kind::energy_release, 0},
+    {"J", Quantity::Kind::energy_release, 1},            {"K_tt", Quantity::Kind::corner_stress, 0},
+    {"K_rt", Quantity::Kind::corner_stress, 1}};
 
 class QuantityReader {
  public:
@@ -78,7 +87,12 @@ class QuantityReader {
       case Quantity::Kind::displacement:
         return name.find('.') == std::string::npos ? of_point(name) : of_corner(name);
       case Quantity::Kind::stress_intensity:
-        return of_crack(name);
+      case Quantity::Kind::t_stress:
+      case Quantity::Kind::energy_release:
+      case Quantity::Kind::corner_stress:
+        return of_tip(name, word);
+      case Quantity::Kind::contact_moment:
+        return of_moment(name);
       default:
         return of_contact(name);
     }
@@ -102,9 +116,9 @@ class QuantityReader {
     const std::string near = nearest_name(word, words);
     return refuse(
         fmt::format("'{}' is no number with a history: write elastic_energy, external_energy or friction_energy, or a "
-                    "name and one of normal_force, tangential_force, force_x, force_y, moment, centre_x, centre_y, "
-                    "max_pressure, max_gap, reaction_x, reaction_y, ux, uy, K_I, K_II, as in joint.normal_force{}",
-                    one_line(word), near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+                    "name and one of {}, as in joint.normal_force{}",
+                    one_line(word), fmt::join(words.begin() + 3, words.end(), ", "),
+                    near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
   }
 
   std::optional<Quantity> refuse(const std::string& message) {
@@ -128,6 +142,18 @@ class QuantityReader {
     std::vector<std::string> known;
     for (const Contact& contact : reading_.model.contacts) known.push_back(contact.name);
     return find("contact", name, known, reading_.conditions_known);
+  }
+
+  /// Of a contact, or of a support that prescribes a rotation.
+  std::optional<Quantity> of_moment(const std::string& name) {
+    const auto& contacts = reading_.model.contacts;
+    const auto& supports = reading_.model.supports;
+    const auto is_named = [&](const auto& part) { return part.name == name; };
+    const auto support = std::find_if(supports.begin(), supports.end(), is_named);
+    if (support == supports.end() || std::any_of(contacts.begin(), contacts.end(), is_named)) return of_contact(name);
+    quantity_.kind = Quantity::Kind::support_moment;
+    quantity_.index = static_cast<int>(support - supports.begin());
+    return quantity_;
   }
 
   std::optional<Quantity> of_support(const std::string& name) {
@@ -183,8 +209,10 @@ class QuantityReader {
                               reading_.report.full() ? "" : suggestion(part, known)));
   }
 
-  std::optional<Quantity> of_crack(const std::string& name) {
-    if (name.find('.') == std::string::npos) return refuse("needs a body and its crack, as in plate.flaw.K_I");
+  /// Of a crack, or of the corner at the scaling centre by any of its names.
+  std::optional<Quantity> of_tip(const std::string& name, const std::string& word) {
+    if (name.find('.') == std::string::npos)
+      return refuse(fmt::format("needs a body and its crack, as in plate.flaw.{}", word));
     if (!find_body(name)) return {};
     quantity_.crack = name.substr(name.find('.') + 1);
     const Body& body = reading_.body(quantity_.index);
@@ -192,6 +220,21 @@ class QuantityReader {
     std::vector<std::string> known;
     for (const Crack& of : body.cracks) known.push_back(of.name);
     if (body.rigid || std::find(known.begin(), known.end(), crack) != known.end()) return quantity_;
+    if (std::string centre = name_of_centre_corner(body); !centre.empty()) {
+      const Corner& corner = body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)];
+      if (std::find(corner.names.begin(), corner.names.end(), quantity_.crack) != corner.names.end()) {
+        quantity_.crack = std::move(centre);
+        return quantity_;
+      }
+      known.push_back(std::move(centre));
+    }
+    const bool corner = std::any_of(body.outline.corners.begin(), body.outline.corners.end(), [&](const Corner& of) {
+      return std::find(of.names.begin(), of.names.end(), quantity_.crack) != of.names.end();
+    });
+    if (corner)
+      return refuse(fmt::format("body '{0}' has no crack named {1}, and its scaling centre is not at this corner: only "
+                                "there does a corner have factors (mesh: {{centre: ...}})",
+                                body.name, quoted_name(quantity_.crack)));
     return refuse(fmt::format("body '{}' has no crack named {}{}", body.name, quoted_name(crack),
                               reading_.report.full() ? "" : suggestion(crack, known)));
   }

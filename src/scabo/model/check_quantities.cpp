@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scabo/model/checking.hpp"
+#include "scabo/model/side_faces.hpp"
 
 namespace scabo::model {
 
@@ -20,11 +21,21 @@ bool check_number_of(Checking& checking, const std::string& path, const char* wh
   return false;
 }
 
-void check_crack_of(Checking& checking, const std::string& path, const Quantity& quantity) {
+void check_crack_of(Checking& checking, const std::string& path, const Quantity& quantity, bool with_bar) {
   if (!check_number_of(checking, path, "body", quantity.index, checking.model.bodies.size())) return;
   const Body& body = checking.body(quantity.index);
   if (body.rigid) {
     checking.error(path, "", fmt::format("body '{}' is rigid, and has no stress intensity factors", body.name));
+    return;
+  }
+  if (body.mesh.centre_corner >= 0 && quantity.crack == name_of_centre_corner(body)) {
+    if (body.outside)
+      checking.error(path, "",
+                     fmt::format("body '{}' reaches to infinity: only bodies of finite size have factors", body.name));
+    else if (with_bar)
+      checking.error(path, "",
+                     "the factors of a corner at the scaling centre have a history, but no error bar: ask for them "
+                     "under output.history, or give the body a crack");
     return;
   }
   const std::string crack = quantity.crack.substr(0, quantity.crack.find('.')),
@@ -38,6 +49,39 @@ void check_crack_of(Checking& checking, const std::string& path, const Quantity&
                    fmt::format("crack '{}' has no '{}': {}", crack, end.substr(1),
                                found->path.empty() ? fmt::format("write {}.{}.K_I", body.name, crack)
                                                    : "its ends are start and end"));
+}
+
+void check_broken_of(Checking& checking, const std::string& path, const Quantity& quantity) {
+  if (!check_number_of(checking, path, "contact", quantity.index, checking.model.contacts.size())) return;
+  const Contact& contact = checking.model.contacts[static_cast<std::size_t>(quantity.index)];
+  if (contact.cohesion == 0.0 && contact.tension == 0.0)
+    checking.error(path, "", fmt::format("contact '{}' has no cohesion, so that none of its pairs breaks", contact.name));
+}
+
+void check_pores_of(Checking& checking, const std::string& path, const Quantity& quantity) {
+  if (!check_number_of(checking, path, "contact", quantity.index, checking.model.contacts.size())) return;
+  const auto is_in = [&](const Load& load) {
+    const auto* pores = std::get_if<PorePressure>(&load.kind);
+    return pores &&
+           std::find(pores->contacts.begin(), pores->contacts.end(), quantity.index) != pores->contacts.end();
+  };
+  const std::vector<Load>& loads = checking.model.loads;
+  if (checking.gaps.conditions || std::any_of(loads.begin(), loads.end(), is_in)) return;
+  const std::string& name = checking.model.contacts[static_cast<std::size_t>(quantity.index)].name;
+  checking.error(path, "",
+                 fmt::format("no pressure or water is in contact '{0}': ask for {0}.normal_force, or give a load "
+                             "{{in: {0}, pressure: ...}}",
+                             name));
+}
+
+void check_moment_of(Checking& checking, const std::string& path, const Quantity& quantity) {
+  if (!check_number_of(checking, path, "support", quantity.index, checking.model.supports.size())) return;
+  const Support& support = checking.model.supports[static_cast<std::size_t>(quantity.index)];
+  if (!support.rotation)
+    checking.error(path, "",
+                   fmt::format("support '{}' prescribes no rotation and has no moment: ask for that of an edge, "
+                               "{{edge: wall.bottom}}",
+                               support.name));
 }
 
 /// What loads inside a super-element store inside it is in no energy of the results.
@@ -81,7 +125,10 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       checking.vector(path, "at", quantity.at);
       break;
     case Quantity::Kind::stress_intensity:
-      check_crack_of(checking, path, quantity);
+    case Quantity::Kind::t_stress:
+    case Quantity::Kind::energy_release:
+    case Quantity::Kind::corner_stress:
+      check_crack_of(checking, path, quantity, with_bar);
       break;
     case Quantity::Kind::elastic_energy:
       if (with_bar) check_energy(checking, path);
@@ -90,7 +137,19 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
     case Quantity::Kind::contact_moment:
     case Quantity::Kind::centre_of_pressure:
     case Quantity::Kind::max_pressure:
+    case Quantity::Kind::pairs_in_state:
+    case Quantity::Kind::end_pair:
       check_number_of(checking, path, "contact", quantity.index, model.contacts.size());
+      break;
+    case Quantity::Kind::broken_pairs:
+      check_broken_of(checking, path, quantity);
+      break;
+    case Quantity::Kind::pore_force:
+    case Quantity::Kind::total_normal_force:
+      check_pores_of(checking, path, quantity);
+      break;
+    case Quantity::Kind::support_moment:
+      check_moment_of(checking, path, quantity);
       break;
     case Quantity::Kind::external_energy:
     case Quantity::Kind::friction_energy:

@@ -14,6 +14,13 @@ inline bool is_side_face(const Body& body, int edge) {
   return is_side_face(body.outline, body.mesh.centre_corner, edge);
 }
 
+/// Name of the corner at the scaling centre, the one given by the user if there is one; empty without such a corner.
+inline std::string name_of_centre_corner(const Body& body) {
+  if (body.mesh.centre_corner < 0) return {};
+  const std::vector<std::string>& names = body.outline.corners[static_cast<std::size_t>(body.mesh.centre_corner)].names;
+  return names.size() > 1 ? names[1] : names[0];
+}
+
 /// Number of the side face that an edge forms at a notch or corner: 0 at the start of the boundary of the
 /// super-element, 1 at its end; -1 for other edges.
 inline int side_face_of(const Body& body, int edge) {

@@ -4,7 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 #include <limits>
 
@@ -97,6 +99,31 @@ TEST(Fclib, TheSameProblemTheSameBytes) {
     return std::string(std::istreambuf_iterator<char>(stream), {});
   };
   EXPECT_EQ(bytes("a.hdf5"), bytes("b.hdf5"));
+}
+
+// HDF5 itself crashed at the end of a process that had met a full disk, and did not say why a file was not written.
+TEST(Fclib, AFullDiskIsNamedAndTheNextFileIsWritten) {
+  SavedProblem saved;
+  saved.problem = random_problem(2, 40, 7);
+  const Scratch scratch;
+  const std::string file = scratch.file("problem.hdf5");
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{4096, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  try {
+    write_fclib(file, saved);
+  } catch (const std::runtime_error& error) {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(message, "cannot write " + file + ": File too large");
+  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+  EXPECT_FALSE(std::filesystem::exists(file));
+  write_fclib(file, saved);
+  EXPECT_EQ(read_problem_file(file).problem.W.dense(), saved.problem.W.dense());
 }
 
 TEST(Fclib, WhatCannotBeWrittenIsSaid) {

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 namespace scabo::contact {
 
@@ -192,15 +195,24 @@ std::string Hdf5Reader::text(const std::string& path) const {
 }
 
 Hdf5Writer::Hdf5Writer(std::string file) : file_(std::move(file)), part_(file_ + ".part") {
+  out_ = std::fopen(part_.c_str(), "wb");
+  if (!out_) fail("the file cannot be created: check that its directory exists and that you may write there");
   const Quiet quiet;
-  id_ = H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (id_ < 0) fail("the file cannot be created: check that its directory exists and that you may write there");
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t growth = std::size_t{1} << 20;  // of the memory, bytes
+  H5Pset_fapl_core(access, growth, false);
+  id_ = H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (id_ >= 0) return;
+  std::fclose(out_);
+  std::remove(part_.c_str());
+  fail("there is not enough memory for its content");
 }
 
 Hdf5Writer::~Hdf5Writer() {
   const Quiet quiet;
-  if (id_ < 0) return;
-  H5Fclose(id_);
+  if (id_ >= 0) H5Fclose(id_);
+  if (!out_) return;
+  std::fclose(out_);
   std::remove(part_.c_str());
 }
 
@@ -215,7 +227,8 @@ void Hdf5Writer::dataset(const std::string& path, std::int64_t type, std::int64_
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties, false);  // no dates: the same content, the same bytes
   const Handle id(H5Dcreate2(id_, path.c_str(), type, space, links, properties, H5P_DEFAULT), H5Dclose);
-  if (!id.valid() || write(static_cast<hid_t>(id)) < 0) fail(fmt::format("dataset {}", path));
+  if (!id.valid() || write(static_cast<hid_t>(id)) < 0)
+    fail(fmt::format("there is not enough memory for dataset {}", path));
 }
 
 void Hdf5Writer::integers(const std::string& path, const std::vector<int>& values) {
@@ -248,16 +261,19 @@ void Hdf5Writer::text(const std::string& path, const std::string& value) {
 
 void Hdf5Writer::finish() {
   const Quiet quiet;
-  const bool flushed = H5Fflush(id_, H5F_SCOPE_GLOBAL) >= 0;
-  const bool closed = H5Fclose(id_) >= 0;
-  id_ = -1;
+  void** memory = nullptr;  // of the core driver: the address of the content
+  const bool flushed = H5Fflush(id_, H5F_SCOPE_GLOBAL) >= 0 &&
+                       H5Fget_vfd_handle(id_, H5P_DEFAULT, reinterpret_cast<void**>(&memory)) >= 0;
+  const ssize_t size = flushed ? H5Fget_file_image(id_, nullptr, 0) : -1;
+  if (size <= 0) fail("there is not enough memory for its content");
   std::error_code error;
-  if (flushed && closed) {
-    std::filesystem::rename(part_, file_, error);
-    if (!error) return;
-  }
+  const auto failed = [&] { error = {errno, std::generic_category()}; };
+  if (std::fwrite(*memory, 1, static_cast<std::size_t>(size), out_) != static_cast<std::size_t>(size)) failed();
+  if (std::fclose(std::exchange(out_, nullptr)) != 0 && !error) failed();
+  if (!error) std::filesystem::rename(part_, file_, error);
+  if (!error) return;
   std::remove(part_.c_str());
-  fail(error ? error.message() : "it could not be written completely");
+  fail(error.message());
 }
 
 }  // namespace scabo::contact

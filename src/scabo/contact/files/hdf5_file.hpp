@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,9 @@ class Hdf5Reader {
   std::int64_t id_ = -1;
 };
 
-/// Writes to a temporary file (`.part`), which is renamed when it is complete. Groups in the path of a dataset are
-/// created as needed. The same content gives the same bytes. Throws std::runtime_error.
+/// Collects a file in memory and writes it at the end, first to a temporary file (`.part`), which is renamed when it is
+/// complete: HDF5 itself never meets a full disk, after which it would crash at the end of the process. Groups in the path
+/// of a dataset are created as needed. The same content gives the same bytes. Throws std::runtime_error.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::string file);
@@ -59,6 +61,7 @@ class Hdf5Writer {
   [[noreturn]] void fail(const std::string& reason) const;
 
   std::string file_, part_;
+  std::FILE* out_ = nullptr;
   std::int64_t id_ = -1;
 };
 
