@@ -2,14 +2,17 @@
 """Towers and walls of blocks that only contact holds: certified or not, iterations of an increment, time, collapse loads.
 
     run.py --scabo build/bin/scabo [--output DIR] [--limit SECONDS] [--only tower|wall|shaken|collapse]
-           [--sizes 4,8,16] [--friction 0.3,0.6,1] [--parts 0,0.5,0.9] [--increments 1,10]
+           [--sizes 4,8,16] [--friction 0.3,0.6,1] [--parts 0,0.5,0.9] [--increments 1,10] [--keep]
 
 Every run is one process with all files. The push is a part of the largest for which limit analysis finds forces that balance
 every block (blocks.py); `shaken`: of the largest acceleration, and 0.35 g. A run that takes more processor time than the limit
-is stopped and listed as such. Limit loads are kept in DIR/limits.json. Needs SciPy.
+is stopped and listed as such; walls of 40 x 40 blocks get twice the limit. Limit loads are kept in DIR/limits.json. With
+`--keep` the rows of towers and walls are kept in DIR/rows.json as they come, and those that are there are not run again: of one
+program, of which the file has a digest. Needs SciPy.
 """
 import argparse
 import collections
+import hashlib
 import json
 import pathlib
 import resource
@@ -45,9 +48,10 @@ def run(options, columns, courses, friction, push, increments, shaken=False):
     path = folder / f"{'shaken_' * shaken}{columns}_{courses}_{friction}_{push:.6g}_{increments}.yaml"
     path.write_text(blocks.model(columns, courses, friction, push, increments, shaken))
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+    limit = options.limit * (2 if columns >= 40 else 1)
     process = subprocess.Popen([options.scabo, "run", path, "-q", "-o", path.with_suffix(".results")],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (options.limit, options.limit)))
+                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
     status = process.wait()
     seconds = time.monotonic() - start
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -61,9 +65,26 @@ def run(options, columns, courses, friction, push, increments, shaken=False):
             summary["reason"] or "")
 
 
+def kept(options, *wall):
+    """run(), or what it gave before where rows are kept."""
+    if not options.keep:
+        return run(options, *wall)
+    file = pathlib.Path(options.output) / "rows.json"
+    program = hashlib.sha256(pathlib.Path(options.scabo).read_bytes()).hexdigest()[:16]
+    rows = json.loads(file.read_text()) if file.exists() else {}
+    if rows.get("program", program) != program:
+        sys.exit(f"{file} is of another program")
+    name = " ".join(f"{value:.6g}" for value in wall)
+    if name not in rows:
+        rows = {"program": program, **rows, name: run(options, *wall)}
+        file.write_text(json.dumps(rows, indent=0))
+    return rows[name]
+
+
 def table(options, kind):
-    print("| blocks | columns x courses | mu | push | increments | status | iterations, worst | certificate | wall s | processor s |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| blocks | columns x courses | mu | push | increments | status | iterations, worst | in all | certificate | wall s "
+          "| processor s |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     counts = collections.Counter()
     sizes = [(1, n) for n in TOWERS] if kind == "tower" else [(n, n) for n in WALLS]
     for columns, courses in sizes:
@@ -75,10 +96,10 @@ def table(options, kind):
                     if part == 0.0 and increments > 1:
                         continue
                     push = part * limit_load(options, columns, courses, friction)
-                    status, iterations, worst, wall, processor, _ = run(options, columns, courses, friction, push, increments)
+                    status, iterations, worst, wall, processor, _ = kept(options, columns, courses, friction, push, increments)
                     counts[status] += 1
                     text = [str(blocks.blocks(columns, courses)), f"{columns} x {courses}", f"{friction}", f"{part}",
-                            f"{increments}", status, str(max(iterations, default="-")),
+                            f"{increments}", status, str(max(iterations, default="-")), str(sum(iterations) or "-"),
                             f"{worst:.1e}" if worst is not None else "-", f"{wall:.2f}", f"{processor:.2f}"]
                     print("| " + " | ".join(text) + " |", flush=True)
     print("\n" + ", ".join(f"{count} {status}" for status, count in counts.most_common()))
@@ -131,6 +152,7 @@ def main():
     parser.add_argument("--friction", type=numbers(float), default=FRICTION)
     parser.add_argument("--parts", type=numbers(float), default=PARTS)
     parser.add_argument("--increments", type=numbers(int), default=INCREMENTS)
+    parser.add_argument("--keep", action="store_true")
     parser.add_argument("--only", choices=["tower", "wall", "shaken", "collapse"])
     options = parser.parse_args()
     for kind in ("tower", "wall"):

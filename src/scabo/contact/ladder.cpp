@@ -5,6 +5,7 @@
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/soft_newton.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/cold_start.hpp"
 
@@ -38,13 +39,14 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.regularisation = how.regularisation;
   options.patience = how.patience;
   options.fall = how.fall;
-  options.soft = how.soft;
+  options.first_fall = how.first_fall;
   options.stage = how.stage;
   options.deadline = options_.deadline;
   options.on_iteration = counted(options_.on_iteration);
   if (&problem == &problem_) options.content = content_;
   options.ask_when_stuck = !judges_all();
-  NewtonEnd end = newton(equations, p, a, options);
+  NewtonEnd end = how.soft && may_soften(problem) ? soft_newton(equations, p, a, options)
+                                                  : newton(equations, p, a, options);
   for (Iteration& iteration : end.trace) {
     iteration.iteration += iterations_ + coarse_iterations_;
     trace_.push_back(std::move(iteration));
@@ -75,16 +77,27 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   constexpr int patience = 8;
   constexpr int few = 6;  // of many bodies a path takes over sooner
   const bool paths = many && may_follow_path(problem_), paths_first = paths && problem_.pairs() <= most_of_paths_first;
+  // Products of interior points from the last increment, over those from bonded forces.
+  constexpr double near_by = 0.025;
   const int most = paths ? std::min(few, options_.iterations) : 0;
   const bool inner = many && may_take_interior_points(problem_);
-  if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, most, patience}))) return best;
-  if (!cold && inner && !paths_first && better(inside_near(best.p, best.a, 1.0))) return best;
+  if (!cold) {
+    Run how{"newton", 0.0, 1.0, most, patience};
+    if (inner && !paths_first) {  // as in bonded()
+      how.iterations = 10;
+      how.patience = 2;
+      how.fall = 0.1;
+      how.first_fall = 0.15;
+    }
+    if (better(newton_alone(p, a, how))) return best;
+  }
+  if (!cold && inner && !paths_first && better(inside_near(best.p, best.a, near_by))) return best;
   if (!cold && paths && better(along_loads(p, a))) return best;
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
   if (held_together && better(bonded(*held_together))) return best;
   if (hopeless && hopeless()) return best;
   if (inner && !paths_first && held_together)
-    for (const double start : {1.0, 20.0})
+    for (const double start : {1.0, 0.05})
       if (better(inside_near(best.p, best.a, start))) return best;
   if (paths && held_together && (better(along_paths(*held_together, touching)) || collapse())) return best;
   if (inner) {

@@ -28,7 +28,11 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   const bool small = problem_.pairs() <= most_of_paths_first;
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};
-  if (!small) how.patience = 2, how.fall = 0.1;  // what falls more slowly takes more iterations than interior points
+  if (!small) {  // what falls more slowly takes more iterations than interior points
+    how.patience = 2;
+    how.fall = 0.1;
+    how.first_fall = 0.15;
+  }
   return newton_alone(start.p, start.a, how);
 }
 
@@ -114,10 +118,10 @@ NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
 /// for nearly all states to be right, a few Newton iterations reach the solution; where they do not, steps follow once
 /// more.
 NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
-  constexpr int few = 7, hardly = 2;
+  constexpr int few = 7, slowly = 4, hardly = 2;
   PlaneInteriorPoints points(problem_, p, a, start);
   NewtonEnd best = nothing();
-  for (const double aim : {2e-3, 1e-4, 0.0}) {
+  for (const double aim : {2e-3, 5e-4, 1e-4, 0.0}) {
     InteriorPointEnd reached = points.advance(aim, content_, options_.deadline);
     for (Iteration& iteration : reached.trace) {
       iteration.iteration += iterations_ + coarse_iterations_;
@@ -132,7 +136,7 @@ NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
       return confirmed(std::move(found), hardly, "interior points");
     }
     if (late()) return best;
-    Run how{"newton after interior points", 0.0, 1.0, few, hardly};
+    Run how{"newton after interior points", 0.0, 1.0, few, slowly};
     how.soft = true;
     NewtonEnd end = newton_alone(reached.p, reached.a, how);
     if (end.converged || end.residual < best.residual) best = std::move(end);

@@ -18,9 +18,7 @@ class Newton {
         direction_(equations),
         many_(may_bond(equations.problem())),
         p_(std::move(p)),
-        a_(std::move(a)) {
-    if (options.soft) direction_.soften();
-  }
+        a_(std::move(a)) {}
 
   NewtonEnd run() {
     end_.p = p_;
@@ -36,10 +34,6 @@ class Newton {
           options_.deadline.passed() || creeps())
         break;
       ++end_.iterations;
-      if (options_.soft) {
-        if (soft_step(first)) continue;
-        break;
-      }
       if (many_ && step_of_many_bodies(first)) continue;
       const bool found = find_direction(first, NewtonDirection::Ties::as_d_takes_them);
       if (found && line_search()) continue;
@@ -96,16 +90,6 @@ class Newton {
     return true;
   }
 
-  /// Nearly all states are right, or else it is too early: short steps lead nowhere.
-  bool soft_step(double first) {
-    constexpr double least = 1.0 / 16.0;
-    if (!find_direction(first, NewtonDirection::Ties::free)) return false;
-    const double step = descending_step();
-    if (step < least) return false;
-    take(step);
-    return true;
-  }
-
   void keep_best() {
     const double merit = at_.merit();
     const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit));
@@ -121,6 +105,8 @@ class Newton {
 
   /// Short steps from kink to kink, which lead on but not to an end.
   bool creeps() {
+    if (end_.iterations == 0) first_merit_ = at_.merit();
+    if (end_.iterations == 1 && best_merit_ > options_.first_fall * first_merit_) return true;
     if (best_merit_ <= options_.fall * halved_merit_) {
       halved_merit_ = best_merit_;
       halved_at_ = end_.iterations;
@@ -184,7 +170,7 @@ class Newton {
   Residual at_, trial_;
   std::vector<Branch> before_;
   NewtonEnd end_;
-  double best_merit_ = HUGE_VAL, step_ = 0.0;
+  double best_merit_ = HUGE_VAL, first_merit_ = 0.0, step_ = 0.0;
   double halved_merit_ = HUGE_VAL;  // the smallest one when it was last halved,
   int halved_at_ = 0;               // and the iteration
   int unchecked_ = 0;               // full steps without descent

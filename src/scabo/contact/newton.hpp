@@ -21,7 +21,7 @@ struct NewtonOptions {
   int unchecked = 8;            ///< full steps without descent, most
   int patience = 0;             ///< ends when the smallest merit did not fall by `fall` in so many iterations; 0: never
   double fall = 0.5;
-  bool soft = false;  ///< NewtonDirection::soften; it then ends where steps become short
+  double first_fall = 1.0;  ///< ends where the first iteration leaves more than this part of the merit
   std::string stage = "newton";
   Deadline deadline;  ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration;  ///< may be empty; what it throws ends the solve

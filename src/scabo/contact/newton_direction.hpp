@@ -52,10 +52,6 @@ class NewtonDirection {
   /// d = [dp; da] for the branches of `at`, which at ties may be changed to those of d. False where there is none.
   bool find(Residual& at, double regularisation, Ties ties, Vector& d);
 
-  /// Sparse matrices from now on with a little on the diagonal of forces and rigid motions, so that they are regular
-  /// whatever holds the bodies: what is not determined moves little. The direction solves that system.
-  void soften() { soft_ = true; }
-
  private:
   struct Unknown {
     int pair = 0;
@@ -75,7 +71,6 @@ class NewtonDirection {
   void lay_out_sparse(double regularisation);
   bool factorise_sparse(const Eigen::SparseMatrix<double>& A);
   bool solve_sparse(double regularisation);
-  bool solve_softened();
   template <int d>
   bool solve_by_joints(double regularisation);
   bool solve_by_holding(double regularisation);
@@ -100,7 +95,6 @@ class NewtonDirection {
   struct Workspace;
   std::unique_ptr<Workspace> work_;
   std::vector<bool> immovable_;  // dN, or empty
-  bool soft_ = false;
 };
 
 }  // namespace scabo::contact

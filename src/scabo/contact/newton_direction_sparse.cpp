@@ -6,14 +6,6 @@
 
 namespace scabo::contact {
 
-namespace {
-
-/// What holds softly: of the force rows, and of the rows of balance for a motion that moves one component of one pair
-/// by 1. It is not taken back: an error is left, and the next step takes it.
-constexpr double soft_raise = 1e-6, soft_hold = 1e-7;
-
-}  // namespace
-
 void NewtonDirection::lay_out_sparse(double regularisation) {
   const Problem& problem = equations_.problem();
   const Eigen::SparseMatrix<double>& W = problem.W.sparse();
@@ -90,7 +82,6 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   const Eigen::SparseMatrix<double>& A = work.sparse;
   const Vector right = right_.head(A.rows());
   const double largest = right.lpNorm<Eigen::Infinity>() + 1e-300;
-  if (soft_) return solve_softened();
   if (!work.redundant && factorise_sparse(A) && work.sparse_solver.reciprocal_condition() > 1e-13) {
     work.sparse_solver.solve(right, y_);
     work.residual = right - A * y_;
@@ -109,31 +100,6 @@ bool NewtonDirection::solve_sparse(double regularisation) {
   y_.setZero(A.rows());
   const double left = gmres(multiply, precondition, right, y_, Workspace::singular_gmres);
   return y_.allFinite() && left <= Workspace::descending;
-}
-
-/// Close to a solution a wall may be nearly a mechanism: most joints slip, and one wrong state lets a block go. The
-/// exact direction is then a thousand times too long.
-bool NewtonDirection::solve_softened() {
-  const auto size = static_cast<Eigen::Index>(unknowns_.size()), m = equations_.problem().G.cols();
-  Workspace& work = *work_;
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(size + m));
-  for (Eigen::Index j = 0; j < size; ++j)
-    entries.emplace_back(static_cast<int>(j), static_cast<int>(j),
-                         soft_raise * (1.0 - unknowns_[static_cast<std::size_t>(j)].own));
-  const Eigen::SparseMatrix<double>& G = equations_.problem().G.sparse();
-  for (Eigen::Index k = 0; k < m; ++k)
-    entries.emplace_back(static_cast<int>(size + k), static_cast<int>(size + k), -soft_hold * G.col(k).squaredNorm());
-  Eigen::SparseMatrix<double> diagonal(size + m, size + m);
-  diagonal.setFromTriplets(entries.begin(), entries.end());
-  work.raised = work.sparse + diagonal;
-  if (!factorise_sparse(work.raised)) return false;
-  const Vector right = right_.head(size + m);
-  work.sparse_solver.solve(right, y_);
-  work.residual = right - work.raised * y_;
-  work.sparse_solver.solve(work.residual, work.image);
-  y_ += work.image;
-  return y_.allFinite();
 }
 
 /// Rigid bodies with many pairs a joint. Pairs are redundant there: the raised matrix preconditions GMRES.

@@ -19,15 +19,17 @@ using Index = Eigen::Index;
 using Array = Eigen::ArrayXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double usual = 0.6;  // products of the start over the square of the mean friction bound
+constexpr double usual = 12.0;  // products of the start over the square of the mean friction bound
 constexpr int most_steps = 80;
 constexpr int patience = 6;                              // steps without a gain in |H| or in the products
 constexpr double gain = 0.9;                             // of the least so far
 constexpr double least_part = 0.98, most_part = 0.9995;  // of the way to the nearest boundary
-constexpr int correctors = 3;                            // most, each a solve
+constexpr int correctors = 6;                            // most, each a solve
 constexpr double wanted = 0.3;                           // by which a corrector lengthens the step, at best; ...
 constexpr double worth = 0.03;                           // ... and at least
 constexpr double off = 10.0;  // products further from their middle than this factor are led back by correctors
+// A second aim of the products, this part of the usual one, if the step is not shorter than this part of it.
+constexpr double bolder = 0.1, as_long = 0.9;
 
 }  // namespace
 
@@ -36,6 +38,13 @@ class PlaneInteriorPoints::Implementation {
   struct Direction {
     Array p_n, p_t, u_n, forward, backward;
     Vector a;
+  };
+  /// What a step is made with.
+  struct Plan {
+    Direction d;
+    double target = 0.0;  ///< of the products
+    double step = 0.0;
+    double left = HUGE_VAL;  ///< of products and distances, over those of the present point
   };
   /// Products of the three factors of every pair.
   struct Products {
@@ -207,7 +216,7 @@ class PlaneInteriorPoints::Implementation {
   }
 
   /// Of the equations linearised, with these changes of the products; distance and balance go to zero if `whole`.
-  Direction direction(const Products& change, bool whole) {
+  Direction direction(const Products& change, bool whole) const {
     Vector right(2 * N_ + m_), x, correction;
     for (Index i = 0; i < N_; ++i) {
       right[2 * i] = change.normal[i] / p_n_[i];
@@ -242,34 +251,45 @@ class PlaneInteriorPoints::Implementation {
     return most > 0.0 ? 1.0 / most : HUGE_VAL;
   }
 
-  bool take_step() {
-    if (!factorise()) return false;
-    Direction d = direction({-now_.normal, -now_.forward, -now_.backward}, true);
-    double step = std::min(1.0, reach(d));
-    const double reached = std::max(sum_of(products(d, step)), 0.0) / static_cast<double>(3 * N_);
-    const double target = std::pow(std::min(reached / middle_, 1.0), 3) * middle_;
-    d = direction(
-        {target - now_.normal - step * d.p_n * d.u_n, target - now_.forward - step * (mu_ * d.p_n + d.p_t) * d.forward,
-         target - now_.backward - step * (mu_ * d.p_n - d.p_t) * d.backward},
-        true);
-    step = reach(d);
-    for (int k = 0; k < correctors && step < 1.0; ++k) {
-      const Products then = products(d, std::min(1.0, step + wanted));
+  /// Towards products `target`, after the predictor `first` with its step, with as many correctors as are worth it.
+  Plan plan(const Direction& first, double step, double target) const {
+    Plan plan;
+    plan.target = target;
+    plan.d = direction({target - now_.normal - step * first.p_n * first.u_n,
+                        target - now_.forward - step * (mu_ * first.p_n + first.p_t) * first.forward,
+                        target - now_.backward - step * (mu_ * first.p_n - first.p_t) * first.backward},
+                       true);
+    double far = reach(plan.d);
+    for (int k = 0; k < correctors && far < 1.0; ++k) {
+      const Products then = products(plan.d, std::min(1.0, far + wanted));
       const auto back = [&](const Array& product) -> Array {
         return (product.max(target / off).min(off * target) - product).max(-off * target);
       };
       const Direction more = direction({back(then.normal), back(then.forward), back(then.backward)}, false);
-      Direction both = d;
+      Direction both = plan.d;
       both.p_n += more.p_n, both.p_t += more.p_t, both.u_n += more.u_n;
       both.forward += more.forward, both.backward += more.backward, both.a += more.a;
       const double longer = reach(both);
-      if (!(longer >= step + worth)) break;
-      d = std::move(both);
-      step = longer;
+      if (!(longer >= far + worth)) break;
+      plan.d = std::move(both);
+      far = longer;
     }
-    const double part = std::clamp(1.0 - target / middle_, least_part, most_part);
-    step_ = std::min(1.0, part * step);
+    plan.step = std::min(1.0, std::clamp(1.0 - target / middle_, least_part, most_part) * far);
+    plan.left = sum_of(products(plan.d, plan.step)) / static_cast<double>(3 * N_) / middle_ + 1.0 - plan.step;
+    return plan;
+  }
+
+  bool take_step() {
+    if (!factorise()) return false;
+    const Direction first = direction({-now_.normal, -now_.forward, -now_.backward}, true);
+    const double predicted = std::min(1.0, reach(first));
+    const double reached = std::max(sum_of(products(first, predicted)), 0.0) / static_cast<double>(3 * N_);
+    const double target = std::pow(std::min(reached / middle_, 1.0), 3) * middle_;
+    Plan best = plan(first, predicted, target), bold = plan(first, predicted, bolder * target);
+    if (bold.step >= as_long * best.step && bold.left < best.left) best = std::move(bold);
+    step_ = best.step;
     if (!std::isfinite(step_)) return false;
+    const Direction& d = best.d;
     p_n_ += step_ * d.p_n, p_t_ += step_ * d.p_t, u_n_ += step_ * d.u_n;
     forward_ += step_ * d.forward, backward_ += step_ * d.backward, a_ += step_ * d.a;
     return true;

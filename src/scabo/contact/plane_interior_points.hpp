@@ -24,7 +24,7 @@ class PlaneInteriorPoints {
  public:
   /// From forces p, in the cones or not, and motions a of the rigid bodies, W_ii being 1 in the mean. Where p_n - r u_n
   /// is tension it becomes a gap, and what friction cannot carry a slip: x - y = p_n - r u_n, x y = r m, p_n = x and r
-  /// u_n = y, m being `start` times what is usual, 0.6 of the square of the mean friction bound, and alike with
+  /// u_n = y, m being `start` times what is usual, 12 times the square of the mean friction bound, and alike with
   /// friction.
   PlaneInteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start);
   ~PlaneInteriorPoints();

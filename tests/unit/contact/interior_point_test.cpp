@@ -13,6 +13,7 @@
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/soft_direction.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/starts/long_sweeps.hpp"
@@ -229,6 +230,53 @@ TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
   }
   EXPECT_GT(solvable, 20);
   EXPECT_GE(solved, solvable - 2);
+}
+
+/// The matrix of soft_direction.hpp, times d, row by row.
+Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equations, const Residual& at, const Vector& d) {
+  const Eigen::Index N = problem.pairs(), m = problem.G.cols();
+  const Matrix W = problem.W.dense(), G = problem.G.dense();
+  const Vector dp = d.head(2 * N), da = d.tail(m), du = W * dp + G * da;
+  Vector rows(2 * N + m);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const Branch& branch = at.branches[static_cast<std::size_t>(i)];
+    const Eigen::Index n = 2 * i, t = n + 1;
+    rows[n] = branch.contact ? equations.r()[n] * du[n] + 1e-6 * dp[n] : dp[n];
+    rows[t] = dp[t];
+    if (branch.tangent == Branch::Tangent::stick) rows[t] = equations.r()[t] * du[t] + 1e-6 * dp[t];
+    if (branch.tangent == Branch::Tangent::slip) rows[t] -= branch.slope * branch.along[0] * dp[n];
+  }
+  rows.tail(m) = G.transpose() * dp;
+  for (Eigen::Index k = 0; k < m; ++k) rows[2 * N + k] -= 1e-7 * G.col(k).squaredNorm() * da[k];
+  return rows;
+}
+
+TEST(SoftDirection, SolvesForNewStatesWithTheFactorOfEarlierOnes) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Problem problem = scaled(test::floating_problem(random, 60, 0.8)).problem;
+  problem.W = Delassus(Eigen::SparseMatrix<double>(problem.W.dense().sparseView()));
+  const BDifferentiableEquations equations(problem, 1.0);
+  SoftDirection direction(equations);
+  const double force = problem.f.lpNorm<Eigen::Infinity>() / problem.pairs();
+  Vector p(problem.q.size()), a = Vector::Zero(problem.G.cols()), d;
+  for (int i = 0; i < problem.pairs(); ++i) p[2 * i] = force * (1.0 + unit(random)), p[2 * i + 1] = force * unit(random);
+  std::vector<Branch> before;
+  for (int round = 0; round < 3; ++round) {
+    const Residual at = equations.residual(p, a);
+    int changed = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) changed += !at.branches[i].same_branch(before[i]);
+    if (round > 0) EXPECT_GT(changed, 0);
+    before = at.branches;
+    ASSERT_TRUE(direction.find(at, d));
+    EXPECT_LE((soft_rows(problem, equations, at, d) + at.H).norm(), 1e-6 * at.H.norm()) << round;
+    EXPECT_EQ(direction.factorisations(), 1);
+    for (double& component : p) component *= 1.0 + 0.05 * unit(random);
+  }
+  p = -p;  // hardly a state is as it was
+  ASSERT_TRUE(direction.find(equations.residual(p, a), d));
+  EXPECT_LE((soft_rows(problem, equations, equations.residual(p, a), d) + equations.residual(p, a).H).norm(),
+            1e-6 * equations.residual(p, a).H.norm());
 }
 
 }  // namespace

@@ -1,0 +1,178 @@
+#include "scabo/contact/soft_direction.hpp"
+
+#include <algorithm>
+
+#include "scabo/contact/gmres.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+using Index = Eigen::Index;
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// With a hundred and ten times as much the last digits came by a factor of six a step at 0.99 of a limit load.
+constexpr double raise = 1e-6, hold = 1e-7;
+/// Products with the factor of an earlier step, most, and pairs that have changed since then. `solved`: what is left of
+/// the right-hand side; the softness leaves more.
+constexpr int most_products = 30, most_changed = 100;
+constexpr GmresOptions reused{1e-8, most_products, most_products};
+constexpr double solved = 1e-6;
+
+}  // namespace
+
+SoftDirection::SoftDirection(const BDifferentiableEquations& equations) : equations_(equations) {
+  const Sparse& G = equations.problem().G.sparse();
+  hold_.resize(G.cols());
+  for (Index k = 0; k < G.cols(); ++k) hold_[k] = hold * G.col(k).squaredNorm();
+}
+
+std::vector<SoftDirection::State> SoftDirection::states_of(const Residual& at) {
+  std::vector<State> states(at.branches.size());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Branch& branch = at.branches[i];
+    State& state = states[i];
+    state.presses = branch.contact && !branch.normal_tie;
+    const bool loose = branch.bound_tie || branch.tip;
+    const bool slips = !loose && (branch.edge || branch.tangent == Branch::Tangent::slip);
+    state.sticks = !loose && !slips && branch.tangent == Branch::Tangent::stick;
+    if (slips) state.slope = branch.slope * branch.along[0];
+  }
+  return states;
+}
+
+bool SoftDirection::asks_for_motion(const std::vector<State>& states, Index row) const {
+  const State& state = states[static_cast<std::size_t>(row / 2)];
+  return row % 2 == 0 ? state.presses : state.sticks;
+}
+
+/// A x, with what is on the diagonal.
+void SoftDirection::apply(const std::vector<State>& states, const Vector& x, Vector& image) {
+  const Problem& problem = equations_.problem();
+  const Vector& r = equations_.r();
+  const Index forces = r.size(), m = hold_.size();
+  equations_.motion_along(x, motion_);
+  image.resize(forces + m);
+  for (Index k = 0; k < forces; ++k) {
+    if (asks_for_motion(states, k)) {
+      image[k] = r[k] * motion_[k] + raise * x[k];
+    } else {
+      image[k] = x[k];
+      if (k % 2 == 1) image[k] -= states[static_cast<std::size_t>(k / 2)].slope * x[k - 1];
+    }
+  }
+  image.tail(m) = problem.G.transpose() * x.head(forces);
+  image.tail(m) -= hold_.cwiseProduct(x.tail(m));
+}
+
+/// Of the forces whose row asks for a motion; the others follow from them and from the right-hand side.
+bool SoftDirection::factorise() {
+  const Problem& problem = equations_.problem();
+  const Vector& r = equations_.r();
+  const Sparse &W = problem.W.sparse(), &G = problem.G.sparse();
+  const Index forces = r.size(), m = hold_.size();
+  std::vector<int> place(static_cast<std::size_t>(forces), -1);
+  unknowns_.clear();
+  for (Index k = 0; k < forces; ++k) {
+    if (!asks_for_motion(held_, k)) continue;
+    const State& state = held_[static_cast<std::size_t>(k / 2)];
+    place[static_cast<std::size_t>(k)] = static_cast<int>(unknowns_.size());
+    unknowns_.push_back({static_cast<int>(k), k % 2 == 0 && !state.sticks ? state.slope : 0.0});
+  }
+  const auto size = static_cast<Index>(unknowns_.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(W.nonZeros() + 2 * G.nonZeros() + size + m));
+  const auto add = [&](Index row, Index column, double value) {
+    entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+  };
+  for (Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    for (int part = 0; part < (unknown.slope != 0.0 ? 2 : 1); ++part) {
+      const double weight = part == 0 ? 1.0 : unknown.slope;
+      for (Sparse::InnerIterator it(W, unknown.row + part); it; ++it)
+        if (const int to = place[static_cast<std::size_t>(it.row())]; to >= 0)
+          add(to, j, weight * r[it.row()] * it.value());
+    }
+    add(j, j, raise);
+  }
+  for (Index k = 0; k < m; ++k) {
+    for (Sparse::InnerIterator it(G, k); it; ++it) {
+      if (const int to = place[static_cast<std::size_t>(it.row())]; to >= 0) {
+        add(to, size + k, r[it.row()] * it.value());
+        add(size + k, to, it.value());
+      }
+      if (it.row() % 2 == 1) {  // a force that follows the normal force of its pair
+        const State& state = held_[static_cast<std::size_t>(it.row() / 2)];
+        const int normal = place[static_cast<std::size_t>(it.row() - 1)];
+        if (!state.sticks && state.slope != 0.0 && normal >= 0) add(size + k, normal, state.slope * it.value());
+      }
+    }
+    add(size + k, size + k, -hold_[k]);
+  }
+  A_.resize(size + m, size + m);
+  A_.setFromTriplets(entries.begin(), entries.end());
+  ++factorisations_;
+  return factor_.factorise(A_, [&] {
+    if (!joint_order_) joint_order_.emplace(problem);
+    std::vector<int> pair_of;
+    pair_of.reserve(unknowns_.size());
+    for (const Unknown& unknown : unknowns_) pair_of.push_back(unknown.row / 2);
+    return joint_order_->blocks(pair_of);
+  });
+}
+
+/// With the matrix of the states of the factor.
+void SoftDirection::solve(const Vector& right, Vector& x) {
+  const Problem& problem = equations_.problem();
+  const Vector& r = equations_.r();
+  const Index forces = r.size(), m = hold_.size(), size = static_cast<Index>(unknowns_.size());
+  x.setZero(forces + m);
+  for (Index k = 0; k < forces; ++k) {
+    if (asks_for_motion(held_, k)) continue;
+    x[k] = right[k];
+    // The normal force of a pair that presses is added below.
+    if (k % 2 == 1) x[k] += held_[static_cast<std::size_t>(k / 2)].slope * x[k - 1];
+  }
+  problem.W.apply(x.head(forces), motion_);
+  reduced_.resize(size + m);
+  for (Index j = 0; j < size; ++j) {
+    const int row = unknowns_[static_cast<std::size_t>(j)].row;
+    reduced_[j] = right[row] - r[row] * motion_[row];
+  }
+  reduced_.tail(m) = right.tail(m);
+  reduced_.tail(m).noalias() -= problem.G.transpose() * x.head(forces);
+  factor_.solve(reduced_, y_);
+  left_ = reduced_ - A_ * y_;
+  factor_.solve(left_, more_);
+  y_ += more_;
+  for (Index j = 0; j < size; ++j) {
+    const Unknown& unknown = unknowns_[static_cast<std::size_t>(j)];
+    x[unknown.row] += y_[j];
+    if (unknown.slope != 0.0) x[unknown.row + 1] += unknown.slope * y_[j];
+  }
+  x.tail(m) = y_.tail(m);
+}
+
+bool SoftDirection::find(const Residual& at, Vector& d) {
+  std::vector<State> states = states_of(at);
+  const Vector right = -at.H;
+  if (!held_.empty()) {
+    int changed = 0;
+    for (std::size_t i = 0; i < states.size(); ++i) changed += !(states[i] == held_[i]);
+    if (changed <= most_changed) {
+      d.setZero(right.size());
+      const double left = gmres([&](const Vector& x, Vector& image) { apply(states, x, image); },
+                                [&](const Vector& b, Vector& x) { solve(b, x); }, right, d, reused);
+      if (left <= solved && d.allFinite()) return true;
+    }
+  }
+  held_ = std::move(states);
+  if (!factorise()) {
+    held_.clear();
+    return false;
+  }
+  solve(right, d);
+  return d.allFinite();
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,67 @@
+// The direction of Newton's method near a solution of a plane problem of many bodies: H(z) + A d = 0, with a little on
+// the diagonal of A.
+//
+// Close to a solution a wall may be nearly a mechanism: most joints slip, and one wrong state lets a block go. The
+// exact direction is then a thousand times too long. The matrix therefore has 1e-6 (of 1 / r) on its rows of motions,
+// and -1e-7, for a motion that moves one component of one pair by 1, on its rows of balance: what is not determined
+// moves little. It is not taken back: an error is left, and the next step takes it.
+//
+//     presses:  r_n (W dp + G da)_n = -H_n        open:   dp_n = -H_n
+//     sticks:   r_t (W dp + G da)_t = -H_t        slips:  dp_t - e mu dp_n = -H_t        G'dp = -H_R
+//
+// A factorisation costs as much as some thirty solves, and from one step to the next few pairs change their state. Each
+// of them changes two rows, so that GMRES with the factor of an earlier step for a preconditioner needs at most two
+// products for each. Only where that takes too many is there another factorisation.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/joint_order.hpp"
+#include "scabo/linalg/sparse_general_solver.hpp"
+
+namespace scabo::contact {
+
+class SoftDirection {
+ public:
+  /// Of Coulomb's law in the plane with W sparse and rigid motions. Keeps a reference.
+  explicit SoftDirection(const BDifferentiableEquations& equations);
+
+  /// d = [dp; da] for the branches of `at`; of pairs that are tied, for those that hold least. False where there is
+  /// none.
+  bool find(const Residual& at, Vector& d);
+
+  int factorisations() const { return factorisations_; }
+
+ private:
+  /// What the two rows of a pair ask for.
+  struct State {
+    bool presses = false, sticks = false;
+    double slope = 0.0;  ///< e mu: dp_t over dp_n where it slips
+    bool operator==(const State& other) const {
+      return presses == other.presses && sticks == other.sticks && slope == other.slope;
+    }
+  };
+  struct Unknown {
+    int row = 0;         ///< of W
+    double slope = 0.0;  ///< of the tangential force that follows it
+  };
+  static std::vector<State> states_of(const Residual& at);
+  bool asks_for_motion(const std::vector<State>& states, Eigen::Index row) const;
+  void apply(const std::vector<State>& states, const Vector& x, Vector& image);
+  bool factorise();
+  void solve(const Vector& right, Vector& x);
+
+  const BDifferentiableEquations& equations_;
+  Vector hold_;
+  std::vector<State> held_;  ///< of the factor; empty: none
+  std::vector<Unknown> unknowns_;
+  Eigen::SparseMatrix<double> A_;
+  linalg::SparseGeneralSolver factor_;
+  std::optional<JointOrder> joint_order_;
+  Vector motion_, reduced_, y_, left_, more_;
+  int factorisations_ = 0;
+};
+
+}  // namespace scabo::contact
