@@ -177,6 +177,17 @@ class Fields(WithResults):
         np.testing.assert_allclose(field.values, -0.04 * field.grid.points[:, 1])
         np.testing.assert_array_equal(field.points, field.grid.points)
 
+    def test_a_stress_at_a_crack_tip_is_no_number(self):
+        field = fields.field_of(self.results, 2, "xx")
+        units = plot.Units("m", "N")
+        scale, place = units.scale("stress", max(map(abs, field.range))), units.scale("length", 7.0)
+        self.assertRegex(fields.described(field, scale, place), r"largest .*Pa at \(7,")
+        values = field.values.copy()
+        values[field.largest] *= 1e5
+        text = fields.described(dataclasses.replace(field, values=values), scale, place)
+        self.assertRegex(text, r"grows without bound at \(7,")
+        self.assertNotIn("largest", text)
+
     def test_without_stress_the_displacement_is_shown(self):
         grid = self.results.fields(1)
         self.assertEqual(fields.default_component(grid), "von_mises")
