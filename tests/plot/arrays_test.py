@@ -248,6 +248,17 @@ class Contacts(WithResults):
             curve = axes[label].lines[1]
             np.testing.assert_allclose(curve.get_ydata(), [factor * row[column] for row in rows])
 
+    def test_shear_that_the_mesh_leaves_is_drawn_small(self):
+        line = contacts.lines_of(self.results, 2, ["bend"])[0]
+        pressure = np.abs(line.values["pressure"]).max()
+        line.values["shear"] = 1e-2 * pressure * np.sin(line.distance)
+        for factor, small in ((1.0, False), (1e-3, True)):
+            line.values["shear"] = factor * line.values["shear"]
+            figure = contacts.contact_curves(self.results, 2, [line], plot.Units("m", "N"), contacts.CURVES)
+            axis = next(axis for axis in figure.axes if axis.get_ylabel().startswith("shear"))
+            drawn = np.abs(axis.lines[1].get_ydata()).max() / np.ptp(axis.get_ylim())
+            self.assertEqual(drawn < 0.01, small)
+
     def test_states_differ_in_mark_and_are_where_they_are(self):
         marks = [(mark, filled) for _, mark, filled in style.STATES.values()]
         self.assertEqual(len(set(marks)), 3)
