@@ -177,6 +177,17 @@ class Fields(WithResults):
         np.testing.assert_allclose(field.values, -0.04 * field.grid.points[:, 1])
         np.testing.assert_array_equal(field.points, field.grid.points)
 
+    def test_a_stress_at_a_crack_tip_is_no_number(self):
+        field = fields.field_of(self.results, 2, "xx")
+        units = plot.Units("m", "N")
+        scale, place = units.scale("stress", max(map(abs, field.range))), units.scale("length", 7.0)
+        self.assertRegex(fields.described(field, scale, place), r"largest .*Pa at \(7,")
+        values = field.values.copy()
+        values[field.largest] *= 1e5
+        text = fields.described(dataclasses.replace(field, values=values), scale, place)
+        self.assertRegex(text, r"grows without bound at \(7,")
+        self.assertNotIn("largest", text)
+
     def test_without_stress_the_displacement_is_shown(self):
         grid = self.results.fields(1)
         self.assertEqual(fields.default_component(grid), "von_mises")
@@ -236,6 +247,17 @@ class Contacts(WithResults):
         for label, column, factor in (("pressure (MPa)", 10, 1e-6), ("shear (MPa)", 11, 1e-6), ("gap (mm)", 6, 1e3), ("slip (mm)", 7, 1e3)):
             curve = axes[label].lines[1]
             np.testing.assert_allclose(curve.get_ydata(), [factor * row[column] for row in rows])
+
+    def test_shear_that_the_mesh_leaves_is_drawn_small(self):
+        line = contacts.lines_of(self.results, 2, ["bend"])[0]
+        pressure = np.abs(line.values["pressure"]).max()
+        line.values["shear"] = 1e-2 * pressure * np.sin(line.distance)
+        for factor, small in ((1.0, False), (1e-3, True)):
+            line.values["shear"] = factor * line.values["shear"]
+            figure = contacts.contact_curves(self.results, 2, [line], plot.Units("m", "N"), contacts.CURVES)
+            axis = next(axis for axis in figure.axes if axis.get_ylabel().startswith("shear"))
+            drawn = np.abs(axis.lines[1].get_ydata()).max() / np.ptp(axis.get_ylim())
+            self.assertEqual(drawn < 0.01, small)
 
     def test_states_differ_in_mark_and_are_where_they_are(self):
         marks = [(mark, filled) for _, mark, filled in style.STATES.values()]

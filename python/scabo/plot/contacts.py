@@ -61,6 +61,9 @@ def contact(results, increment=-1, contacts=(), component=None, units=None):
     return contact_curves(results, number, lines, units, [curve for curve in CURVES if component in (None, curve[0])])
 
 
+NO_SHEAR = 1e-3  # part of the largest pressure; smaller shear is that of the mesh, and its axis ends there
+
+
 def contact_curves(results, number, lines, units, curves):
     single = len(lines) == 1 and len(curves) > 1
     rows, columns = (len(curves) // 2, 2) if single else (len(curves), len(lines))
@@ -73,7 +76,11 @@ def contact_curves(results, number, lines, units, curves):
     together = not single and all(part_in_contact(line) is None for line in lines)
     axes = figure.subplots(rows, columns, sharex="col", sharey="row" if together else "none", squeeze=False)
     grid = axes.reshape(-1, 1) if single else axes  # curve x contact
-    scales = {key: units.scale(dimension, max(np.abs(line.values[key]).max() for line in lines)) for key, _, dimension in curves}
+    largest = {key: max(np.abs(line.values[key]).max() for line in lines) for key, _, _ in CURVES}
+    no_shear = largest["shear"] < NO_SHEAR * largest["pressure"]
+    if no_shear:
+        largest["shear"] = NO_SHEAR * largest["pressure"]
+    scales = {key: units.scale(dimension, largest[key]) for key, _, dimension in curves}
     for column, line in enumerate(lines):
         view = part_in_contact(line)
         along = units.scale("length", line.distance[-1] if view is None else 10 * (view[1] - view[0]))
@@ -91,6 +98,8 @@ def contact_curves(results, number, lines, units, curves):
                 show_part(axis, x, y, along.factor * np.array(view))
             if not (np.any(y) or together and any(other.values[key].any() for other in lines)):
                 axis.set_ylim(-1, 1)
+            if no_shear and key == "shear":
+                axis.set_ylim(*(scales[key].factor * largest[key] * np.array([-1, 1])))
             if single or column == 0:
                 axis.set_ylabel(scales[key].label(name, "\n"), fontsize=8.5 if single else 8)
             style.few_ticks(axis, 6 if columns < 3 else 4, 5)

@@ -109,6 +109,9 @@ def field_of(results, increment=-1, component=None, magnification=None, window=N
     return Field(results.name_of(number), name, dimension, grid, points, magnification, corners, values, (low, high), largest, seen)
 
 
+WITHOUT_BOUND = 1e3  # times the typical largest stress: that of a point very near to a crack tip
+
+
 @style.styled
 def stress(results, increment=-1, component=None, magnification=None, units=None, window=None):
     """Contours of a component of COMPONENTS on the deformed bodies.
@@ -146,7 +149,10 @@ def described(field, scale, place):
     if field.largest >= 0:
         signed = bool((field.values[field.seen] < 0).any())
         at = ",\u00a0".join(f"{place.factor * value:.4g}" for value in field.grid.points[field.largest])
-        parts.append(f"largest{' in size' * signed} {scale.text(field.values[field.largest])} at ({at})")
+        if field.dimension == "stress" and abs(field.values[field.largest]) > WITHOUT_BOUND * max(map(abs, field.range)) > 0:
+            parts.append(f"grows without bound at ({at})")  # a number would only say how near to it the nearest point is
+        else:
+            parts.append(f"largest{' in size' * signed} {scale.text(field.values[field.largest])} at ({at})")
     return "\u00a0· ".join(parts)
 
 

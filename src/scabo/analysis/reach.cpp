@@ -23,11 +23,16 @@ bool breaks(const Prepared& prepared) {
                      [](const model::Contact& contact) { return contact.cohesion > 0.0; });
 }
 
-/// The next power of ten above three times a figure of the certificate that is below the default tolerance, `1e-12`; empty
-/// for larger figures.
-std::string tolerance_that_is_reached(double figure) {
-  if (!(3.0 * figure < model::SolverOptions().tolerance)) return {};
-  return fmt::format("1e{}", static_cast<int>(std::ceil(std::log10(3.0 * figure))));
+/// What to do about a tolerance that is missed by a figure of the certificate well below the default tolerance; empty for
+/// larger figures.
+std::string tolerance_to_set(const Prepared& prepared, double figure) {
+  constexpr double margin = 3.0;  // figures of other increments and machines differ
+  if (!(figure > prepared.model.solver.tolerance && margin * figure < model::SolverOptions().tolerance)) return {};
+  return fmt::format(
+      "; rounding leaves {:.2g} in {} degrees of freedom: set solver.tolerance to 1e{} or leave it out, as its default "
+      "of {:g} is far below the error of any mesh",
+      figure, 2 * prepared.mesh.nodes(), static_cast<int>(std::ceil(std::log10(margin * figure))),
+      model::SolverOptions().tolerance);
 }
 
 /// Reason why an increment with a contact solution is not accepted.
@@ -35,11 +40,8 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
   const double worst = tried.certificate.worst();
   std::string reason =
       fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
-  if (const std::string wanted = tolerance_that_is_reached(worst); !wanted.empty())
-    reason += fmt::format(
-        "; this is what rounding leaves in {} degrees of freedom: set solver.tolerance to {} or leave it out, as its "
-        "default of {:g} is far below the error of any mesh",
-        2 * prepared.mesh.nodes(), wanted, model::SolverOptions().tolerance);
+  if (const std::string remedy = tolerance_to_set(prepared, worst); !remedy.empty())
+    reason += remedy;
   else if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason +=
         "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
@@ -121,7 +123,8 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   solver.force_scale = tried.force_scale;
   if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
     reached.reason += "; " + why;
-  reached.reason += lost_in_rounding(tried, tolerance);
+  const std::string remedy = tolerance_to_set(prepared, tried.certificate.worst());
+  reached.reason += remedy.empty() ? lost_in_rounding(tried, tolerance) : remedy;
 }
 
 }  // namespace
