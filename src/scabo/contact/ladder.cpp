@@ -12,6 +12,7 @@
 #include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/cold_start.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/starts/kept_states.hpp"
 
 namespace scabo::contact {
 
@@ -105,6 +106,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   const bool paths = many && may_follow_path(problem_), paths_first = paths && problem_.pairs() <= most_of_paths_first;
   const int most = paths ? std::min(few, options_.iterations) : 0;
   const bool inner = many && may_take_interior_points(problem_);
+  if (!cold && !many && problem_.G.cols() > 0 && better(on_kept_states(p, a))) return best;
   if (!cold && better(newton_alone(p, a, {"newton", 0.0, 1.0, most, patience}))) return best;
   if (!cold && inner && !paths_first && better(inside_near(best.p, best.a, 1.0))) return best;
   if (!cold && paths && better(along_loads(p, a))) return best;
@@ -143,6 +145,22 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (better(newton_alone(p, a, {"newton, other r", 0.0, factor}))) return best;
   if (held) better(vanishing_proximal(best.p));
   return best;
+}
+
+/// Newton from where the loads lead as long as no pair changes its state, if that is nearer than the last increment.
+NewtonEnd Ladder::on_kept_states(const Vector& p, const Vector& a) {
+  constexpr int few = 8;
+  constexpr double nearer = 0.1;  // merit: of points that are hardly better, Newton takes as long as from those before
+  const BDifferentiableEquations equations(problem_, options_.r_factor);
+  const Residual before = equations.residual(p, a);
+  if (before.largest() <= small_) return nothing();  // nothing has changed
+  const std::optional<KeptStates> kept = keep_states(equations, p, a, before);
+  if (!kept) return nothing();
+  trace_.push_back({iterations_ + coarse_iterations_, before.largest(), before.merit(), 0.0, 0, "states kept"});
+  if (options_.on_iteration) options_.on_iteration(trace_.back());
+  ++iterations_;
+  if (!(equations.residual(kept->p, kept->a).merit() < nearer * before.merit())) return nothing();
+  return newton_alone(kept->p, kept->a, {"newton", 0.0, 1.0, std::min(few, options_.iterations)});
 }
 
 NewtonEnd Ladder::bonded(const BondedStart& start) {
