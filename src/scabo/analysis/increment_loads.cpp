@@ -82,7 +82,8 @@ void take_out_rounding(const Matrix& rigid, double sum, Vector& forces) {
   Vector resultants(rigid.cols());
   for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
     linalg::Twofold work;  // of many small forces, as weight, a sum in working precision is rounding itself
-    for (Eigen::Index i = 0; i < forces.size(); ++i) work = work + linalg::exact_product(rigid(i, k), forces[i]);
+    for (Eigen::Index i = 0; i < forces.size(); ++i)
+      if (forces[i] != 0.0) work = work + linalg::exact_product(rigid(i, k), forces[i]);
     resultants[k] = work.high;
   }
   for (double& resultant : resultants)

@@ -8,6 +8,7 @@
 #include "scabo/contact/soft_newton.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
 #include "scabo/contact/starts/cold_start.hpp"
+#include "scabo/contact/starts/kept_states.hpp"
 
 namespace scabo::contact {
 
@@ -81,6 +82,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   constexpr double near_by = 0.025;
   const int most = paths ? std::min(few, options_.iterations) : 0;
   const bool inner = many && may_take_interior_points(problem_);
+  if (!cold && !many && problem_.G.cols() > 0 && better(on_kept_states(p, a))) return best;
   if (!cold) {
     Run how{"newton", 0.0, 1.0, most, patience};
     if (inner && !paths_first) {  // as in bonded()
@@ -128,6 +130,22 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (better(newton_alone(p, a, {"newton, other r", 0.0, factor}))) return best;
   if (held) better(vanishing_proximal(best.p));
   return best;
+}
+
+/// Newton from where the loads lead as long as no pair changes its state, if that is nearer than the last increment.
+NewtonEnd Ladder::on_kept_states(const Vector& p, const Vector& a) {
+  constexpr int few = 8;
+  constexpr double nearer = 0.1;  // merit: of points that are hardly better, Newton takes as long as from those before
+  const BDifferentiableEquations equations(problem_, options_.r_factor);
+  const Residual before = equations.residual(p, a);
+  if (before.largest() <= small_) return nothing();  // nothing has changed
+  const std::optional<KeptStates> kept = keep_states(equations, p, a, before);
+  if (!kept) return nothing();
+  trace_.push_back({iterations_ + coarse_iterations_, before.largest(), before.merit(), 0.0, 0, "states kept"});
+  if (options_.on_iteration) options_.on_iteration(trace_.back());
+  ++iterations_;
+  if (!(equations.residual(kept->p, kept->a).merit() < nearer * before.merit())) return nothing();
+  return newton_alone(kept->p, kept->a, {"newton", 0.0, 1.0, std::min(few, options_.iterations)});
 }
 
 NewtonEnd Ladder::without_history(const Vector& p, const Vector& a) {

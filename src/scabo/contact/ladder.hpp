@@ -74,6 +74,7 @@ class Ladder {
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
   NewtonEnd climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                           const std::function<bool()>& hopeless);
+  NewtonEnd on_kept_states(const Vector& p, const Vector& a);
   NewtonEnd bonded(const BondedStart& start);
   NewtonEnd along_loads(const Vector& p, const Vector& a);
   NewtonEnd along_paths(const BondedStart& bonded, const std::vector<bool>& touching);

@@ -1,5 +1,7 @@
 #include "scabo/linalg/twofold.hpp"
 
+#include "scabo/linalg/twofold_kernel.hpp"
+
 namespace scabo::linalg {
 
 namespace {
@@ -30,11 +32,15 @@ Vector rounded(const TwofoldVector& x) {
 }
 
 TwofoldVector product(const Matrix& A, const TwofoldVector& x) {
-  TwofoldVector y(static_cast<std::size_t>(A.rows()));
-  for (Eigen::Index column = 0; column < A.cols(); ++column)
-    for (Eigen::Index row = 0; row < A.rows(); ++row)
-      add_product(y[static_cast<std::size_t>(row)], A(row, column), x[static_cast<std::size_t>(column)]);
-  in_order(y);
+  static const TwofoldKernel& fastest = *twofold_kernel(0);
+  Vector high = Vector::Zero(A.rows()), low = Vector::Zero(A.rows());
+  for (Eigen::Index column = 0; column < A.cols(); ++column) {
+    const Twofold& of_column = x[static_cast<std::size_t>(column)];
+    fastest.add_column(A.col(column).data(), A.rows(), of_column.high, of_column.low, high.data(), low.data());
+  }
+  TwofoldVector y;
+  y.reserve(static_cast<std::size_t>(A.rows()));
+  for (Eigen::Index row = 0; row < A.rows(); ++row) y.push_back(exact_sum(high[row], low[row]));
   return y;
 }
 

@@ -1,12 +1,13 @@
 #include "scabo/result/vtu.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
+#include <isa-l/igzip_lib.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -37,34 +38,42 @@ constexpr std::string_view name_of() {
 /// appended arrays if the offset of one equals that of another in its own encoding, which occurs with small arrays.)
 enum class Encoding { text, appended, compressed };
 
-/// Grids repeat themselves. The digits of fields do not: looking for repetitions in them, except runs of equal bytes,
-/// takes three times as long and saves three percent.
+/// Whether an array is the same in every increment.
 enum class Content { grid, field };
+
+/// In the format of zlib, by ISA-L: a third of the time that zlib takes to look for nothing but runs, and a little
+/// smaller.
+std::string compressed_piece(std::string_view piece) {
+  const std::size_t room = piece.size() + piece.size() / 8 + 1024;  // blocks that do not shrink are stored
+  const auto workspace = std::make_unique_for_overwrite<std::uint8_t[]>(ISAL_DEF_LVL1_DEFAULT);
+  const auto output = std::make_unique_for_overwrite<std::uint8_t[]>(room);
+  const auto stream = std::make_unique<isal_zstream>();
+  isal_deflate_init(stream.get());
+  stream->level = 1;
+  stream->level_buf = workspace.get();
+  stream->level_buf_size = ISAL_DEF_LVL1_DEFAULT;
+  stream->gzip_flag = IGZIP_ZLIB;
+  stream->flush = NO_FLUSH;
+  stream->end_of_stream = 1;
+  stream->next_in = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(piece.data()));  // it only reads
+  stream->avail_in = static_cast<std::uint32_t>(piece.size());
+  stream->next_out = output.get();
+  stream->avail_out = static_cast<std::uint32_t>(room);
+  const int status = isal_deflate(stream.get());
+  ensure(status == COMP_OK && stream->avail_in == 0 && stream->internal_state.state == ZSTATE_END,
+         "a piece of an array is compressed into the room that it may need");
+  return std::string(reinterpret_cast<const char*>(output.get()), stream->total_out);
+}
 
 /// An array in pieces of `piece_size` bytes, each compressed by itself, with the header that VTK wants: the number of
 /// pieces, their size, that of the last one if it is smaller (else 0), and the compressed size of each, in 64 bits.
-std::string compressed(std::string_view values, Content content_of_array, int threads) {
+std::string compressed(std::string_view values, int threads) {
   constexpr std::size_t piece_size = 1 << 18;
   const std::size_t count = (values.size() + piece_size - 1) / piece_size;
   std::vector<std::string> pieces(count);
   linalg::parallel_for(static_cast<int>(count), threads, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    const std::string_view piece = values.substr(i * piece_size, piece_size);
-    z_stream stream{};
-    constexpr int window = 15, memory = 8;  // what compress2 takes
-    ensure(deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, window, memory,
-                        content_of_array == Content::field ? Z_RLE : Z_DEFAULT_STRATEGY) == Z_OK,
-           "zlib begins to compress");
-    pieces[i].resize(deflateBound(&stream, piece.size()));
-    stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(piece.data()));  // zlib only reads it
-    stream.avail_in = static_cast<uInt>(piece.size());
-    stream.next_out = reinterpret_cast<Bytef*>(pieces[i].data());
-    stream.avail_out = static_cast<uInt>(pieces[i].size());
-    const int status = deflate(&stream, Z_FINISH);
-    const std::size_t size = stream.total_out;
-    deflateEnd(&stream);
-    ensure(status == Z_STREAM_END, "zlib compresses into a buffer of the size that it asks for");
-    pieces[i].resize(size);
+    pieces[i] = compressed_piece(values.substr(i * piece_size, piece_size));
   });
   std::string content;
   const auto add = [&](std::uint64_t number) { content.append(reinterpret_cast<const char*>(&number), sizeof number); };
@@ -105,10 +114,10 @@ class Document {
                    name_of<Value>(), name, number, attributes, data_.size());
     const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
     if (encoding_ == Encoding::compressed && content == Content::grid && grid_ != nullptr) {
-      if (next_of_grid_ == grid_->arrays.size()) grid_->arrays.push_back(compressed(bytes, content, threads_));
+      if (next_of_grid_ == grid_->arrays.size()) grid_->arrays.push_back(compressed(bytes, threads_));
       data_ += grid_->arrays[next_of_grid_++];
     } else if (encoding_ == Encoding::compressed) {
-      data_ += compressed(bytes, content, threads_);
+      data_ += compressed(bytes, threads_);
     } else {
       const std::uint64_t size = bytes.size();
       data_.append(reinterpret_cast<const char*>(&size), sizeof size);
