@@ -30,6 +30,28 @@ void add_side(Triplets& entries, int row, double sign, const Structure& structur
   }
 }
 
+/// Directly by columns: of thousands of parts each has few entries, but as many rows as all pairs together.
+Eigen::SparseMatrix<double> by_columns(Eigen::Index rows, Eigen::Index columns, Triplets entries) {
+  std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.col(), a.row()) < std::pair(b.col(), b.row());
+  });
+  Eigen::SparseMatrix<double> matrix(rows, columns);
+  matrix.reserve(static_cast<Eigen::Index>(entries.size()));
+  std::size_t next = 0;
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    matrix.startVec(column);
+    while (next < entries.size() && entries[next].col() == column) {
+      const Eigen::Index row = entries[next].row();
+      double sum = 0.0;
+      for (; next < entries.size() && entries[next].col() == column && entries[next].row() == row; ++next)
+        sum += entries[next].value();
+      matrix.insertBack(row, column) = sum;
+    }
+  }
+  matrix.finalize();
+  return matrix;
+}
+
 std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSystem::Pair>& pairs,
                                                    const Structure& structure, const model::Model& model,
                                                    const mesh::Mesh& mesh) {
@@ -47,10 +69,8 @@ std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSyst
     row += 2;
   }
   std::vector<Eigen::SparseMatrix<double>> motion;
-  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
-    motion.emplace_back(row, structure.parts[p]->size());
-    motion.back().setFromTriplets(entries[p].begin(), entries[p].end());
-  }
+  for (std::size_t p = 0; p < structure.parts.size(); ++p)
+    motion.push_back(by_columns(row, structure.parts[p]->size(), std::move(entries[p])));
   return motion;
 }
 

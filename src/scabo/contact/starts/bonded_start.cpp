@@ -38,6 +38,7 @@ std::optional<Vector> solve_sparse(const Problem& problem, const std::vector<int
     for (Eigen::Index k = size; k < right.size(); ++k) entries.emplace_back(k, k, -hold);
   Eigen::SparseMatrix<double> A(right.size(), right.size());
   A.setFromTriplets(entries.begin(), entries.end());
+  entries = {};  // of large walls half a gigabyte
   linalg::SparseGeneralSolver solver;
   if (!solver.factorise(A) || !(solver.reciprocal_condition() > least_condition)) return std::nullopt;
   Vector x;
