@@ -22,7 +22,7 @@ struct Contact {
   double friction = 0.0;  ///< coefficient, >= 0; the static one if a dynamic one is given
   /// Coefficient against backward slip (slip < 0), where it differs; `friction` is then that against forward slip.
   std::optional<double> backward_friction;
-  std::optional<double> dynamic_friction;     ///< coefficient, <= friction
+  std::optional<double> dynamic_friction;  ///< coefficient, <= friction
   /// The same against backward slip, <= backward_friction; given if both a dynamic and a backward one are.
   std::optional<double> backward_dynamic_friction;
   double slip_distance = 0.0;                 ///< slip over which friction falls to the dynamic value; 0: at once
