@@ -179,8 +179,8 @@ TEST(Outside, BlockAndContactAreShownRelativeToTheReferencePointToo) {
   EXPECT_LE((shown - block.at(node)->displacement).norm(), 1e-8 * largest);
 }
 
-// A pressure p in a round hole has no resultant. A soft spring at its rim, which moves by p R (1 + nu) / E, has: that is
-// what the ground far away must balance, and what the warning names.
+// A pressure p in a round hole has no resultant. A soft spring at its rim, which moves by p R (1 + nu) / E, has: that
+// is what the ground far away must balance, and what the warning names.
 TEST(Outside, TheForceOfASpringAloneNeedsAReferencePoint) {
   const auto warning = [](const std::string& springs) {
     const auto solution = run(fmt::format(R"(
@@ -203,7 +203,8 @@ loads: {{water: {{on: ground.rim, pressure: 1e6}}}}
     if (!springs.empty()) {
       const double force = -1e6 * (1e6 * 1.0 * 1.25 / 2e9);
       EXPECT_NEAR(last(solution).springs[0].x(), force, 5e-3 * -force);
-      EXPECT_NE(text.find(fmt::format("resultant ({:.4g}, ", last(solution).springs[0].x())), std::string::npos) << text;
+      EXPECT_NE(text.find(fmt::format("resultant ({:.4g}, ", last(solution).springs[0].x())), std::string::npos)
+          << text;
     }
     return text;
   };

@@ -213,6 +213,7 @@ contacts: {base: {between: [floor.top, a.bottom], friction: 0.3}}
 steps: [{name: down, increments: 3, loads: {press: 1}}, {name: up, increments: 3, loads: {press: -0.5}}]
 output: {history: {force: base.normal_force, where: base.centre_x, low: a.bottom_left.uy}}
 )");
+  last(solution);  // all increments converged
   result::History history(solution.model);
   std::string table = history.header();
   EXPECT_EQ(table, "step,increment,time,force,where,low\n");

@@ -25,7 +25,7 @@ steps: [{name: press, increments: 7}]
   options.on_increment = [&](const analysis::StaticSolution&, const analysis::IncrementResult& increment) {
     ++seen;
     EXPECT_EQ(increment.fields.displacements.size(), 2u);
-    EXPECT_EQ(increment.contacts[0].pairs.size(), 9u);
+    EXPECT_EQ(contact_of(increment).pairs.size(), 9u);
   };
   const auto streamed = analysis::solve_static(input::parse_model(text, "test.yaml"), options);
   EXPECT_EQ(seen, 7);

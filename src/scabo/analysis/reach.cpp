@@ -109,8 +109,8 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
         fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
   if (status != Status::not_converged) return;
   if (breaks(prepared))
-    if (const auto motion = contact::mechanism_once_broken(
-            tried.problem, laws_at(prepared, tried.state.factors), reached.state.history)) {
+    if (const auto motion = contact::mechanism_once_broken(tried.problem, laws_at(prepared, tried.state.factors),
+                                                           reached.state.history)) {
       reached.mechanism = true;
       reached.reason = fmt::format(
           "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
@@ -170,8 +170,8 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       if (reached.pairs_are_due) break;
       continue;
     }
-    const bool smaller_steps_may_help = tried.solution.status != contact::Status::mechanism &&
-                                        tried.solution.status != contact::Status::collapse;
+    const bool smaller_steps_may_help =
+        tried.solution.status != contact::Status::mechanism && tried.solution.status != contact::Status::collapse;
     reached.stopped = smaller_steps_may_help && options.stop && *options.stop;
     if (reached.stopped) return reached;
     if (!smaller_steps_may_help || !may_halve) {

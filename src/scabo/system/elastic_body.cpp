@@ -129,8 +129,7 @@ Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, c
   v(wanted) = solver().solve_at(inclined_.components(f)(dofs_), places);
   u = inclined_.displacements(std::move(v));
   double acting = f.lpNorm<Eigen::Infinity>();  // and what holds a body without supports against its loads
-  if (rigid_motions_.cols() > 0)
-    acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
+  if (rigid_motions_.cols() > 0) acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
   return rounding_matters(u, acting) ? displacement(f, prescribed) : u;
 }
 
@@ -176,8 +175,7 @@ Matrix ElasticBody::flexibility_along(const std::vector<int>& dofs, bool refines
   // The factor alone gives it to about this condition times the unit of rounding.
   constexpr double most_entries = 1e9;  // some seconds
   const double entries = stiffness().entries() * static_cast<double>(at.size());
-  if (refines && !at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 &&
-      entries < most_entries) {
+  if (refines && !at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > 1e7 && entries < most_entries) {
     const Vector none = Vector::Zero(size());
     for (std::size_t j = 0; j < at.size(); ++j) {
       Vector force = none;

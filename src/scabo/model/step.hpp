@@ -1,0 +1,57 @@
+// Steps: how loads, prescribed displacements and coefficients of friction change.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scabo/base/error.hpp"
+#include "scabo/model/curve.hpp"
+
+namespace scabo::model {
+
+/// Limits of increments whose size follows from what changes (analysis/increment_size.hpp). All are parts of the step,
+/// 0 < smallest <= first <= largest <= 1. The last increment of a step may be smaller than `smallest`.
+struct AutomaticIncrements {
+  double first = 0.1;
+  double largest = 0.25;
+  double smallest = 1e-4;
+};
+
+/// Factors change linearly, or along curves, over `increments` increments, from those at the end of the previous step
+/// (zero before the first) to these. Coefficients of friction change linearly.
+struct Step {
+  std::string name;
+  int increments = 1;                            ///< equal parts; without meaning if `automatic`
+  std::optional<AutomaticIncrements> automatic;  ///< instead of equal parts
+  /// Instead of equal parts: where each increment ends, ascending, the last one 1. As many as `increments`.
+  std::vector<double> ends;
+  std::vector<double> load_factors;     ///< at the end of the step, one for each load
+  std::vector<double> support_factors;  ///< at the end of the step, one for each support
+  /// Index into Model::curves of what a factor follows within the step, for each load and support; -1: it changes
+  /// linearly. Empty if no factor follows a curve. The factor above is that of the curve at its end.
+  std::vector<int> load_curves, support_curves;
+  std::vector<double> friction;  ///< coefficient of every contact at the end of the step; empty if no step changes one
+  std::vector<double> backward_friction;  ///< the same against backward slip; as many as `friction`
+  Source source;
+};
+
+/// Curve that the factor of load or support `index` follows in a step; -1: none.
+inline int load_curve(const Step& step, std::size_t index) {
+  return step.load_curves.empty() ? -1 : step.load_curves[index];
+}
+inline int support_curve(const Step& step, std::size_t index) {
+  return step.support_curves.empty() ? -1 : step.support_curves[index];
+}
+/// Coefficients at the end of a step: against forward slip of every contact, then against backward slip; empty if no
+/// step changes one.
+std::vector<double> coefficients_of(const Step& step);
+
+/// Parts of a step, between 0 and 1, at which an increment ends so that no corner of a curve is passed over, ascending.
+std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves);
+
+/// Number of increments of a step; if it is not known before, what it may be.
+int expected_increments(const Step& step);
+
+}  // namespace scabo::model
