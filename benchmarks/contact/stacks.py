@@ -4,7 +4,8 @@ contacts, so that W is rank-deficient, and q in the range of H', so that a solut
 Unknowns are impulses and velocities of one time step. v = gravity times the step and a random velocity of each body; unit cubes of
 density 1 (or spheres of radius 1/2, mass 1), times the factor of the masses. A body's motion is [velocity of its centre, rate of turn].
 
-    stacks.py FOLDER        writes all of them as HDF5 files of FCLIB (local form)
+    stacks.py FOLDER            writes all of them as HDF5 files of FCLIB (local form)
+    stacks.py FOLDER --large    the large ones instead
 """
 import dataclasses
 import pathlib
@@ -121,24 +122,22 @@ def pile(random, bodies, points=1, ratio=1.0):
     """Spheres of diameter 1 near the places of a random dense heap; contact where two are closer than 1.25. With 4 points a contact: at the
     corners of a square of side 0.35 between them, so that turning is resisted too."""
     width = max(2.0, (0.9 * bodies) ** (1.0 / 3.0))
-    centres = []
-    for _ in range(bodies):                       # dropped: as low as those below allow
-        best = None
+    centres = numpy.empty((bodies, 3))
+    for b in range(bodies):                       # dropped: as low as those below allow
+        below, best = centres[:b], None
         for _ in range(12):
             x, y = random.uniform(0.0, width, 2)
-            z = 0.5
-            for other in centres:
-                d2 = (x - other[0]) ** 2 + (y - other[1]) ** 2
-                if d2 < 1.0:
-                    z = max(z, other[2] + numpy.sqrt(1.0 - d2))
+            d2 = (x - below[:, 0]) ** 2 + (y - below[:, 1]) ** 2
+            near = d2 < 1.0
+            z = (below[near, 2] + numpy.sqrt(1.0 - d2[near])).max(initial=0.5)
             if best is None or z < best[2]:
                 best = numpy.array([x, y, z])
-        centres.append(best)
+        centres[b] = best
     masses = ratio ** random.uniform(0.0, 1.0, bodies)
     contacts = []
     for b in range(bodies):
         near = [(GROUND, centres[b] * [1, 1, 0], numpy.array([0.0, 0.0, 1.0]))] if centres[b][2] < 0.6 else []
-        for a in range(b):
+        for a in numpy.flatnonzero(((centres[:b] - centres[b]) ** 2).sum(axis=1) < 1.6):
             apart = centres[b] - centres[a]
             distance = numpy.linalg.norm(apart)
             if distance < 1.25:
@@ -149,8 +148,7 @@ def pile(random, bodies, points=1, ratio=1.0):
                 continue
             t1, t2 = tangents(normal)
             contacts += [(below, b, point + 0.175 * (s * t1 + t * t2), normal) for s in (-1, 1) for t in (-1, 1)]
-    masses = numpy.asarray(masses)
-    return Stack(3, numpy.array(centres), masses, 0.1 * masses, contacts)
+    return Stack(3, centres, masses, 0.1 * masses, contacts)
 
 
 def stacks(names=()):
@@ -174,10 +172,28 @@ def stacks(names=()):
                                       (30, 4, 0.5, 1), (60, 4, 0.4, 1), (60, 4, 1.2, 1), (100, 4, 0.8, 100), (150, 4, 0.3, 1)):
         wanted.append((f"pile{bodies}" + (f"x{points}" if points > 1 else "") + f"_mu{mu}" + (f"_ratio{ratio}" if ratio > 1 else ""), mu, 0.2,
                        lambda random, b=bodies, p=points, r=ratio: pile(random, b, p, r)))
+    yield from made(wanted, 1000, names)
+
+
+def large(names=()):
+    """The same kinds with about ten times as many contacts."""
+    wanted = []
+    for bodies, points, mu, ratio in ((1500, 1, 0.6, 1), (5000, 1, 0.4, 1), (1500, 1, 1.0, 1000), (1500, 4, 0.3, 1), (600, 4, 1.2, 1)):
+        wanted.append((f"pile{bodies}" + (f"x{points}" if points > 1 else "") + f"_mu{mu}" + (f"_ratio{ratio}" if ratio > 1 else ""), mu, 0.2,
+                       lambda random, b=bodies, p=points, r=ratio: pile(random, b, p, r)))
+    for width, points, mu, ratio in ((30, 2, 0.5, 1), (30, 3, 0.6, 1), (30, 2, 0.7, 100)):
+        wanted.append((f"wall{width}x{width}_m{points}_mu{mu}" + (f"_ratio{ratio}" if ratio > 1 else ""), mu, 0.05,
+                       lambda random, w=width, p=points, r=ratio: wall(random, w, w, p, 3, r)))
+    for blocks, points, mu in ((1000, 2, 0.5), (1000, 3, 0.3)):
+        wanted.append((f"tower{blocks}_m{points}_mu{mu}", mu, 0.05, lambda random, b=blocks, p=points: tower(random, b, p)))
+    yield from made(wanted, 2000, names)
+
+
+def made(wanted, first_seed, names):
     for seed, (name, mu, speed, make) in enumerate(wanted):
         if names and name not in names:
             continue
-        random = numpy.random.default_rng(1000 + seed)
+        random = numpy.random.default_rng(first_seed + seed)
         stack = make(random)
         yield (name, stack.dimension, *problem(stack, mu, random, speed))
 
@@ -193,17 +209,17 @@ def write(file, dimension, W, q, mu):
         local["vectors/q"], local["vectors/mu"] = q, mu
 
 
-def write_all(folder):
+def write_all(folder, some=stacks):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     files = []
-    for name, dimension, W, q, mu in stacks():
+    for name, dimension, W, q, mu in some():
         write(folder / f"{name}.hdf5", dimension, W, q, mu)
         files.append(folder / f"{name}.hdf5")
     return files
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--large"]):
         sys.exit(__doc__)
-    write_all(sys.argv[1])
+    write_all(sys.argv[1], large if sys.argv[2:] else stacks)

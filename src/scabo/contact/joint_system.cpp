@@ -6,7 +6,11 @@
 
 namespace scabo::contact {
 
+namespace {
+
 using Index = Eigen::Index;
+
+}  // namespace
 
 template <int d>
 JointSystem<d>::JointSystem(Joints<d> joints) : joints_(std::move(joints)) {

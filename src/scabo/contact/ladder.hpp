@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <optional>
 
+#include "scabo/contact/held_slips.hpp"
 #include "scabo/contact/interior_point.hpp"
 #include "scabo/contact/newton.hpp"
 #include "scabo/contact/path.hpp"
@@ -90,9 +91,10 @@ class Ladder {
   NewtonEnd inside_from(double start_factor);
   NewtonEnd inside_near(Vector p, Vector a, double start);
   NewtonEnd inside(std::initializer_list<double> start_factors);
+  NewtonEnd with_held_slips(HeldSlips& held, int rounds, int patience);
   NewtonEnd end_of_sweeps(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);
-  NewtonEnd vanishing_proximal(Vector p);
+  NewtonEnd vanishing_proximal(Vector p, int most = 0);
   NewtonEnd growing_friction(const Vector& p, const Vector& a);
   NewtonEnd growing_load(const Vector& p, const Vector& a);
   NewtonEnd after_sweeps(const Vector& p, const Vector& a);

@@ -33,13 +33,15 @@ NewtonEnd Ladder::floating_proximal(Vector p, Vector a) {
   return end;
 }
 
-/// The same for forces: (w / r)(p - p_before) is added to the motions, w falls from one problem to the next.
-NewtonEnd Ladder::vanishing_proximal(Vector p) {
+/// The same for forces: (w / r)(p - p_before) is added to the motions, w falls from one problem to the next. Of about
+/// `most` iterations, 0: as many as forty problems take.
+NewtonEnd Ladder::vanishing_proximal(Vector p, int most) {
   constexpr double exact = 1e-12;  // of the largest force: the next round starts from there
   constexpr int few = 12;
   NewtonEnd end = nothing();
   double weight = 1.0;
-  for (int round = 0; round < 40; ++round) {
+  const int before = iterations_;
+  for (int round = 0; round < 40 && (most == 0 || iterations_ - before < most); ++round) {
     BDifferentiableEquations equations(problem_, options_.r_factor);
     equations.hold(weight, p);
     NewtonOptions options;

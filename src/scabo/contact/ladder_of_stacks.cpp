@@ -1,4 +1,7 @@
 // Strategies of the ladder for problem files, whose W is often rank deficient: sweeps and interior points in turn.
+#include <optional>
+
+#include "scabo/contact/held_slips.hpp"
 #include "scabo/contact/interior_point.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
@@ -32,17 +35,27 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
   const Run from_sweeps{"newton after " + std::to_string(sweeps.sweeps()) + " sweeps", 1e-4, 1.0, few};
   if (better(problem_.pairs() > many ? swept(p, 200, 1e-2, few) : newton_alone(sweeps.p(), Vector(), from_sweeps)))
     return best;
-  struct Turn {
-    int sweeps;
-    double start;  // of the interior points after them; 0: none
-  };
-  double tried = 1e-5;  // natural map from which Newton was last tried
+  // Of spheres in a pile plain sweeps find what extrapolated ones, Newton and interior points do not.
+  constexpr double near = 1e-4;
+  if (inner && !sweeps.of_joints() && sweeps.natural_map() <= near) {
+    LongSweeps plain(problem_, p, LongSweeps::Form::plain);
+    if (better(swept_on(plain, 20000))) return best;
+  }
   // What a factorisation without fill would cost. Above, a step of interior points takes as long as a thousand sweeps.
   const double entries = inner ? static_cast<double>(problem_.W.sparse().nonZeros()) : 0.0;
   // That of joints never does.
   const bool dear = !sweeps.of_joints() && entries * entries > 6e7 * static_cast<double>(problem_.W.size());
-  for (const Turn turn :
-       {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0}, Turn{25000, dear ? 1.0 : 0.1}, Turn{60000, dear ? 0.1 : 10.0}}) {
+  struct Turn {
+    int sweeps;
+    double start;                // of the interior points after them; 0: none
+    int rounds = 0, patience = 0;  // of held slips after those
+  };
+  // Walls and piles that slips held solve at all take up to twenty rounds in which they nearly halve, or far more.
+  constexpr int few_rounds = 20, hardly = 3, many_rounds = 300;
+  std::optional<HeldSlips> held;
+  double tried = 1e-5;  // natural map from which Newton was last tried
+  for (const Turn turn : {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0, few_rounds, hardly},
+                          Turn{25000, dear ? 1.0 : 0.1, many_rounds, many_rounds}, Turn{60000, dear ? 0.1 : 10.0}}) {
     if (better(swept_on(sweeps, turn.sweeps))) return best;
     if (sweeps.natural_map() <= 0.3 * tried) {  // nearly all states are right
       tried = sweeps.natural_map();
@@ -54,7 +67,12 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
       if (better(std::move(reached))) return best;
     }
     // Of rigid bodies a Newton iteration costs as much as fifty sweeps. pile100x4_mu0.8_ratio100 is solved so.
-    if (turn.sweeps == 25000 && sweeps.of_joints() && better(vanishing_proximal(best.p))) return best;
+    constexpr int most_of_proximal = 250;
+    if (turn.sweeps == 25000 && sweeps.of_joints() && better(vanishing_proximal(best.p, most_of_proximal))) return best;
+    if (inner && !dear && turn.rounds > 0) {
+      if (!held) held.emplace(problem_);
+      if (better(with_held_slips(*held, turn.rounds, turn.patience))) return best;
+    }
   }
   if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4}))) return best;
   if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;
@@ -123,6 +141,35 @@ NewtonEnd Ladder::inside_from(double start_factor) {
   NewtonEnd after = swept_on(sweeps, 200);
   if (after.converged || late() || reached.residual > near) return after;
   return newton_alone(end.p, Vector(), {"newton after interior points", 1e-6, 1.0, 12});
+}
+
+/// Rounds with slips held, and a few Newton iterations whenever the natural map has become small: by then nearly all
+/// states are right.
+NewtonEnd Ladder::with_held_slips(HeldSlips& held, int rounds, int patience) {
+  constexpr int few = 12;
+  const double force = Measure(problem_).reference();
+  NewtonEnd best = nothing();
+  double aim = 1e-5;
+  while (true) {
+    InteriorPointEnd reached = held.advance(aim, rounds, patience, content_, options_.deadline);
+    for (Iteration& iteration : reached.trace) {
+      iteration.iteration += iterations_ + coarse_iterations_;
+      iteration.residual *= force;
+      trace_.push_back(std::move(iteration));
+    }
+    iterations_ += reached.iterations;
+    if (reached.p.size() == 0) return best;
+    NewtonEnd end = nothing();
+    end.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(reached.p, Vector()).largest();
+    end.p = std::move(reached.p);
+    end.converged = reached.content;
+    if (end.converged || end.residual < best.residual) best = std::move(end);
+    if (best.converged || late() || reached.residual > aim) return best;
+    NewtonEnd after = newton_alone(best.p, Vector(), {"newton after held slips", 1e-4, 1.0, few});
+    if (after.converged || after.residual < best.residual) best = std::move(after);
+    if (best.converged || late()) return best;
+    aim = 0.1 * reached.residual;
+  }
 }
 
 /// The point that sweeps ended with, and its line in the trace.

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "compare/solvers.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/linalg/nonnegative_least_squares.hpp"
 #include "unit/contact/problems.hpp"
 
@@ -88,6 +92,59 @@ TEST(Infeasible, ColumnsSqueezedBetweenFloorAndCeiling) {
   }
   EXPECT_GT(none, 10);
   EXPECT_LT(none, 35);
+}
+
+/// Pair order[i] of `problem` becomes pair i, its tangents (in space) turned by angles[i].
+Problem rearranged(const Problem& problem, const std::vector<int>& order, const Vector& angles) {
+  const Eigen::Index d = problem.dimension, N = problem.pairs();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const double c = d == 3 ? std::cos(angles[i]) : 1.0, s = d == 3 ? std::sin(angles[i]) : 0.0;
+    const Eigen::Matrix3d turn{{1.0, 0.0, 0.0}, {0.0, c, s}, {0.0, -s, c}};
+    for (int k = 0; k < d; ++k)
+      for (int j = 0; j < d; ++j)
+        entries.emplace_back(static_cast<int>(d * i + k),
+                             static_cast<int>(d * order[static_cast<std::size_t>(i)] + j), turn(k, j));
+  }
+  Eigen::SparseMatrix<double> T(d * N, d * N);
+  T.setFromTriplets(entries.begin(), entries.end());
+  Problem result = problem;
+  result.W = Delassus(Eigen::SparseMatrix<double>(T * problem.W.sparse() * T.transpose()));
+  result.q = T * problem.q;
+  for (Eigen::Index i = 0; i < N; ++i) result.mu[i] = problem.mu[order[static_cast<std::size_t>(i)]];
+  return result;
+}
+
+// Ten times as many pairs as the other tests have, in other units, in another order and with other tangents.
+TEST(Infeasible, OfManyPairsInAnyUnitsOrderAndAxes) {
+  std::mt19937 random(1207);
+  for (const int d : {2, 3}) {
+    const Stack made = stack(random, d, 5, 49, 30.0);
+    ASSERT_FALSE(made.solvable);
+    ASSERT_EQ(made.problem.pairs(), 500);
+    SolverOptions options;
+    options.judge = Judge::natural_map;
+    const auto proof_of = [&](const Problem& problem) {
+      const Solution solution = solve(problem, {}, options);
+      EXPECT_EQ(solution.status, Status::infeasible) << solution.reason;
+      EXPECT_LE((problem.W * solution.proof).lpNorm<Eigen::Infinity>(), 1e-11 / stiffness_of(problem));
+      EXPECT_LT(problem.q.dot(solution.proof), 0.0);
+      return solution.proof;
+    };
+    const Vector proof = proof_of(made.problem);
+    for (const int power : {-100, 100}) {
+      Problem other = made.problem;
+      other.W = made.problem.W.scaled(std::ldexp(1.0, power));
+      other.q *= std::ldexp(1.0, -power);
+      EXPECT_EQ(proof_of(other), proof) << power;
+    }
+    std::vector<int> order(500);
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random);
+    Vector angles(500);
+    for (double& angle : angles) angle = uniform(random, 0.0, 2.0 * std::numbers::pi);
+    proof_of(rearranged(made.problem, order, angles));
+  }
 }
 
 TEST(Infeasible, EveryMethodSaysSo) {

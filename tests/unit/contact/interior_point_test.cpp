@@ -9,6 +9,7 @@
 #include <random>
 #include <tuple>
 
+#include "scabo/contact/held_slips.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/plane_interior_points.hpp"
@@ -91,6 +92,16 @@ TEST_P(InteriorPointsOnTowers, EndAtTheBoundaryOfTheCones) {
   EXPECT_GT(at_the_boundary, 0);
 }
 
+TEST_P(InteriorPointsOnTowers, WithSlipsHeldReachTheLaw) {
+  const auto [d, blocks, points] = GetParam();
+  const Problem problem = tower_of_blocks(d, blocks, points, 0.4);
+  HeldSlips held(problem);
+  const InteriorPointEnd end = held.advance(1e-8, 100, 100, {});
+  ASSERT_EQ(end.p.size(), problem.q.size());
+  EXPECT_LE(end.residual, 1e-8);
+  expect_the_law(problem, end.p, 1e-6);
+}
+
 INSTANTIATE_TEST_SUITE_P(Plane, InteriorPointsOnTowers, ::testing::Values(TowerCase{2, 20, 2}, TowerCase{2, 8, 4}));
 INSTANTIATE_TEST_SUITE_P(Space, InteriorPointsOnTowers, ::testing::Values(TowerCase{3, 12, 3}));
 
@@ -114,6 +125,8 @@ TEST(InteriorPoints, OneCubePushedSidewaysSlides) {
   problem.mu = Vector::Constant(1, 0.4);
   const Vector p = interior_points(problem, {}).p;
   EXPECT_LE((p - Eigen::Vector3d(1.0, -0.24, -0.32)).norm(), 1e-8);
+  // Slips held: the first round has none of them, so that the pair is lifted by mu |u_t| less than it must be.
+  EXPECT_LE((HeldSlips(problem).advance(1e-9, 50, 50, {}).p - Eigen::Vector3d(1.0, -0.24, -0.32)).norm(), 1e-7);
   // Handed over as a pair that slips: at the bound of friction to the last digit.
   const InteriorPointEnd judged = interior_points(problem, [&](const Vector& forces, const Vector& motion) {
     return Measure(problem).natural_map(problem, forces, motion) <= 1e-6;

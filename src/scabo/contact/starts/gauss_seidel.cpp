@@ -7,7 +7,11 @@
 
 namespace scabo::contact {
 
+namespace {
+
 using Index = Eigen::Index;
+
+}  // namespace
 
 template <int d>
 PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {

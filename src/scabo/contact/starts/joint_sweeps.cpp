@@ -6,7 +6,11 @@
 
 namespace scabo::contact {
 
+namespace {
+
 using Index = Eigen::Index;
+
+}  // namespace
 
 template <int d>
 JointSweeps<d>::JointSweeps(const Problem& problem, Joints<d> joints) : problem_(&problem), joints_(std::move(joints)) {

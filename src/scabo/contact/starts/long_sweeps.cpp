@@ -17,7 +17,7 @@ constexpr int least_patience = 500;  // sweeps in which the natural map is halve
 
 }  // namespace
 
-LongSweeps::LongSweeps(const Problem& problem, Vector p)
+LongSweeps::LongSweeps(const Problem& problem, Vector p, Form form)
     : problem_(problem),
       measure_(problem),
       iteration_(problem, GaussSeidel::Form::of_joints),
@@ -26,7 +26,8 @@ LongSweeps::LongSweeps(const Problem& problem, Vector p)
       changes_f_(p_.size(), depth),
       changes_p_(p_.size(), depth),
       least_(HUGE_VAL),
-      halved_(HUGE_VAL) {
+      halved_(HUGE_VAL),
+      extrapolates_(form == Form::extrapolated) {
   iteration_.start(p_);
 }
 
@@ -66,6 +67,7 @@ bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vec
       halved_ = least_;
       gained_ = sweeps_;
     }
+    if (!extrapolates_) continue;
     remember(before);
     round_ = p_;
     map_of_round_ = map;
