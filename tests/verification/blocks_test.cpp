@@ -177,7 +177,8 @@ TEST(Wall, CarriesNearlyItsCollapsePush) {
   carries({8, 8, 1.0}, 0.9);
 }
 
-// More than a thousand pairs: interior points follow Newton's method (docs/methods/12), 36, 26 and 26 iterations before.
+// More than a thousand pairs: interior points follow Newton's method (docs/methods/12), 36, 26 and 26 iterations
+// before.
 TEST(Wall, OfManyPairsTakesFewIterations) {
   struct Case {
     double friction, part;

@@ -1,5 +1,5 @@
-// Histories of every figure that a run prints for an increment: counts of pairs, forces of water in contacts, moments of
-// supports, factors of cracks and corners, against statics and closed forms.
+// Histories of every figure that a run prints for an increment: counts of pairs, forces of water in contacts, moments
+// of supports, factors of cracks and corners, against statics and closed forms.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace scabo::verification {
 namespace {
 
-/// Edge crack of length 1 in a plate of 2 x 4 under tension 1e6, in plane strain: the upper half, whose scaling centre is
-/// the vertex at the tip.
+/// Edge crack of length 1 in a plate of 2 x 4 under tension 1e6, in plane strain: the upper half, whose scaling centre
+/// is the vertex at the tip.
 const std::string half_plate = R"(scabo: 1
 analysis: {plane: strain}
 materials: {m: {young: 2e9, poisson: 0.3}}
@@ -25,8 +25,8 @@ supports: [{on: half.ligament, fix: normal}, {on: half.vertex_4, fix: x}]
 loads: {pull: {on: half.edge_4, pressure: -1e6}}
 )";
 
-// K_I = 2.82546 sigma sqrt(pi a) and G = K_I^2 (1 - nu^2) / E (Irwin). The tip has the name of the corner, its own or the
-// one that the user gave it.
+// K_I = 2.82546 sigma sqrt(pi a) and G = K_I^2 (1 - nu^2) / E (Irwin). The tip has the name of the corner, its own or
+// the one that the user gave it.
 TEST(HistoryFigures, FactorsOfACrackAtAScalingCentre) {
   const auto solution = run(half_plate + R"(output:
   history: {opening: half.tip.K_I, same: half.vertex_2.K_I, sliding: half.tip.K_II, rate: half.tip.G, hoop: half.tip.K_tt}

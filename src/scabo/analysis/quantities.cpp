@@ -132,7 +132,8 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
     case Kind::t_stress:
     case Kind::energy_release:
     case Kind::corner_stress:
-      if (const CrackResult* tip = tip_of(solution.model, increment, quantity)) return figure_of(tip->factors, quantity);
+      if (const CrackResult* tip = tip_of(solution.model, increment, quantity))
+        return figure_of(tip->factors, quantity);
       return std::nullopt;
     case Kind::elastic_energy:
       return increment.energy.elastic;
@@ -157,7 +158,8 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
     case Kind::pore_force:
       return increment.contacts[index].pore_force;
     case Kind::total_normal_force:
-      if (const auto& pores = increment.contacts[index].pore_force) return increment.contacts[index].normal_force + *pores;
+      if (const auto& pores = increment.contacts[index].pore_force)
+        return increment.contacts[index].normal_force + *pores;
       return std::nullopt;
     case Kind::support_moment:
       return increment.moments[index];

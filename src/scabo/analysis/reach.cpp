@@ -23,8 +23,8 @@ bool breaks(const Prepared& prepared) {
                      [](const model::Contact& contact) { return contact.cohesion > 0.0; });
 }
 
-/// What to do about a tolerance that is missed by a figure of the certificate well below the default tolerance; empty for
-/// larger figures.
+/// What to do about a tolerance that is missed by a figure of the certificate well below the default tolerance; empty
+/// for larger figures.
 std::string tolerance_to_set(const Prepared& prepared, double figure) {
   constexpr double margin = 3.0;  // figures of other increments and machines differ
   if (!(figure > prepared.model.solver.tolerance && margin * figure < model::SolverOptions().tolerance)) return {};

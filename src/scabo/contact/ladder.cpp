@@ -46,8 +46,8 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.on_iteration = counted(options_.on_iteration);
   if (&problem == &problem_) options.content = content_;
   options.ask_when_stuck = !judges_all();
-  NewtonEnd end = how.soft && may_soften(problem) ? soft_newton(equations, p, a, options)
-                                                  : newton(equations, p, a, options);
+  NewtonEnd end =
+      how.soft && may_soften(problem) ? soft_newton(equations, p, a, options) : newton(equations, p, a, options);
   for (Iteration& iteration : end.trace) {
     iteration.iteration += iterations_ + coarse_iterations_;
     trace_.push_back(std::move(iteration));

@@ -59,7 +59,7 @@ class Ladder {
     int patience = 0;    ///< NewtonOptions::patience
     double fall = 0.5;   ///< NewtonOptions::fall
     double first_fall = 1.0;  ///< NewtonOptions::first_fall
-    bool soft = false;   ///< contact/soft_newton, where it may
+    bool soft = false;        ///< contact/soft_newton, where it may
   };
   /// Pairs of many bodies up to which a path comes before interior points: each of its changes of state costs a solve
   /// (16 x 16 blocks, 2,260 pairs, 0.9 of the limit load: 11 s and 4 s).

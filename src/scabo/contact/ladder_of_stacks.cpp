@@ -47,7 +47,7 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
   const bool dear = !sweeps.of_joints() && entries * entries > 6e7 * static_cast<double>(problem_.W.size());
   struct Turn {
     int sweeps;
-    double start;                // of the interior points after them; 0: none
+    double start;                  // of the interior points after them; 0: none
     int rounds = 0, patience = 0;  // of held slips after those
   };
   // Walls and piles that slips held solve at all take up to twenty rounds in which they nearly halve, or far more.

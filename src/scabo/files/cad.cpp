@@ -22,7 +22,8 @@ std::string extension_of(const fs::path& path) {
   return extension;
 }
 
-/// OpenCASCADE never ends reading a truncated .brep file. A whole one ends, after its shapes, with a line such as `+1 0`.
+/// OpenCASCADE never ends reading a truncated .brep file. A whole one ends, after its shapes, with a line such as `+1
+/// 0`.
 void refuse_truncated_brep(const std::string& path) {
   const std::string text = bytes_of_file(path).value_or("");
   const std::size_t shapes = text.find("\nTShapes ");

@@ -29,11 +29,10 @@ std::optional<Crossing> find_crossing(const Outline& outline);
 /// ends of what they share.
 std::vector<Vec2> shared_points(const Edge& a, const Edge& b, double tolerance);
 
-/// Edges, none of them a chain, that are not entirely visible from `centre`. An edge is visible when the tangent at each
-/// of its points passes the centre on its left at a distance of more than 1e-6 of the size of the body. For a straight
-/// edge this is the distance of its line. For an arc with centre m and radius r it is the minimum over its angles of
-/// r + (m - c).(cos, sin) if it runs counter-clockwise, and of
-/// -r - (m - c).(cos, sin) if it runs clockwise.
+/// Edges, none of them a chain, that are not entirely visible from `centre`. An edge is visible when the tangent at
+/// each of its points passes the centre on its left at a distance of more than 1e-6 of the size of the body. For a
+/// straight edge this is the distance of its line. For an arc with centre m and radius r it is the minimum over its
+/// angles of r + (m - c).(cos, sin) if it runs counter-clockwise, and of -r - (m - c).(cos, sin) if it runs clockwise.
 std::vector<int> unseen_edges(const Outline& outline, const Vec2& centre);
 
 /// A point from which every edge is visible, if there is one. Arcs are represented by 32 tangents each; the point found

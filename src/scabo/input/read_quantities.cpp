@@ -29,18 +29,27 @@ constexpr QuantityWord quantity_words[] = {
     {"uy", Quantity::Kind::displacement, 1},           {"K_I", Quantity::Kind::stress_intensity, 0},
     {"K_II", Quantity::Kind::stress_intensity, 1}};
 /// That have a history, but no error bar.
-constexpr QuantityWord history_words[] = {
-    {"force_x", Quantity::Kind::contact_force, 0},       {"force_y", Quantity::Kind::contact_force, 1},
-    {"moment", Quantity::Kind::contact_moment, 0},       {"max_pressure", Quantity::Kind::max_pressure, 0},
-    {"centre_x", Quantity::Kind::centre_of_pressure, 0}, {"centre_y", Quantity::Kind::centre_of_pressure, 1},
-    {"open", Quantity::Kind::pairs_in_state, 0},         {"stick", Quantity::Kind::pairs_in_state, 1},
-    {"slip", Quantity::Kind::pairs_in_state, 2},         {"broken", Quantity::Kind::broken_pairs, 0},
-    {"first_pair_in_contact", Quantity::Kind::end_pair, 0}, {"last_pair_in_contact", Quantity::Kind::end_pair, 1},
-    {"pore_force", Quantity::Kind::pore_force, 0},       {"total_normal_force", Quantity::Kind::total_normal_force, 0},
-    {"T", Quantity::Kind::t_stress, 0},                  {"T_left", Quantity::Kind::t_stress, 1},
-    {"T_right", Quantity::Kind::t_stress, 2},            {"G", Quantity::Kind::energy_release, 0},
-    {"J", Quantity::Kind::energy_release, 1},            {"K_tt", Quantity::Kind::corner_stress, 0},
-    {"K_rt", Quantity::Kind::corner_stress, 1}};
+constexpr QuantityWord history_words[] = {{"force_x", Quantity::Kind::contact_force, 0},
+                                          {"force_y", Quantity::Kind::contact_force, 1},
+                                          {"moment", Quantity::Kind::contact_moment, 0},
+                                          {"max_pressure", Quantity::Kind::max_pressure, 0},
+                                          {"centre_x", Quantity::Kind::centre_of_pressure, 0},
+                                          {"centre_y", Quantity::Kind::centre_of_pressure, 1},
+                                          {"open", Quantity::Kind::pairs_in_state, 0},
+                                          {"stick", Quantity::Kind::pairs_in_state, 1},
+                                          {"slip", Quantity::Kind::pairs_in_state, 2},
+                                          {"broken", Quantity::Kind::broken_pairs, 0},
+                                          {"first_pair_in_contact", Quantity::Kind::end_pair, 0},
+                                          {"last_pair_in_contact", Quantity::Kind::end_pair, 1},
+                                          {"pore_force", Quantity::Kind::pore_force, 0},
+                                          {"total_normal_force", Quantity::Kind::total_normal_force, 0},
+                                          {"T", Quantity::Kind::t_stress, 0},
+                                          {"T_left", Quantity::Kind::t_stress, 1},
+                                          {"T_right", Quantity::Kind::t_stress, 2},
+                                          {"G", Quantity::Kind::energy_release, 0},
+                                          {"J", Quantity::Kind::energy_release, 1},
+                                          {"K_tt", Quantity::Kind::corner_stress, 0},
+                                          {"K_rt", Quantity::Kind::corner_stress, 1}};
 
 class QuantityReader {
  public:
@@ -232,9 +241,10 @@ class QuantityReader {
       return std::find(of.names.begin(), of.names.end(), quantity_.crack) != of.names.end();
     });
     if (corner)
-      return refuse(fmt::format("body '{0}' has no crack named {1}, and its scaling centre is not at this corner: only "
-                                "there does a corner have factors (mesh: {{centre: ...}})",
-                                body.name, quoted_name(quantity_.crack)));
+      return refuse(
+          fmt::format("body '{0}' has no crack named {1}, and its scaling centre is not at this corner: only "
+                      "there does a corner have factors (mesh: {{centre: ...}})",
+                      body.name, quoted_name(quantity_.crack)));
     return refuse(fmt::format("body '{}' has no crack named {}{}", body.name, quoted_name(crack),
                               reading_.report.full() ? "" : suggestion(crack, known)));
   }

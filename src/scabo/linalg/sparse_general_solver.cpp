@@ -14,12 +14,12 @@ namespace scabo::linalg {
 
 namespace {
 
-/// Unknowns from which a saddle matrix is factorised by fronts of blocks instead of UMFPACK. The answers agree; of fewer
-/// unknowns neither takes long.
+/// Unknowns from which a saddle matrix is factorised by fronts of blocks instead of UMFPACK. The answers agree; of
+/// fewer unknowns neither takes long.
 constexpr int least_of_fronts = 4000;
 
-/// A matrix of saddle type, [W G; G' 0], for its elimination. Unknowns without a diagonal entry, or with a small negative
-/// one that only holds them, have none to be eliminated with: they are bare.
+/// A matrix of saddle type, [W G; G' 0], for its elimination. Unknowns without a diagonal entry, or with a small
+/// negative one that only holds them, have none to be eliminated with: they are bare.
 struct Saddle {
   SparseMatrix both;                     // with the pattern of A + A'
   std::vector<char> bare;                // of each unknown
@@ -33,9 +33,9 @@ struct Saddle {
   }
 };
 
-/// Each bare unknown is put behind a group of its neighbours with equal columns, whose elimination fills it, at most half
-/// as many as the group has members. The groups, with what was put behind them, are dissected. Nothing where no unknown
-/// is bare.
+/// Each bare unknown is put behind a group of its neighbours with equal columns, whose elimination fills it, at most
+/// half as many as the group has members. The groups, with what was put behind them, are dissected. Nothing where no
+/// unknown is bare.
 std::optional<Saddle> saddle_of(const Eigen::SparseMatrix<double>& A) {
   const auto n = static_cast<int>(A.rows());
   constexpr double small = 1e-3;  // of the largest entry of its column

@@ -55,15 +55,15 @@ void check_broken_of(Checking& checking, const std::string& path, const Quantity
   if (!check_number_of(checking, path, "contact", quantity.index, checking.model.contacts.size())) return;
   const Contact& contact = checking.model.contacts[static_cast<std::size_t>(quantity.index)];
   if (contact.cohesion == 0.0 && contact.tension == 0.0)
-    checking.error(path, "", fmt::format("contact '{}' has no cohesion, so that none of its pairs breaks", contact.name));
+    checking.error(path, "",
+                   fmt::format("contact '{}' has no cohesion, so that none of its pairs breaks", contact.name));
 }
 
 void check_pores_of(Checking& checking, const std::string& path, const Quantity& quantity) {
   if (!check_number_of(checking, path, "contact", quantity.index, checking.model.contacts.size())) return;
   const auto is_in = [&](const Load& load) {
     const auto* pores = std::get_if<PorePressure>(&load.kind);
-    return pores &&
-           std::find(pores->contacts.begin(), pores->contacts.end(), quantity.index) != pores->contacts.end();
+    return pores && std::find(pores->contacts.begin(), pores->contacts.end(), quantity.index) != pores->contacts.end();
   };
   const std::vector<Load>& loads = checking.model.loads;
   if (checking.gaps.conditions || std::any_of(loads.begin(), loads.end(), is_in)) return;

@@ -42,7 +42,7 @@ struct Quantity {
   int index = -1;          ///< contact, support, spring or body; displacement: -1 for the body that contains the point
   int component = 0;       ///< 0: x or K_I, 1: y or K_II; others as above
   Vec2 at = Vec2::Zero();  ///< displacement: the point
-  std::string crack;       ///< `flaw`; `flaw.start` or `flaw.end` if both ends are tips; the corner at the scaling centre
+  std::string crack;  ///< `flaw`; `flaw.start` or `flaw.end` if both ends are tips; the corner at the scaling centre
   Source source;
 
   bool has_bar() const { return kind < Kind::contact_force; }

@@ -35,8 +35,9 @@ FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution,
 
 element::PointValues FiniteElementState::at(const Vec2& natural) const {
   const element::Vec3 free =
-      interior_.is_zero() ? element::Vec3(element::Vec3::Zero())
-                          : element::Vec3(unit_strain_ * interior_.temperature_at(element::position_in(element_, natural)));
+      interior_.is_zero()
+          ? element::Vec3(element::Vec3::Zero())
+          : element::Vec3(unit_strain_ * interior_.temperature_at(element::position_in(element_, natural)));
   return element::finite_element_values(element_, u_, D_, natural, free);
 }
 

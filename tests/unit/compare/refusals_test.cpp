@@ -1,8 +1,8 @@
 // Every solver names the problems that it does not handle, and it always ends.
 #include <gtest/gtest.h>
 
-#include "problems.hpp"
 #include "compare/trial_and_error.hpp"
+#include "problems.hpp"
 
 namespace scabo::test {
 namespace {

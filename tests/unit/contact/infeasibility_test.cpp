@@ -103,8 +103,8 @@ Problem rearranged(const Problem& problem, const std::vector<int>& order, const 
     const Eigen::Matrix3d turn{{1.0, 0.0, 0.0}, {0.0, c, s}, {0.0, -s, c}};
     for (int k = 0; k < d; ++k)
       for (int j = 0; j < d; ++j)
-        entries.emplace_back(static_cast<int>(d * i + k),
-                             static_cast<int>(d * order[static_cast<std::size_t>(i)] + j), turn(k, j));
+        entries.emplace_back(static_cast<int>(d * i + k), static_cast<int>(d * order[static_cast<std::size_t>(i)] + j),
+                             turn(k, j));
   }
   Eigen::SparseMatrix<double> T(d * N, d * N);
   T.setFromTriplets(entries.begin(), entries.end());

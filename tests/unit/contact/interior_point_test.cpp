@@ -246,7 +246,8 @@ TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
 }
 
 /// The matrix of soft_direction.hpp, times d, row by row.
-Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equations, const Residual& at, const Vector& d) {
+Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equations, const Residual& at,
+                 const Vector& d) {
   const Eigen::Index N = problem.pairs(), m = problem.G.cols();
   const Matrix W = problem.W.dense(), G = problem.G.dense();
   const Vector dp = d.head(2 * N), da = d.tail(m), du = W * dp + G * da;
@@ -273,7 +274,8 @@ TEST(SoftDirection, SolvesForNewStatesWithTheFactorOfEarlierOnes) {
   SoftDirection direction(equations);
   const double force = problem.f.lpNorm<Eigen::Infinity>() / problem.pairs();
   Vector p(problem.q.size()), a = Vector::Zero(problem.G.cols()), d;
-  for (int i = 0; i < problem.pairs(); ++i) p[2 * i] = force * (1.0 + unit(random)), p[2 * i + 1] = force * unit(random);
+  for (int i = 0; i < problem.pairs(); ++i)
+    p[2 * i] = force * (1.0 + unit(random)), p[2 * i + 1] = force * unit(random);
   std::vector<Branch> before;
   for (int round = 0; round < 3; ++round) {
     const Residual at = equations.residual(p, a);

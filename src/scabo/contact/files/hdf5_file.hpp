@@ -37,8 +37,8 @@ class Hdf5Reader {
 };
 
 /// Collects a file in memory and writes it at the end, first to a temporary file (`.part`), which is renamed when it is
-/// complete: HDF5 itself never meets a full disk, after which it would crash at the end of the process. Groups in the path
-/// of a dataset are created as needed. The same content gives the same bytes. Throws std::runtime_error.
+/// complete: HDF5 itself never meets a full disk, after which it would crash at the end of the process. Groups in the
+/// path of a dataset are created as needed. The same content gives the same bytes. Throws std::runtime_error.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::string file);
