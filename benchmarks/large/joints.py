@@ -7,7 +7,7 @@
     blocks   two blocks of quadtrees of order 2, 2 by 1, graded towards the joint
     fem      the same of triangles of order 2
 
-One increment, friction 0.5, pressed by a pressure that varies and pushed; one thread. Processor seconds of the stages
+One increment, friction 0.5 (--friction 0.18: many pairs slip), pressed by a pressure that varies and pushed; one thread. Processor seconds of the stages
 as in run.py, peak memory, iterations, certificate.
 """
 import argparse
@@ -31,12 +31,12 @@ TAIL = """supports: [{{on: lower.bottom, fix: [x, y]}}]
 loads:
   down: {{on: upper.top, pressure: {{over: x, at: [0, {half!r}, {length!r}], values: [20e6, 140e6, 60e6]}}}}
   push: {{on: upper.top, traction: [12e6, 0]}}
-contacts: {{joint: {{between: [lower.top, upper.bottom], friction: 0.5}}}}
+contacts: {{joint: {{between: [lower.top, upper.bottom], friction: {friction!r}}}}}
 output: {{fields: []}}
 """
 
 
-def model_of(kind, pairs):
+def model_of(kind, pairs, friction):
     elements = (pairs - 1) // 2
     if kind == "layers":
         size = 1 / 512
@@ -45,7 +45,7 @@ def model_of(kind, pairs):
     else:
         length = 2.0
         text = BLOCKS.format(kind="quadtree" if kind == "blocks" else "fem", size=length / elements)
-    return text + TAIL.format(half=length / 2, length=length)
+    return text + TAIL.format(half=length / 2, length=length, friction=friction)
 
 
 def main():
@@ -54,16 +54,17 @@ def main():
     options.add_argument("kinds", nargs="*", default=["layers", "blocks"])
     options.add_argument("--scabo", default=root / "build" / "bin" / "scabo")
     options.add_argument("--pairs", default="3001,10001")
+    options.add_argument("--friction", type=float, default=0.5)
     options.add_argument("--model", help="write the model of the first run to this file instead of running it")
     options = options.parse_args()
     if options.model:
-        pathlib.Path(options.model).write_text(model_of(options.kinds[0], int(options.pairs.split(",")[0])), encoding="utf-8")
+        pathlib.Path(options.model).write_text(model_of(options.kinds[0], int(options.pairs.split(",")[0]), options.friction), encoding="utf-8")
         return
     print("| bodies | degrees of freedom | pairs | factorise, s | condense, s | newton, s | all, s | memory, GB | open, stick, slip | iterations | certificate |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for kind in options.kinds:
         for pairs in options.pairs.split(","):
-            seconds, summary = increments.user_seconds(options.scabo, model_of(kind, int(pairs)))
+            seconds, summary = increments.user_seconds(options.scabo, model_of(kind, int(pairs), options.friction))
             of, increment = summary["of"], summary["increments"][0]
             joint = increment["contacts"]["joint"]
             worst = max(v for v in increment["certificate"].values() if isinstance(v, float))

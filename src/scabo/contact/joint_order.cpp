@@ -115,6 +115,7 @@ linalg::OrderedBlocks JointOrder::blocks(const std::vector<int>& pair_of) const 
   const auto add_motion = [&](int motion) {
     block_of_motion[static_cast<std::size_t>(motion)] = static_cast<int>(blocks.members.size());
     blocks.members.push_back({static_cast<int>(pair_of.size()) + motion});
+    blocks.bare.push_back(blocks.members.back().front());
   };
   for (std::size_t joint = 0; joint < joints; ++joint) {
     if (!members[joint].empty()) {

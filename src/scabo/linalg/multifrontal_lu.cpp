@@ -53,7 +53,7 @@ void solve_upper_from_right(const Eigen::Ref<const Matrix>& U, Eigen::Ref<Matrix
 
 }  // namespace
 
-MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) {
+MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) : bare_(std::move(blocks.bare)) {
   // What is left of each block when it is eliminated: its later neighbours and those of the blocks below it.
   const std::size_t count = blocks.members.size();
   std::vector<std::vector<int>> left = std::move(blocks.later), below(count);
@@ -126,6 +126,33 @@ MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) {
     }
   }
   place_.resize(static_cast<std::size_t>(n_));
+  is_bare_.assign(static_cast<std::size_t>(n_), 0);
+  for (const int unknown : bare_) is_bare_[static_cast<std::size_t>(unknown)] = 1;
+}
+
+/// A12 c, c for each row of A21: what it adds to the diagonal of A11 is as large as that.
+void MultifrontalLU::add_rows_of_bare(const Eigen::SparseMatrix<double>& A,
+                                      const Eigen::SparseMatrix<double, Eigen::RowMajor>& by_rows) {
+  const Vector diagonal = A.diagonal();
+  std::vector<Eigen::Triplet<double>> entries;
+  factor_of_.assign(static_cast<std::size_t>(n_), 0.0);
+  for (const int unknown : bare_) {
+    double there = 0.0, added = 0.0;
+    Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator row(by_rows, unknown);
+    for (Eigen::SparseMatrix<double>::InnerIterator it(A, unknown); it; ++it) {
+      while (row && row.col() < it.row()) ++row;
+      if (is_bare_[static_cast<std::size_t>(it.row())]) continue;
+      there += std::abs(diagonal[it.row()]);
+      if (row && row.col() == it.row()) added += std::abs(it.value() * row.value());
+    }
+    if (!(added > 0.0) || !std::isfinite(there / added)) continue;
+    factor_of_[static_cast<std::size_t>(unknown)] = there / added;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(A, unknown); it; ++it)
+      if (!is_bare_[static_cast<std::size_t>(it.row())])
+        entries.emplace_back(static_cast<int>(it.row()), unknown, there / added * it.value());
+  }
+  added_.resize(n_, n_);
+  added_.setFromTriplets(entries.begin(), entries.end());
 }
 
 /// Entries of A in the rows and columns of the pivots, but for those of fronts that have been left.
@@ -145,14 +172,34 @@ void MultifrontalLU::gather(Front& front, const Eigen::SparseMatrix<double>& A,
       const int row = place_[static_cast<std::size_t>(it.row())];
       const double value = row_scale_[it.row()] * it.value();
       if (row < k)
-        front.F11(row, at) = value;
+        front.F11(row, at) += value;
       else
-        front.L21(row - k, at) = value;
+        front.L21(row - k, at) += value;
+      if (!is_bare_[static_cast<std::size_t>(it.row())]) continue;
+      for (Eigen::SparseMatrix<double>::InnerIterator more(added_, it.row()); more; ++more) {
+        if (done_[static_cast<std::size_t>(more.row())]) continue;
+        const int to = place_[static_cast<std::size_t>(more.row())];
+        const double product = row_scale_[more.row()] * more.value() * it.value();
+        if (to < k)
+          front.F11(to, at) += product;
+        else
+          front.L21(to - k, at) += product;
+      }
     }
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_rows, unknown); it; ++it) {
       if (done_[static_cast<std::size_t>(it.col())]) continue;
       const int column = place_[static_cast<std::size_t>(it.col())];
-      if (column >= k) front.U12(at, column - k) = row_scale_[unknown] * it.value();
+      if (column >= k) front.U12(at, column - k) += row_scale_[unknown] * it.value();
+    }
+    if (is_bare_[static_cast<std::size_t>(unknown)]) continue;
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_rows, unknown); it; ++it) {
+      if (!is_bare_[static_cast<std::size_t>(it.col())]) continue;
+      const double factor = row_scale_[unknown] * factor_of_[static_cast<std::size_t>(it.col())] * it.value();
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator more(by_rows, it.col()); more; ++more) {
+        if (done_[static_cast<std::size_t>(more.col())]) continue;
+        const int column = place_[static_cast<std::size_t>(more.col())];
+        if (column >= k) front.U12(at, column - k) += factor * more.value();
+      }
     }
   }
 }
@@ -207,6 +254,7 @@ bool MultifrontalLU::factorise(const Eigen::SparseMatrix<double>& A) {
   double least = HUGE_VAL, largest = 0.0;
   {
     const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = A;
+    add_rows_of_bare(A, by_rows);
     for (Front& front : fronts_) {
       interruption_point();
       gather(front, A, by_rows);
@@ -230,7 +278,9 @@ bool MultifrontalLU::factorise(const Eigen::SparseMatrix<double>& A) {
 
 void MultifrontalLU::solve(const Vector& b, Vector& x) const {
   ensure(b.size() == n_, "MultifrontalLU: matrix and right-hand side differ in size");
-  x = row_scale_.cwiseProduct(b);
+  x = b;
+  if (!bare_.empty()) x.noalias() += added_ * b;
+  x.array() *= row_scale_.array();
   Vector of_front, of_border;
   const auto take = [&](const Front& front) {
     of_front = x(Eigen::Map<const Eigen::VectorXi>(front.unknowns.data(), front.pivots));

@@ -11,6 +11,13 @@
 // fronts are the same for all matrices of one pattern: they are found once. That is as stable as each F11 is regular;
 // `factorise` solves a system with a known solution to see. Blocks are merged where larger products are worth more than
 // the zeros that they gain.
+//
+// Of a saddle matrix [A11 A12; A21 A22] with a small A22 the pivots of A11 alone may be tiny although the matrix is
+// regular: forces that only move a body as a whole. Rows of A21 are therefore added to those above,
+//
+//     [A11 + A12 c A21, A12 + A12 c A22; A21 A22] x = [b1 + A12 c b2; b2],   c diagonal
+//
+// whose solution is the same, with c as large as makes what is added as large as A11.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -24,6 +31,8 @@ namespace scabo::linalg {
 struct OrderedBlocks {
   std::vector<std::vector<int>> members;  ///< unknowns of each block; every unknown is in one
   std::vector<std::vector<int>> later;    ///< neighbours of each block that follow it, ascending
+  std::vector<int>
+      bare;  ///< unknowns of A22, each in a block after all its neighbours, which are neighbours of each other
 };
 
 class MultifrontalLU {
@@ -50,6 +59,8 @@ class MultifrontalLU {
     std::vector<int> exchanged;  // rows of F11, as LAPACK states them
     int border() const { return static_cast<int>(unknowns.size()) - pivots; }
   };
+  void add_rows_of_bare(const Eigen::SparseMatrix<double>& A,
+                        const Eigen::SparseMatrix<double, Eigen::RowMajor>& by_rows);
   void gather(Front& front, const Eigen::SparseMatrix<double>& A,
               const Eigen::SparseMatrix<double, Eigen::RowMajor>& by_rows);
   void add_rest(Front& front, Front& child);
@@ -59,6 +70,10 @@ class MultifrontalLU {
   std::vector<Front> fronts_;  // each after its children
   std::vector<int> place_;     // of each unknown in the front at hand
   std::vector<char> done_;     // unknowns whose front has been left
+  std::vector<int> bare_;
+  std::vector<char> is_bare_;
+  std::vector<double> factor_of_;      // c, of unknowns of A22
+  Eigen::SparseMatrix<double> added_;  // n x n, A12 c in the columns of A22
   Vector row_scale_;
   double reciprocal_condition_ = 0.0, operations_ = 0.0, entries_ = 0.0;
 };

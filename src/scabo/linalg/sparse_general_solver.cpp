@@ -151,11 +151,28 @@ OrderedBlocks blocks_of(const Saddle& saddle) {
     for (const int j : last_of[k]) add({j});
   }
   blocks.later.resize(blocks.members.size());
+  // What is eliminated before a bare unknown adds its row to all neighbours: they are neighbours of each other.
+  std::vector<int> beside;
+  for (std::size_t v = 0; v < blocks.members.size(); ++v) {
+    const int first = blocks.members[v].front();
+    if (!saddle.bare[static_cast<std::size_t>(first)]) continue;
+    blocks.bare.push_back(first);
+    beside.clear();
+    for (SparseMatrix::InnerIterator it(saddle.both, first); it; ++it)
+      if (const int other = block_of[static_cast<std::size_t>(it.row())]; beside.empty() || beside.back() != other)
+        beside.push_back(other);
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    for (std::size_t k = 0; k < beside.size(); ++k) {
+      std::vector<int>& later = blocks.later[static_cast<std::size_t>(beside[k])];
+      later.insert(later.end(), beside.begin() + static_cast<std::ptrdiff_t>(k) + 1, beside.end());
+    }
+  }
   for (std::size_t v = 0; v < blocks.members.size(); ++v) {
     std::vector<int>& later = blocks.later[v];
     for (SparseMatrix::InnerIterator it(saddle.both, blocks.members[v].front()); it; ++it)
       if (const int other = block_of[static_cast<std::size_t>(it.row())];
-          other > static_cast<int>(v) && (later.empty() || later.back() != other))
+          other > static_cast<int>(v))
         later.push_back(other);
     std::sort(later.begin(), later.end());
     later.erase(std::unique(later.begin(), later.end()), later.end());
