@@ -101,7 +101,14 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   if (inner && !paths_first && held_together)
     for (const double start : {1.0, 0.05})
       if (better(inside_near(best.p, best.a, start))) return best;
-  if (paths && held_together && (better(along_paths(*held_together, touching)) || collapse())) return best;
+  if (paths && held_together) {
+    if (better(along_paths(*held_together, touching))) return best;
+    // Where Newton's method ends far away, paths may turn back below a load that is carried.
+    if (collapse() && inner && paths_first)
+      for (const double start : {1.0, 0.05})
+        if (better(inside_near(held_together->p, held_together->a, start))) return best;
+    if (collapse()) return best;
+  }
   if (inner) {
     if (better(inside({1.0, 10.0, 1000.0}))) return best;
     // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.

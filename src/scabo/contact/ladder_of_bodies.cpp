@@ -28,11 +28,8 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   const bool small = problem_.pairs() <= most_of_paths_first;
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};
-  if (!small) {  // what falls more slowly takes more iterations than interior points
-    how.patience = 2;
-    how.fall = 0.1;
-    how.first_fall = 0.15;
-  }
+  if (may_follow_path(problem_)) how.first_fall = 0.15;
+  if (!small) how.patience = 2, how.fall = 0.1;  // what falls more slowly takes more iterations than interior points
   return newton_alone(start.p, start.a, how);
 }
 
