@@ -69,10 +69,15 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
     // Of rigid bodies a Newton iteration costs as much as fifty sweeps. pile100x4_mu0.8_ratio100 is solved so.
     constexpr int most_of_proximal = 250;
     if (turn.sweeps == 25000 && sweeps.of_joints() && better(vanishing_proximal(best.p, most_of_proximal))) return best;
-    if (inner && !dear && turn.rounds > 0) {
+    if (inner && sweeps.of_joints() && turn.rounds > 0) {
       if (!held) held.emplace(problem_);
       if (better(with_held_slips(*held, turn.rounds, turn.patience))) return best;
     }
+  }
+  // Without joints a round costs as much as thousands of sweeps.
+  if (inner && !dear && !held) {
+    held.emplace(problem_);
+    if (better(with_held_slips(*held, many_rounds, many_rounds))) return best;
   }
   if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4}))) return best;
   if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;
