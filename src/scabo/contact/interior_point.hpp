@@ -26,9 +26,9 @@
 // both sides, as is usual, the same matrix loses four to six digits more near the solution. A predictor with sigma = 0
 // comes first, then sigma = (m reached / m)^3 and the second-order correction (F^-1 dy) o (F dx) of that step
 // (Mehrotra, SIAM J. Optim. 2 (1992) 575). Acary, Armand, Nguyen, Shpakovych (Optim. Methods Softw. 38 (2023) 1071)
-// solve the problem with |u_t| held, as held_slips.hpp does; here its derivative stands in T. The problem is not convex: where the steps
-// collapse the best point met is returned. The last point is moved to the boundary of the cones, P_K(x - y), if that is
-// a solution as well.
+// solve the problem with |u_t| held, as held_slips.hpp does; here its derivative stands in T. The problem is not
+// convex: where the steps collapse the best point met is returned. The last point is moved to the boundary of the
+// cones, P_K(x - y), if that is a solution as well.
 #pragma once
 
 #include <functional>

@@ -171,8 +171,7 @@ OrderedBlocks blocks_of(const Saddle& saddle) {
   for (std::size_t v = 0; v < blocks.members.size(); ++v) {
     std::vector<int>& later = blocks.later[v];
     for (SparseMatrix::InnerIterator it(saddle.both, blocks.members[v].front()); it; ++it)
-      if (const int other = block_of[static_cast<std::size_t>(it.row())];
-          other > static_cast<int>(v))
+      if (const int other = block_of[static_cast<std::size_t>(it.row())]; other > static_cast<int>(v))
         later.push_back(other);
     std::sort(later.begin(), later.end());
     later.erase(std::unique(later.begin(), later.end()), later.end());
