@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 
+import numpy
+
 import problems
 import run
 import stacks
@@ -112,8 +114,8 @@ def main():
             if arguments.only not in path.stem:
                 continue
             problem = problems.read(path)
-            # A further file may have the name of a seeded problem: pile60x4_mu0.4 and others.
-            cells = kept.setdefault(f"{problem.name}, {problem.contacts}", {})
+            # A further file may have the name of a seeded problem and as many contacts: tower20_m3_mu0.4.
+            cells = kept.setdefault(f"{problem.name}, {problem.contacts}, |q| = {numpy.linalg.norm(problem.q):.9g}", {})
             for name in wanted:
                 if name not in cells:
                     cells[name] = programs[name](arguments, path, problem)
