@@ -14,6 +14,9 @@ namespace scabo::linalg {
 
 namespace {
 
+/// Entries of the fronts' factors above which UMFPACK, whose factors are larger, does not follow where they fail: it runs
+/// out of memory. Who calls has a regular matrix to try next.
+constexpr double most_after_fronts = 1e8;
 /// Unknowns from which a saddle matrix is factorised by fronts of blocks instead of UMFPACK. The answers agree; of
 /// fewer unknowns neither takes long.
 constexpr int least_of_fronts = 4000;
@@ -256,6 +259,10 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A,
   if (factor_->by_fronts) {
     reciprocal_condition_ = factor_->fronts->reciprocal_condition();
     return true;
+  }
+  if (factor_->fronts && factor_->fronts->entries() > most_after_fronts) {
+    reciprocal_condition_ = 0.0;
+    return false;
   }
   double info[UMFPACK_INFO];
   int status = UMFPACK_OK;
