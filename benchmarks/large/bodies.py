@@ -87,6 +87,7 @@ def main():
     options.add_argument("--element", type=float, default=0.1, help="length of a boundary element of plain blocks, m")
     options.add_argument("--threads", type=int, default=1)
     options.add_argument("--seconds", type=float, default=900, help="limit of a run, processor seconds")
+    options.add_argument("--gigabytes", type=float, default=10, help="limit of a run, address space")
     options.add_argument("--only", choices=["one", "many", "plain"])
     options.add_argument("--model", help="write the model of one run to this file instead of running it")
     options = options.parse_args()
@@ -103,7 +104,7 @@ def main():
     failed = False
     for name in [options.only] if options.only else models:
         try:
-            result = measure.run(options.scabo, models[name], options.threads, options.seconds)
+            result = measure.run(options.scabo, models[name], options.threads, options.seconds, options.gigabytes)
         except measure.Failure as failure:
             print(f"| {name} | {failure}, {failure.processor:.0f} s of processor time |", flush=True)
             failed = True
