@@ -32,10 +32,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 REFERENCE = {"beams": CONVERGED_FORCE, "block": 7188.04}  # kN; the block by Scabo, 1,632 degrees of freedom; GetFEM, 99,588: 7187.92
 BEAMS = (8, 15, 24, 44)        # elements over the height of a beam: 3.4e3, 1.1e4, 2.8e4, 9.4e4 degrees of freedom
 BLOCK = (16, 40, 72, 128)      # elements along a side: 1.6e3, 9.9e3, 3.1e4, 9.9e4
-SCABO_BEAMS = (0.375, 0.1875, 0.09375, 0.046875)  # size of elements, m
+SCABO_BEAMS = (0.375, 0.1875, 0.09375, 0.046875, 0.0234375)  # size of elements, m
 # Kind of mesh: sizes, and sizes along the round side and at a corner, m.
 SCABO_BLOCK = {"superelement": ((0.1, 0.05), (0.1, 0.025), (0.1, 0.0125), (0.05, 0.00625)),
-               "quadtree": ((0.125, 0.05), (0.125, 0.025), (0.125, 0.0125), (0.125, 0.00625))}
+               "quadtree": ((0.1, 0.05), (0.1, 0.025), (0.1, 0.0125), (0.1, 0.00625))}
 LONG = 5.0                     # s
 ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
