@@ -76,7 +76,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   // From the last increment Newton converges in a few iterations or creeps from kink to kink, while a strategy below
   // needs less than ten (a culvert of 340 pairs under traffic: 50 and 7).
   constexpr int patience = 8;
-  constexpr int few = 6;  // of many bodies a path takes over sooner
+  constexpr int few = 3;  // of many bodies a path takes over sooner: it needs 2 to 9 factorisations
   const bool paths = many && may_follow_path(problem_), paths_first = paths && problem_.pairs() <= most_of_paths_first;
   // Products of interior points from the last increment, over those from bonded forces.
   constexpr double near_by = 0.025;
@@ -85,11 +85,11 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   if (!cold && !many && problem_.G.cols() > 0 && better(on_kept_states(p, a))) return best;
   if (!cold) {
     Run how{"newton", 0.0, 1.0, most, patience};
-    if (inner && !paths_first) {  // as in bonded()
+    if (paths) how.first_fall = 0.15;  // as in bonded()
+    if (inner && !paths_first) {
       how.iterations = 10;
       how.patience = 2;
       how.fall = 0.1;
-      how.first_fall = 0.15;
     }
     if (better(newton_alone(p, a, how))) return best;
   }
