@@ -1,5 +1,5 @@
-# OpenBLAS provides BLAS and LAPACK; LAPACKE, CHOLMOD and UMFPACK use it; HDF5 reads and writes files, PNG reads images, ISA-L compresses fields. None
-# of them has a CMake package on every Debian and Ubuntu (FindHDF5 of CMake fails in a project without C), so each becomes the target
+# OpenBLAS provides BLAS and LAPACK; LAPACKE, CHOLMOD and UMFPACK use it; HDF5 reads and writes files, PNG reads images,
+# ISA-L compresses fields. None of them has a CMake package on every Debian and Ubuntu (FindHDF5 of CMake fails in a project without C), so each becomes the target
 # scabo::<name> here. The file is installed beside scaboConfig.cmake, because a static Scabo needs the same targets.
 set(SCABO_NUMERICAL_LIBRARIES_MISSING "")
 # A target with the property SCABO_HDF5_INSIDE contains HDF5, if its archive is installed: the shared library loads forty others
