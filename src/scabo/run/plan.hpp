@@ -10,7 +10,8 @@
 //     condensation        dense: dense_seconds n^2 k; sparse: sweep_seconds n + condense_seconds k n^0.5 +
 //                         flexibility_seconds k^2
 //     contact             contact_bytes k^2; contact_seconds (2N)^2 for each increment; of many bodies, eliminated by
-//                         nested dissection, wall_seconds (2N k)^1.5, k averaged; of more than 6,000 pairs of few bodies a factor of all bodies, joined_iterations times in an increment
+//                         nested dissection, wall_seconds (2N k)^1.5, k averaged; of more than 6,000 pairs of few
+//                         bodies a factor of all bodies, joined_iterations times in an increment
 //
 // Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
