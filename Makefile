@@ -8,7 +8,7 @@
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
 #   make bench       against CalculiX and GetFEM
 #   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
-#   make bench-large   1e4 to 2e6 degrees of freedom, 32 to 3,000 contact pairs, cyclic loads, a thousand bodies; up to 45 minutes and 10 GB
+#   make bench-large   1e4 to 2e6 degrees of freedom, 32 to 3,000 contact pairs, cyclic loads, a thousand bodies; a quarter of an hour and 13 GB
 #   make bench-sizes   Scabo, CalculiX and GetFEM at equal error, to 1e5 degrees of freedom of theirs; half an hour
 #   make bench-kills   a run killed at 50 random moments and resumed: the same bits
 #   make bench-elements  super-elements against the eigenvector route, one thread
@@ -94,7 +94,7 @@ bench-large:
 	@$(MAKE) --no-print-directory build
 	@$(configure) release -DSCABO_BENCHMARKS=ON
 	@cmake --build --preset release --target large_sparse --parallel $(JOBS)
-	@/usr/bin/python3 benchmarks/large/run.py --scabo build/bin/scabo --sparse build/bin/large_sparse --most 2e6 --output build/bench-large
+	@/usr/bin/python3 benchmarks/large/run.py --scabo build/bin/scabo --sparse build/bin/large_sparse --most 2e6 --gigabytes 19 --output build/bench-large
 	@/usr/bin/python3 benchmarks/plan.py --scabo build/bin/scabo --runs build/bench-large/runs.json
 	@/usr/bin/python3 benchmarks/large/cycles.py --scabo build/bin/scabo
 	@/usr/bin/python3 benchmarks/large/bodies.py --scabo build/bin/scabo

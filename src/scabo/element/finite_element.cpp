@@ -388,8 +388,11 @@ PointValues finite_element_values(const FiniteElement& element, const ElementVec
     constexpr int n = size_of(kind());
     const auto shape = shape_at<kind()>(element, natural.x(), natural.y());
     PointValues point;
-    for (std::size_t i = 0; i < n; ++i) point.displacement += shape.N[i] * u.template segment<2>(place_of(i));
-    point.strain = strain_matrix<n>(shape) * u;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 of_node = u.template segment<2>(place_of(i)), &g = shape.gradient[i];
+      point.displacement += shape.N[i] * of_node;
+      point.strain += Vec3(g.x() * of_node.x(), g.y() * of_node.y(), g.y() * of_node.x() + g.x() * of_node.y());
+    }
     point.stress = D * (point.strain - free_strain);
     return point;
   });

@@ -90,17 +90,16 @@ Displaced ElasticBody::displaced(const Vector& f, const Vector& prescribed, cons
   const bool at_rest = to.u.isZero(0.0);
   if (at_rest && f.isZero(0.0)) return {std::move(to.u), Vector::Zero(size())};
   to.u += solved(at_rest ? f : Vector(f - internal_forces(to.u)));
-  to.unbalanced = internal_forces(to.u) - f;
-  const double acting = largest_acting(to.unbalanced, f);
+  Left left = left_by(to.u, f);
+  const double acting = largest_acting(left.forces, f);
   if (is_large()) {
     const double largest = std::max(acting, wanted.at_least), allowed = wanted.part * largest;
     const Goal reached = goal(f, largest);
-    if (largest_left(to.unbalanced, reached) <= allowed) return to;
-    Refined exact = refined(to.u, f, allowed, reached);
+    if (largest_left(left.forces, reached) <= allowed) return {std::move(to.u), std::move(left.forces)};
+    Refined exact = refined(to.u, f, allowed, reached, &left);
     return {linalg::rounded(exact.u), std::move(exact.left)};
   }
-  to.u -= solved(to.unbalanced);  // another solve of a small body costs nothing
-  to.unbalanced.resize(0);
+  to.u -= solved(left.forces);  // another solve of a small body costs nothing
   if (!rounding_matters(to.u, acting, wanted)) return to;
   Refined exact = refined(to.u, f, wanted);
   return {linalg::rounded(exact.u), std::move(exact.left)};
@@ -237,15 +236,16 @@ double ElasticBody::operations() const {
 }
 
 Vector ElasticBody::unbalanced(const Vector& u, const Vector& f) const {
-  Vector plain = internal_forces(u) - f;
-  if (!u.allFinite()) return plain;
-  const double acting = largest_acting(plain, f), allowed = Balanced().part * acting;
+  Left plain = left_by(u, f);
+  if (!u.allFinite()) return std::move(plain.forces);
+  const double acting = largest_acting(plain.forces, f), allowed = Balanced().part * acting;
   const Goal reached = goal(f, acting);
-  if (is_large() ? largest_left(plain, reached) <= allowed : !rounding_matters(u, acting)) return plain;
-  Refined exact = is_large() ? refined(u, f, allowed, reached) : refined(u, f, {});
+  if (is_large() ? largest_left(plain.forces, reached) <= allowed : !rounding_matters(u, acting))
+    return std::move(plain.forces);
+  Refined exact = is_large() ? refined(u, f, allowed, reached, &plain) : refined(u, f, {});
   constexpr double last_digits = 256 * std::numeric_limits<double>::epsilon();
   if (!((linalg::rounded(exact.u) - u).lpNorm<Eigen::Infinity>() <= last_digits * u.lpNorm<Eigen::Infinity>()))
-    return plain;
+    return std::move(plain.forces);
   return std::move(exact.left);
 }
 

@@ -108,12 +108,18 @@ class ElasticBody final : public BodySystem {
     linalg::TwofoldVector u;
     Vector left;
   };
+  /// K u - f of a given u, and how much rounding can have changed it (0 where it is not known).
+  struct Left {
+    Vector forces;
+    double rounding = 0.0;
+  };
+  Left left_by(const Vector& u, const Vector& f) const;
   Refined refined(const Vector& u, const Vector& f, const Balanced& wanted) const;
   /// By conjugate gradients, whose preconditioner is the factor of K + S: exact but for few directions, the bending of
   /// a slender body or its motion on soft springs, in which rounding of the factor counts. Plain refinement is their
   /// first step. Until at most `allowed` (a force) is left at a node, or rounding allows no less; and in a large body
-  /// until u hardly changes: in bending, few forces change it much.
-  Refined refined(const Vector& u, const Vector& f, double allowed, const Goal& of) const;
+  /// until u hardly changes: in bending, few forces change it much. `first` is left_by(u, f), where the caller has it.
+  Refined refined(const Vector& u, const Vector& f, double allowed, const Goal& of, const Left* first = nullptr) const;
 
   const Stiffness& stiffness() const { return factored_->stiffness; }
   const linalg::SymmetricPositiveSolver& solver() const { return factored_->solver; }

@@ -45,19 +45,27 @@ double ElasticBody::largest_left(const Vector& unbalanced, const Goal& of) const
                    std::abs(sums[2]) / (lever_ * of.spread)});
 }
 
+ElasticBody::Left ElasticBody::left_by(const Vector& u, const Vector& f) const {
+  if (!by_differences()) return {internal_forces(u) - f, 0.0};
+  Left left;
+  left.forces = forces_left(linalg::twofold(u), f, Product::by_differences, &left.rounding);
+  return left;
+}
+
 ElasticBody::Refined ElasticBody::refined(const Vector& u, const Vector& f, const Balanced& wanted) const {
   const double largest = f.lpNorm<Eigen::Infinity>();
   return refined(u, f, std::min(1e-14, wanted.part) * largest, goal(f, largest));
 }
 
-ElasticBody::Refined ElasticBody::refined(const Vector& u, const Vector& f, double allowed, const Goal& of) const {
+ElasticBody::Refined ElasticBody::refined(const Vector& u, const Vector& f, double allowed, const Goal& of,
+                                          const Left* first) const {
   Refined best{linalg::twofold(u), {}};
   // One product for all: to rounding, they are those of two matrices.
   Product product = Product::twofold;
   if (by_differences()) {
-    double rounding = 0.0;
-    best.left = forces_left(best.u, f, Product::by_differences, &rounding);
-    if (rounding <= 0.1 * allowed) product = Product::by_differences;
+    Left known = first ? *first : left_by(u, f);
+    if (known.rounding <= 0.1 * allowed) product = Product::by_differences;
+    best.left = std::move(known.forces);
   }
   if (product == Product::twofold) best.left = forces_left(best.u, f);
   if (dofs_.empty()) return best;
@@ -78,7 +86,8 @@ ElasticBody::Refined ElasticBody::refined(const Vector& u, const Vector& f, doub
     along(dofs_) -= correction;
     before = decrease;
     const Vector direction = inclined_.displacements(along);
-    const double curvature = direction.dot(forces_left(linalg::twofold(direction), nothing, product));
+    const Vector resisting = forces_left(linalg::twofold(direction), nothing, product);
+    const double curvature = direction.dot(resisting);
     if (!(curvature > 0.0)) break;
     const linalg::Twofold step{-remaining.dot(Vector(along(dofs_))) / curvature, 0.0};
     changes = is_large() && direction.lpNorm<Eigen::Infinity>() * step.high > hardly * u.lpNorm<Eigen::Infinity>();
@@ -87,7 +96,10 @@ ElasticBody::Refined ElasticBody::refined(const Vector& u, const Vector& f, doub
       linalg::Twofold& component = now.u[static_cast<std::size_t>(dof)];
       component = component + step * linalg::Twofold{direction[dof], 0.0};
     }
-    now.left = forces_left(now.u, f, product);
+    if (k == 0 && product == Product::by_differences)
+      now.left += step.high * resisting;  // rounding of K times a small correction is far smaller than that of K u
+    else
+      now.left = forces_left(now.u, f, product);
     ++since_best;
     if (const double size = largest_left(now.left, of); size < least) best = now, least = size, since_best = 0;
   }

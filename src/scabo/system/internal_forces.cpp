@@ -4,6 +4,14 @@
 
 namespace scabo::system {
 
+namespace {
+
+constexpr std::size_t lanes = 4;  // sums at a time: the additions of one sum wait for each other
+
+linalg::Twofold sum_of(const linalg::Twofold (&parts)[lanes]) { return (parts[0] + parts[1]) + (parts[2] + parts[3]); }
+
+}  // namespace
+
 NodalRigidMotions::NodalRigidMotions(const std::vector<Vec2>& nodes) {
   for (const Vec2& x : nodes) {
     turn_.push_back({-x.y(), 0.0});
@@ -22,18 +30,19 @@ NodalRigidMotions::NodalRigidMotions(const std::vector<Vec2>& nodes) {
 void NodalRigidMotions::take_out_of(linalg::TwofoldVector& v) const {
   const std::size_t nodes = v.size() / 2;
   const linalg::Twofold count{static_cast<double>(nodes), 0.0};
-  linalg::Twofold x, y, turned;
+  linalg::Twofold x[lanes], y[lanes], turned[lanes];
   for (std::size_t i = 0; i < nodes; ++i) {
-    x = x + v[2 * i];
-    y = y + v[2 * i + 1];
+    x[i % lanes] = x[i % lanes] + v[2 * i];
+    y[i % lanes] = y[i % lanes] + v[2 * i + 1];
   }
-  const linalg::Twofold mean_x = x / count, mean_y = y / count;
+  const linalg::Twofold mean_x = sum_of(x) / count, mean_y = sum_of(y) / count;
   for (std::size_t i = 0; i < nodes; ++i) {
     v[2 * i] = v[2 * i] - mean_x;
     v[2 * i + 1] = v[2 * i + 1] - mean_y;
-    turned = turned + v[2 * i] * turn_[2 * i] + v[2 * i + 1] * turn_[2 * i + 1];
+    linalg::Twofold& sum = turned[i % lanes];
+    sum = sum + (v[2 * i] * turn_[2 * i] + v[2 * i + 1] * turn_[2 * i + 1]);
   }
-  const linalg::Twofold angle = turned / turn_square_;
+  const linalg::Twofold angle = sum_of(turned) / turn_square_;
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = v[i] - angle * turn_[i];
 }
 
