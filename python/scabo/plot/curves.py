@@ -75,15 +75,15 @@ def draw_panel(axis, panel, units):
     if max(len(curve.x) for curve in panel.curves) == 1:  # one increment: how far it is from nothing
         axis.axhline(0, linewidth=0)
         axis.axvline(0, linewidth=0)
-    if not largest("y"):
-        axis.set_ylim(-1, 1)
-    elif panel.y == PAIRS:
+    if largest("y") and panel.y == PAIRS:
         axis.set_ylim(bottom=-0.05 * largest("y"))
+    style.few_ticks(axis, 5, 5)
+    if not largest("y"):
+        style.nothing_but_zero(axis)
     names = [curve.name for curve in panel.curves if curve.name]
     if names:
         room_for_legend(axis, 2 if max(map(len, names)) <= 17 else 1, len(names))
-    style.few_ticks(axis, 5, 5)
-    if panel.y == PAIRS:
+    if largest("y") and panel.y == PAIRS:
         axis.yaxis.get_major_locator().set_params(integer=True)
 
 

@@ -81,7 +81,7 @@ class QuantityReader {
       for (const QuantityWord& known : quantity_words) words.emplace_back(known.word);
       const std::string near = nearest_name(word, words);
       return refuse(fmt::format(
-          "'{}' is no number with an error bar: write elastic_energy, or a name and one of normal_force, "
+          "'{}' is not a number that can have an error bar: write elastic_energy, or a name and one of normal_force, "
           "tangential_force, max_gap, reaction_x, reaction_y, ux, uy, K_I, K_II, as in joint.normal_force{}",
           one_line(word), near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
     }
@@ -124,8 +124,8 @@ class QuantityReader {
     for (const QuantityWord& known : history_words) words.emplace_back(known.word);
     const std::string near = nearest_name(word, words);
     return refuse(
-        fmt::format("'{}' is no number with a history: write elastic_energy, external_energy or friction_energy, or a "
-                    "name and one of {}, as in joint.normal_force{}",
+        fmt::format("'{}' is not a number that can have a history: write elastic_energy, external_energy or "
+                    "friction_energy, or a name and one of {}, as in joint.normal_force{}",
                     one_line(word), fmt::join(words.begin() + 3, words.end(), ", "),
                     near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
   }
