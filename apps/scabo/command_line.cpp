@@ -154,7 +154,7 @@ class CommandLine {
     run_->add_flag("--ignore-memory", run_options_.ignore_memory,
                    "Starts even if less memory is available than the analysis is expected to need");
     add_division(*run_, run_options_.divide_from);
-    run_->add_flag("--report", run_options_.report, "Ends with a page for the browser, as `scabo report` writes it");
+    run_->add_flag("--report", run_options_.report, "Writes a page for the browser at the end, as `scabo report` does");
     run_->footer(run_example);
 
     resume_->add_option("DIR", resume_options_.directory, "Results directory of the run")->required()->option_text(" ");

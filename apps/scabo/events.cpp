@@ -70,11 +70,12 @@ ExitStatus Events::around(const std::string& command, const std::function<ExitSt
     finished(status);
     return status;
   } catch (const InputError& mistakes) {
+    const bool of_an_option = is_of_an_option(mistakes);  // no file is wrong
     for (const Diagnostic& mistake : mistakes.diagnostics()) {
       const bool placed = mistake.at.line > 0;
       write(line_of("error", seconds_since(start_),
-                    {{"text", mistake.message},
-                     {"file", mistakes.file()},
+                    {{"text", of_an_option ? format_diagnostic(mistakes.file(), mistake) : mistake.message},
+                     {"file", of_an_option ? Json() : Json(mistakes.file())},
                      {"line", placed ? Json(mistake.at.line) : Json()},
                      {"column", placed ? Json(mistake.at.column) : Json()},
                      {"path", mistake.at.path.empty() ? Json() : Json(mistake.at.path)}}));

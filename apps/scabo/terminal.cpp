@@ -45,8 +45,14 @@ void print_to_stderr(std::string_view text) {
   std::fflush(stderr);
 }
 
+bool is_of_an_option(const InputError& error) { return error.file().starts_with("--"); }
+
 void print_mistakes(const InputError& error) {
   for (const Diagnostic& diagnostic : error.diagnostics()) {
+    if (is_of_an_option(error)) {
+      print_error(format_diagnostic(error.file(), diagnostic));
+      continue;
+    }
     const std::string line = format_diagnostic(error.file(), diagnostic);
     const size_t message = line.size() - diagnostic.message.size();
     print_to_stderr(fmt::format("{}{}\n", painted(line.substr(0, message), bold), diagnostic.message));

@@ -15,7 +15,10 @@ int terminal_width();      ///< columns of standard error, 80 if unknown
 /// If standard error cannot be written (closed, a broken pipe, a full disk), the text is lost and the program
 /// continues; the exit status gives the same information.
 void print_to_stderr(std::string_view text);
-/// Every mistake of the input on its own line, `model.yaml:12:5: bodies.upper.material: ...`.
+/// Whether an option is wrong (`--set`, `--vary`), not a file.
+bool is_of_an_option(const InputError& error);
+/// Every mistake of the input on its own line, `model.yaml:12:5: bodies.upper.material: ...`, or `scabo: --set: ...` where
+/// an option itself is wrong.
 void print_mistakes(const InputError& error);
 void print_error(std::string_view message);    ///< `scabo: message`
 void print_warning(std::string_view message);  ///< `scabo: warning: message`

@@ -5,6 +5,7 @@ end with a status of `# exit: 1|2` and that text. With sanitizers bad_models rea
 those that the reader refuses go through the program as well.
 """
 
+import json
 import os
 import pathlib
 import subprocess
@@ -96,6 +97,18 @@ class BadModels(unittest.TestCase):
                 done = self.run_scabo("check", str(good), "--set", override)
                 self.assertEqual(done.returncode, 1, done.stderr)
                 self.assertIn(reason, done.stderr)
+
+    def test_options_are_of_the_program_not_of_a_file(self):
+        good = str(FOLDER.parent / "good" / "two_beams.yaml")
+        for words in (["check", good, "--set", "no_value"], ["check", good, "--set", "=1"], ["sweep", good, "--vary", "contacts.joint.friction"]):
+            with self.subTest(words=words):
+                done = self.run_scabo(*words)
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+                self.assertTrue(done.stderr.startswith(f"scabo: {words[2]}: '"), done.stderr)
+        done = self.run_scabo("run", good, "--json-lines", "--set", "no_value")
+        errors = [json.loads(line) for line in done.stdout.splitlines() if '"error"' in line]
+        self.assertEqual([error["file"] for error in errors], [None])
+        self.assertIn("--set: 'no_value'", errors[0]["text"])
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ BEYOND_SCHEMA = re.compile(
     r"|quantity_|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite|face_)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
     r"|edge_load_(not_asc|off_|on_a_body|third|values_missing)|water_(on_a_corner|up_zero)"
     r"|support_(normal_of|normal_and_|along_zero)|temperature_(on_an|without|table_(bends|goes_back|in_finite|not_ascending|of_a_point|off_its))|body_force_on_a|law_(dynamic_(backward_)?above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names|increments_(smallest_above|first_above))|later_|imported_crack|parameter_(?!of_)"
-    r"|history_(contact_unknown|broken_|factor_of_|moment_of_|pore_|section_of|section_outside|axes_(of_an_|word)|displacement_unknown|edge_(is_|of_|unknown))|slip_large_(curved|with_tol|in_stages)|size_auto_|property_(unknown$)|curve_(unknown|jumps|not_asc|ramp_back|over_(?!no_length))|step_(cycles|factor_is|friction_(unknown|of_a))")
+    r"|history_(contact_unknown|broken_|factor_of_|moment_of_|pore_|section_of|section_outside|axes_(of_an_|word|not_finite)|displacement_unknown|edge_(is_|of_|unknown))|slip_large_(curved|with_tol|in_stages)|size_auto_|property_(unknown$)|curve_(unknown|jumps|not_asc|ramp_back|over_(?!no_length))|step_(cycles|factor_is|friction_(unknown|of_a))")
 
 
 class Loader(yaml.SafeLoader):

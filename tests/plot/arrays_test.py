@@ -259,6 +259,21 @@ class Contacts(WithResults):
             drawn = np.abs(axis.lines[1].get_ydata()).max() / np.ptp(axis.get_ylim())
             self.assertEqual(drawn < 0.01, small)
 
+    def test_curves_of_zeros_have_words_and_no_scale(self):
+        line = contacts.lines_of(self.results, 2, ["bend"])[0]
+        zeros = {key: np.zeros(9) for key in line.values}
+        draw = lambda *lines: contacts.contact_curves(self.results, 2, list(lines), plot.Units("m", "N"), contacts.CURVES)
+        texts = lambda figure: [" ".join(text.get_text() for text in axis.texts) for axis in figure.axes]
+        closed = dataclasses.replace(line, values={**line.values, "gap": zeros["gap"]}, states=np.full(9, "stick"))
+        figure = draw(closed)
+        self.assertEqual(texts(figure), ["", "", "no gap: all pairs are closed", ""])
+        self.assertEqual([len(axis.get_yticks()) for axis in figure.axes][2], 1)
+        self.assertGreater(min(len(axis.get_yticks()) for axis in figure.axes[:2]), 2)
+        self.assertEqual(texts(draw(dataclasses.replace(line, values={**zeros, "gap": line.values["gap"]}, states=np.full(9, "open")))),
+                         ["no pressure: all pairs are open", "no shear", "", "no slip"])
+        self.assertEqual(texts(draw(closed, closed))[4:6], ["no gap: all pairs are closed"] * 2)
+        self.assertEqual(texts(draw(closed, line))[4:6], ["", ""])  # they have one axis
+
     def test_states_differ_in_mark_and_are_where_they_are(self):
         marks = [(mark, filled) for _, mark, filled in style.STATES.values()]
         self.assertEqual(len(set(marks)), 3)
@@ -343,7 +358,7 @@ class Curves(WithResults):
         attempts = curves.attempts_of(self.results)
         self.assertEqual([(a.number, a.attempt, a.accepted) for a in attempts], [(1, 1, True), (2, 1, False), (2, 2, True), (3, 1, False)])
         np.testing.assert_array_equal(np.concatenate([a.residuals for a in attempts]), [row[5] for row in made_up.convergence_rows()])
-        np.testing.assert_array_equal(curves.iterations_of(attempts), [3, 4, 2])
+        np.testing.assert_array_equal(curves.iterations_of(attempts), [2, 2, 1])
         self.assertEqual(list(attempts[0].coarse), [True, False, False])
         figure = plot.convergence(self.results)
         drawn = figure.axes[0].lines[0]

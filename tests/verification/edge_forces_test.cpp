@@ -178,6 +178,31 @@ output: {history: {base: {edge: low.bottom}, joint: {edge: high.bottom}, sides: 
   }
 }
 
+// Side faces: the load on them beyond the last node, next to the scaling centre, belongs to them. Pressure and linear
+// traction by hand.
+TEST(EdgeForces, OfSideFacesHaveTheWholeOfTheirLoads) {
+  const auto values = history_of(run(R"(scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies: {block: {material: steel, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5, centre: [2, 1]}}}
+supports: [{on: block.bottom, fix: [x, y]}]
+springs: [{on: block.right, k_n: 1e9}]
+loads:
+  top: {on: block.top, pressure: 1000}
+  side: {on: block.right, traction: {points: [[0, 0, 100], [1, 0, 400]]}}
+output: {history: {top: {edge: block.top}, right: {edge: block.right}, bottom: {edge: block.bottom}, left: {edge: block.left}}}
+)"));
+  const double near = 1e-12 * 2000.0;  // 2e-7 where the last part was left out
+  EXPECT_NEAR(values.at("top.force_x"), 0.0, near);
+  EXPECT_NEAR(values.at("top.force_y"), -2000.0, near);
+  EXPECT_NEAR(values.at("top.moment"), -2000.0, near);
+  EXPECT_NEAR(values.at("right.force_y"), 250.0, near);
+  for (const char* of : {"force_x", "force_y", "moment"}) {
+    double sum = 0.0;
+    for (const char* edge : {"top.", "right.", "bottom.", "left."}) sum += values.at(std::string(edge) + of);
+    EXPECT_NEAR(sum, 0.0, 10.0 * near) << of;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Meshes, EdgeForcesOnMeshes,
                          testing::Values("order: 2", "order: 1", "kind: polygons", "kind: quadtree, order: 3",
                                          "kind: fem"));

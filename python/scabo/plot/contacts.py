@@ -96,13 +96,14 @@ def contact_curves(results, number, lines, units, curves):
             axis.margins(0.04, 0.1)
             if view is not None:
                 show_part(axis, x, y, along.factor * np.array(view))
-            if not (np.any(y) or together and any(other.values[key].any() for other in lines)):
-                axis.set_ylim(-1, 1)
-            if no_shear and key == "shear":
+            nothing = not (y[shown].any() or together and any(other.values[key].any() for other in lines))
+            if no_shear and key == "shear" and not nothing:
                 axis.set_ylim(*(scales[key].factor * largest[key] * np.array([-1, 1])))
             if single or column == 0:
                 axis.set_ylabel(scales[key].label(name, "\n"), fontsize=8.5 if single else 8)
             style.few_ticks(axis, 6 if columns < 3 else 4, 5)
+            if nothing:
+                style.nothing_but_zero(axis, what_zero_means(key, line.states[shown]))
         for axis in grid[-2:, column] if single else grid[-1:, column]:
             nothing = 1e-9 * line.distance[-1]  # rounding of a coordinate that is 0
             start = ", ".join(f"{along.factor * (value if abs(value) > nothing else 0.0):.4g}" for value in (line.x[0], line.y[0]))
@@ -113,6 +114,13 @@ def contact_curves(results, number, lines, units, curves):
             grid[0, column].set_title(f"contact {line.name}")
     figure.align_ylabels()
     return figure
+
+
+def what_zero_means(key, states):
+    """Of a curve that is zero at all pairs."""
+    if key == "gap":
+        return "no gap" if (states == "open").any() else "no gap: all pairs are closed"
+    return f"no {key}: all pairs are open" if key == "pressure" and (states == "open").all() else f"no {key}"
 
 
 def part_in_contact(line, least=0.05):

@@ -75,15 +75,15 @@ def draw_panel(axis, panel, units):
     if max(len(curve.x) for curve in panel.curves) == 1:  # one increment: how far it is from nothing
         axis.axhline(0, linewidth=0)
         axis.axvline(0, linewidth=0)
-    if not largest("y"):
-        axis.set_ylim(-1, 1)
-    elif panel.y == PAIRS:
+    if largest("y") and panel.y == PAIRS:
         axis.set_ylim(bottom=-0.05 * largest("y"))
+    style.few_ticks(axis, 5, 5)
+    if not largest("y"):
+        style.nothing_but_zero(axis)
     names = [curve.name for curve in panel.curves if curve.name]
     if names:
         room_for_legend(axis, 2 if max(map(len, names)) <= 17 else 1, len(names))
-    style.few_ticks(axis, 5, 5)
-    if panel.y == PAIRS:
+    if largest("y") and panel.y == PAIRS:
         axis.yaxis.get_major_locator().set_params(integer=True)
 
 
@@ -282,7 +282,7 @@ def convergence(results):
         legend.append((Line2D([], [], color="0.4", marker="o", markersize=4, markerfacecolor="white", linewidth=0.8), "with fewer pairs"))
     if any(not attempt.accepted for attempt in attempts):
         legend.append((Line2D([], [], color=style.RED, linestyle="--", marker="x", markersize=4, linewidth=0.9), "not accepted"))
-    subtitle = f"convergence of the contact solver: {sum(len(attempt.iterations) for attempt in attempts)} iterations, " \
+    subtitle = f"convergence of the contact solver: {sum(map(taken_by, attempts))} iterations, " \
                f"{count} increment{'s' * several}"
     if len(attempts) > MOST_ATTEMPTS:
         subtitle += f"; residuals of about {MOST_ATTEMPTS} attempts"
@@ -313,8 +313,13 @@ def iterations_of(attempts):
     """Iterations of all attempts at each increment."""
     counts = np.zeros(attempts[-1].number, dtype=int)
     for attempt in attempts:
-        counts[attempt.number - 1] += len(attempt.iterations)
+        counts[attempt.number - 1] += taken_by(attempt)
     return counts
+
+
+def taken_by(attempt):
+    """Iterations of one attempt, as summary.json counts them: the row of number 0 is the start."""
+    return int(attempt.iterations[-1])
 
 
 def colour_of(number, count):

@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.lines import Line2D
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FixedLocator, MaxNLocator
 from matplotlib.tri import Triangulation
 
 from . import geometry, vtu
@@ -102,6 +102,15 @@ def few_ticks(axis, x=5, y=5):
         axis.xaxis.set_major_locator(MaxNLocator(nbins=x, steps=[1, 2, 2.5, 5, 10]))
     if axis.get_yscale() == "linear":
         axis.yaxis.set_major_locator(MaxNLocator(nbins=y, steps=[1, 2, 2.5, 5, 10]))
+
+
+def nothing_but_zero(axis, text=""):
+    """An axis of which all values are zero: its scale means nothing, and a text above the line at zero says what the zero means."""
+    axis.set_ylim(-1, 1)
+    axis.yaxis.set_major_locator(FixedLocator([0]))
+    if text:
+        axis.annotate(text, (0.5, 0.5), xytext=(0, 7), xycoords="axes fraction", textcoords="offset points", ha="center", va="bottom",
+                      fontsize=8, color="0.25")
 
 
 def plain_frame(axis):

@@ -58,6 +58,7 @@ class SumOverEdge {
       const bool elsewhere = !load.on || is_elsewhere(*load.on);
       for (const auto& [in_part, node] : number_in_part_)
         apply(elsewhere, node, factor * forces.segment<2>(place_of(node)));
+      if (edge_.on.kind == model::Place::Kind::face && !elsewhere) add_from_within(factor * forces);
     }
   }
 
@@ -133,6 +134,13 @@ class SumOverEdge {
   void add(int node, const Vec2& force) {
     sum_.force += force;
     sum_.moment += cross(body_.nodes[static_cast<std::size_t>(node)] - edge_.about, force);
+  }
+
+  /// Of a load on this face: what acts on the cell around the scaling centre, whose side faces have no nodes, is at the
+  /// nodes of its boundary.
+  void add_from_within(const Vector& forces) {
+    for (std::size_t node = 0; node < on_edge_.size(); ++node)
+      if (!on_edge_[node]) add(static_cast<int>(node), forces.segment<2>(place_of(node)));
   }
 
   void add_cell(const std::vector<int>& dofs, const Matrix& K, const Vector& u) {

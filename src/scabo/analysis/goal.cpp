@@ -441,8 +441,10 @@ StaticSolution refine_for_goal(const model::Model& given, const Options& options
       return end(without_goal(
           std::move(solution), model,
           std::max(std::abs(J), std::abs(wider)) <= rounding
-              ? "the value is zero to rounding, and nothing is small relative to that: ask for another number"
-              : fmt::format("a bar below {:.2g} is beyond the certificate and rounding: ask for a larger tolerance",
+              ? "the value is zero but for rounding errors, so that no bar is small relative to it: ask for another "
+                "number"
+              : fmt::format("the tolerance of the certificate and rounding do not allow a bar below {:.2g}: ask for a "
+                            "larger tolerance",
                             rounding)));
     }
     double sum = 0.0;

@@ -81,7 +81,7 @@ class QuantityReader {
       for (const QuantityWord& known : quantity_words) words.emplace_back(known.word);
       const std::string near = nearest_name(word, words);
       return refuse(fmt::format(
-          "'{}' is no number with an error bar: write elastic_energy, or a name and one of normal_force, "
+          "'{}' is not a number that can have an error bar: write elastic_energy, or a name and one of normal_force, "
           "tangential_force, max_gap, reaction_x, reaction_y, ux, uy, K_I, K_II, as in joint.normal_force{}",
           one_line(word), near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
     }
@@ -124,8 +124,8 @@ class QuantityReader {
     for (const QuantityWord& known : history_words) words.emplace_back(known.word);
     const std::string near = nearest_name(word, words);
     return refuse(
-        fmt::format("'{}' is no number with a history: write elastic_energy, external_energy or friction_energy, or a "
-                    "name and one of {}, as in joint.normal_force{}",
+        fmt::format("'{}' is not a number that can have a history: write elastic_energy, external_energy or "
+                    "friction_energy, or a name and one of {}, as in joint.normal_force{}",
                     one_line(word), fmt::join(words.begin() + 3, words.end(), ", "),
                     near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
   }
@@ -289,7 +289,7 @@ constexpr const char* history_forms =
 std::optional<ResultAxes> read_axes(Reading& reading, const Value& value) {
   ResultAxes axes;
   const auto text = value.node->kind == Node::Kind::scalar ? read_text(reading.report, value) : std::nullopt;
-  const bool number = text && text->find_first_not_of("+-.0123456789eE") == std::string::npos;
+  const bool number = text && (text->find_first_not_of("+-.0123456789eE") == std::string::npos || text->starts_with('.'));
   if (!text || (!number && text->find('.') == std::string::npos)) {
     reading.report.error(value, "must be an angle in degrees or a straight edge, as in 30 or dam.face");
     return {};

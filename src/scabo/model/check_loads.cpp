@@ -186,8 +186,8 @@ void check_linear_in_bodies(Checking& checking, const std::string& path, const L
       continue;
     checking.error(
         path, "temperature",
-        fmt::format("bends inside body '{}', a super-element with {}, which takes only a temperature that is "
-                    "linear: give the body a mesh of kind polygons, quadtree or fem",
+        fmt::format("changes its slope inside body '{}', a super-element with {}, which takes only a linear "
+                    "temperature: give the body a mesh of kind polygons, quadtree or fem",
                     body.name, several || !body.regions.empty() ? "several materials" : "side faces"));
     return;
   }

@@ -81,11 +81,13 @@ bool check_many_cells(Checking& checking, const std::string& path, const Body& b
   refuse(body.mesh.tolerance.has_value() && body.image, "mesh.tolerance",
          "is not available for a body that an image shows, whose cells are its pixels: leave it out");
   refuse(body.mesh.tolerance.has_value() && body.mesh.kind == MeshKind::parts, "mesh.tolerance",
-         "a body of a few parts is not refined: write kind: polygons");
+         "a body that is divided into a few super-elements cannot be refined: write kind: polygons");
   refuse(body.outside && body.mesh.kind != MeshKind::fem, "outside",
          "an unbounded body is one super-element in this version: leave 'kind' out");
   if (!body.cracks.empty() && body.mesh.kind == MeshKind::parts)
-    checking.error(path, "cracks.0", "a crack in a body of several parts needs kind: polygons or kind: quadtree"),
+    checking.error(path, "cracks.0",
+                   "a crack in a body that is divided into several super-elements needs kind: polygons or kind: "
+                   "quadtree"),
         good = false;
   refuse(body.imported && !body.regions.empty(), "regions",
          "the regions of a mesh of a file are those of its cells: give them materials with 'materials'");

@@ -265,8 +265,9 @@ void check_tables_with_bars(Checking& checking) {
       if (!(all || body.mesh.tolerance) || is_linear_over(*temperature->table, body.outline)) continue;
       checking.enter(load.source);
       checking.error(path_of_load(load, i), "temperature",
-                     fmt::format("bends inside body '{}', whose finite elements take it as linear each, which no error "
-                                 "bar contains: give the body a mesh of kind polygons or quadtree, or ask for no error",
+                     fmt::format("changes its slope inside body '{}', in each of whose finite elements it is taken as "
+                                 "linear, an error that no estimate contains: give the body a mesh of kind polygons or "
+                                 "quadtree, or ask for no error",
                                  body.name));
       return;
     }

@@ -13,6 +13,9 @@ namespace scabo::result {
 
 namespace {
 
+/// So many cells of a body may have more points than one ring: the file of its fields is small all the same.
+constexpr std::size_t few_cells = 500;
+
 /// Position of a point of a ring.
 Vec2 on_ring(const mesh::BodyMesh& body, const mesh::Cell& cell, int node, double xi) {
   const Vec2& x = body.nodes[static_cast<std::size_t>(node)];
@@ -105,7 +108,7 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
       for (const int node : element.nodes()) made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
       continue;
     }
-    made.cells[c].sampling = library.of_cell(*cells[c], uses.at(cells[c].get()));
+    made.cells[c].sampling = library.of_cell(*cells[c], uses.at(cells[c].get()), cells.size() <= few_cells);
     const RingSampling& sampling = *made.cells[c].sampling;
     const std::vector<int> nodes = cell.nodes();
     for (std::size_t k = 0; k < sampling.nodes.size(); ++k)

@@ -16,14 +16,23 @@ constexpr int ring_count = 10, inner_rings = 6;
 
 }  // namespace
 
-std::vector<double> ring_levels(const element::Ring& ring) {
+namespace {
+
+/// Mean distance of boundary nodes over their mean distance from the centre.
+double relative_spacing(const element::Ring& ring) {
   double length = 0.0, radius = 0.0;
   for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
     length += (ring.nodes[(i + 1) % ring.nodes.size()] - ring.nodes[i]).norm();
     radius += ring.nodes[i].norm();
   }
+  return length / radius;
+}
+
+}  // namespace
+
+std::vector<double> ring_levels(const element::Ring& ring) {
   // Widths w, w g, w g^2 ... of `ring_count` rings add up to 1; g grows with the sum.
-  const double width = std::clamp(length / radius, 0.02, 1.0 / ring_count);
+  const double width = std::clamp(relative_spacing(ring), 0.02, 1.0 / ring_count);
   double low = 1.0, high = 2.0;
   for (int halving = 0; halving < 50; ++halving) {
     const double growth = 0.5 * (low + high);
@@ -38,6 +47,15 @@ std::vector<double> ring_levels(const element::Ring& ring) {
   // previous one.
   if (ring.is_open())
     for (int i = 0; i < inner_rings; ++i) levels.push_back(0.5 * levels.back());
+  return levels;
+}
+
+std::vector<double> cell_levels(const element::Ring& ring, bool fine) {
+  constexpr double wide = 0.3, growth = 1.5;  // a hexagon of order 3 has 0.35, one of order 2 0.52
+  std::vector<double> levels{1.0};
+  double width = std::max(relative_spacing(ring), 0.02);
+  if (!fine || width >= wide) return {1.0, 0.5};
+  for (; levels.back() > 1.5 * width; width *= growth) levels.push_back(levels.back() - width);
   return levels;
 }
 
@@ -137,12 +155,12 @@ CellMap cell_map(const element::SolvedSuperElement& super_element, const RingSam
 }  // namespace
 
 std::shared_ptr<const RingSampling> SamplingLibrary::of_cell(const element::SolvedSuperElement& super_element,
-                                                             std::size_t cells) {
+                                                             std::size_t cells, bool fine) {
   std::shared_ptr<const RingSampling>& sampling = known_cells_[&super_element];
   if (sampling) return sampling;
   RingSampling made = ring_sampling(super_element.ring, super_element.sectors, false);
   if (!super_element.ring.is_open()) {
-    made.levels = {1.0, 0.5};  // small: a ring between sides and centre
+    made.levels = cell_levels(super_element.ring, fine);
     if (cells > 4 * super_element.ring.nodes.size()) made.map = cell_map(super_element, made);
   }
   sampling = std::make_shared<const RingSampling>(std::move(made));

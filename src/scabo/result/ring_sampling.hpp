@@ -44,8 +44,9 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
 class SamplingLibrary {
  public:
   std::shared_ptr<const RingSampling> of_body(const element::SolvedSuperElement& super_element);
-  std::shared_ptr<const RingSampling> of_cell(const element::SolvedSuperElement& super_element,
-                                              std::size_t cells);  ///< `cells`: how many are equal to it
+  /// `cells`: how many are equal to it. `fine`: see cell_levels.
+  std::shared_ptr<const RingSampling> of_cell(const element::SolvedSuperElement& super_element, std::size_t cells,
+                                              bool fine);
 
  private:
   std::unordered_map<const element::SolvedSuperElement*, std::shared_ptr<const RingSampling>> known_, known_cells_;
@@ -54,6 +55,10 @@ class SamplingLibrary {
 /// Rings on which a super-element is sampled: the outermost is about as wide as boundary nodes are apart, and those
 /// further inside are wider by a constant factor.
 std::vector<double> ring_levels(const element::Ring& ring);
+
+/// The same for a cell of a mesh: one ring between sides and centre, as cells are small. `fine`: where it has many nodes
+/// on its boundary, as the few large cells of a body have, and those around held side faces, more rings.
+std::vector<double> cell_levels(const element::Ring& ring, bool fine);
 
 /// Rings of an unbounded domain, outwards.
 std::vector<double> outer_ring_levels();

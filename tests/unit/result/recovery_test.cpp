@@ -169,6 +169,26 @@ TEST(Recovery, RingsAreNarrowAtTheBoundary) {
   }
 }
 
+// Rings of a cell are as wide as its boundary nodes are apart, at the boundary; of one with few nodes, and in a body of
+// many cells, there is one ring half way.
+TEST(Recovery, LargeCellsHaveMoreRings) {
+  const auto levels_of = [](double size, bool fine) {
+    const mesh::Mesh mesh = mesh::make_mesh(model_of({elastic("body", pentagon(), size, 2)}, model::Plane::stress));
+    return cell_levels(element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes), fine);
+  };
+  EXPECT_EQ(levels_of(100.0, true), (std::vector<double>{1.0, 0.5}));
+  EXPECT_EQ(levels_of(0.1, false), (std::vector<double>{1.0, 0.5}));
+  std::size_t before = 2;
+  for (const double size : {0.5, 0.2, 0.1}) {
+    const std::vector<double> levels = levels_of(size, true);
+    EXPECT_GT(levels.size(), before);
+    before = levels.size();
+    for (std::size_t i = 0; i + 2 < levels.size(); ++i)
+      EXPECT_NEAR(levels[i + 1] - levels[i + 2], 1.5 * (levels[i] - levels[i + 1]), 1e-12);
+    EXPECT_LE(levels.back(), 1.5 * 1.5 * (levels[levels.size() - 2] - levels.back()));  // as wide inside
+  }
+}
+
 TEST(Recovery, RigidBodyIsItsMovedOutline) {
   const model::Outline disc = outline({arc("lower", {1.0, 2.0}, 0.5, pi, pi), arc("upper", {1.0, 2.0}, 0.5, 0.0, pi)});
   const auto solution = solution_of(model_of({rigid("punch", disc)}, model::Plane::strain));
