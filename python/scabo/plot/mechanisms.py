@@ -26,8 +26,8 @@ class Motion:
     cells: list           # points of each cell of a body
     motion: np.ndarray    # one for each of them: largest displacement of its body
     outlines: np.ndarray  # sides of all bodies, S x 2
-    slips: np.ndarray     # pieces of contacts whose ends slip or open, P x 2: they slip more than they open
-    opens: np.ndarray     # the others
+    slips: np.ndarray     # pieces of contacts that slip and do not open, P x 2
+    opens: np.ndarray     # pieces that open, whether they slip or not
 
 
 def motion_of(results, magnification=None):
@@ -48,10 +48,9 @@ def motion_of(results, magnification=None):
     lines, of_body = grid.cells(vtu.LINE)[:, :2], is_body[kinds == vtu.LINE]
     joints = lines[~of_body]
     opening, slip = (np.abs(grid.point_data[name]) for name in ("opening", "slip"))
-    moves = (np.maximum(opening, slip) > AT_REST)[joints].any(axis=1)
-    slides = slip[joints].sum(axis=1) >= opening[joints].sum(axis=1)
+    opens, slides = ((values > AT_REST)[joints].any(axis=1) for values in (opening, slip))
     return Motion(grid, magnification, geometry.moved(grid, magnification), cells, grid.cell_data["motion"][is_body & (kinds == vtu.POLYGON)],
-                  np.concatenate([distinct[times == 1], lines[of_body]]), joints[moves & slides], joints[moves & ~slides])
+                  np.concatenate([distinct[times == 1], lines[of_body]]), joints[slides & ~opens], joints[opens])
 
 
 def magnification_of(size):
@@ -94,7 +93,7 @@ def mechanism(results, magnification=None, units=None, window=None):
     if window is not None:
         axis.set(xlim=place.factor * np.array(window[:2]), ylim=place.factor * np.array(window[2:]))
     style.few_ticks(axis, 7, max(3, min(7, int(2 * height))))
-    figure.colorbar(colours, ax=axis, label="largest displacement of a body, over that of all", location="bottom" if wide else "right",
+    figure.colorbar(colours, ax=axis, label="largest displacement of each body", location="bottom" if wide else "right",
                     shrink=0.8 if wide else 0.9, aspect=35 if wide else 25, pad=0.02)
     return figure
 
