@@ -17,7 +17,7 @@ namespace scabo::app {
 
 namespace {
 
-/// Totals of the last converged increment, and the location of the results.
+/// Totals of the last converged increment, which bodies move after it, and the location of the results.
 std::string summary_text(const analysis::StaticSolution& solution, const std::filesystem::path& directory) {
   int converged = 0;
   double certificate = 0.0;
@@ -36,7 +36,7 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
     text += result::report_totals(solution.model, *last);
   }
-  return text + fmt::format("Results: {}\n", directory.string());
+  return text + result::report_mechanism(solution) + fmt::format("Results: {}\n", directory.string());
 }
 
 ExitStatus status_of(const analysis::StaticSolution& solution, int signal) {

@@ -4,8 +4,10 @@
 #include <docstrings.hpp>  // made by make_docstrings.py
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "arrays.hpp"
+#include "scabo/analysis/mechanism.hpp"
 #include "scabo/mesh/output_points.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/stress.hpp"
@@ -163,6 +165,49 @@ py::dict values(const StaticResult& solved, std::size_t increment, const Numbers
   return table;
 }
 
+/// How bodies begin to move where the run ended as a mechanism or collapse; None otherwise. The largest displacement is
+/// 1. Arrays over the bodies: shift (n, 2), displacement (length) of the point about (n, 2), rotation (radians,
+/// counter-clockwise), centre (n, 2; not a number where a body does not turn), largest (largest displacement of the
+/// body, length), moves. Arrays over the pairs: contact (index), pair (number from 1), position (m, 2; on A), normal
+/// (m, 2; out of A), opening and slip (length, of B relative to A). Besides: rule ('coulomb' or 'associated'), work (of
+/// the loads over the motion), text. Arrays show the memory of the solution, but for centre and moves.
+py::object mechanism(const py::object& self) {
+  const analysis::StaticSolution& solution = self.cast<const StaticResult&>().solution;
+  if (!solution.mechanism) return py::none();
+  const analysis::Mechanism& of = *solution.mechanism;
+  py::dict table;
+  table["rule"] = of.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated";
+  table["work"] = of.work;
+  table["text"] = analysis::describe(of, solution.model);
+  static const analysis::BodyMotion no_body;
+  static const analysis::PairMotion no_pair;
+  const analysis::BodyMotion& body = of.bodies.empty() ? no_body : of.bodies.front();
+  const analysis::PairMotion& pair = of.pairs.empty() ? no_pair : of.pairs.front();
+  const auto bodies = static_cast<py::ssize_t>(of.bodies.size()), pairs = static_cast<py::ssize_t>(of.pairs.size());
+  constexpr py::ssize_t of_body = sizeof(analysis::BodyMotion), of_pair = sizeof(analysis::PairMotion);
+  table["shift"] = view(body.shift.data(), {bodies, 2}, {of_body, of_double}, self);
+  table["about"] = view(body.about.data(), {bodies, 2}, {of_body, of_double}, self);
+  table["rotation"] = view(&body.rotation, {bodies}, {of_body}, self);
+  table["largest"] = view(&body.largest, {bodies}, {of_body}, self);
+  py::array_t<double> centre = columns(of.bodies.size(), 2);
+  py::array_t<bool> moves(bodies);
+  for (py::ssize_t b = 0; b < bodies; ++b) {
+    const analysis::BodyMotion& motion = of.bodies[static_cast<std::size_t>(b)];
+    const std::optional<Vec2> at = motion.centre();
+    for (int k = 0; k < 2; ++k) centre.mutable_at(b, k) = at ? (*at)[k] : no_number;
+    moves.mutable_at(b) = motion.moves();
+  }
+  table["centre"] = centre;
+  table["moves"] = moves;
+  table["contact"] = view(&pair.contact, {pairs}, {of_pair}, self);
+  table["pair"] = view(&pair.pair, {pairs}, {of_pair}, self);
+  table["position"] = view(pair.position.data(), {pairs, 2}, {of_pair, of_double}, self);
+  table["normal"] = view(pair.normal.data(), {pairs, 2}, {of_pair, of_double}, self);
+  table["opening"] = view(&pair.opening, {pairs}, {of_pair}, self);
+  table["slip"] = view(&pair.slip, {pairs}, {of_pair}, self);
+  return table;
+}
+
 /// Names of the contacts, in the order of the model.
 std::vector<std::string> contact_names(const StaticResult& solved) {
   std::vector<std::string> names;
@@ -177,7 +222,7 @@ std::vector<std::string> body_names(const StaticResult& solved) {
   return names;
 }
 
-/// How the run ended: solved, not_converged, mechanism or interrupted.
+/// How the run ended: solved, not_converged, mechanism, collapse or interrupted.
 std::string status(const StaticResult& solved) { return std::string(result::name_of(solved.solution.outcome)); }
 
 /// Whether the model asks for its discrete contact problems as files, which only a run can write.
@@ -200,6 +245,7 @@ void bind_static_results(py::module_& module) {
       .def("keeps_fields", &keeps_fields, py::arg("increment"), doc::static_results::keeps_fields)
       .def("nodes", &nodes, py::arg("body"), doc::static_results::nodes)
       .def("displacement", &displacement, py::arg("increment"), py::arg("body"), doc::static_results::displacement)
+      .def("mechanism", &mechanism, doc::static_results::mechanism)
       .def("values", &values, py::arg("increment"), py::arg("points"), py::arg("only"), py::arg("allow_outside"),
            doc::static_results::values);
 }

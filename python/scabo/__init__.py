@@ -16,6 +16,7 @@ from .errors import (Collapse, Error, Infeasible, InternalError, Interrupted, Me
                      NotConverged, Problem, WriteError)
 from .model import Model, Sizes, read, schema
 from .modes import Mode, ModalResult
+from .motion import Motion
 from .result import Contact, Increment, Result
 from .super_element import SuperElement, boundary_nodes
 
@@ -23,6 +24,6 @@ Progress.__module__ = "scabo"
 
 __all__ = [
     "Collapse", "Contact", "DiscreteSolution", "Error", "Increment", "Infeasible", "InternalError", "Interrupted",
-    "Mechanism", "ModalResult", "Mode", "Model", "ModelError", "ModelWarning", "NotConverged", "Problem", "Progress", "Result", "Sizes",
+    "Mechanism", "ModalResult", "Mode", "Model", "ModelError", "ModelWarning", "Motion", "NotConverged", "Problem", "Progress", "Result", "Sizes",
     "SuperElement", "WriteError", "__version__", "boundary_nodes", "read", "schema", "solve_contact",
 ]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
+from .motion import Motion
 
 if TYPE_CHECKING:
     import pandas
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Contact", "Increment", "Result"]
 
 _STATES = np.array(["open", "stick", "slip"])
-_PICTURES = ("stress", "contact", "mesh", "convergence", "history")
+_PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "history")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
 
 
@@ -182,6 +183,12 @@ class Result:
         return self._directory
 
     @property
+    def mechanism(self) -> Motion | None:
+        """How the bodies begin to move, of a run that ended as a mechanism or collapse; None otherwise."""
+        table = self._core.mechanism()
+        return None if table is None else Motion(table, self.bodies, list(self._core.contacts))
+
+    @property
     def bodies(self) -> list[str]:
         """Names of the bodies."""
         return list(self._core.bodies)
@@ -239,8 +246,8 @@ class Result:
 
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
         """A figure of Matplotlib by ``scabo.plot``, whose functions describe the options: what="stress" on the deformed
-        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence" or "history". Results that are not in a
-        directory are first written to a temporary one."""
+        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism" or "history". Results that
+        are not in a directory are first written to a temporary one."""
         if what not in _PICTURES:
             raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")
         try:
@@ -248,9 +255,10 @@ class Result:
             picture = getattr(plot, what)
         except ImportError as error:
             raise ImportError(f"plot() needs scabo.plot and Matplotlib (python3-matplotlib): {error}") from None
-        number = self._number(increment)
         if what in ("stress", "contact"):
-            options["increment"] = number + 1  # files and pictures count from 1
+            options["increment"] = self._number(increment) + 1  # files and pictures count from 1
+        elif what != "mechanism":
+            self._number(increment)
 
         def draw(directory: str) -> Any:
             return picture(plot.Results(directory), **options)

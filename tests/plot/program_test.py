@@ -13,7 +13,7 @@ import meshio
 import numpy as np
 import plot
 import support
-from plot import command, contacts, fields
+from plot import command, contacts, fields, mechanisms
 
 
 class Program(support.InTemporaryDirectory):
@@ -34,7 +34,7 @@ class Program(support.InTemporaryDirectory):
         run = self.plot(results)
         self.assertEqual(run.stderr, "")
         paths = [pathlib.Path(line) for line in run.stdout.splitlines()]
-        self.assertEqual([path.name for path in paths], [f"beam.{kind}.png" for kind in command.KINDS])
+        self.assertEqual([path.name for path in paths], [f"beam.{kind}.png" for kind in command.KINDS if kind != "mechanism"])
         for path in paths:
             pixels = matplotlib.image.imread(path)
             drawn = (pixels[..., :3] < 0.9).any(axis=2)
@@ -51,6 +51,42 @@ class Program(support.InTemporaryDirectory):
         rows = [row for row in support.rows_of(results) if row["increment"] == "4"]
         np.testing.assert_array_equal(line.values["pressure"], [float(row["pressure"]) for row in rows])
         np.testing.assert_allclose(line.distance, [float(row["x"]) - float(rows[0]["x"]) for row in rows], atol=1e-12)
+
+    def test_a_mechanism(self):
+        """A block of 1 x 3 m that falls over about its toe, in the second increment and in the first."""
+        model = self.directory / "fall.yaml"
+        model.write_text("{scabo: 1, materials: {m: {young: 1e9, poisson: 0.2, density: 2000}}, bodies: {floor: {rigid: true, shape: "
+                         "{rectangle: {corner: [-1, -1], size: [4, 1]}}}, block: {material: m, shape: {rectangle: {corner: [0, 0], size: "
+                         "[1, 3]}}, mesh: {size: 0.5}}}, supports: [{on: floor, fix: [x, y]}], loads: {weight: {gravity: [0, -9]}, push: "
+                         "{gravity: [4, 0]}}, contacts: {base: {between: [floor.top, block.bottom], friction: 0.8}}, steps: [{name: weight, "
+                         "loads: {weight: 1}}, {name: push}]}")
+        run = support.scabo("run", model)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("\nmechanism.vtu shows the motion: 1 of 2 bodies moves, 'block'\n", run.stdout)
+        results = self.directory / "fall.results"
+        names = [line.rsplit("/", 1)[1] for line in self.plot(results).stdout.splitlines()]
+        self.assertEqual(names, [f"fall.{kind}.png" for kind in command.KINDS])
+        motion = mechanisms.motion_of(plot.Results(results), 0.5)
+        grid = meshio.read(results / "mechanism.vtu")  # as others read it
+        np.testing.assert_array_equal(motion.grid.point_data["displacement"], grid.point_data["displacement"])
+        np.testing.assert_allclose(motion.motion, [0.0, 1.0], atol=1e-8)
+        of_block = grid.point_data["body"] == 2
+        expected = np.column_stack([grid.points[:, 1], 1.0 - grid.points[:, 0]]) / np.sqrt(10.0)  # about (1, 0)
+        np.testing.assert_allclose(grid.point_data["displacement"][of_block, :2], expected[of_block], atol=1e-8)
+        np.testing.assert_allclose(motion.points[motion.grid.point_data["body"] == 2],
+                                   grid.points[of_block, :2] + 0.5 * expected[of_block], atol=1e-8)
+        of_pairs = grid.point_data["pair"] > 0
+        np.testing.assert_allclose(grid.point_data["opening"][of_pairs], (1.0 - grid.points[of_pairs, 0]) / np.sqrt(10.0), atol=1e-8)
+        self.assertEqual((len(motion.slips), len(motion.opens)), (0, of_pairs.sum() - 1))
+        body = support.summary_of(results)["mechanism"]["bodies"]["block"]
+        np.testing.assert_allclose(body["centre"], [1.0, 0.0], atol=1e-8)
+
+        self.assertEqual(support.scabo("run", model, "--set", "steps=[{name: both}]").returncode, 2)
+        self.assertIn("fall.mechanism.png", self.plot(results).stdout)
+        self.plot(results, "--what", "stress", status=1)
+        self.assertEqual(support.scabo("run", model, "--set", "loads.push.gravity=[2, 0]").returncode, 0)
+        self.assertFalse((results / "mechanism.vtu").exists())  # what the run before left is removed
+        self.assertIn("has no mechanism.vtu", self.plot(results, "--what", "mechanism", status=1).stderr)
 
     def test_the_snippet_of_the_manual_runs(self):
         self.run_model("beam")

@@ -102,6 +102,24 @@ class SameAsTheProgram(InTemporaryDirectory):
         self.assertEqual(run.stderr, f"scabo: {failed.exception}\n")
         self.assertEqual(failed.exception.result.status, "mechanism")
         self.assertEqual(failed.exception.result.increments, [])
+        motion = failed.exception.result.mechanism  # it slides
+        self.assertEqual((motion.text, motion.moving, motion.rule), ("1 of 2 bodies moves, 'block'", ["block"], "coulomb"))
+        self.assertEqual(motion.text, summary_of(self.directory / "results")["mechanism"]["text"])
+        np.testing.assert_allclose(motion.displacement("block", [[0, 0], [2, 1]]), [[1, 0], [1, 0]], atol=1e-8)
+        np.testing.assert_allclose(motion.shift[1] - motion.largest[1] * np.array([1.0, 0.0]), 0, atol=1e-8)
+        self.assertTrue(np.isnan(motion.centre).all())
+        base = motion.contact("base")
+        self.assertEqual(list(base["pair"]), list(range(1, 42)))
+        np.testing.assert_allclose([base["opening"], base["slip"] - 1, base["y"], base["normal_y"] - 1], 0, atol=1e-8)
+        # By hand: f . (1, 0), the push of 4 MPa on 2 m.
+        self.assertAlmostEqual(motion.work / 8e6, 1.0, delta=1e-8)
+        for wrong in (lambda: motion.contact("bass"), lambda: motion.displacement("blok", [[0, 0]])):
+            with self.assertRaises(KeyError):
+                wrong()
+        failed.exception.result.save(self.directory / "saved")
+        self.assertEqual((self.directory / "saved" / "mechanism.vtu").read_bytes(),
+                         (self.directory / "results" / "mechanism.vtu").read_bytes())
+        self.assertIsNone(scabo.Model(block()).run().mechanism)
         again = pickle.loads(pickle.dumps(failed.exception))  # as multiprocessing does
         self.assertEqual((type(again), str(again), again.result), (scabo.Mechanism, str(failed.exception), None))
 

@@ -174,6 +174,23 @@ class LongRuns(support.InTemporaryDirectory):
                 self.assertIn(summary_of(self.directory / "out")["status"], ("failed", "running"))
                 self.assertGreaterEqual(len(numbers), 1)
 
+    def test_a_limit_that_the_motion_of_a_mechanism_meets(self):
+        (self.directory / "block.yaml").write_text("""
+scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}}
+  block: {material: steel, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.1}}
+supports: [{on: floor, fix: [x, y]}]
+loads: {push: {on: block.top, traction: [4e6, -10e6]}}
+contacts: {base: {between: [floor.top, block.bottom], friction: 0.3}}
+""")
+        ended = run("run", self.directory / "block.yaml", "-q", "-o", self.directory / "out", before=limited(resource.RLIMIT_FSIZE, 8 * 1024))
+        self.assertEqual(ended.returncode, FAILURE, ended.stderr)
+        self.assertRegex(ended.stderr, r"^scabo: cannot write .*mechanism.vtu.*: File too large\n$")
+        self.assertEqual([path.name for path in (self.directory / "out").glob("mechanism*")], [])
+        self.assertEqual(summary_of(self.directory / "out")["status"], "failed")
+
     def test_a_limit_that_the_contact_problems_meet(self):
         ended = run("run", BEAM, "-q", "-o", self.directory / "out", "--set", "output={discrete_problems: true}",
                     before=limited(resource.RLIMIT_FSIZE, 30 * 1024))

@@ -7,10 +7,10 @@ import pathlib
 import sys
 import warnings
 
-KINDS = ("stress", "contact", "convergence", "mesh", "history")
+KINDS = ("stress", "contact", "convergence", "mesh", "history", "mechanism")
 FORMATS = (".png", ".svg", ".pdf")
-APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress",),
-           "window": ("stress", "mesh"), "units": ("stress", "contact", "mesh", "history")}  # options that mean something for few kinds
+APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress", "mechanism"),
+           "window": ("stress", "mesh", "mechanism"), "units": ("stress", "contact", "mesh", "history", "mechanism")}  # options that mean something for few kinds
 
 
 class Parser(argparse.ArgumentParser):
@@ -27,7 +27,7 @@ def parser():
     options.add_argument("--component", metavar="NAME", help="of stress, contact or history; a wrong name lists those there are")
     options.add_argument("--contact", action="append", default=[], metavar="NAME", help="only this contact; may be repeated")
     options.add_argument("--scale", type=float, metavar="S", help="magnification of displacements; default: one that shows them")
-    options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress and mesh")
+    options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress, mesh and mechanism")
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N")
     options.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
                          help=".png, .svg or .pdf; default: .png files beside DIR, one for each picture")
@@ -93,7 +93,7 @@ def window_of(text):
 
 def figures(options, results, increment):
     """Names and functions of the wanted figures."""
-    from . import contacts, curves, fields, meshes
+    from . import contacts, curves, fields, mechanisms, meshes
     from .units import Units
     units = Units.parse(options.units) if options.units else Units()
     window = window_of(options.window)
@@ -105,6 +105,7 @@ def figures(options, results, increment):
         "convergence": lambda: curves.convergence(results),
         "mesh": lambda: meshes.mesh(results, units, window),
         "history": lambda: curves.history(results, component, units),
+        "mechanism": lambda: mechanisms.mechanism(results, options.scale, units, window),
     }
 
 
@@ -124,10 +125,12 @@ def write(options):
         return write_sweep(options)
     results = Results(options.directory)
     increment = -1 if options.increment is None else options.increment
-    results.number(increment)
+    kinds = kinds_of(results, options.what)
+    if kinds != ["mechanism"]:
+        results.number(increment)
     drawn = {}
     for kind, draw in figures(options, results, increment).items():
-        if options.what not in ("all", kind):
+        if kind not in kinds:
             continue
         try:
             drawn[kind] = draw()
@@ -141,6 +144,15 @@ def write(options):
         figure.draw_without_rendering()  # the layout follows from the labels, and these from the layout
     save(drawn, options)
     return 0
+
+
+def kinds_of(results, what):
+    """What is to be drawn. Few runs end as a mechanism; where the first increment does, there is nothing else."""
+    if what != "all":
+        return [what]
+    if results.mechanism() is None:
+        return [kind for kind in KINDS if kind != "mechanism"]
+    return list(KINDS) if results.count else ["mechanism"]
 
 
 def write_sweep(options):

@@ -165,6 +165,10 @@ class Results:
         """The grid of cells.vtu; None where no body has several cells."""
         return self._grid("cells.vtu") if (self.directory / "cells.vtu").exists() else None
 
+    def mechanism(self):
+        """The grid of mechanism.vtu; None where no motion ended the run."""
+        return self._grid("mechanism.vtu") if (self.directory / "mechanism.vtu").exists() else None
+
     @functools.lru_cache(maxsize=4)
     def _grid(self, name):
         path = self.directory / name

@@ -7,6 +7,7 @@
 
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/contact/laws/evolution.hpp"
+#include "scabo/contact/onset.hpp"
 #include "scabo/contact/uniqueness.hpp"
 
 namespace scabo::analysis {
@@ -62,6 +63,13 @@ std::string lost_in_rounding(const Attempt& tried, double tolerance) {
       lost);
 }
 
+/// By Coulomb's law, or, where that is not found, the motion that proves the mechanism.
+void set_motion_of_mechanism(const Prepared& prepared, const Attempt& tried, Reached& reached) {
+  const std::optional<Vector> onset = contact::onset_of_motion(tried.problem, inverse_mass(prepared));
+  reached.motion = mechanism_of(prepared, onset ? *onset : tried.solution.motion,
+                                onset ? FlowRule::coulomb : FlowRule::associated, tried.problem.f);
+}
+
 /// In an attempt to go from part `from` of an increment to part `to`.
 std::string describe_collapse(const Prepared& prepared, const contact::Solution& solution, double from, double to) {
   std::string text = "collapse: ";
@@ -97,12 +105,14 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   reached.certificate = tried.certificate;
   reached.mechanism = status == Status::mechanism;
   reached.collapse = status == Status::collapse;
-  if (status == Status::mechanism)
+  if (status == Status::mechanism) {
+    set_motion_of_mechanism(prepared, tried, reached);
     reached.reason = fmt::format("mechanism: {}, held neither by supports nor by contact and friction",
-                                 describe_motions(prepared, tried.solution.motion));
-  else if (status == Status::collapse)
+                                 describe_motions(prepared, reached.motion->rigid));
+  } else if (status == Status::collapse) {
+    reached.motion = mechanism_of(prepared, tried.solution.motion, FlowRule::coulomb, tried.problem.f);
     reached.reason = describe_collapse(prepared, tried.solution, reached.part, part);
-  else if (status == Status::solved)
+  } else if (status == Status::solved)
     reached.reason = above_tolerance(prepared, tried, tolerance);
   else
     reached.reason =
@@ -112,6 +122,7 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
     if (const auto motion = contact::mechanism_once_broken(tried.problem, laws_at(prepared, tried.state.factors),
                                                            reached.state.history)) {
       reached.mechanism = true;
+      reached.motion = mechanism_of(prepared, *motion, FlowRule::associated, tried.problem.f);
       reached.reason = fmt::format(
           "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
           "remaining strength after {} halvings",

@@ -9,6 +9,7 @@
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/increment_size.hpp"
 #include "scabo/analysis/large_slip.hpp"
+#include "scabo/analysis/mechanism.hpp"
 
 namespace scabo::analysis {
 
@@ -25,6 +26,7 @@ struct Reached {
   contact::Problem problem;  ///< that was solved last
   std::optional<UniquenessResult> uniqueness;
   bool mechanism = false, collapse = false, stopped = false;
+  std::optional<Mechanism> motion;  ///< of a mechanism or collapse
   std::string reason;          ///< empty if the end was reached
   bool pairs_are_due = false;  ///< the end was not reached: before going on, pairs are to be found anew
   std::vector<AttemptResult> attempts;

@@ -202,6 +202,7 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
                          : reached.collapse ? Outcome::collapse
                                             : Outcome::not_converged;
       solution.reason = fmt::format("step {}, increment {}: {}", step.name, k, reached.reason);
+      solution.mechanism = std::move(reached.motion);
       if (options.on_increment) options.on_increment(solution, solution.increments.back());
       return;
     }

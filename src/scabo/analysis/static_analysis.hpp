@@ -201,6 +201,51 @@ struct RefinementPass {
 /// bodies then move on without any further load; that no other equilibrium exists elsewhere is not proven.
 enum class Outcome { solved, not_converged, mechanism, collapse, interrupted };
 
+/// Which rule the slip of a motion follows. coulomb: joints slide without opening, and friction opposes slip.
+/// associated: joints that slide open by u_n = mu |u_t| or more, as the motion does that proves a mechanism.
+enum class FlowRule { coulomb, associated };
+
+/// Motion of a body without deformation, of a mechanism (Mechanism): its displacement is shift + rotation x (x - about).
+struct BodyMotion {
+  Vec2 about = Vec2::Zero();  ///< a point of the plane
+  Vec2 shift = Vec2::Zero();  ///< displacement of that point, length
+  double rotation = 0.0;      ///< counter-clockwise, radians
+  double largest = 0.0;       ///< largest displacement of any of its points, length
+  double size = 0.0;          ///< half of that of the body, or of those that are tied to it, length
+  bool present = true;        ///< the body is there (IncrementResult::absent)
+
+  Vec2 at(const Vec2& x) const { return shift + rotation * Vec2(about.y() - x.y(), x.x() - about.x()); }
+  /// The point that stays, if the body turns.
+  std::optional<Vec2> centre() const;
+  /// Whether it is more than rounding beside the largest displacement of all bodies, which is 1.
+  bool moves() const { return largest > 1e-4; }
+};
+
+/// Motion of a pair of a mechanism: B relative to A.
+struct PairMotion {
+  int contact = 0;               ///< index into Model::contacts
+  int pair = 0;                  ///< PairResult::pair
+  Vec2 position = Vec2::Zero();  ///< of the point on A before any motion
+  Vec2 normal = Vec2::Zero();    ///< n, unit, out of A
+  double opening = 0.0;          ///< along n, length
+  double slip = 0.0;             ///< along t, length
+};
+
+/// How bodies begin to move where an analysis ends as a mechanism or collapse (mechanism.hpp): a motion without
+/// deformation, from where the bodies are at the start, of any size: its largest displacement is 1.
+struct Mechanism {
+  FlowRule rule = FlowRule::coulomb;
+  std::vector<BodyMotion> bodies;  ///< one for each of the model; those at rest, and absent ones, have a zero motion
+  std::vector<PairMotion> pairs;   ///< of all that can move, contact by contact
+  double work = 0.0;               ///< of the loads over the motion, force times length
+  Vector rigid;                    ///< the motion as amplitudes of the rigid motions of the contact problem
+
+  int present() const;  ///< number of bodies that are there
+  int moving() const;   ///< number of bodies that move
+  /// Index of the body with the largest displacement; of equal ones the first.
+  std::size_t most() const;
+};
+
 struct StaticSolution {
   model::Model model;
   mesh::Mesh mesh;
@@ -213,6 +258,7 @@ struct StaticSolution {
   std::vector<Warning> warnings;
   Outcome outcome = Outcome::solved;
   std::string reason;              ///< if not solved
+  std::optional<Mechanism> mechanism;  ///< of outcomes mechanism and collapse
   int threads = 1;                 ///< of the analysis; worthwhile for its fields as well
   system::Ranks* ranks = nullptr;  ///< processes among which large bodies are divided; null: this one alone
   Timing timing;

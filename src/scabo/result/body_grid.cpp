@@ -8,6 +8,7 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/element/finite_element.hpp"
+#include "scabo/geometry/polygon.hpp"
 
 namespace scabo::result {
 
@@ -34,18 +35,6 @@ CellType type_of(element::FiniteElementKind kind) {
       return CellType::quadratic_quad;
   }
   throw BrokenInvariant("a finite element of unknown kind");
-}
-
-/// The outline as a polygon, arcs in pieces of at most 3 degrees.
-std::vector<Vec2> polygon_of(const model::Outline& outline) {
-  constexpr double largest_turn = 3.0 / 180.0 * 3.14159265358979323846;
-  std::vector<Vec2> points;
-  for (const model::Edge& edge : outline.edges) {
-    const int pieces =
-        edge.arc ? std::max(1, static_cast<int>(std::ceil(std::abs(edge.arc->sweep) / largest_turn))) : 1;
-    for (int i = 0; i < pieces; ++i) points.push_back(edge.at(static_cast<double>(i) / pieces));
-  }
-  return points;
 }
 
 }  // namespace

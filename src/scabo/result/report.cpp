@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "scabo/analysis/mechanism.hpp"
 #include "scabo/result/summary.hpp"
 #include "scabo/result/version.hpp"
 
@@ -281,6 +282,12 @@ std::string report_warnings(const analysis::StaticSolution& solution) {
   return text;
 }
 
+std::string report_mechanism(const analysis::StaticSolution& solution) {
+  if (!solution.mechanism) return {};
+  return fmt::format("mechanism.vtu shows the motion: {}\n",
+                     analysis::describe(*solution.mechanism, solution.model));
+}
+
 std::string report_timing(const analysis::Timing& timing) {
   const std::pair<const char*, double> stages[] = {
       {"read", timing.read},         {"mesh", timing.mesh},           {"super-elements", timing.super_elements},
@@ -307,6 +314,7 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
     case analysis::Outcome::mechanism:
     case analysis::Outcome::collapse:
       text += fmt::format("Not solved: {}\n", solution.reason);
+      text += report_mechanism(solution);
       break;
     case analysis::Outcome::interrupted:
       text += fmt::format("Interrupted: {}\n", solution.reason);

@@ -44,11 +44,13 @@ bool is_vtu_name(const std::string& name, std::string_view begin) {
 }
 
 constexpr const char* cells_name = "cells.vtu";
+constexpr const char* mechanism_name = "mechanism.vtu";
 
 /// Text at the beginning of a result file; nothing for names that are not results.
 std::optional<std::string_view> mark_of(const std::string& name) {
   if (is_vtu_name(name, "fields_") || is_vtu_name(name, "contact_")) return vtk_mark;
   if (name == "fields.pvd" || name == "contact.pvd" || name == cells_name) return vtk_mark;
+  if (name == mechanism_name || name == std::string(mechanism_name) + ".part") return vtk_mark;
   if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
   if (name == "contact.csv") return contact_table_header;
   if (name == "history.csv") return history_mark;
@@ -450,6 +452,9 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
   {
     const Stopwatch writing(write_seconds_);
     if (has_iterations(solution)) replace_file(path_ / "convergence.svg", convergence_plot(solution));
+    if (solution.mechanism)
+      replace_file(path_ / mechanism_name,
+                   vtu_content(mechanism_cells(solution, *solution.mechanism), solution.threads));
     begin_log(solution);
     for (const std::string& warning : warnings_) log_->append("warning: " + warning + "\n");
     log_->append(report_end(solution, complete(solution.timing)));

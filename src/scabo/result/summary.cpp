@@ -2,10 +2,12 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "scabo/analysis/mechanism.hpp"
 #include "scabo/result/model_content.hpp"
 #include "scabo/result/version.hpp"
 
@@ -177,6 +179,31 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   return json;
 }
 
+/// The bodies that move, those that move most first; equal ones in the order of the model.
+Json json_of(const analysis::Mechanism& mechanism, const model::Model& model) {
+  std::vector<std::size_t> moving;
+  for (std::size_t b = 0; b < mechanism.bodies.size(); ++b)
+    if (mechanism.bodies[b].moves()) moving.push_back(b);
+  const auto size = [&](std::size_t b) { return static_cast<float>(mechanism.bodies[b].largest); };
+  std::stable_sort(moving.begin(), moving.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+  Json json = {{"text", analysis::describe(mechanism, model)},
+               {"rule", mechanism.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated"},
+               {"moving", mechanism.moving()},
+               {"present", mechanism.present()},
+               {"work", number_or_null(mechanism.work)},
+               {"bodies", Json::object()}};
+  for (const std::size_t b : moving) {
+    const analysis::BodyMotion& motion = mechanism.bodies[b];
+    const std::optional<Vec2> centre = motion.centre();
+    json["bodies"][model.bodies[b].name] = {{"largest", number_or_null(motion.largest)},
+                                            {"displacement", json_of(motion.shift)},
+                                            {"of", json_of(motion.about)},
+                                            {"rotation", number_or_null(motion.rotation)},
+                                            {"centre", centre ? json_of(*centre) : Json()}};
+  }
+  return json;
+}
+
 Json json_of(const HistoryExtremes& column) {
   const auto value = [](const std::optional<HistoryExtremes::Value>& of) { return of ? Json(of->value) : Json(); };
   const auto place = [](const std::optional<HistoryExtremes::Value>& of) {
@@ -271,6 +298,7 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
   json["title"] = solution.model.title;
   json["status"] = running ? "running" : name_of(solution.outcome);
   json["reason"] = solution.reason.empty() ? Json() : Json(solution.reason);
+  if (solution.mechanism) json["mechanism"] = json_of(*solution.mechanism, solution.model);
   json["warnings"] = texts_of(solution.warnings);
   json["warning_kinds"] = Json::array();
   for (const Warning& warning : solution.warnings) json["warning_kinds"].push_back(name_of(warning.kind));

@@ -292,6 +292,24 @@ std::string vtu_content(const CellPolygons& polygons, int threads) {
   return finish_piece(std::move(document), polygons);
 }
 
+std::string vtu_content(const MechanismCells& cells, int threads) {
+  const std::size_t points = cells.pair.size();
+  constexpr std::size_t few = 5000;
+  const Encoding encoding = points < few ? Encoding::text : encoding_of(points);
+  Document document = begin_piece(points, cells.types.size(), encoding, threads);
+  document.add(point_data("", true));
+  document.add_field("displacement", 3, cells.displacement);
+  document.add_field("opening", 1, cells.opening);
+  document.add_field("slip", 1, cells.slip);
+  document.add_array("pair", 1, cells.pair);
+  document.add_array("body", 1, cells.point_body);
+  begin_cell_data(document);
+  document.add_field("motion", 1, cells.motion);
+  document.add_array("body", 1, cells.body);
+  document.add_array("contact", 1, cells.contact);
+  return finish_piece(std::move(document), cells);
+}
+
 FieldCollection::FieldCollection(const std::filesystem::path& path) : file_(path) {
   file_.append_before_footer(opening("Collection", "") + "  <Collection>\n", collection_footer);
 }

@@ -14,6 +14,7 @@
 #include "scabo/result/contact_lines.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/grid.hpp"
+#include "scabo/result/mechanism_cells.hpp"
 
 namespace scabo::result {
 
@@ -32,6 +33,7 @@ std::string vtu_content(const Grid& grid, const Fields& fields, const model::Out
                         const std::vector<std::int32_t>& nodes = {}, PackedGrid* packed = nullptr);
 std::string vtu_content(const ContactLines& lines);
 std::string vtu_content(const CellPolygons& polygons, int threads = 1);
+std::string vtu_content(const MechanismCells& cells, int threads = 1);
 
 /// Content of a .pvtu file: the arrays of parts of the fields, and the files that hold a part each, relative to it.
 std::string pvtu_content(const model::OutputFields& wanted, const std::vector<std::string>& parts);

@@ -1,0 +1,87 @@
+// The motion with which bodies begin to move where nothing balances the loads.
+#include "scabo/contact/onset.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseCore>
+#include <cmath>
+
+#include "scabo/contact/rigid_motions.hpp"
+#include "unit/contact/problems.hpp"
+
+namespace scabo::contact {
+namespace {
+
+using namespace test;
+
+Eigen::SparseMatrix<double> diagonal(const Vector& entries) {
+  Eigen::SparseMatrix<double> matrix(entries.size(), entries.size());
+  for (Eigen::Index i = 0; i < entries.size(); ++i) matrix.insert(i, i) = entries[i];
+  return matrix;
+}
+
+/// A block of half width 1 on a floor, its reference point `height` above it; loads [force_x, force_y, moment].
+Problem loaded_block(int pairs, double friction, const Eigen::Vector3d& f, double height = 0.2) {
+  Problem problem;
+  problem.W = Matrix(Matrix::Identity(2 * pairs, 2 * pairs));
+  problem.q = Vector::Zero(2 * pairs);
+  problem.mu = Vector::Constant(pairs, friction);
+  problem.G = block_motions(pairs, 2.0, height);
+  problem.f = f;
+  return problem;
+}
+
+TEST(Onset, OfASlidingBlockDoesNotDilate) {
+  for (const double sense : {-1.0, 1.0})
+    for (const double beyond : {1.0 + 1e-6, 1.1, 3.0}) {
+      const double mu = 0.5;
+      const Problem problem = loaded_block(5, mu, {sense * beyond * mu * 10.0, -10.0, 0.0});
+      const auto v = onset_of_motion(problem, diagonal(Vector::Ones(3)));
+      ASSERT_TRUE(v.has_value());
+      EXPECT_LT((*v - Vector(Eigen::Vector3d(sense, 0.0, 0.0))).norm(), 1e-8) << sense << ", " << beyond;
+    }
+}
+
+// m a = (P - mu N, N - W, moment) of a block that slides and turns about its front edge: N from the acceleration of that
+// edge along y, a_y - alpha = 0 with a moment of inertia I, mu N at the height below the centroid.
+TEST(Onset, OfATumblingBlockObeysNewtonsLaw) {
+  const double mu = 0.4, height = 1.5, P = 12.0, W = 10.0, m = 2.0, I = 0.7, M = 6.0;
+  const Problem problem = loaded_block(7, mu, {P, -W, -M}, height);
+  const auto v = onset_of_motion(problem, diagonal(Eigen::Vector3d(1.0 / m, 1.0 / m, 1.0 / I)));
+  ASSERT_TRUE(v.has_value());
+  // Edge at (1, -height): its acceleration along y is a_y + alpha; alpha I = -M + N - mu N height.
+  const double N = (W / m + M / I) / (1.0 / m + (1.0 - mu * height) / I);
+  ASSERT_GT(N, 0.0);
+  Vector expected = Eigen::Vector3d((P - mu * N) / m, (N - W) / m, (-M + N - mu * N * height) / I);
+  ASSERT_LT(expected[2], 0.0);                          // it turns over its front edge,
+  ASSERT_GT(expected[0] + height * expected[2], 0.0);   // which slides forward
+  expected.normalize();
+  EXPECT_LT((*v - expected).norm(), 1e-8) << v->transpose() << "; " << expected.transpose();
+}
+
+// Loads that nothing balances have one, and it is admissible: a proof finds it by another way.
+TEST(Onset, IsThereWhereAMechanismIsProven) {
+  std::mt19937 random(7);
+  int mechanisms = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Problem problem = loaded_block(3 + round % 6, uniform(random, 0.0, 1.5),
+                                         {uniform(random, -3.0, 3.0), uniform(random, -3.0, 1.0), uniform(random, -3.0, 3.0)},
+                                         uniform(random, 0.1, 2.0));
+    if (!find_mechanism(problem)) continue;
+    ++mechanisms;
+    const auto v = onset_of_motion(problem, diagonal(Eigen::Vector3d(1.0, 1.0, 3.0)));
+    ASSERT_TRUE(v.has_value()) << round;
+    EXPECT_GT(problem.f.dot(*v), 0.0) << round;
+    const Vector u = problem.G * *v;
+    for (int i = 0; i < problem.pairs(); ++i) EXPECT_GT(u[2 * i], -1e-8) << round << ", " << i;
+  }
+  EXPECT_GT(mechanisms, 100);
+}
+
+TEST(Onset, IsNotThereWithoutLoads) {
+  EXPECT_FALSE(onset_of_motion(loaded_block(3, 0.5, {0.0, 0.0, 0.0}), diagonal(Vector::Ones(3))).has_value());
+  EXPECT_FALSE(onset_of_motion(loaded_block(3, 0.5, {1.0, -10.0, 0.0}), diagonal(Vector::Ones(3))).has_value());
+}
+
+}  // namespace
+}  // namespace scabo::contact
