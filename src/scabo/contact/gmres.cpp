@@ -42,7 +42,7 @@ double gmres(const std::function<void(const Vector&, Vector&)>& multiply,
         else
           hessenberg.col(k).head(k + 1) += part;
       }
-      const double next = product.norm();
+      const double next = product.norm(), image = std::hypot(next, hessenberg.col(k).head(k + 1).norm());
       hessenberg(k + 1, k) = next;
       for (int j = 0; j < k; ++j)
         hessenberg.col(k).applyOnTheLeft(j, j + 1, rotations[static_cast<std::size_t>(j)].adjoint());
@@ -53,7 +53,7 @@ double gmres(const std::function<void(const Vector&, Vector&)>& multiply,
       hessenberg(k + 1, k) = 0.0;
       g.applyOnTheLeft(k, k + 1, rotation.adjoint());
       ++k;
-      if (next <= 1e-14 * norm) break;
+      if (next <= 1e-14 * image) break;  // of directions without length: b may be in any units
       basis.col(k) = product / next;
     }
     const Vector y = hessenberg.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(g.head(k));

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "scabo/contact/held_slips.hpp"
 #include "scabo/contact/judge.hpp"
@@ -64,6 +66,34 @@ TEST_P(InteriorPointsOnTowers, UnitsThatArePowersOfTwoChangeNoBit) {
   other = problem;  // forces 2^20 times as large
   other.q *= std::ldexp(1.0, 20);
   EXPECT_EQ(interior_points(other, {}).p, Vector(std::ldexp(1.0, 20) * end.p));
+}
+
+// All of solve(): sweeps, interior points, the directions of Newton's method by GMRES, the judge.
+TEST_P(InteriorPointsOnTowers, SolvedInUnitsThatArePowersOfTwoTheyChangeNoBit) {
+  const auto [d, blocks, points] = GetParam();
+  for (const double ratio : {1.0, 1000.0}) {
+    const Problem problem = tower_of_blocks(d, blocks, points, 0.8, ratio);
+    SolverOptions options;
+    options.judge = Judge::natural_map;
+    options.tolerance = 1e-9;
+    const Solution solution = solve(problem, {}, options);
+    EXPECT_EQ(solution.status, Status::solved) << solution.reason;
+    EXPECT_GT(solution.iterations, 0);  // sweeps alone do not end
+    for (const auto& [of_W, of_q] : {std::pair(100, 0), {-100, 0}, {37, 0}, {100, 100}, {-100, -100}, {37, 37}, {0, 100}}) {
+      Problem other = problem;
+      other.W = problem.W.scaled(std::ldexp(1.0, of_W));
+      other.q *= std::ldexp(1.0, of_q);
+      const Solution scaled = solve(other, {}, options);
+      SCOPED_TRACE("masses 1 : " + std::to_string(ratio) + ", W 2^" + std::to_string(of_W) + ", q 2^" +
+                   std::to_string(of_q));
+      EXPECT_EQ(scaled.status, solution.status);
+      EXPECT_EQ(scaled.iterations, solution.iterations);
+      EXPECT_EQ(scaled.states, solution.states);
+      EXPECT_EQ(scaled.p, Vector(std::ldexp(1.0, of_q - of_W) * solution.p));
+      EXPECT_EQ(scaled.gap, Vector(std::ldexp(1.0, of_q) * solution.gap));
+      EXPECT_EQ(scaled.natural_map_residual, solution.natural_map_residual);
+    }
+  }
 }
 
 TEST_P(InteriorPointsOnTowers, WithFrictionThatDiffersReachTheLaw) {

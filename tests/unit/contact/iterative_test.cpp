@@ -27,6 +27,26 @@ TEST(Gmres, EndsOnNumbersThatAreNone) {
   EXPECT_FALSE(gmres(overflow, overflow, Vector::Ones(3), x, {}) < 1e-3);
 }
 
+// Tridiagonal, 2 and -1: the steps, and the one at which they end, do not depend on the units of the right-hand side.
+TEST(Gmres, UnitsOfTheRightHandSideChangeNoBit) {
+  const auto copy = [](const Vector& x, Vector& result) { result = x; };
+  const auto multiply = [](const Vector& x, Vector& result) {
+    result = 2.0 * x;
+    result.head(x.size() - 1) -= x.tail(x.size() - 1);
+    result.tail(x.size() - 1) -= x.head(x.size() - 1);
+  };
+  const Vector b = Vector::LinSpaced(20, 1.0, 3.0);
+  Vector x = Vector::Zero(20), image;
+  EXPECT_LE(gmres(multiply, copy, b, x, {}), 1e-11);
+  multiply(x, image);
+  EXPECT_LE((image - b).norm(), 1e-10 * b.norm());
+  for (const double unit : {0x1p100, 0x1p-100, 0x1p37}) {
+    Vector scaled = Vector::Zero(20);
+    EXPECT_LE(gmres(multiply, copy, unit * b, scaled, {}), 1e-11) << unit;
+    EXPECT_EQ(scaled, Vector(unit * x)) << unit;
+  }
+}
+
 TEST(IterativeDirections, AgreeWithDenseOnesOnTwoThousandPairs) {
   for (double mu : {0.5}) {
     const Problem by_products = test::layer_problem(2000, 6, mu);
