@@ -42,6 +42,8 @@ MESHES = [  # degrees of freedom (about), kind, mesh, width of the contact
     (1_200, "superelement", "size: 0.05", 1),
     (4_900, "quadtree", "kind: quadtree, size: 0.0625, order: 1", 1),
     (12_000, "polygons", "kind: polygons, size: 0.05, order: 2", 1),
+    (2_600, "superelement", "size: 0.025", 1),
+    (3_600, "superelement", "size: 0.02", 2),
     (5_900, "superelement", "size: 0.0125", 2),
     (60_000, "quadtree", "kind: quadtree, size: 0.03125, order: 2", 1),
     (220_000, "quadtree", "kind: quadtree, size: 0.015625, order: 2", 1),
@@ -76,17 +78,19 @@ def terms_of(run, costs):
             if is_new:
                 add(memory, "block_bytes", n * n / b)
                 add(stages["super_elements"], "dense_seconds", n**3 / b**2)
-                add(stages["fields"], "", 0.5 * costs["dense_seconds"] * n**3 / b**2)
+                add(stages["fields"], "dense_field_seconds", n**3 / b**2)
             add(stages["factorise"], "", 0.01 * costs["dense_seconds"] * n**3)
-            add(stages["condense"], "", costs["dense_seconds"] * n * n * k)
+            add(stages["condense"], "dense_condense_seconds", n * n * k)
         else:
             add(memory, "sparse_bytes", n)
             add(memory, "fill_bytes", n * log)
-            add(stages["mesh"], "mesh_seconds", n)
+            add(stages["mesh"], "fem_mesh_seconds" if run["kind"] == "fem" else "mesh_seconds", n)
             add(stages["super_elements"], "cell_seconds", n)
             if run["kind"] == "polygons":
                 add(memory, "own_cell_bytes", n)
+                add(stages["mesh"], "own_mesh_seconds", n)
                 add(stages["super_elements"], "own_cell_seconds", n)
+                add(stages["factorise"], "own_factor_seconds", n**1.5)
                 add(stages["fields"], "own_field_seconds", n)
             add(stages["factorise"], "order_seconds", n * log)
             add(stages["factorise"], "factor_seconds", n**1.5)
@@ -94,7 +98,7 @@ def terms_of(run, costs):
             add(stages["condense"], "condense_seconds", k * math.sqrt(n))
             add(stages["condense"], "flexibility_seconds", k * k)
             add(stages["increments"], "solve_seconds", 2.0 * n * log)
-        add(stages["fields"], "field_seconds", n)
+        add(stages["fields"], "fem_field_seconds" if run["kind"] == "fem" else "field_seconds", n)
     components = 2.0 * pairs
     add(memory, "contact_bytes", min(2.0 * components**2, components**2))
     add(stages["increments"], "contact_seconds", components**2)  # two bodies
@@ -129,15 +133,14 @@ def fit(lines, costs):
 
 
 def fitted(runs, costs):
-    """Times of bodies of many cells. The constants of memory stay: too much of it is better than too little, as a machine that seems large
-    enough must be; so does that of a single super-element."""
+    """The constants of memory stay: too much of it is better than too little, as a machine that seems large enough must be."""
     costs = dict(costs)
     costs["order_seconds"] = costs["order_seconds"] or 1e-7
     for stage in STAGES:
         lines = []
         for run in runs:
             measured, terms = measured_of(run)[stage], terms_of(run, costs)[0][stage]
-            if measured >= MEASURABLE and run["kind"] != "superelement":
+            if measured >= MEASURABLE and any(terms):  # some constant
                 lines.append((terms, measured))
         costs.update(fit(lines, costs))
     return costs

@@ -8,8 +8,10 @@ Whole processes are measured, files included: wall and processor seconds, peak m
 more than 5 s one run. A process ends after --seconds of processor time.
 
 Every row of a peer is compared with the cheapest row of Scabo of which it and all finer rows of the same kind of mesh have at most the error
-of the peer, so that no accidental zero of Scabo counts; those of the peers do. The block is one super-element, or a quadtree of them. REFERENCE holds the converged forces. Degrees of freedom of CalculiX are those of its plane mesh; it
-computes with a layer of solid elements.
+of the peer, so that no accidental zero of Scabo counts; those of the peers do. Bodies of Scabo are one super-element, or a quadtree of
+them that is finer where it matters; the finer quadtrees of the beams have higher orders too. GetFEM's beams are equal squares of order 2, as
+CalculiX's are, or lines that are closer where it matters with elements of order 4, the best that was found. REFERENCE holds the converged
+forces. Degrees of freedom of CalculiX are those of its plane mesh; it computes with a layer of solid elements.
 """
 import argparse
 import dataclasses
@@ -29,10 +31,13 @@ import round_block
 from run import CONVERGED_FORCE, MODEL, ROOT, python_with_getfem
 
 HERE = pathlib.Path(__file__).resolve().parent
-REFERENCE = {"beams": CONVERGED_FORCE, "block": 7188.04}  # kN; the block by Scabo, 1,632 degrees of freedom; GetFEM, 99,588: 7187.92
+REFERENCE = {"beams": CONVERGED_FORCE, "block": 7188.039}  # kN; the block by quadtrees of orders 3 to 5; polygons: 7188.041; GetFEM, 99,588: 7187.92
 BEAMS = (8, 15, 24, 44)        # elements over the height of a beam: 3.4e3, 1.1e4, 2.8e4, 9.4e4 degrees of freedom
+GETFEM_GRADED = ((0.05, 25834), (0.025, 43732))  # smallest distance of lines, m, order 4; degrees of freedom
 BLOCK = (16, 40, 72, 128)      # elements along a side: 1.6e3, 9.9e3, 3.1e4, 9.9e4
-SCABO_BEAMS = (0.375, 0.1875, 0.09375, 0.046875, 0.0234375)  # size of elements, m
+SCABO_BEAMS = {"superelement": ((2, 0.375), (2, 0.1875), (2, 0.09375), (2, 0.046875), (2, 0.0234375)),  # order, size of elements, m
+               "quadtree": ((3, 0.1), (4, 0.05), (4, 0.025), (5, 0.0125), (6, 0.00625))}                # order, smallest size
+CONTACT_END = 5.15             # m, where the contact of the beams begins; any mesh shows it
 # Kind of mesh: sizes, and sizes along the round side and at a corner, m.
 SCABO_BLOCK = {"superelement": ((0.1, 0.05), (0.1, 0.025), (0.1, 0.0125), (0.05, 0.00625)),
                "quadtree": ((0.1, 0.05), (0.1, 0.025), (0.1, 0.0125), (0.1, 0.00625))}
@@ -83,12 +88,26 @@ def nodes_in(deck):
     return count
 
 
+def beam_mesh(kind, order, size, low):
+    """Value of `mesh` for the beam whose lower side is at `low`. A quadtree has cells of 0.375 m, of `size` at the corners of the built-in
+    end and where contact begins, and of twice this at both ends of the tip; away from them they grow."""
+    if kind == "superelement":
+        return f"{{order: {order}, size: {size!r}}}"
+    places = [(0.0, low, size, 0.5), (0.0, low + 1.5, size, 0.5), (CONTACT_END, 1.5, size, 0.4), (6.0, 1.5, 2 * size, 0.5)]
+    if low > 0.0:
+        places.append((6.0, 3.0, 2 * size, 0.5))  # the load
+    refine = ", ".join(f"{{near: [{x!r}, {y!r}], size: {finest!r}, growth: {growth}}}" for x, y, finest, growth in places)
+    return f"{{kind: quadtree, order: {order}, size: 0.375, refine: [{refine}]}}"
+
+
 def cases(problem, most, scabo, python, ccx):
     run = [str(scabo), "run", "--quiet", "--threads", "1", "-o", "results"]
     if problem == "beams":
-        for size in SCABO_BEAMS:
-            sizes = [word for body in ("lower", "upper") for word in ("--set", f"bodies.{body}.mesh.size={size}")]
-            yield Case("Scabo", f"{size:g} m", [*run, str(MODEL), *sizes], {}, of_scabo)
+        for kind, meshes in SCABO_BEAMS.items():
+            for order, size in meshes:
+                words = [word for body, low in (("lower", 0.0), ("upper", 1.5))
+                         for word in ("--set", f"bodies.{body}.mesh={beam_mesh(kind, order, size, low)}")]
+                yield Case("Scabo", f"{kind}, order {order}, {size:g} m", [*run, str(MODEL), *words], {}, of_scabo, kind)
         for n in BEAMS:
             size = calculix_beams.HEIGHT / n
             if 12 * 4 * n * n > 1.3 * most:
@@ -98,6 +117,10 @@ def cases(problem, most, scabo, python, ccx):
             if ccx:
                 deck = calculix_beams.deck(size, 0.2)
                 yield Case("CalculiX", f"{size:.4g} m", [ccx, "deck"], {"deck.inp": deck}, of_calculix(2 * nodes_in(deck)))
+        for finest, dofs in GETFEM_GRADED if python else ():
+            if dofs <= 1.3 * most:
+                words = ["--size", "0.375", "--order", "4", "--finest", repr(finest)]
+                yield Case("GetFEM", f"graded, order 4, {finest:g} m", [python, str(HERE / "getfem_beams.py"), *words], {}, of_getfem)
     else:
         for kind, sizes in SCABO_BLOCK.items():
             for size, along in sizes:
@@ -167,7 +190,7 @@ def compare(problem, rows):
         if "force" not in row:
             lines.append(f"| {row['program']}, {row['name']} | {row['why']} |")
             continue
-        text = [f"{row['program']}, {row['name']}", f"{row['dofs']:,.0f}", f"{row['force']:.5f}", f"{100 * row['error']:+.4f}",
+        text = [f"{row['program']}, {row['name']}", f"{row['dofs']:,.0f}", f"{row['force']:.6f}", f"{100 * row['error']:+.2g}",
                 f"{row['wall']:.3g}", f"{row['processor']:.3g}", f"{row['memory'] / 1e6:.0f}"]
         if row["program"] == "Scabo":
             text += ["", "", ""]

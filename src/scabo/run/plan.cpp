@@ -117,15 +117,16 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       const int blocks = symmetry_blocks(mesh.bodies[b]);
       const bool is_new =
           known.insert({mesh.bodies[b].nodes.size(), blocks, geometry::outline_size(body.outline)}).second;
-      const double work = costs.dense_seconds * n * n * n;
+      const double work = n * n * n;
       plan.bytes += (is_new ? 8.0 + costs.block_bytes / blocks : 8.0) * n * n;
-      if (is_new) plan.cells += work / (blocks * blocks);
-      if (is_new && written > 0.0) plan.fields += 0.5 * work / (blocks * blocks);
-      plan.factorise += 0.01 * work;
-      plan.condense += costs.dense_seconds * n * n * k;
+      if (is_new) plan.cells += costs.dense_seconds * work / (blocks * blocks);
+      if (is_new && written > 0.0) plan.fields += costs.dense_field_seconds * work / (blocks * blocks);
+      plan.factorise += 0.01 * costs.dense_seconds * work;
+      plan.condense += costs.dense_condense_seconds * n * n * k;
     } else {
       plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
-      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && body.mesh.kind != model::MeshKind::fem;
+      const bool elements = body.mesh.kind == model::MeshKind::fem;
+      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && !elements;
       if (cells_differ) {
         plan.bytes += costs.own_cell_bytes * n;
         plan.cells += costs.own_cell_seconds * n;
@@ -137,11 +138,13 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
         if (m < costs.least_large_cell) continue;
         plan.bytes += (8.0 + costs.block_bytes) * m * m;
         plan.cells += costs.dense_seconds * m * m * m;
-        if (written > 0.0) plan.fields += 0.5 * costs.dense_seconds * m * m * m;
+        if (written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m;
       }
-      plan.mesh += costs.mesh_seconds * n;
+      plan.mesh += (elements ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;
+      if (cells_differ) plan.mesh += costs.own_mesh_seconds * n;
       plan.cells += costs.cell_seconds * n;
-      const double factor = costs.order_seconds * n * log2_of(n) + costs.factor_seconds * std::pow(n, 1.5);
+      const double operations = costs.factor_seconds + (cells_differ ? costs.own_factor_seconds : 0.0);
+      const double factor = costs.order_seconds * n * log2_of(n) + operations * std::pow(n, 1.5);
       plan.factorise += factor;
       joined_bytes += costs.fill_bytes * n * log2_of(n);
       joined_seconds += 2.0 * factor;
@@ -150,7 +153,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
             costs.sweep_seconds * n + costs.condense_seconds * k * std::sqrt(n) + costs.flexibility_seconds * k * k;
       plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
     }
-    plan.fields += written * costs.field_seconds * n;
+    plan.fields += written * (body.mesh.kind == model::MeshKind::fem ? costs.fem_field_seconds : costs.field_seconds) * n;
   }
   // W has a block for each body, dense within it; the systems of Newton's method are as sparse.
   const double components = 2.0 * plan.sizes.contact_pairs;
