@@ -8,10 +8,11 @@ Whole processes are measured, files included: wall and processor seconds, peak m
 more than 5 s one run. A process ends after --seconds of processor time.
 
 Every row of a peer is compared with the cheapest row of Scabo of which it and all finer rows of the same kind of mesh have at most the error
-of the peer, so that no accidental zero of Scabo counts; those of the peers do. Bodies of Scabo are one super-element, a quadtree of
-them that is finer along the contact (the block), or one that is finer where contact ends and at corners, with higher orders the finer it is ("graded"). GetFEM's beams are equal squares of order 2, as
-CalculiX's are, or lines that are closer where it matters with elements of order 4, the best that was found. REFERENCE holds the converged
-forces. Degrees of freedom of CalculiX are those of its plane mesh; it computes with a layer of solid elements.
+of the peer, so that no accidental zero of Scabo counts; those of the peers do. Bodies of Scabo are one super-element; a quadtree of
+super-elements that is finer along the contact (the block); or one that is finer where contact ends and at corners, of higher order the finer
+it is ("graded"). GetFEM's beams are equal squares of order 2, as CalculiX's are, or lines that are closer where it matters with elements of
+order 4, the best that was found. REFERENCE holds the converged forces. Degrees of freedom of CalculiX are those of its plane mesh; it
+computes with a layer of solid elements.
 """
 import argparse
 import dataclasses
