@@ -79,7 +79,7 @@ def terms_of(run, costs):
                 add(memory, "block_bytes", n * n / b)
                 add(stages["super_elements"], "dense_seconds", n**3 / b**2)
                 add(stages["fields"], "dense_field_seconds", n**3 / b**2)
-            add(stages["factorise"], "", 0.01 * costs["dense_seconds"] * n**3)
+            add(stages["factorise"], "dense_factor_seconds", n**3)
             add(stages["condense"], "dense_condense_seconds", n * n * k)
         else:
             add(memory, "sparse_bytes", n)
@@ -155,7 +155,7 @@ def with_constants(text, costs, before):
         if value == before[name]:
             continue
         number = f"{value:.0f}.0" if 1.0 <= value < 1e5 else f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e").replace(".0e", "e")
-        text = re.sub(rf"^(  double {name} = )[-+.\de]+;( *)///<", lambda at: (at[1] + number + ";").ljust(38) + "///<", text, flags=re.MULTILINE)
+        text = re.sub(rf"^(  double {name} = )[-+.\de]+;( *)///<", lambda at: (at[1] + number + ";").ljust(44) + "///<", text, flags=re.MULTILINE)
     return text
 
 

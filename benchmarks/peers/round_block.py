@@ -11,6 +11,7 @@ import math
 RADIUS, WIDTH, HEIGHT = 1000.0, 1.0, 1.0  # m
 YOUNG, POISSON = 210e9, 0.3               # Pa, -
 DOWN = 80e-6                              # m
+CONTACT_END = 0.274                       # m, as any fine mesh shows
 
 
 def bottom(x):
@@ -35,10 +36,13 @@ def grid(n):
     return nodes, elements
 
 
-def scabo_model(size, along, kind="superelement"):
+def scabo_model(size, along, kind="superelement", order=2):
     """`size` of the elements, `along` of those of the round side and at the corner where the held top meets the free side, m; `kind` of mesh.
-    One super-element is divided along its boundary, a quadtree inside too: its elements grow by half of the distance from both places."""
+    One super-element is divided along its boundary, a quadtree inside too: its elements grow by half of the distance from both places.
+    Of a `graded` quadtree those of the round side are small only where contact ends."""
     growth = "" if kind == "superelement" else ", growth: 0.5"
+    place = "on: round" if kind != "graded" else f"near: [{CONTACT_END!r}, {bottom(CONTACT_END)!r}]"
+    kind = "quadtree" if kind == "graded" else kind
     return f"""scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: {YOUNG!r}, poisson: {POISSON!r}}}}}
@@ -52,7 +56,7 @@ bodies:
         - {{arc: {{to: [{WIDTH!r}, {bottom(WIDTH)!r}], centre: [0, {RADIUS!r}]}}, name: round}}
         - {{line: {{to: [{WIDTH!r}, {HEIGHT!r}]}}, name: side}}
         - {{line: {{to: [0, {HEIGHT!r}]}}, name: top}}
-    mesh: {{kind: {kind}, size: {size!r}, refine: [{{on: round, size: {along!r}{growth}}}, {{near: [{WIDTH!r}, {HEIGHT!r}], size: {along!r}{growth}}}]}}
+    mesh: {{kind: {kind}, order: {order}, size: {size!r}, refine: [{{{place}, size: {along!r}{growth}}}, {{near: [{WIDTH!r}, {HEIGHT!r}], size: {along!r}{growth}}}]}}
 supports:
   - {{on: floor, fix: [x, y]}}
   - {{on: block.middle, fix: [x]}}

@@ -113,6 +113,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
     if (body.rigid) continue;
     const double n = 2.0 * static_cast<double>(mesh.bodies[b].nodes.size());
     const double k = std::min(2.0 * pairs_of[b], n);
+    const bool fem = body.mesh.kind == model::MeshKind::fem;
     if (is_one_super_element(mesh.bodies[b])) {
       const int blocks = symmetry_blocks(mesh.bodies[b]);
       const bool is_new =
@@ -121,12 +122,11 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       plan.bytes += (is_new ? 8.0 + costs.block_bytes / blocks : 8.0) * n * n;
       if (is_new) plan.cells += costs.dense_seconds * work / (blocks * blocks);
       if (is_new && written > 0.0) plan.fields += costs.dense_field_seconds * work / (blocks * blocks);
-      plan.factorise += 0.01 * costs.dense_seconds * work;
+      plan.factorise += costs.dense_factor_seconds * work;
       plan.condense += costs.dense_condense_seconds * n * n * k;
     } else {
       plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
-      const bool elements = body.mesh.kind == model::MeshKind::fem;
-      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && !elements;
+      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && !fem;
       if (cells_differ) {
         plan.bytes += costs.own_cell_bytes * n;
         plan.cells += costs.own_cell_seconds * n;
@@ -140,7 +140,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
         plan.cells += costs.dense_seconds * m * m * m;
         if (written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m;
       }
-      plan.mesh += (elements ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;
+      plan.mesh += (fem ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;
       if (cells_differ) plan.mesh += costs.own_mesh_seconds * n;
       plan.cells += costs.cell_seconds * n;
       const double operations = costs.factor_seconds + (cells_differ ? costs.own_factor_seconds : 0.0);
@@ -153,7 +153,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
             costs.sweep_seconds * n + costs.condense_seconds * k * std::sqrt(n) + costs.flexibility_seconds * k * k;
       plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
     }
-    plan.fields += written * (body.mesh.kind == model::MeshKind::fem ? costs.fem_field_seconds : costs.field_seconds) * n;
+    plan.fields += written * (fem ? costs.fem_field_seconds : costs.field_seconds) * n;
   }
   // W has a block for each body, dense within it; the systems of Newton's method are as sparse.
   const double components = 2.0 * plan.sizes.contact_pairs;

@@ -3,7 +3,7 @@
 // For a body of n degrees of freedom, b symmetry blocks, k components of its contacts, N pairs in all:
 //
 //     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness,
-//                         dense_field_seconds n^3 / b^2 for fields
+//                         dense_field_seconds n^3 / b^2 for fields, dense_factor_seconds n^3 for its factor
 //     many cells          sparse_bytes n; mesh, cells and fields in times proportional to n, of finite elements
 //                         shorter ones; more bytes and seconds where no two cells are equal
 //     their factor        fill_bytes n log2(n); order_seconds n log2(n) + factor_seconds n^1.5
@@ -31,34 +31,35 @@ namespace scabo::run {
 /// Measured on one thread of a Xeon with AVX-512 (family 6, model 207). Bytes, or seconds. `benchmarks/plan.py --fit`
 /// finds them from measured runs and writes them here.
 struct CostConstants {
-  double base_bytes = 25e6;             ///< of the program itself
-  double block_bytes = 88.0;            ///< for n^2 / b of a super-element: eleven matrices of ring doubling and modes
-  double dense_seconds = 7e-10;         ///< for n^3 / b^2
-  double dense_field_seconds = 3.5e-10; ///< for n^3 / b^2
-  double dense_condense_seconds = 7e-10;///< for n^2 k
-  double least_large_cell = 200.0;      ///< degrees of freedom of a cell that costs as one super-element does
-  double sparse_bytes = 1300.0;         ///< for n: mesh, cells, fields and their text
-  double own_cell_bytes = 3000.0;       ///< for n of polygons and cells of a file, which are all different
-  double own_cell_seconds = 1.7e-6;     ///< for n of them
-  double own_mesh_seconds = 1.2e-6;     ///< for n of them besides
-  double own_factor_seconds = 4.7e-9;   ///< for n^1.5 of them besides
-  double fill_bytes = 150.0;            ///< for n log2(n): the factor and what its computation needs
-  double order_seconds = 1.2e-7;        ///< for n log2(n): order of elimination, entries of the factor
-  double factor_seconds = 4.7e-9;       ///< for n^1.5: its operations
-  double mesh_seconds = 6.8e-7;         ///< for n
-  double fem_mesh_seconds = 2.8e-7;     ///< for n of finite elements
-  double cell_seconds = 9.7e-7;         ///< for n
-  double solve_seconds = 1.8e-8;        ///< for n log2(n) and one right-hand side
-  double sweep_seconds = 2.4e-8;        ///< for n: the sweep over the factor that condenses
-  double condense_seconds = 3.4e-7;     ///< for k n^0.5
-  double flexibility_seconds = 1.4e-9;  ///< for k^2
-  double contact_bytes = 50.0;          ///< for k^2 of each body: W and matrices of Newton's method
-  double contact_seconds = 8.8e-8;      ///< for (2N)^2 and one increment
-  double wall_seconds = 3.3e-9;         ///< for (2N k)^1.5 of many bodies and one increment, k of an average body
-  double joined_iterations = 15.0;      ///< of Newton, each with twice the time of a factorisation
-  double field_seconds = 1.9e-6;        ///< for n and one increment with fields
-  double fem_field_seconds = 8e-7;      ///< for n of finite elements
-  double own_field_seconds = 4e-6;      ///< for n of polygons and cells of a file besides
+  double base_bytes = 25e6;                 ///< of the program itself
+  double block_bytes = 88.0;                ///< for n^2 / b of a super-element: eleven matrices of doubling and modes
+  double dense_seconds = 1.5e-9;            ///< for n^3 / b^2
+  double dense_field_seconds = 1e-9;        ///< for n^3 / b^2
+  double dense_factor_seconds = 3.2e-12;    ///< for n^3
+  double dense_condense_seconds = 1.5e-11;  ///< for n^2 k
+  double least_large_cell = 200.0;          ///< degrees of freedom of a cell that costs as one super-element does
+  double sparse_bytes = 1300.0;             ///< for n: mesh, cells, fields and their text
+  double own_cell_bytes = 3000.0;           ///< for n of polygons and cells of a file, which are all different
+  double own_cell_seconds = 1.5e-6;         ///< for n of them
+  double own_mesh_seconds = 1.2e-6;         ///< for n of them besides
+  double own_factor_seconds = 1.4e-8;       ///< for n^1.5 of them besides
+  double fill_bytes = 150.0;                ///< for n log2(n): the factor and what its computation needs
+  double order_seconds = 9.6e-8;            ///< for n log2(n): order of elimination, entries of the factor
+  double factor_seconds = 6.1e-9;           ///< for n^1.5: its operations
+  double mesh_seconds = 1.1e-6;             ///< for n
+  double fem_mesh_seconds = 2.7e-7;         ///< for n of finite elements
+  double cell_seconds = 9.6e-7;             ///< for n
+  double solve_seconds = 1.8e-8;            ///< for n log2(n) and one right-hand side
+  double sweep_seconds = 2.8e-8;            ///< for n: the sweep over the factor that condenses
+  double condense_seconds = 3.8e-7;         ///< for k n^0.5
+  double flexibility_seconds = 1.4e-9;      ///< for k^2
+  double contact_bytes = 50.0;              ///< for k^2 of each body: W and matrices of Newton's method
+  double contact_seconds = 6.5e-8;          ///< for (2N)^2 and one increment
+  double wall_seconds = 3.3e-9;             ///< for (2N k)^1.5 of many bodies and one increment, k of an average body
+  double joined_iterations = 15.0;          ///< of Newton, each with twice the time of a factorisation
+  double field_seconds = 1.8e-6;            ///< for n and one increment with fields
+  double fem_field_seconds = 8.5e-7;        ///< for n of finite elements
+  double own_field_seconds = 3.2e-6;        ///< for n of polygons and cells of a file besides
 };
 
 struct Plan {
