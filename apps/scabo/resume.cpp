@@ -55,7 +55,9 @@ ExitStatus resume(const ResumeOptions& options, Cluster* cluster, Events& events
   const std::string name = options.directory.string();
   std::error_code error;
   if (!fs::is_directory(options.directory, error))
-    refuse(name, "there is no such directory: name the results directory of a run");
+    refuse(name, fs::exists(options.directory, error)
+                     ? "is a file, not a directory: name the results directory of a run"
+                     : "there is no such directory: name the results directory of a run");
   result::DirectoryLock lock(options.directory);
   const auto status = result::status_in(options.directory);
   if (!status) refuse(name, "holds no results of Scabo: name the results directory of a run");

@@ -44,7 +44,7 @@ def picture(options, runs):
     left.set(xlim=(-4.2, 4.2), ylim=(-4.2, 4.2), title="friction 0.2")
 
     numbers = hand.calculate()
-    for axis, what, factor, unit in ((middle, "thrust", -1e-3, "thrust (kN/m)"), (right, "moment", 1e-3, "moment (kN m/m)")):
+    for axis, what, factor, unit in ((middle, "thrust", -1e-3, "thrust, compression positive (kN/m)"), (right, "moment", 1e-3, "moment (kN m/m)")):
         for place, colour, mark in (("side", pictures.BLUE, "o-"), ("crown", pictures.RED, "^--")):
             column = f"{place}.{'normal' if what == 'thrust' else 'moment'}"
             axis.plot(FRICTION, [factor * runs[mu][column] for mu in FRICTION], mark, ms=4, color=colour, label=place)

@@ -96,6 +96,39 @@ void share_points(const element::Ring& ring, const element::Sectors& sectors, Ri
   }
 }
 
+/// Derivative of the position along an element at one of its two ends; half its length in size.
+Vec2 tangent_at(const element::Ring& ring, const mesh::LineElement& element, double eta) {
+  const int order = static_cast<int>(element.nodes.size()) - 1;
+  const auto derivatives = geometry::LineBasis::of_order(order).derivatives(eta);
+  Vec2 tangent = Vec2::Zero();
+  for (std::size_t i = 0; i < element.nodes.size(); ++i)
+    tangent += derivatives[static_cast<Eigen::Index>(i)] * ring.node(element.nodes[i]);
+  return tangent;
+}
+
+/// Where the stress of an end of an element of order 2 is taken from, and its weight there.
+struct EndSample {
+  double eta = 0.0, weight = 1.0;
+};
+
+/// Stress along an element of order 2 is linear; where the true one is curved, it is too large at both ends and too small
+/// in the middle, or the other way round, and right at the two Gauss points (Barlow 1976). Where two elements continue
+/// each other, their stress at the node between them is therefore interpolated between the Gauss points on either side
+/// of it. Nothing where they meet at a corner or differ in order.
+std::optional<EndSample> end_sample(const element::Ring& ring, std::size_t e, bool at_end) {
+  const std::size_t count = ring.elements.size();
+  const mesh::LineElement& element = ring.elements[e];
+  const mesh::LineElement& other = ring.elements[at_end ? (e + 1) % count : (e + count - 1) % count];
+  if (element.nodes.size() != 3 || other.nodes.size() != 3) return {};
+  if (at_end ? other.nodes.front() != element.nodes.back() : other.nodes.back() != element.nodes.front()) return {};
+  const double side = at_end ? 1.0 : -1.0;
+  const Vec2 mine = tangent_at(ring, element, side), next = tangent_at(ring, other, -side);
+  const double lengths = mine.norm() + next.norm();
+  constexpr double straight = 1e-6;  // rounding of coordinates; on arcs of three nodes tangents are further apart
+  if ((mine / mine.norm() - next / next.norm()).norm() > straight) return {};
+  return EndSample{side / std::sqrt(3.0), next.norm() / lengths};
+}
+
 }  // namespace
 
 RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded) {
@@ -110,11 +143,13 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
     const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
     const std::vector<double> lobatto = geometry::lobatto_points(order);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+      const int point = sampling.points[e][i], shared = elements_at[static_cast<std::size_t>(point)];
+      const bool between = shared == 2 && (i == 0 || i + 1 == element.nodes.size());
+      const EndSample at = (between ? end_sample(ring, e, i > 0) : std::nullopt)
+                               .value_or(EndSample{lobatto[i], 1.0 / static_cast<double>(shared)});
       element::StrainMatrices strain =
-          element::strain_matrices(ring, element, basis.values(lobatto[i]), basis.derivatives(lobatto[i]));
-      const int point = sampling.points[e][i];
-      sampling.samples.push_back(
-          {point, 1.0 / elements_at[static_cast<std::size_t>(point)], e, std::move(strain.B1), std::move(strain.B2)});
+          element::strain_matrices(ring, element, basis.values(at.eta), basis.derivatives(at.eta));
+      sampling.samples.push_back({point, at.weight, e, std::move(strain.B1), std::move(strain.B2)});
     }
   }
   sampling.levels = unbounded ? outer_ring_levels() : ring_levels(ring);

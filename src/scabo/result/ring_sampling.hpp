@@ -26,7 +26,7 @@ struct CellMap {
 struct RingSampling {
   struct Sample {
     int point = 0;        // point of the ring to which the strain belongs
-    double weight = 1.0;  // 1 / number of boundary elements that meet there
+    double weight = 1.0;  // of the elements that meet there; their sum is 1
     std::size_t element = 0;
     Eigen::Matrix<double, 3, Eigen::Dynamic> B1, B2;
   };

@@ -169,6 +169,41 @@ TEST(Recovery, RingsAreNarrowAtTheBoundary) {
   }
 }
 
+// Strain along a side of elements of order 2, whose lengths a differ, from nodal displacements: right to rounding where it
+// is linear. Where it is 3 x^2, the mean between two Gauss points is too large by 0.54 (a / 2)^2 at the ends of
+// elements, and the value in their middles by (a / 2)^2; at the ends themselves it would be too small by 2 (a / 2)^2, and
+// contours would be jagged.
+TEST(Recovery, StressAlongQuadraticElementsDoesNotZigzag) {
+  const model::Outline block =
+      polygon({{0.0, 0.0}, {0.6, 0.0}, {2.0, 0.0}, {2.0, 1.4}, {0.0, 1.4}}, {"a", "b", "c", "d", "e"});
+  const model::Model model = model_of({elastic("body", block, 0.7, 2)}, model::Plane::stress);
+  const mesh::Mesh mesh = mesh::make_mesh(model);
+  const element::Ring ring = element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes);
+  const Vec2 centre = mesh.bodies[0].cells[0].centre;
+  const RingSampling sampling = ring_sampling(ring, element::sectors_of(model, mesh.bodies[0].cells[0]), false);
+  for (const double power : {2.0, 3.0}) {
+    std::vector<double> strain(sampling.nodes.size(), 0.0);
+    for (const RingSampling::Sample& sample : sampling.samples) {
+      const std::vector<int>& nodes = ring.elements[sample.element].nodes;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        strain[static_cast<std::size_t>(sample.point)] += sample.weight *
+                                                          sample.B2(0, 2 * static_cast<Eigen::Index>(i)) *
+                                                          std::pow(centre.x() + ring.node(nodes[i]).x(), power);
+    }
+    int seen = 0;
+    for (std::size_t point = 0; point < strain.size(); ++point) {
+      const Vec2 x = centre + ring.node(sampling.nodes[point]);
+      if (std::abs(x.y()) > 1e-12 || x.x() < 0.1 || x.x() > 1.9) continue;
+      ++seen;
+      const double error = strain[point] - power * std::pow(x.x(), power - 1.0), half = 0.35;
+      if (power == 2.0) EXPECT_NEAR(error, 0.0, 1e-12) << x.x();
+      if (power == 3.0) EXPECT_GT(error, 0.4 * half * half) << x.x();
+      if (power == 3.0) EXPECT_LT(error, 1.01 * half * half) << x.x();
+    }
+    EXPECT_EQ(seen, 5);
+  }
+}
+
 // Rings of a cell are as wide as its boundary nodes are apart, at the boundary; of one with few nodes, and in a body of
 // many cells, there is one ring half way.
 TEST(Recovery, LargeCellsHaveMoreRings) {
