@@ -112,14 +112,16 @@ int Mechanism::present() const {
   return static_cast<int>(std::count_if(bodies.begin(), bodies.end(), [](const auto& body) { return body.present; }));
 }
 
+long rank(const BodyMotion& motion) { return std::lround(1e4 * motion.largest); }
+
 int Mechanism::moving() const {
   return static_cast<int>(std::count_if(bodies.begin(), bodies.end(), [](const auto& body) { return body.moves(); }));
 }
 
 std::size_t Mechanism::most() const {
   std::size_t most = 0;
-  for (std::size_t b = 1; b < bodies.size(); ++b)  // equal ones differ by rounding
-    if (bodies[b].largest > bodies[most].largest * (1.0 + 1e-6)) most = b;
+  for (std::size_t b = 1; b < bodies.size(); ++b)
+    if (rank(bodies[b]) > rank(bodies[most])) most = b;
   return most;
 }
 
