@@ -34,8 +34,7 @@ double largest_displacement(const Prepared& prepared, std::size_t b, const BodyM
   double largest = 0.0;
   for (const Vec2& x : nodes) largest = std::max(largest, motion.at(x).norm());
   if (nodes.empty())
-    for (const Vec2& x : polygon_of(prepared.model.bodies[b].outline))
-      largest = std::max(largest, motion.at(x).norm());
+    for (const Vec2& x : polygon_of(prepared.model.bodies[b].outline)) largest = std::max(largest, motion.at(x).norm());
   return largest;
 }
 
@@ -173,8 +172,8 @@ Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared) {
 
 std::string describe(const Mechanism& mechanism, const model::Model& model) {
   const int moving = mechanism.moving();
-  return fmt::format("{} of {} bodies {} '{}'", moving, mechanism.present(), moving == 1 ? "moves," : "move, most of all",
-                     model.bodies[mechanism.most()].name);
+  return fmt::format("{} of {} bodies {} '{}'", moving, mechanism.present(),
+                     moving == 1 ? "moves," : "move, most of all", model.bodies[mechanism.most()].name);
 }
 
 }  // namespace scabo::analysis
