@@ -1,6 +1,6 @@
-// The motion of a mechanism, where statics says what it is: a block on a slope slides along it, a slender one turns about
-// its toe, the part of a wall above its weakest bed slides along that bed, a tower turns over as one. In every unit of
-// length and turned as a whole; the largest displacement is 1.
+// The motion of a mechanism, where statics says what it is: a block on a slope slides along it, a slender one turns
+// about its toe, the part of a wall above its weakest bed slides along that bed, a tower turns over as one. In every
+// unit of length and turned as a whole; the largest displacement is 1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,8 +42,7 @@ struct Upright {
     bodies += fmt::format(
         "  {}: {{{}, shape: {{polygon: {{vertices: [{}], names: {{bottom: edge_1, right: edge_2, top: edge_3, left: "
         "edge_4}}}}}}}}\n",
-        name,
-        rigid ? std::string("rigid: true") : fmt::format("material: m, mesh: {{size: {}, order: 1}}", 0.5 * unit),
+        name, rigid ? std::string("rigid: true") : fmt::format("material: m, mesh: {{size: {}, order: 1}}", 0.5 * unit),
         vertices);
   }
   void touch(const std::string& a, const std::string& b, double friction) {
@@ -172,8 +171,8 @@ TEST_P(MechanismIn, WallSlidesAlongItsWeakBed) {
   std::vector<std::string> names_below;
   std::size_t first_above = 0, count = 1;
   for (int z = 0; z < courses; ++z) {
-    const std::vector<double> joints = z % 2 == 0 ? std::vector{0.0, 1.0, 2.0, 3.0, 4.0}
-                                                  : std::vector{0.0, 0.5, 1.5, 2.5, 3.5, 4.0};
+    const std::vector<double> joints =
+        z % 2 == 0 ? std::vector{0.0, 1.0, 2.0, 3.0, 4.0} : std::vector{0.0, 0.5, 1.5, 2.5, 3.5, 4.0};
     std::vector<std::pair<double, double>> spans;
     std::vector<std::string> names;
     for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
@@ -225,7 +224,8 @@ TEST(Mechanism, OfACollapseIsThatOfCoulombsLaw) {
   model.touch("floor.top", "block.bottom", 0.5);
   model.touch("block.top", "ceiling.bottom", 0.5);
   const auto solution = run(fmt::format(
-      "scabo: 1\nmaterials: {{m: {{young: 5e9, poisson: 0.2, density: 2000}}}}\nbodies:\n{}supports: [{{on: floor, fix: "
+      "scabo: 1\nmaterials: {{m: {{young: 5e9, poisson: 0.2, density: 2000}}}}\nbodies:\n{}supports: [{{on: floor, "
+      "fix: "
       "[x, y]}}, {{on: ceiling, fix: [x, y]}}]\nloads:\n  weight: {{gravity: [0, -9.81]}}\n  push: {{gravity: [9.81, "
       "0]}}\ncontacts:\n{}steps:\n  - {{name: weight, loads: {{weight: 1}}}}\n  - {{name: push, loads: {{weight: 1, "
       "push: 1}}}}\n",

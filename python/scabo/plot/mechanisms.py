@@ -2,9 +2,10 @@
 import dataclasses
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.lines import Line2D
 
 from . import geometry, style, vtu
@@ -80,9 +81,10 @@ def mechanism(results, magnification=None, units=None, window=None):
     axis = figure.add_subplot()
     thin = 1.0 if len(motion.outlines) <= MANY else 0.5
     before, after = place.factor * motion.grid.points, place.factor * motion.points
-    colours = ScalarMappable(Normalize(0.0, 1.0), style.MAGNITUDE)
+    light = ListedColormap(colormaps[style.MAGNITUDE](np.linspace(0.05, 0.75, 256)))  # lines are seen on all of it
+    colours = ScalarMappable(Normalize(0.0, 1.0), light)
     tints = [colours.to_rgba(value) if value > AT_REST else (0.96, 0.96, 0.96, 1.0) for value in motion.motion]
-    axis.add_collection(PolyCollection([after[cell] for cell in motion.cells], facecolors=tints, edgecolors="none"))
+    axis.add_collection(PolyCollection([after[cell] for cell in motion.cells], facecolors=tints, edgecolors="face", linewidths=0.4))
     style.draw_outline(axis, before, motion.outlines, colors="0.45", linewidths=0.5 * thin, linestyles=(0, (4, 3)), zorder=1.5)
     style.draw_outline(axis, after, motion.outlines, linewidths=0.6 * thin, zorder=2.0)
     for pieces, colour, dashes in ((motion.slips, style.BLUE, "solid"), (motion.opens, style.GREEN, OPENS)):

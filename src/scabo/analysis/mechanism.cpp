@@ -34,8 +34,7 @@ double largest_displacement(const Prepared& prepared, std::size_t b, const BodyM
   double largest = 0.0;
   for (const Vec2& x : nodes) largest = std::max(largest, motion.at(x).norm());
   if (nodes.empty())
-    for (const Vec2& x : polygon_of(prepared.model.bodies[b].outline))
-      largest = std::max(largest, motion.at(x).norm());
+    for (const Vec2& x : polygon_of(prepared.model.bodies[b].outline)) largest = std::max(largest, motion.at(x).norm());
   return largest;
 }
 
@@ -112,14 +111,16 @@ int Mechanism::present() const {
   return static_cast<int>(std::count_if(bodies.begin(), bodies.end(), [](const auto& body) { return body.present; }));
 }
 
+long rank(const BodyMotion& motion) { return std::lround(1e4 * motion.largest); }
+
 int Mechanism::moving() const {
   return static_cast<int>(std::count_if(bodies.begin(), bodies.end(), [](const auto& body) { return body.moves(); }));
 }
 
 std::size_t Mechanism::most() const {
   std::size_t most = 0;
-  for (std::size_t b = 1; b < bodies.size(); ++b)  // equal ones differ by rounding
-    if (bodies[b].largest > bodies[most].largest * (1.0 + 1e-6)) most = b;
+  for (std::size_t b = 1; b < bodies.size(); ++b)
+    if (rank(bodies[b]) > rank(bodies[most])) most = b;
   return most;
 }
 
@@ -171,8 +172,8 @@ Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared) {
 
 std::string describe(const Mechanism& mechanism, const model::Model& model) {
   const int moving = mechanism.moving();
-  return fmt::format("{} of {} bodies {} '{}'", moving, mechanism.present(), moving == 1 ? "moves," : "move, most of all",
-                     model.bodies[mechanism.most()].name);
+  return fmt::format("{} of {} bodies {} '{}'", moving, mechanism.present(),
+                     moving == 1 ? "moves," : "move, most of all", model.bodies[mechanism.most()].name);
 }
 
 }  // namespace scabo::analysis

@@ -21,6 +21,9 @@ Mechanism mechanism_of(const Prepared& prepared, const Vector& rigid, FlowRule r
 /// reference point (of an unbounded body those of a square of its size).
 Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared);
 
+/// Largest displacement in ten-thousandths, by which bodies are ordered: those that move alike differ by rounding.
+long rank(const BodyMotion& motion);
+
 /// `3 of 17 bodies move, most of all 'b_3_1'`, `1 of 2 bodies moves, 'block'`.
 std::string describe(const Mechanism& mechanism, const model::Model& model);
 

@@ -113,7 +113,7 @@ std::optional<Vector> onset_of_motion(const Problem& problem, const RigidMap::Sp
   at_rest.f.resize(0);
   SolverOptions options;
   options.judge = Judge::natural_map;
-  options.tolerance = many ? 1e-9 : 1e-11;
+  options.tolerance = 1e-11;
   options.deadline = Deadline::in(patience_of_onset);
   const Solution solution = solve(at_rest, {}, options);
   if (solution.status != Status::solved) return std::nullopt;

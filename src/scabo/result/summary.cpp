@@ -184,8 +184,9 @@ Json json_of(const analysis::Mechanism& mechanism, const model::Model& model) {
   std::vector<std::size_t> moving;
   for (std::size_t b = 0; b < mechanism.bodies.size(); ++b)
     if (mechanism.bodies[b].moves()) moving.push_back(b);
-  const auto size = [&](std::size_t b) { return static_cast<float>(mechanism.bodies[b].largest); };
-  std::stable_sort(moving.begin(), moving.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+  std::stable_sort(moving.begin(), moving.end(), [&](std::size_t a, std::size_t b) {
+    return analysis::rank(mechanism.bodies[a]) > analysis::rank(mechanism.bodies[b]);
+  });
   Json json = {{"text", analysis::describe(mechanism, model)},
                {"rule", mechanism.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated"},
                {"moving", mechanism.moving()},

@@ -42,8 +42,8 @@ TEST(Onset, OfASlidingBlockDoesNotDilate) {
     }
 }
 
-// m a = (P - mu N, N - W, moment) of a block that slides and turns about its front edge: N from the acceleration of that
-// edge along y, a_y - alpha = 0 with a moment of inertia I, mu N at the height below the centroid.
+// m a = (P - mu N, N - W, moment) of a block that slides and turns about its front edge: N from the acceleration of
+// that edge along y, a_y - alpha = 0 with a moment of inertia I, mu N at the height below the centroid.
 TEST(Onset, OfATumblingBlockObeysNewtonsLaw) {
   const double mu = 0.4, height = 1.5, P = 12.0, W = 10.0, m = 2.0, I = 0.7, M = 6.0;
   const Problem problem = loaded_block(7, mu, {P, -W, -M}, height);
@@ -53,8 +53,8 @@ TEST(Onset, OfATumblingBlockObeysNewtonsLaw) {
   const double N = (W / m + M / I) / (1.0 / m + (1.0 - mu * height) / I);
   ASSERT_GT(N, 0.0);
   Vector expected = Eigen::Vector3d((P - mu * N) / m, (N - W) / m, (-M + N - mu * N * height) / I);
-  ASSERT_LT(expected[2], 0.0);                          // it turns over its front edge,
-  ASSERT_GT(expected[0] + height * expected[2], 0.0);   // which slides forward
+  ASSERT_LT(expected[2], 0.0);                         // it turns over its front edge,
+  ASSERT_GT(expected[0] + height * expected[2], 0.0);  // which slides forward
   expected.normalize();
   EXPECT_LT((*v - expected).norm(), 1e-8) << v->transpose() << "; " << expected.transpose();
 }
@@ -64,9 +64,10 @@ TEST(Onset, IsThereWhereAMechanismIsProven) {
   std::mt19937 random(7);
   int mechanisms = 0;
   for (int round = 0; round < 300; ++round) {
-    const Problem problem = loaded_block(3 + round % 6, uniform(random, 0.0, 1.5),
-                                         {uniform(random, -3.0, 3.0), uniform(random, -3.0, 1.0), uniform(random, -3.0, 3.0)},
-                                         uniform(random, 0.1, 2.0));
+    const Problem problem =
+        loaded_block(3 + round % 6, uniform(random, 0.0, 1.5),
+                     {uniform(random, -3.0, 3.0), uniform(random, -3.0, 1.0), uniform(random, -3.0, 3.0)},
+                     uniform(random, 0.1, 2.0));
     if (!find_mechanism(problem)) continue;
     ++mechanisms;
     const auto v = onset_of_motion(problem, diagonal(Eigen::Vector3d(1.0, 1.0, 3.0)));
