@@ -41,15 +41,16 @@ class FixedPoint {
         change_(scale_),
         held_(Vector::Zero(problem.pairs())) {}
 
-  InteriorPointEnd advance(double aim, int rounds, int patience, const Content& content, const Deadline& deadline) {
+  InteriorPointEnd advance(double aim, int rounds, double fall, const Content& content, const Deadline& deadline) {
     InteriorPointEnd end;
     end.residual = HUGE_VAL;
     while (rounds_ < rounds) {
       ++rounds_;
       const double map = solve(content, deadline, end);
       if (end.content || !std::isfinite(map) || deadline.passed()) break;
-      hold_next();
-      if (map <= aim || since_fall_ > patience) break;
+      const double off = hold_next();
+      if (rounds_ == 1) first_off_ = off;
+      if (map <= aim || off > std::pow(fall, rounds_ - 1) * first_off_) break;
     }
     return end;
   }
@@ -81,8 +82,8 @@ class FixedPoint {
     }
   }
 
-  /// The next slips, and the point from which they are looked for.
-  void hold_next() {
+  /// The next slips, and the point from which they are looked for. Returns the distance of those of now.
+  double hold_next() {
     const HeldConstants& c = held_constants;
     const Vector& slips = steps_.slips();
     const Vector off = slips - held_;
@@ -98,6 +99,7 @@ class FixedPoint {
     while (passed_.size() > 1 && passed_.back().gap < c.start * moved * moved) passed_.pop_back();
     steps_.go_to(passed_.back().point);
     passed_.pop_back();
+    return off.norm();
   }
 
   void choose_way(double off) {
@@ -141,7 +143,7 @@ class FixedPoint {
   std::vector<Passed> passed_;        // of this round and those before it, m falling from round to round
   std::vector<Vector> offs_, slips_;  // of the last rounds
   Way way_ = Way::plain;
-  double fallen_ = HUGE_VAL;
+  double fallen_ = HUGE_VAL, first_off_ = 0.0;
   int since_fall_ = 0, rounds_ = 0;
 };
 
@@ -158,9 +160,9 @@ HeldSlips::~HeldSlips() = default;
 HeldSlips::HeldSlips(HeldSlips&&) noexcept = default;
 HeldSlips& HeldSlips::operator=(HeldSlips&&) noexcept = default;
 
-InteriorPointEnd HeldSlips::advance(double aim, int rounds, int patience, const held::Content& content,
+InteriorPointEnd HeldSlips::advance(double aim, int rounds, double fall, const held::Content& content,
                                     const Deadline& deadline) {
-  return std::visit([&](auto& of) { return of.advance(aim, rounds, patience, content, deadline); }, rounds_->of);
+  return std::visit([&](auto& of) { return of.advance(aim, rounds, fall, content, deadline); }, rounds_->of);
 }
 
 }  // namespace scabo::contact

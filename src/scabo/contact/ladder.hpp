@@ -91,7 +91,7 @@ class Ladder {
   NewtonEnd inside_from(double start_factor);
   NewtonEnd inside_near(Vector p, Vector a, double start);
   NewtonEnd inside(std::initializer_list<double> start_factors);
-  NewtonEnd with_held_slips(HeldSlips& held, int rounds, int patience);
+  NewtonEnd with_held_slips(HeldSlips& held, int rounds, double fall);
   NewtonEnd end_of_sweeps(Vector p, int sweeps);
   NewtonEnd floating_proximal(Vector p, Vector a);
   NewtonEnd vanishing_proximal(Vector p, int most = 0);

@@ -1,8 +1,10 @@
 // Strategies of the ladder that come to the problem by way of others: bodies or forces held softly, less friction, less
 // load, pivoting.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/lemke.hpp"
 #include "scabo/contact/rigid_motions.hpp"
@@ -33,13 +35,19 @@ NewtonEnd Ladder::floating_proximal(Vector p, Vector a) {
   return end;
 }
 
-/// The same for forces: (w / r)(p - p_before) is added to the motions, w falls from one problem to the next. Of about
-/// `most` iterations, 0: as many as forty problems take.
+/// The same for forces: (w / r)(p - p_before) is added to the motions, w falls from one problem to the next, to a tenth
+/// where the last one was solved easily. Of about `most` iterations, 0: as many as forty problems take. Of problem files
+/// Newton without the term, which costs as much as ten problems with it, is tried where w is small.
 NewtonEnd Ladder::vanishing_proximal(Vector p, int most) {
   constexpr double exact = 1e-12;  // of the largest force: the next round starts from there
-  constexpr int few = 12;
+  constexpr int few = 12, easily = 4;
+  constexpr double least = 1e-4, small = 1e-3, fallen = 0.1;
   NewtonEnd end = nothing();
-  double weight = 1.0;
+  const Measure measure(problem_);
+  const auto map_at = [&](const Vector& at) {
+    return judges_all() ? measure.natural_map(problem_, at, motion_of(problem_, at, Vector())) : 0.0;
+  };
+  double weight = 1.0, tried = map_at(p);
   const int before = iterations_;
   for (int round = 0; round < 40 && (most == 0 || iterations_ - before < most); ++round) {
     BDifferentiableEquations equations(problem_, options_.r_factor);
@@ -66,11 +74,15 @@ NewtonEnd Ladder::vanishing_proximal(Vector p, int most) {
       break;
     }
     if (late()) break;
-    if (round % 4 == 3) {
+    const double map = map_at(p);
+    const bool now = round % 4 == 3, near_by = (weight <= least && now) || (weight <= small && map < fallen * tried);
+    if (judges_all() ? near_by : now) {
+      tried = map;
       end = newton_alone(p, Vector(), {"newton after proximal step", 1e-4, 1.0, judges_all() ? few : 0});
       if (end.converged) break;
     }
-    weight = inner.converged ? std::max(0.5 * weight, 1e-4) : std::min(4.0 * weight, 10.0);
+    const double next = judges_all() && inner.iterations <= easily ? 0.1 : 0.5;
+    weight = inner.converged ? std::max(next * weight, least) : std::min(4.0 * weight, 10.0);
   }
   return end;
 }

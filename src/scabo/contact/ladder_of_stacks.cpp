@@ -32,8 +32,11 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
   if (hopeless && hopeless()) return best;
   // FCLIB needs 27 iterations at most.
   const int few = entwined ? 4 : inner ? 30 : 0;
+  // Of many joints it costs as much as a thousand sweeps, and their states are wrong for long.
+  const bool many_joints = problem_.pairs() > many && inner && sweeps.of_joints();
   const Run from_sweeps{"newton after " + std::to_string(sweeps.sweeps()) + " sweeps", 1e-4, 1.0, few};
-  if (better(problem_.pairs() > many ? swept(p, 200, 1e-2, few) : newton_alone(sweeps.p(), Vector(), from_sweeps)))
+  if (!many_joints &&
+      better(problem_.pairs() > many ? swept(p, 200, 1e-2, few) : newton_alone(sweeps.p(), Vector(), from_sweeps)))
     return best;
   // Of spheres in a pile plain sweeps find what extrapolated ones, Newton and interior points do not.
   constexpr double near = 1e-4;
@@ -47,21 +50,28 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
   const bool dear = !sweeps.of_joints() && entries * entries > 6e7 * static_cast<double>(problem_.W.size());
   struct Turn {
     int sweeps;
-    double start;                  // of the interior points after them; 0: none
-    int rounds = 0, patience = 0;  // of held slips after those
+    double start;       // of the interior points after them; 0: none
+    int rounds = 0;     // of held slips after those
+    double fall = 0.0;  // what a round leaves of their distance; otherwise they are given up
   };
   // Walls and piles that slips held solve at all take up to twenty rounds in which they nearly halve, or far more.
-  constexpr int few_rounds = 20, hardly = 3, many_rounds = 300;
+  constexpr int few_rounds = 20, many_rounds = 300;
+  constexpr double nearly_half = 0.65, any = HUGE_VAL;
   std::optional<HeldSlips> held;
-  double tried = 1e-5;  // natural map from which Newton was last tried
-  for (const Turn turn : {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0, few_rounds, hardly},
-                          Turn{25000, dear ? 1.0 : 0.1, many_rounds, many_rounds}, Turn{60000, dear ? 0.1 : 10.0}}) {
+  constexpr double nearly_right = 1e-5;              // natural map: of nearly all states
+  double tried = many_joints ? 1e-7 : nearly_right;  // natural map from which Newton was last tried
+  bool inside_before = false;
+  for (const Turn turn : {Turn{2000, dear ? 0.0 : 1.0}, Turn{8000, 0.0, few_rounds, nearly_half},
+                          Turn{25000, dear ? 1.0 : 0.1, many_rounds, any}, Turn{60000, dear ? 0.1 : 10.0}}) {
     if (better(swept_on(sweeps, turn.sweeps))) return best;
-    if (sweeps.natural_map() <= 0.3 * tried) {  // nearly all states are right
+    if (sweeps.natural_map() <= 0.3 * tried) {
       tried = sweeps.natural_map();
       if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4, 1.0, 12}))) return best;
     }
-    if (inner && turn.start > 0.0) {
+    // What starts afresh does not come as near within few steps.
+    const bool near_by = sweeps.natural_map() <= nearly_right;
+    if (inner && turn.start > 0.0 && !(near_by && inside_before)) {
+      inside_before = true;
       NewtonEnd reached = inside_from(turn.start);
       sweeps.restart(reached.p);
       if (better(std::move(reached))) return best;
@@ -69,15 +79,15 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
     // Of rigid bodies a Newton iteration costs as much as fifty sweeps. pile100x4_mu0.8_ratio100 is solved so.
     constexpr int most_of_proximal = 250;
     if (turn.sweeps == 25000 && sweeps.of_joints() && better(vanishing_proximal(best.p, most_of_proximal))) return best;
-    if (inner && sweeps.of_joints() && turn.rounds > 0) {
+    if (inner && sweeps.of_joints() && turn.rounds > 0 && !(near_by && turn.rounds == few_rounds)) {
       if (!held) held.emplace(problem_);
-      if (better(with_held_slips(*held, turn.rounds, turn.patience))) return best;
+      if (better(with_held_slips(*held, turn.rounds, turn.fall))) return best;
     }
   }
   // Without joints a round costs as much as thousands of sweeps.
   if (inner && !dear && !held) {
     held.emplace(problem_);
-    if (better(with_held_slips(*held, many_rounds, many_rounds))) return best;
+    if (better(with_held_slips(*held, many_rounds, any))) return best;
   }
   if (better(newton_alone(sweeps.p(), Vector(), {"newton after long sweeps", 1e-4}))) return best;
   if (problem_.pairs() <= many && better(swept(p, 200, 1e-2))) return best;
@@ -150,13 +160,13 @@ NewtonEnd Ladder::inside_from(double start_factor) {
 
 /// Rounds with slips held, and a few Newton iterations whenever the natural map has become small: by then nearly all
 /// states are right.
-NewtonEnd Ladder::with_held_slips(HeldSlips& held, int rounds, int patience) {
+NewtonEnd Ladder::with_held_slips(HeldSlips& held, int rounds, double fall) {
   constexpr int few = 12;
   const double force = Measure(problem_).reference();
   NewtonEnd best = nothing();
   double aim = 1e-5;
   while (true) {
-    InteriorPointEnd reached = held.advance(aim, rounds, patience, content_, options_.deadline);
+    InteriorPointEnd reached = held.advance(aim, rounds, fall, content_, options_.deadline);
     for (Iteration& iteration : reached.trace) {
       iteration.iteration += iterations_ + coarse_iterations_;
       iteration.residual *= force;
