@@ -17,8 +17,8 @@ int terminal_width();      ///< columns of standard error, 80 if unknown
 void print_to_stderr(std::string_view text);
 /// Whether an option is wrong (`--set`, `--vary`), not a file.
 bool is_of_an_option(const InputError& error);
-/// Every mistake of the input on its own line, `model.yaml:12:5: bodies.upper.material: ...`, or `scabo: --set: ...` where
-/// an option itself is wrong.
+/// Every mistake of the input on its own line, `model.yaml:12:5: bodies.upper.material: ...`, or `scabo: --set: ...`
+/// where an option itself is wrong.
 void print_mistakes(const InputError& error);
 void print_error(std::string_view message);    ///< `scabo: message`
 void print_warning(std::string_view message);  ///< `scabo: warning: message`

@@ -38,8 +38,8 @@ class HeldSlips {
   HeldSlips& operator=(HeldSlips&&) noexcept;
 
   /// Goes on where it ended before, until `content` accepts forces and motions, the natural map is at most `aim` after
-  /// a round, `rounds` rounds are done in all, or the slips' distance |s - |u'_t|| is larger than `fall` per round times
-  /// that of the first. The best point of this call.
+  /// a round, `rounds` rounds are done in all, or the slips' distance |s - |u'_t|| is larger than `fall` per round
+  /// times that of the first. The best point of this call.
   InteriorPointEnd advance(double aim, int rounds, double fall,
                            const std::function<bool(const Vector& p, const Vector& motion)>& content,
                            const Deadline& deadline = {});

@@ -36,8 +36,8 @@ NewtonEnd Ladder::floating_proximal(Vector p, Vector a) {
 }
 
 /// The same for forces: (w / r)(p - p_before) is added to the motions, w falls from one problem to the next, to a tenth
-/// where the last one was solved easily. Of about `most` iterations, 0: as many as forty problems take. Of problem files
-/// Newton without the term, which costs as much as ten problems with it, is tried where w is small.
+/// where the last one was solved easily. Of about `most` iterations, 0: as many as forty problems take. Of problem
+/// files Newton without the term, which costs as much as ten problems with it, is tried where w is small.
 NewtonEnd Ladder::vanishing_proximal(Vector p, int most) {
   constexpr double exact = 1e-12;  // of the largest force: the next round starts from there
   constexpr int few = 12, easily = 4;

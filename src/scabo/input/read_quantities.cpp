@@ -289,7 +289,8 @@ constexpr const char* history_forms =
 std::optional<ResultAxes> read_axes(Reading& reading, const Value& value) {
   ResultAxes axes;
   const auto text = value.node->kind == Node::Kind::scalar ? read_text(reading.report, value) : std::nullopt;
-  const bool number = text && (text->find_first_not_of("+-.0123456789eE") == std::string::npos || text->starts_with('.'));
+  const bool number =
+      text && (text->find_first_not_of("+-.0123456789eE") == std::string::npos || text->starts_with('.'));
   if (!text || (!number && text->find('.') == std::string::npos)) {
     reading.report.error(value, "must be an angle in degrees or a straight edge, as in 30 or dam.face");
     return {};

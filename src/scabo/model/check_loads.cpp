@@ -184,11 +184,10 @@ void check_linear_in_bodies(Checking& checking, const std::string& path, const L
     if (!large || !(body.open() || several || !body.cracks.empty() || (one && !body.regions.empty())) ||
         is_linear_over(table, body.outline))
       continue;
-    checking.error(
-        path, "temperature",
-        fmt::format("changes its slope inside body '{}', a super-element with {}, which takes only a linear "
-                    "temperature: give the body a mesh of kind polygons, quadtree or fem",
-                    body.name, several || !body.regions.empty() ? "several materials" : "side faces"));
+    checking.error(path, "temperature",
+                   fmt::format("changes its slope inside body '{}', a super-element with {}, which takes only a linear "
+                               "temperature: give the body a mesh of kind polygons, quadtree or fem",
+                               body.name, several || !body.regions.empty() ? "several materials" : "side faces"));
     return;
   }
 }

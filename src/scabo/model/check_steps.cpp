@@ -237,11 +237,11 @@ void check_never_applied(Checking& checking) {
         (model.restart && model.restart->load_factors.at(i) != 0.0))
       continue;
     checking.enter(load.source);
-    checking.error_of_key(path_of_load(load, i), "",
-                          fmt::format("{} '{}' is never applied: name it in a step",
-                                      std::holds_alternative<AtRest>(load.kind) ? "the displacement at rest of springs"
-                                                                                : "load",
-                                      load.name));
+    checking.error_of_key(
+        path_of_load(load, i), "",
+        fmt::format("{} '{}' is never applied: name it in a step",
+                    std::holds_alternative<AtRest>(load.kind) ? "the displacement at rest of springs" : "load",
+                    load.name));
   }
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];

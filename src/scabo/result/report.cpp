@@ -284,8 +284,7 @@ std::string report_warnings(const analysis::StaticSolution& solution) {
 
 std::string report_mechanism(const analysis::StaticSolution& solution) {
   if (!solution.mechanism) return {};
-  return fmt::format("mechanism.vtu shows the motion: {}\n",
-                     analysis::describe(*solution.mechanism, solution.model));
+  return fmt::format("mechanism.vtu shows the motion: {}\n", analysis::describe(*solution.mechanism, solution.model));
 }
 
 std::string report_timing(const analysis::Timing& timing) {

@@ -111,10 +111,10 @@ struct EndSample {
   double eta = 0.0, weight = 1.0;
 };
 
-/// Stress along an element of order 2 is linear; where the true one is curved, it is too large at both ends and too small
-/// in the middle, or the other way round, and right at the two Gauss points (Barlow 1976). Where two elements continue
-/// each other, their stress at the node between them is therefore interpolated between the Gauss points on either side
-/// of it. Nothing where they meet at a corner or differ in order.
+/// Stress along an element of order 2 is linear; where the true one is curved, it is too large at both ends and too
+/// small in the middle, or the other way round, and right at the two Gauss points (Barlow 1976). Where two elements
+/// continue each other, their stress at the node between them is therefore interpolated between the Gauss points on
+/// either side of it. Nothing where they meet at a corner or differ in order.
 std::optional<EndSample> end_sample(const element::Ring& ring, std::size_t e, bool at_end) {
   const std::size_t count = ring.elements.size();
   const mesh::LineElement& element = ring.elements[e];

@@ -56,8 +56,8 @@ class SamplingLibrary {
 /// further inside are wider by a constant factor.
 std::vector<double> ring_levels(const element::Ring& ring);
 
-/// The same for a cell of a mesh: one ring between sides and centre, as cells are small. `fine`: where it has many nodes
-/// on its boundary, as the few large cells of a body have, and those around held side faces, more rings.
+/// The same for a cell of a mesh: one ring between sides and centre, as cells are small. `fine`: where it has many
+/// nodes on its boundary, as the few large cells of a body have, and those around held side faces, more rings.
 std::vector<double> cell_levels(const element::Ring& ring, bool fine);
 
 /// Rings of an unbounded domain, outwards.

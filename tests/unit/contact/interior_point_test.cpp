@@ -116,8 +116,7 @@ TEST_P(InteriorPointsOnTowers, NewtonFollowsThemInUnitsThatArePowersOfTwoWithout
   };
   const Vector direction = direction_of(0, 0);
   for (const auto& units : powers_of_two)
-    EXPECT_EQ(direction_of(units.first, units.second),
-              Vector(std::ldexp(1.0, units.second - units.first) * direction))
+    EXPECT_EQ(direction_of(units.first, units.second), Vector(std::ldexp(1.0, units.second - units.first) * direction))
         << units.first << " " << units.second;
 }
 

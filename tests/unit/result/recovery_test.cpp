@@ -169,10 +169,10 @@ TEST(Recovery, RingsAreNarrowAtTheBoundary) {
   }
 }
 
-// Strain along a side of elements of order 2, whose lengths a differ, from nodal displacements: right to rounding where it
-// is linear. Where it is 3 x^2, the mean between two Gauss points is too large by 0.54 (a / 2)^2 at the ends of
-// elements, and the value in their middles by (a / 2)^2; at the ends themselves it would be too small by 2 (a / 2)^2, and
-// contours would be jagged.
+// Strain along a side of elements of order 2, whose lengths a differ, from nodal displacements: right to rounding where
+// it is linear. Where it is 3 x^2, the mean between two Gauss points is too large by 0.54 (a / 2)^2 at the ends of
+// elements, and the value in their middles by (a / 2)^2; at the ends themselves it would be too small by 2 (a / 2)^2,
+// and contours would be jagged.
 TEST(Recovery, StressAlongQuadraticElementsDoesNotZigzag) {
   const model::Outline block =
       polygon({{0.0, 0.0}, {0.6, 0.0}, {2.0, 0.0}, {2.0, 1.4}, {0.0, 1.4}}, {"a", "b", "c", "d", "e"});
