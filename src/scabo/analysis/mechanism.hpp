@@ -1,10 +1,10 @@
-// The motion of the bodies where an analysis ends as a mechanism or collapse, from amplitudes of the rigid motions of the
-// contact problem. A part moves as one, without deformation:
+// The motion of the bodies where an analysis ends as a mechanism or collapse, from amplitudes of the rigid motions of
+// the contact problem. A part moves as one, without deformation:
 //
 //     u(x) = shift + rotation x (x - about),   opening = (u_B - u_A).n,   slip = (u_B - u_A).t
 //
-// Its size means nothing, so that the largest displacement of any node (of a rigid body: of its outline) is made 1 in the
-// model's unit of length.
+// Its size means nothing, so that the largest displacement of any node (of a rigid body: of its outline) is made 1 in
+// the model's unit of length.
 #pragma once
 
 #include <Eigen/SparseCore>

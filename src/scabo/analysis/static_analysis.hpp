@@ -205,7 +205,8 @@ enum class Outcome { solved, not_converged, mechanism, collapse, interrupted };
 /// associated: joints that slide open by u_n = mu |u_t| or more, as the motion does that proves a mechanism.
 enum class FlowRule { coulomb, associated };
 
-/// Motion of a body without deformation, of a mechanism (Mechanism): its displacement is shift + rotation x (x - about).
+/// Motion of a body without deformation, of a mechanism (Mechanism): its displacement is shift + rotation x (x -
+/// about).
 struct BodyMotion {
   Vec2 about = Vec2::Zero();  ///< a point of the plane
   Vec2 shift = Vec2::Zero();  ///< displacement of that point, length

@@ -1,8 +1,8 @@
 // The motion with which bodies begin to move where no forces balance the loads.
 //
-// What proves a mechanism (rigid_motions.hpp) is a motion with u_n >= mu |u_t| in every pair: that of an associated flow
-// rule, by which joints open as they slide. Coulomb's joints do not. Rigid bodies at rest that nothing restrains begin
-// to move by their acceleration, of which only the direction counts:
+// What proves a mechanism (rigid_motions.hpp) is a motion with u_n >= mu |u_t| in every pair: that of an associated
+// flow rule, by which joints open as they slide. Coulomb's joints do not. Rigid bodies at rest that nothing restrains
+// begin to move by their acceleration, of which only the direction counts:
 //
 //     v = M^-1 (f + G'p),   u = G v,   min(u_n, p_n) = 0,   |p_t| <= mu p_n, opposite to u_t and at the bound where
 //     u_t is not 0                                                                                                (1)

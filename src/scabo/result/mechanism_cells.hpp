@@ -9,7 +9,8 @@
 
 namespace scabo::result {
 
-/// Stored in the arrays that are written to the file. Bodies first, then contacts. Bodies that are absent have no points.
+/// Stored in the arrays that are written to the file. Bodies first, then contacts. Bodies that are absent have no
+/// points.
 struct MechanismCells {
   std::vector<double> points;              // 3 per point, z = 0, before any motion
   std::vector<std::int32_t> connectivity;  // point numbers of all cells in sequence

@@ -1,7 +1,8 @@
 // The results directory of a run: summary.json, contact.csv, fields.pvd with one .vtu for each increment, contact.pvd
 // with one .vtu of the contacts for each (both as requested by `output`), convergence.csv and .svg, log.txt, of a
-// mechanism or collapse mechanism.vtu, and if requested history.csv, points.csv, lines.csv, grid.csv and problems/ (docs/results.md). Increments are added as they
-// finish, so that they can be read while the run continues and after it was interrupted or killed.
+// mechanism or collapse mechanism.vtu, and if requested history.csv, points.csv, lines.csv, grid.csv and problems/
+// (docs/results.md). Increments are added as they finish, so that they can be read while the run continues and after it
+// was interrupted or killed.
 #pragma once
 
 #include <chrono>
