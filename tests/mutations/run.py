@@ -3,13 +3,14 @@
     tests/mutations/run.py FOLDER              # all entries of mutations.py
     tests/mutations/run.py FOLDER 4 17         # those two
 
-A copy of the sources in FOLDER gets all changes at once, each behind a switch, SCABO_MUTATION=number: one build, and no
-file of this tree is touched. Then the tests named beside each change run with its switch; a change that they do not
+A copy of the sources in FOLDER gets all of these changes at once, each behind a switch, SCABO_MUTATION=number: one build, and
+no file of this tree is touched. Then the tests named beside each change run with its switch; a change that they do not
 notice is listed as SURVIVES. Entry 0 is no change: its tests must pass.
 
 Nothing runs this with the tests. Run it after larger changes, and add an entry for a part that is new: an entry whose
 line has changed is listed and left out.
 """
+import functools
 import os
 import re
 import shutil
@@ -20,6 +21,8 @@ from pathlib import Path
 from mutations import MUTATIONS
 
 ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 1200  # seconds until a test counts as hung: a changed line may well not come to an end
+SOURCES = ("apps", "cmake", "compare", "python", "src", "tests")  # in the copy only what git knows
 SWITCH = """#pragma once
 #include <cstdlib>
 namespace scabo {
@@ -34,23 +37,32 @@ inline bool mutated(int k) {
 """
 
 
-def copy(to):
-    """The files that git knows, where they differ; the library of the copy is then changed."""
-    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    changed = {}
-    for number, (file, original, replacement, _) in MUTATIONS.items():
+def copy(to, wanted):
+    """The files that git knows, where they differ; the library of the copy gets the changes `wanted`. Returns the numbers of
+    those whose line is there."""
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    names = [name for name in listed.split("\0") if name and (ROOT / name).is_file()]
+    changed, there_are = {}, []
+    for number in wanted:
+        file, original, replacement, _ = MUTATIONS[number]
         path = f"src/scabo/{file}"
         text = changed.get(path) or (ROOT / path).read_text()
         if text.count(original) != 1:
             print(f"{number}: {path} does not contain this line once: {original}")
             continue
         changed[path] = text.replace(original, re.sub(r"\bMUTATED\b", f"mutated({number})", replacement))
+        there_are.append(number)
     for path, text in changed.items():
-        first = text.index("#include")
+        first = re.search(r"^#include", text, re.M).start()
         changed[path] = text[:first] + '#include "scabo/base/mutated.hpp"\n' + text[first:]
     changed["src/scabo/base/mutated.hpp"] = SWITCH
-    for name in filter(None, names.split("\0")):
-        if name in changed or not (ROOT / name).is_file():
+    known = {*names, *changed}
+    for folder in SOURCES:  # what an earlier copy had more: sources are found by their names
+        for path in list((to / folder).rglob("*")):
+            if path.is_file() and str(path.relative_to(to)) not in known:
+                path.unlink()
+    for name in names:
+        if name in changed:
             continue
         there = to / name
         if not there.exists() or there.read_bytes() != (ROOT / name).read_bytes():
@@ -61,11 +73,18 @@ def copy(to):
         there.parent.mkdir(parents=True, exist_ok=True)
         if not there.exists() or there.read_text() != text:
             there.write_text(text)
+    return there_are
 
 
 def build(to, targets):
     subprocess.run(["cmake", "--preset", "release", "-S", "."], cwd=to, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", "build", "--target", *sorted(targets)], cwd=to, check=True)
+
+
+@functools.cache
+def python():
+    """The interpreter that the tests use: it has their modules, which the one that runs this file may lack."""
+    return subprocess.run([ROOT / "cmake/find_python.sh"], check=True, capture_output=True, text=True).stdout.strip()
 
 
 def command_of(to, test):
@@ -74,7 +93,7 @@ def command_of(to, test):
     if not program.endswith(".py"):
         return [to / "build/tests" / program, f"--gtest_filter={only or '*'}", "--gtest_fail_fast", "--gtest_brief=1"]
     uses = "build/tests/result_sample" if "read_vtu" in program else "build/bin/scabo"
-    return [sys.executable, to / program, to / uses]
+    return [python(), to / program, to / uses]
 
 
 def target_of(test):
@@ -84,26 +103,35 @@ def target_of(test):
 
 def noticed_by(to, number, test):
     """Name of the first test that fails; empty if none does."""
-    ended = subprocess.run(command_of(to, test), cwd=to, capture_output=True, text=True,
-                           env={**os.environ, "SCABO_MUTATION": str(number), "SCABO": str(to / "build/bin/scabo"),
-                                "OPENBLAS_NUM_THREADS": "1"})
+    try:
+        ended = subprocess.run(command_of(to, test), cwd=to, capture_output=True, text=True, timeout=PATIENCE, errors="replace",
+                               env={**os.environ, "SCABO_MUTATION": str(number), "SCABO": str(to / "build/bin/scabo"),
+                                    "OPENBLAS_NUM_THREADS": "1"})
+    except subprocess.TimeoutExpired:
+        return f"{test}, not at its end after {PATIENCE} s"
+    output = ended.stdout + ended.stderr
+    if "[==========] 0 tests" in output:
+        return f"{test}, which names no test,"
     if ended.returncode == 0:
         return ""
-    output = ended.stdout + ended.stderr
     failed = re.search(r"\[  FAILED  \] (\S+)", output) or re.search(r"(?:FAIL|ERROR): (\S+)", output)
     return failed.group(1).rstrip(",") if failed else f"{test}, status {ended.returncode}"
 
 
 def main():
+    words = sys.argv[2:]
+    if len(sys.argv) < 2 or not all(word.isdigit() and int(word) in MUTATIONS for word in words):
+        sys.exit(f"usage: {sys.argv[0]} FOLDER [NUMBER...]; numbers are 1 to {max(MUTATIONS)}")
     to = Path(sys.argv[1]).resolve()
-    wanted = [int(number) for number in sys.argv[2:]] or list(MUTATIONS)
-    copy(to)
+    wanted = copy(to, sorted(map(int, words)) or list(MUTATIONS))
     build(to, {target_of(MUTATIONS[number][3]) for number in wanted})
-    survivors = 0
+    survivors, sound = 0, set()
     for number in wanted:
         file, _, _, test = MUTATIONS[number]
-        if by := noticed_by(to, 0, test):
-            sys.exit(f"{by} fails without any change")
+        if test not in sound:
+            if by := noticed_by(to, 0, test):
+                sys.exit(f"{by} fails without any change")
+            sound.add(test)
         by = noticed_by(to, number, test)
         survivors += not by
         print(f"{number:4} {file:40} {by or 'SURVIVES ' + test}", flush=True)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <stdexcept>
 
 #include "scabo/analysis/modal_analysis.hpp"
 #include "scabo/input/read_model.hpp"
@@ -29,7 +30,9 @@ analysis::ModalResult run(const std::string& text, const std::vector<std::string
   test::record_model(text, settings);
   std::vector<input::Override> overrides;
   for (const std::string& setting : settings) overrides.push_back(input::parse_override(setting));
-  return analysis::solve_modal(input::parse_model(text, "test.yaml", overrides));
+  analysis::ModalResult result = analysis::solve_modal(input::parse_model(text, "test.yaml", overrides));
+  if (result.modes.empty()) throw std::runtime_error("the run ended without a mode");
+  return result;
 }
 
 /// Frequencies of the modes that deform.

@@ -12,11 +12,19 @@
 
 namespace scabo::verification {
 
+/// A solution that has super-elements (empty ones for finite elements). Throws otherwise: what evaluates a run reads them, and
+/// a test whose run ended before they existed fails with this sentence.
+inline analysis::StaticSolution with_super_elements(analysis::StaticSolution solution) {
+  if (solution.cells.empty())
+    throw std::runtime_error("the run ended before its super-elements existed; " + solution.reason);
+  return solution;
+}
+
 inline analysis::StaticSolution run(const std::string& text, const std::vector<std::string>& settings = {}) {
   test::record_model(text, settings);
   std::vector<input::Override> overrides;
   for (const std::string& setting : settings) overrides.push_back(input::parse_override(setting));
-  return analysis::solve_static(input::parse_model(text, "test.yaml", overrides));
+  return with_super_elements(analysis::solve_static(input::parse_model(text, "test.yaml", overrides)));
 }
 
 /// Increment `index`, which must have converged: what does not exist is thrown as a sentence, so that a test whose run

@@ -144,6 +144,7 @@ ties: {middle: {between: [left.right, right.left]}}
 )";
   const auto whole = analysis::solve_modal(input::parse_model(one, "one.yaml", {}));
   const auto halves = analysis::solve_modal(input::parse_model(two, "two.yaml", {}));
+  ASSERT_EQ(whole.modes.size(), 4u);
   ASSERT_EQ(halves.modes.size(), 4u);
   EXPECT_NEAR(halves.total_mass, 10.0, 1e-12);
   for (std::size_t k = 0; k < 4; ++k) {
