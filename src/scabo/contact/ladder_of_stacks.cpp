@@ -79,7 +79,8 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
     // Of rigid bodies a Newton iteration costs as much as fifty sweeps. pile100x4_mu0.8_ratio100 is solved so.
     constexpr int most_of_proximal = 250;
     if (turn.sweeps == 25000 && sweeps.of_joints() && better(vanishing_proximal(best.p, most_of_proximal))) return best;
-    if (inner && sweeps.of_joints() && turn.rounds > 0 && !(near_by && turn.rounds == few_rounds)) {
+    const bool too_soon = turn.rounds == few_rounds && (near_by || many_joints);
+    if (inner && sweeps.of_joints() && turn.rounds > 0 && !too_soon) {
       if (!held) held.emplace(problem_);
       if (better(with_held_slips(*held, turn.rounds, turn.fall))) return best;
     }
