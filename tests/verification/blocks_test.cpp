@@ -195,6 +195,17 @@ TEST(Wall, OfManyPairsTakesFewIterations) {
   }
 }
 
+// Blocks of the top courses slide at both ends of their joints, and one pair in between sticks (contact/sliding_bodies):
+// 18 iterations where directions take that pair for one that slips.
+TEST(Wall, OfManyPairsTakesFewIterationsUnderItsWeightAlone) {
+  const Blocks blocks{16, 16, 0.3};
+  const analysis::StaticSolution solution = run(model_of(blocks, 0.0, 1));
+  const Vec2 carried = floor_forces(blocks, solution, last(solution));
+  EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
+  EXPECT_NEAR(carried[1], 0.0, 1e-8 * blocks.weight());
+  EXPECT_LE(last(solution).newton_iterations, 8);
+}
+
 TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
   for (const double friction : {0.3, 0.6, 1.0}) holds({4, 4, friction}, 0.99, 10);
 }

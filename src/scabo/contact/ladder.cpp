@@ -91,7 +91,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
       how.patience = 2;
       how.fall = 0.1;
     }
-    if (better(newton_alone(p, a, how))) return best;
+    if (better(newton_of_many(p, a, how))) return best;
   }
   if (!cold && inner && !paths_first && better(inside_near(best.p, best.a, near_by))) return best;
   if (!cold && paths && better(along_loads(p, a))) return best;

@@ -73,6 +73,7 @@ class Ladder {
   std::function<void(const Iteration&)> counted(const std::function<void(const Iteration&)>& tell) const;
   NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, const Run& how);
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
+  NewtonEnd newton_of_many(const Vector& p, const Vector& a, const Run& how);
   NewtonEnd climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                           const std::function<bool()>& hopeless);
   NewtonEnd on_kept_states(const Vector& p, const Vector& a);

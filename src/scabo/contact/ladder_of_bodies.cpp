@@ -6,6 +6,7 @@
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/soft_newton.hpp"
 
 namespace scabo::contact {
 
@@ -30,7 +31,20 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   Run how{"newton", 0.0, 1.0, most};
   if (may_follow_path(problem_)) how.first_fall = 0.15;
   if (!small) how.patience = 2, how.fall = 0.1;  // what falls more slowly takes more iterations than interior points
-  return newton_alone(start.p, start.a, how);
+  return newton_of_many(start.p, start.a, how);
+}
+
+/// Where Newton's method ends because it has no direction, bodies slide on all their pairs, and directions that hold
+/// them follow.
+NewtonEnd Ladder::newton_of_many(const Vector& p, const Vector& a, const Run& how) {
+  constexpr int few = 12, patience = 4;
+  NewtonEnd end = newton_alone(p, a, how);
+  if (!end.singular || end.converged || late() || problem_.pairs() <= most_of_paths_first || !may_soften(problem_))
+    return end;
+  Run held{"newton, bodies held", 0.0, 1.0, few, patience};
+  held.soft = true;
+  NewtonEnd more = newton_alone(end.p, end.a, held);
+  return more.converged || more.residual < end.residual ? more : end;
 }
 
 /// The path of the loads from the last increment to this one.

@@ -12,7 +12,9 @@ using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
 /// With a hundred and ten times as much the last digits came by a factor of six a step at 0.99 of a limit load.
-constexpr double raise = 1e-6, hold = 1e-7;
+constexpr double raise = 1e-6, least_hold = 1e-7;
+/// Instead of `least_hold`, of motions that stay as they are.
+constexpr double firm = 1.0;
 /// Products with the factor of an earlier step, most, and pairs that have changed since then. `solved`: what is left of
 /// the right-hand side; the softness leaves more.
 constexpr int most_products = 30, most_changed = 100;
@@ -21,10 +23,11 @@ constexpr double solved = 1e-6;
 
 }  // namespace
 
-SoftDirection::SoftDirection(const BDifferentiableEquations& equations) : equations_(equations) {
+SoftDirection::SoftDirection(const BDifferentiableEquations& equations) : equations_(equations), sliding_(equations) {
   const Sparse& G = equations.problem().G.sparse();
-  hold_.resize(G.cols());
-  for (Index k = 0; k < G.cols(); ++k) hold_[k] = hold * G.col(k).squaredNorm();
+  least_hold_.resize(G.cols());
+  for (Index k = 0; k < G.cols(); ++k) least_hold_[k] = least_hold * G.col(k).squaredNorm();
+  hold_ = least_hold_;
 }
 
 std::vector<SoftDirection::State> SoftDirection::states_of(const Residual& at) {
@@ -153,9 +156,12 @@ void SoftDirection::solve(const Vector& right, Vector& x) {
   x.tail(m) = y_.tail(m);
 }
 
-bool SoftDirection::find(const Residual& at, Vector& d) {
+bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
   std::vector<State> states = states_of(at);
-  const Vector right = -at.H;
+  Vector right = at.H;
+  hold_ = least_hold_;
+  for (const int motion : sliding_.hold(p, at, states, right)) hold_[motion] *= firm / least_hold;
+  right = -right;
   if (!held_.empty()) {
     int changed = 0;
     for (std::size_t i = 0; i < states.size(); ++i) changed += !(states[i] == held_[i]);

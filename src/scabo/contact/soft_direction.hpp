@@ -9,6 +9,8 @@
 //     presses:  r_n (W dp + G da)_n = -H_n        open:   dp_n = -H_n
 //     sticks:   r_t (W dp + G da)_t = -H_t        slips:  dp_t - e mu dp_n = -H_t        G'dp = -H_R
 //
+// A body that all its pairs let slide is held before, by the pair that will stick (sliding_bodies.hpp).
+//
 // A factorisation costs as much as some thirty solves, and from one step to the next few pairs change their state. Each
 // of them changes two rows, so that GMRES with the factor of an earlier step for a preconditioner needs at most two
 // products for each. Only where that takes too many is there another factorisation.
@@ -19,6 +21,7 @@
 
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/joint_order.hpp"
+#include "scabo/contact/sliding_bodies.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
@@ -28,21 +31,14 @@ class SoftDirection {
   /// Of Coulomb's law in the plane with W sparse and rigid motions. Keeps a reference.
   explicit SoftDirection(const BDifferentiableEquations& equations);
 
-  /// d = [dp; da] for the branches of `at`; of pairs that are tied, for those that hold least. False where there is
-  /// none.
-  bool find(const Residual& at, Vector& d);
+  /// d = [dp; da] at forces p, for the branches of `at`; of pairs that are tied, for those that hold least. False where
+  /// there is none.
+  bool find(const Residual& at, const Vector& p, Vector& d);
 
   int factorisations() const { return factorisations_; }
 
  private:
-  /// What the two rows of a pair ask for.
-  struct State {
-    bool presses = false, sticks = false;
-    double slope = 0.0;  ///< e mu: dp_t over dp_n where it slips
-    bool operator==(const State& other) const {
-      return presses == other.presses && sticks == other.sticks && slope == other.slope;
-    }
-  };
+  using State = PairState;
   struct Unknown {
     int row = 0;         ///< of W
     double slope = 0.0;  ///< of the tangential force that follows it
@@ -54,7 +50,8 @@ class SoftDirection {
   void solve(const Vector& right, Vector& x);
 
   const BDifferentiableEquations& equations_;
-  Vector hold_;
+  SlidingBodies sliding_;
+  Vector least_hold_, hold_;  ///< on the rows of balance
   std::vector<State> held_;  ///< of the factor; empty: none
   std::vector<Unknown> unknowns_;
   Eigen::SparseMatrix<double> A_;

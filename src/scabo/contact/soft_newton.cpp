@@ -28,7 +28,7 @@ class SoftNewton {
       if (best_ <= options_.fall * gained) gained = best_, gained_at = steps;
       if (end_.converged || !std::isfinite(at_.merit()) || steps >= most_steps || options_.deadline.passed()) break;
       if (end_.iterations >= options_.iterations || steps - gained_at >= options_.patience) break;
-      const bool found = direction_.find(at_, d_);
+      const bool found = direction_.find(at_, p_, d_);
       end_.iterations = direction_.factorisations();
       if (!found) break;
       step = descending_step();
