@@ -195,8 +195,8 @@ TEST(Wall, OfManyPairsTakesFewIterations) {
   }
 }
 
-// Blocks of the top courses slide at both ends of their joints, and one pair in between sticks (contact/sliding_bodies):
-// 18 iterations where directions take that pair for one that slips.
+// Blocks of the top courses slide at both ends of their joints, and one pair in between sticks
+// (contact/sliding_bodies): 18 iterations where directions take that pair for one that slips.
 TEST(Wall, OfManyPairsTakesFewIterationsUnderItsWeightAlone) {
   const Blocks blocks{16, 16, 0.3};
   const analysis::StaticSolution solution = run(model_of(blocks, 0.0, 1));

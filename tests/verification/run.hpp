@@ -12,8 +12,8 @@
 
 namespace scabo::verification {
 
-/// A solution that has super-elements (empty ones for finite elements). Throws otherwise: what evaluates a run reads them, and
-/// a test whose run ended before they existed fails with this sentence.
+/// A solution that has super-elements (empty ones for finite elements). Throws otherwise: what evaluates a run reads
+/// them, and a test whose run ended before they existed fails with this sentence.
 inline analysis::StaticSolution with_super_elements(analysis::StaticSolution solution) {
   if (solution.cells.empty())
     throw std::runtime_error("the run ended before its super-elements existed; " + solution.reason);

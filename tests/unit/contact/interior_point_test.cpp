@@ -350,8 +350,8 @@ TEST(SoftDirection, SolvesForNewStatesWithTheFactorOfEarlierOnes) {
             1e-6 * equations.residual(p, a).H.norm());
 }
 
-/// Bodies that only slide: pairs with p_n = 1, mu = 0.5, W = 1, so that r = 1. `between`: the motions of a pair, -1: the
-/// ground; `slips`: u_t. Slipping pairs have their friction, the others 0.
+/// Bodies that only slide: pairs with p_n = 1, mu = 0.5, W = 1, so that r = 1. `between`: the motions of a pair, -1:
+/// the ground; `slips`: u_t. Slipping pairs have their friction, the others 0.
 struct Sliders {
   std::vector<std::array<int, 2>> between;
   std::vector<double> slips;

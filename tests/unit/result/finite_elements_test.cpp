@@ -49,7 +49,8 @@ const std::vector<Vec2> places = {{1.0, 2.0}, {1.3, 2.1}, {3.0, 2.5}, {4.4, 2.95
 std::vector<PointResult> at_places(const analysis::StaticSolution& solution) {
   std::vector<mesh::OutputPoint> points;
   for (const Vec2& x : places) points.push_back({"p", 0, x, 0.0});
-  const analysis::IncrementResult& increment = solved(solution);  // first: without one there are no elements to evaluate
+  const analysis::IncrementResult& increment =
+      solved(solution);  // first: without one there are no elements to evaluate
   return PointEvaluation(solution, points, 1).at(solution, increment);
 }
 
