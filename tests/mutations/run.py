@@ -96,9 +96,11 @@ def command_of(to, test):
     return [python(), to / program, to / uses]
 
 
-def target_of(test):
+def targets_of(test):
     program = test.split()[0]
-    return "result_sample" if "read_vtu" in program else "scabo_program" if program.endswith(".py") else program
+    if not program.endswith(".py"):
+        return {program}
+    return {"scabo_program", "result_sample"} if "read_vtu" in program else {"scabo_program"}
 
 
 def noticed_by(to, number, test):
@@ -124,7 +126,7 @@ def main():
         sys.exit(f"usage: {sys.argv[0]} FOLDER [NUMBER...]; numbers are 1 to {max(MUTATIONS)}")
     to = Path(sys.argv[1]).resolve()
     wanted = copy(to, sorted(map(int, words)) or list(MUTATIONS))
-    build(to, {target_of(MUTATIONS[number][3]) for number in wanted})
+    build(to, {target for number in wanted for target in targets_of(MUTATIONS[number][3])})
     survivors, sound = 0, set()
     for number in wanted:
         file, _, _, test = MUTATIONS[number]
