@@ -181,7 +181,8 @@ class PlaneInteriorPoints::Implementation {
   }
 
   Products products(const Direction& d, double step) const {
-    return {(normal_ + step * d.normal) * (u_n_ + step * d.u_n), (plus_ + step * d.plus) * (forward_ + step * d.forward),
+    return {(normal_ + step * d.normal) * (u_n_ + step * d.u_n),
+            (plus_ + step * d.plus) * (forward_ + step * d.forward),
             (minus_ + step * d.minus) * (backward_ + step * d.backward)};
   }
 
@@ -258,8 +259,9 @@ class PlaneInteriorPoints::Implementation {
   /// The step to the nearest boundary.
   double reach(const Direction& d) const {
     const auto rate = [](const Array& x, const Array& dx) { return (-dx / x).maxCoeff(); };
-    const double most = std::max({rate(normal_, d.normal), rate(u_n_, d.u_n), rate(plus_, d.plus), rate(minus_, d.minus),
-                                  rate(forward_, d.forward), rate(backward_, d.backward)});
+    const double most =
+        std::max({rate(normal_, d.normal), rate(u_n_, d.u_n), rate(plus_, d.plus), rate(minus_, d.minus),
+                  rate(forward_, d.forward), rate(backward_, d.backward)});
     return most > 0.0 ? 1.0 / most : HUGE_VAL;
   }
 
