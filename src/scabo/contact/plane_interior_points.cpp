@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -30,13 +31,19 @@ constexpr double worth = 0.03;                           // ... and at least
 constexpr double off = 10.0;  // products further from their middle than this factor are led back by correctors
 // A second aim of the products, this part of the usual one, if the step is not shorter than this part of it.
 constexpr double bolder = 0.1, as_long = 0.9;
+// Parts of the factors that may go less far than the others, and how far: they keep at least 1 - `nearly` of what they
+// are, or what gives this part of the usual product.
+constexpr std::array<double, 7> shorter{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
+constexpr double nearly = 0.98, usual_part = 0.1;
+// Squares of what the linear equations lack count so much more than products.
+constexpr double weight = 100.0;
 
 }  // namespace
 
 class PlaneInteriorPoints::Implementation {
-  /// A change of everything.
+  /// A change of everything. `normal`, `plus`, `minus`: of the first factors of the products.
   struct Direction {
-    Array p_n, p_t, u_n, forward, backward;
+    Array p_n, p_t, normal, plus, minus, u_n, forward, backward;
     Vector a;
   };
   /// What a step is made with.
@@ -61,6 +68,7 @@ class PlaneInteriorPoints::Implementation {
     lay_out();
     a_ = a.cwiseQuotient(length_);
     p_n_.resize(N_), p_t_.resize(N_), u_n_.resize(N_), forward_.resize(N_), backward_.resize(N_);
+    normal_.resize(N_), plus_.resize(N_), minus_.resize(N_);
     const Residual at = equations_.residual(p, a);
     double mean = 0.0;
     for (Index i = 0; i < N_; ++i) mean += std::abs(p[2 * i]) / static_cast<double>(N_);
@@ -73,6 +81,7 @@ class PlaneInteriorPoints::Implementation {
       const auto [s_plus, s_minus] =
           divided_bound(p[2 * i + 1] - r_t * at.motion[2 * i + 1], mu_[i] * p_n, r_t * middle);
       p_t_[i] = 0.5 * (s_plus - s_minus);
+      normal_[i] = p_n, plus_[i] = s_plus, minus_[i] = s_minus;
       forward_[i] = middle / s_plus, backward_[i] = middle / s_minus;
     }
   }
@@ -161,9 +170,6 @@ class PlaneInteriorPoints::Implementation {
                                                 &whole_.coeffRef(2 * i + 1, 2 * i + 1) - first};
   }
 
-  Array room_forward() const { return mu_ * p_n_ + p_t_; }  // s+
-  Array room_backward() const { return mu_ * p_n_ - p_t_; }
-
   Vector forces() const {
     Vector p(2 * N_);
     for (Index i = 0; i < N_; ++i) p[2 * i] = p_n_[i], p[2 * i + 1] = p_t_[i];
@@ -175,22 +181,23 @@ class PlaneInteriorPoints::Implementation {
   }
 
   Products products(const Direction& d, double step) const {
-    return {(p_n_ + step * d.p_n) * (u_n_ + step * d.u_n),
-            (s_forward_ + step * (mu_ * d.p_n + d.p_t)) * (forward_ + step * d.forward),
-            (s_backward_ + step * (mu_ * d.p_n - d.p_t)) * (backward_ + step * d.backward)};
+    return {(normal_ + step * d.normal) * (u_n_ + step * d.u_n),
+            (plus_ + step * d.plus) * (forward_ + step * d.forward),
+            (minus_ + step * d.minus) * (backward_ + step * d.backward)};
   }
 
   /// `motion`: at the present forces.
   void evaluate(const Vector& motion) {
-    s_forward_ = room_forward();
-    s_backward_ = room_backward();
+    off_normal_ = p_n_ - normal_;
+    off_plus_ = mu_ * p_n_ + p_t_ - plus_;
+    off_minus_ = mu_ * p_n_ - p_t_ - minus_;
     distance_.resize(2 * N_);
     for (Index i = 0; i < N_; ++i) {
       distance_[2 * i] = motion[2 * i] - u_n_[i];
       distance_[2 * i + 1] = motion[2 * i + 1] - forward_[i] + backward_[i];
     }
     balance_ = m_ > 0 ? Vector(G_.transpose() * forces() + f_) : Vector();
-    now_ = {p_n_ * u_n_, s_forward_ * forward_, s_backward_ * backward_};
+    now_ = {normal_ * u_n_, plus_ * forward_, minus_ * backward_};
     middle_ = sum_of(now_) / static_cast<double>(3 * N_);
   }
 
@@ -198,8 +205,7 @@ class PlaneInteriorPoints::Implementation {
     std::copy_n(whole_.valuePtr(), whole_.nonZeros(), K_.valuePtr());
     row_.setOnes(2 * N_ + m_);
     for (Index i = 0; i < N_; ++i) {
-      const double plus = forward_[i] / s_forward_[i], minus = backward_[i] / s_backward_[i],
-                   normal = u_n_[i] / p_n_[i];
+      const double plus = forward_[i] / plus_[i], minus = backward_[i] / minus_[i], normal = u_n_[i] / normal_[i];
       const auto& at = diagonal_[static_cast<std::size_t>(i)];
       K_.valuePtr()[at[0]] += normal;
       K_.valuePtr()[at[1]] += mu_[i] * (plus - minus);
@@ -215,12 +221,18 @@ class PlaneInteriorPoints::Implementation {
     });
   }
 
-  /// Of the equations linearised, with these changes of the products; distance and balance go to zero if `whole`.
-  Direction direction(const Products& change, bool whole) const {
+  /// Of the equations linearised, with these changes of the products. What the linear equations lack goes to zero if
+  /// `whole`.
+  Direction direction(Products change, bool whole) const {
+    if (whole) {
+      change.normal -= u_n_ * off_normal_;
+      change.forward -= forward_ * off_plus_;
+      change.backward -= backward_ * off_minus_;
+    }
     Vector right(2 * N_ + m_), x, correction;
     for (Index i = 0; i < N_; ++i) {
-      right[2 * i] = change.normal[i] / p_n_[i];
-      right[2 * i + 1] = change.forward[i] / s_forward_[i] - change.backward[i] / s_backward_[i];
+      right[2 * i] = change.normal[i] / normal_[i];
+      right[2 * i + 1] = change.forward[i] / plus_[i] - change.backward[i] / minus_[i];
     }
     right.tail(m_).setZero();
     if (whole) {
@@ -236,9 +248,11 @@ class PlaneInteriorPoints::Implementation {
     d.p_n.resize(N_), d.p_t.resize(N_);
     for (Index i = 0; i < N_; ++i) d.p_n[i] = x[2 * i], d.p_t[i] = x[2 * i + 1];
     d.a = x.tail(m_);
-    d.u_n = (change.normal - u_n_ * d.p_n) / p_n_;
-    d.forward = (change.forward - forward_ * (mu_ * d.p_n + d.p_t)) / s_forward_;
-    d.backward = (change.backward - backward_ * (mu_ * d.p_n - d.p_t)) / s_backward_;
+    d.normal = d.p_n, d.plus = mu_ * d.p_n + d.p_t, d.minus = mu_ * d.p_n - d.p_t;
+    d.u_n = (change.normal - u_n_ * d.normal) / normal_;
+    d.forward = (change.forward - forward_ * d.plus) / plus_;
+    d.backward = (change.backward - backward_ * d.minus) / minus_;
+    if (whole) d.normal += off_normal_, d.plus += off_plus_, d.minus += off_minus_;
     return d;
   }
 
@@ -246,8 +260,8 @@ class PlaneInteriorPoints::Implementation {
   double reach(const Direction& d) const {
     const auto rate = [](const Array& x, const Array& dx) { return (-dx / x).maxCoeff(); };
     const double most =
-        std::max({rate(p_n_, d.p_n), rate(u_n_, d.u_n), rate(s_forward_, mu_ * d.p_n + d.p_t),
-                  rate(s_backward_, mu_ * d.p_n - d.p_t), rate(forward_, d.forward), rate(backward_, d.backward)});
+        std::max({rate(normal_, d.normal), rate(u_n_, d.u_n), rate(plus_, d.plus), rate(minus_, d.minus),
+                  rate(forward_, d.forward), rate(backward_, d.backward)});
     return most > 0.0 ? 1.0 / most : HUGE_VAL;
   }
 
@@ -255,9 +269,9 @@ class PlaneInteriorPoints::Implementation {
   Plan plan(const Direction& first, double step, double target) const {
     Plan plan;
     plan.target = target;
-    plan.d = direction({target - now_.normal - step * first.p_n * first.u_n,
-                        target - now_.forward - step * (mu_ * first.p_n + first.p_t) * first.forward,
-                        target - now_.backward - step * (mu_ * first.p_n - first.p_t) * first.backward},
+    plan.d = direction({target - now_.normal - step * first.normal * first.u_n,
+                        target - now_.forward - step * first.plus * first.forward,
+                        target - now_.backward - step * first.minus * first.backward},
                        true);
     double far = reach(plan.d);
     for (int k = 0; k < correctors && far < 1.0; ++k) {
@@ -268,6 +282,7 @@ class PlaneInteriorPoints::Implementation {
       const Direction more = direction({back(then.normal), back(then.forward), back(then.backward)}, false);
       Direction both = plan.d;
       both.p_n += more.p_n, both.p_t += more.p_t, both.u_n += more.u_n;
+      both.normal += more.normal, both.plus += more.plus, both.minus += more.minus;
       both.forward += more.forward, both.backward += more.backward, both.a += more.a;
       const double longer = reach(both);
       if (!(longer >= far + worth)) break;
@@ -289,16 +304,90 @@ class PlaneInteriorPoints::Implementation {
     if (bold.step >= as_long * best.step && bold.left < best.left) best = std::move(bold);
     step_ = best.step;
     if (!std::isfinite(step_)) return false;
-    const Direction& d = best.d;
-    p_n_ += step_ * d.p_n, p_t_ += step_ * d.p_t, u_n_ += step_ * d.u_n;
-    forward_ += step_ * d.forward, backward_ += step_ * d.backward, a_ += step_ * d.a;
+    take_longest(best);
     return true;
+  }
+
+  /// What changes in a step.
+  struct Point {
+    Array p_n, p_t, normal, plus, minus, u_n, forward, backward;
+    Vector a;
+  };
+  Point point() const { return {p_n_, p_t_, normal_, plus_, minus_, u_n_, forward_, backward_, a_}; }
+  void set(const Point& at) {
+    p_n_ = at.p_n, p_t_ = at.p_t, a_ = at.a;
+    normal_ = at.normal, plus_ = at.plus, minus_ = at.minus;
+    u_n_ = at.u_n, forward_ = at.forward, backward_ = at.backward;
+  }
+
+  /// The step `plan`.step ends where the first factor comes to its boundary. If a few go less far than the others, the
+  /// others go further: the linear equations of those few are then not met, and the next step takes it. Of such steps
+  /// the one is taken after which least is left.
+  void take_longest(const Plan& plan) {
+    const Direction& d = plan.d;
+    const Point from = point();
+    const double middle = middle_;
+    std::vector<double> rates;
+    rates.reserve(static_cast<std::size_t>(6 * N_));
+    const auto collect = [&](const Array& x, const Array& dx) {
+      for (Index i = 0; i < N_; ++i) rates.push_back(-dx[i] / x[i]);
+    };
+    collect(normal_, d.normal), collect(plus_, d.plus), collect(minus_, d.minus);
+    collect(u_n_, d.u_n), collect(forward_, d.forward), collect(backward_, d.backward);
+    std::sort(rates.begin(), rates.end(), std::greater<>());
+    std::vector<double> steps{plan.step};
+    for (const double part : shorter) {
+      const double rate = rates[static_cast<std::size_t>(part * static_cast<double>(rates.size()))];
+      const double step = rate > nearly ? nearly / rate : 1.0;
+      if (step > steps.back()) steps.push_back(step);
+    }
+    if (steps.back() < 1.0) steps.push_back(1.0);
+    double least = HUGE_VAL;
+    for (const double step : steps) {
+      take(plan, step, middle);
+      const double left = left_over();
+      if (left < least || step == plan.step) least = left, step_ = step;
+      set(from);
+    }
+    take(plan, step_, middle);
+  }
+
+  /// This part of the way, but of factors that would leave their domain less.
+  void take(const Plan& plan, double step, double middle) {
+    const Direction& d = plan.d;
+    p_n_ += step * d.p_n, p_t_ += step * d.p_t, a_ += step * d.a;
+    const double product = usual_part * ((1.0 - step) * middle + step * plan.target);
+    const auto go = [&](Array& x, const Array& dx, Array& y, const Array& dy) {
+      for (Index i = 0; i < N_; ++i) {
+        const double x_least = (1.0 - nearly) * x[i], y_least = (1.0 - nearly) * y[i];
+        double x_new = x[i] + step * dx[i], y_new = y[i] + step * dy[i];
+        if (step > plan.step) {
+          const bool x_stops = x_new < x_least, y_stops = y_new < y_least;
+          x_new = std::max(x_new, x_least), y_new = std::max(y_new, y_least);
+          if (x_stops && !y_stops) x_new = std::max(x_new, std::min(x[i], product / y_new));
+          if (y_stops && !x_stops) y_new = std::max(y_new, std::min(y[i], product / x_new));
+        }
+        x[i] = x_new, y[i] = y_new;
+      }
+    };
+    go(normal_, d.normal, u_n_, d.u_n);
+    go(plus_, d.plus, forward_, d.forward);
+    go(minus_, d.minus, backward_, d.backward);
+  }
+
+  /// Products, and squares of what the linear equations lack as forces.
+  double left_over() {
+    evaluate(equations_.residual(forces(), a_.cwiseProduct(length_)).motion);
+    const double lacks = off_normal_.square().sum() + off_plus_.square().sum() + off_minus_.square().sum() +
+                         balance_.squaredNorm() + distance_.cwiseProduct(equations_.r()).squaredNorm();
+    return weight * lacks + static_cast<double>(3 * N_) * middle_;
   }
 
   const Problem& problem_;
   BDifferentiableEquations equations_;
   Index N_, m_;
-  Array mu_, p_n_, p_t_, u_n_, forward_, backward_, s_forward_, s_backward_;
+  // Forces, the factors of the products, and by how much p_n, s+ and s- differ from the first factors.
+  Array mu_, p_n_, p_t_, normal_, plus_, minus_, u_n_, forward_, backward_, off_normal_, off_plus_, off_minus_;
   Vector a_, length_, f_, distance_, balance_, row_;
   Products now_;
   Sparse G_, whole_, K_;

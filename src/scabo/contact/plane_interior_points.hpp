@@ -11,6 +11,10 @@
 //
 //     D_nn = u_n / p_n,   D_tt = v+ / s+ + v- / s-,   D_tn = mu (v+ / s+ - v- / s-),   s+- = mu p_n +- p_t
 //
+// The six factors of a pair are kept apart from p_n, s+- and the motions they stand for. A step would end where the
+// first of some ten thousand comes to its boundary; if a few stay behind, the others go further, and what then lacks in
+// the equations of those few, p_n = x_n and so on, is taken by the next step.
+//
 // In contact/interior_point, for space, the same law is one of cones, y = (u_n + |u_t|, u_t): its path has a kink
 // wherever the friction of a pair changes its sign.
 #pragma once
