@@ -259,9 +259,8 @@ class PlaneInteriorPoints::Implementation {
   /// The step to the nearest boundary.
   double reach(const Direction& d) const {
     const auto rate = [](const Array& x, const Array& dx) { return (-dx / x).maxCoeff(); };
-    const double most =
-        std::max({rate(normal_, d.normal), rate(u_n_, d.u_n), rate(plus_, d.plus), rate(minus_, d.minus),
-                  rate(forward_, d.forward), rate(backward_, d.backward)});
+    const double most = std::max({rate(normal_, d.normal), rate(u_n_, d.u_n), rate(plus_, d.plus),
+                                  rate(minus_, d.minus), rate(forward_, d.forward), rate(backward_, d.backward)});
     return most > 0.0 ? 1.0 / most : HUGE_VAL;
   }
 

@@ -14,10 +14,6 @@ namespace {
 
 constexpr int ring_count = 10, inner_rings = 6;
 
-}  // namespace
-
-namespace {
-
 /// Mean distance of boundary nodes over their mean distance from the centre.
 double relative_spacing(const element::Ring& ring) {
   double length = 0.0, radius = 0.0;
