@@ -15,11 +15,11 @@ using Sparse = Eigen::SparseMatrix<double>;
 constexpr double raise = 1e-6, least_hold = 1e-7;
 /// Instead of `least_hold`, of motions that stay as they are.
 constexpr double firm = 1.0;
-/// Products with the factor of an earlier step, most, and pairs that have changed since then. `solved`: what is left of
+/// Products with the factor of an earlier step, most, and pairs that have changed since then. `exact_enough`: what is left of
 /// the right-hand side; the softness leaves more.
 constexpr int most_products = 30, most_changed = 100;
 constexpr GmresOptions reused{1e-8, most_products, most_products};
-constexpr double solved = 1e-6;
+constexpr double exact_enough = 1e-6;
 
 }  // namespace
 
@@ -169,7 +169,7 @@ bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
       d.setZero(right.size());
       const double left = gmres([&](const Vector& x, Vector& image) { apply(states, x, image); },
                                 [&](const Vector& b, Vector& x) { solve(b, x); }, right, d, reused);
-      if (left <= solved && d.allFinite()) return true;
+      if (left <= exact_enough && d.allFinite()) return true;
     }
   }
   held_ = std::move(states);
