@@ -15,8 +15,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 constexpr double raise = 1e-6, least_hold = 1e-7;
 /// Instead of `least_hold`, of motions that stay as they are.
 constexpr double firm = 1.0;
-/// Products with the factor of an earlier step, most, and pairs that have changed since then. `exact_enough`: what is left of
-/// the right-hand side; the softness leaves more.
+/// Products with the factor of an earlier step, most, and pairs that have changed since then. `exact_enough`: what is
+/// left of the right-hand side; the softness leaves more.
 constexpr int most_products = 30, most_changed = 100;
 constexpr GmresOptions reused{1e-8, most_products, most_products};
 constexpr double exact_enough = 1e-6;
