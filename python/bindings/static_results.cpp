@@ -176,7 +176,7 @@ py::object mechanism(const py::object& self) {
   if (!solution.mechanism) return py::none();
   const analysis::Mechanism& of = *solution.mechanism;
   py::dict table;
-  table["rule"] = of.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated";
+  table["rule"] = analysis::name_of(of.rule);
   table["work"] = of.work;
   table["text"] = analysis::describe(of, solution.model);
   static const analysis::BodyMotion no_body;

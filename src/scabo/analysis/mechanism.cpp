@@ -170,6 +170,8 @@ Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared) {
   return result;
 }
 
+const char* name_of(FlowRule rule) { return rule == FlowRule::coulomb ? "coulomb" : "associated"; }
+
 std::string describe(const Mechanism& mechanism, const model::Model& model) {
   const int moving = mechanism.moving();
   return fmt::format("{} of {} bodies {} '{}'", moving, mechanism.present(),

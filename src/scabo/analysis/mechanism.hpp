@@ -24,6 +24,9 @@ Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared);
 /// Largest displacement in ten-thousandths, by which bodies are ordered: those that move alike differ by rounding.
 long rank(const BodyMotion& motion);
 
+/// The name of the rule in results: `coulomb` or `associated`.
+const char* name_of(FlowRule rule);
+
 /// `3 of 17 bodies move, most of all 'b_3_1'`, `1 of 2 bodies moves, 'block'`.
 std::string describe(const Mechanism& mechanism, const model::Model& model);
 

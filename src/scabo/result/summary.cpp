@@ -188,7 +188,7 @@ Json json_of(const analysis::Mechanism& mechanism, const model::Model& model) {
     return analysis::rank(mechanism.bodies[a]) > analysis::rank(mechanism.bodies[b]);
   });
   Json json = {{"text", analysis::describe(mechanism, model)},
-               {"rule", mechanism.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated"},
+               {"rule", analysis::name_of(mechanism.rule)},
                {"moving", mechanism.moving()},
                {"present", mechanism.present()},
                {"work", number_or_null(mechanism.work)},
