@@ -49,7 +49,7 @@ class Newton {
  private:
   /// With the regularisation of the moment; where no direction exists all the same, with more and more.
   bool find_direction(double first, NewtonDirection::Ties ties) {
-    double alpha = options_.regularisation * std::clamp(at_.largest() / first, 1e-8, 1.0);
+    double alpha = eased_ * options_.regularisation * std::clamp(at_.largest() / first, 1e-8, 1.0);
     for (int attempt = 0; attempt < 4; ++attempt, alpha *= 100.0) {
       if (direction_.find(at_, alpha, ties, d_)) return true;
       if (alpha == 0.0) return false;
@@ -120,6 +120,16 @@ class Newton {
     return at_.largest() <= near * aim() && merit > halved * best_merit_;
   }
 
+  /// Where a whole step changes no state and hardly lowers the merit, the regularisation alone holds it back: of a wall
+  /// of 30 x 30 blocks with masses 1 : 100, modes as soft as 1e-6 of W. It left 0.98 of |H| in each iteration.
+  void ease(bool states_kept) {
+    constexpr double hardly = 0.25, part = 0.1, least = 1e-8;
+    const double merit = at_.merit();
+    if (end_.iterations > 0 && states_kept && step_ == 1.0 && merit <= last_merit_ && merit > hardly * last_merit_)
+      eased_ = std::max(part * eased_, least);
+    last_merit_ = merit;
+  }
+
   double aim() const {
     const double largest = end_.p.size() > 0 ? end_.p.lpNorm<Eigen::Infinity>() : 0.0;
     return std::max(options_.small, options_.relative * largest);
@@ -127,8 +137,13 @@ class Newton {
 
   void record() {
     int changed = 0;
-    for (std::size_t i = 0; i < before_.size(); ++i) changed += !at_.branches[i].same_branch(before_[i]);
+    bool kept = true;
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      changed += !at_.branches[i].same_branch(before_[i]);
+      kept = kept && at_.branches[i].same_state(before_[i]);
+    }
     before_ = at_.branches;
+    ease(kept);
     end_.trace.push_back({end_.iterations, at_.largest(), at_.merit(), step_, changed, options_.stage});
     if (options_.on_iteration) options_.on_iteration(end_.trace.back());
   }
@@ -170,7 +185,8 @@ class Newton {
   Residual at_, trial_;
   std::vector<Branch> before_;
   NewtonEnd end_;
-  double best_merit_ = HUGE_VAL, first_merit_ = 0.0, step_ = 0.0;
+  double best_merit_ = HUGE_VAL, first_merit_ = 0.0, last_merit_ = HUGE_VAL, step_ = 0.0;
+  double eased_ = 1.0;              // part of the regularisation that is left
   double halved_merit_ = HUGE_VAL;  // the smallest one when it was last halved,
   int halved_at_ = 0;               // and the iteration
   int unchecked_ = 0;               // full steps without descent
