@@ -36,20 +36,27 @@ NewtonEnd Ladder::floating_proximal(Vector p, Vector a) {
 }
 
 /// The same for forces: (w / r)(p - p_before) is added to the motions, w falls from one problem to the next, to a tenth
-/// where the last one was solved easily. Of about `most` iterations, 0: as many as forty problems take. Of problem
-/// files Newton without the term, which costs as much as ten problems with it, is tried where w is small.
+/// where the last one was solved easily. Of about `most` iterations, up to four times as many
+/// while each quarter of `most` halves the natural map; 0: as many as forty problems take. Of problem files Newton
+/// without the term, which costs as much as ten problems with it, is tried where w is small.
 NewtonEnd Ladder::vanishing_proximal(Vector p, int most) {
   constexpr double exact = 1e-12;  // of the largest force: the next round starts from there
   constexpr int few = 12, easily = 4;
-  constexpr double least = 1e-4, small = 1e-3, fallen = 0.1;
+  constexpr double least = 1e-4, small = 1e-3, fallen = 0.3;
   NewtonEnd end = nothing();
   const Measure measure(problem_);
   const auto map_at = [&](const Vector& at) {
     return judges_all() ? measure.natural_map(problem_, at, motion_of(problem_, at, Vector())) : 0.0;
   };
-  double weight = 1.0, tried = map_at(p);
+  double weight = 1.0, tried = map_at(p), halved = tried;
   const int before = iterations_;
-  for (int round = 0; round < 40 && (most == 0 || iterations_ - before < most); ++round) {
+  int gained = before;  // where the natural map was halved last
+  const auto go_on = [&](int round) {
+    const int done = iterations_ - before;
+    if (most == 0) return round < 40;
+    return round < 160 && (done < most || (done < 4 * most && iterations_ - gained < most / 4));
+  };
+  for (int round = 0; go_on(round); ++round) {
     BDifferentiableEquations equations(problem_, options_.r_factor);
     equations.hold(weight, p);
     NewtonOptions options;
@@ -75,6 +82,7 @@ NewtonEnd Ladder::vanishing_proximal(Vector p, int most) {
     }
     if (late()) break;
     const double map = map_at(p);
+    if (map <= 0.5 * halved) halved = map, gained = iterations_;
     const bool now = round % 4 == 3, near_by = (weight <= least && now) || (weight <= small && map < fallen * tried);
     if (judges_all() ? near_by : now) {
       tried = map;

@@ -120,12 +120,14 @@ class Newton {
     return at_.largest() <= near * aim() && merit > halved * best_merit_;
   }
 
-  /// Where a whole step changes no state and hardly lowers the merit, the regularisation alone holds it back: of a wall
-  /// of 30 x 30 blocks with masses 1 : 100, modes as soft as 1e-6 of W. It left 0.98 of |H| in each iteration.
+  /// Where a whole step near the solution changes no state and hardly lowers the merit, the regularisation alone holds
+  /// it back: of a wall of 30 x 30 blocks with masses 1 : 100, modes as soft as 1e-6 of W. It left 0.98 of |H| in each
+  /// iteration. Further away it may keep Newton from leaving (pile100x4_mu0.8_ratio100).
   void ease(bool states_kept) {
-    constexpr double hardly = 0.25, part = 0.1, least = 1e-8;
+    constexpr double near = 1e-8, hardly = 0.25, part = 0.1, least = 1e-8;
     const double merit = at_.merit();
-    if (end_.iterations > 0 && states_kept && step_ == 1.0 && merit <= last_merit_ && merit > hardly * last_merit_)
+    if (end_.iterations > 0 && states_kept && step_ == 1.0 && merit <= last_merit_ && merit > hardly * last_merit_ &&
+        at_.largest() <= near * p_.lpNorm<Eigen::Infinity>())
       eased_ = std::max(part * eased_, least);
     last_merit_ = merit;
   }

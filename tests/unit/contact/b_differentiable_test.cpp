@@ -269,7 +269,7 @@ TEST(BDifferentiableInThePlane, RegularisationGivesWayWhereNoStateChanges) {
   options.regularisation = regularisation;
   options.small = 1e-14;
   options.iterations = 12;
-  const Vector start = solution + (Vector(4) << 0.1, 0.0, -0.1, 0.0).finished();
+  const Vector start = solution + (Vector(4) << 0.01, 0.0, -0.01, 0.0).finished();
   const NewtonEnd end = newton(BDifferentiableEquations(problem, 1.0), start, Vector(), options);
   EXPECT_TRUE(end.converged) << end.residual;
   EXPECT_LT((end.p - solution).norm(), 1e-7);  // |H| / e
