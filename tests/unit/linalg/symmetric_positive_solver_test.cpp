@@ -131,9 +131,9 @@ TEST_P(SparseLibraries, InverseBlockOfALattice) {
   EXPECT_LT((solver.inverse_block(boundary) - inverse(boundary, boundary)).norm(), 1e-12 * inverse.norm());
   for (const int i : {0, 7, 300, 545}) {
     EXPECT_NEAR(solver.inverse_block({i})(0, 0), inverse(i, i), 1e-12 * inverse(i, i));
-    const Matrix twice = solver.inverse_block({i, 4, i});  // an unknown may be named more than once
-    EXPECT_EQ(twice(0, 1), twice(2, 1));
-    EXPECT_NEAR(twice(0, 2), inverse(i, i), 1e-12 * inverse(i, i));
+    const std::vector<int> named{i, 4, i};  // an unknown may be named more than once
+    const Matrix twice = solver.inverse_block(named);
+    EXPECT_LT((twice - inverse(named, named)).norm(), 1e-12 * inverse(i, i));
   }
   std::vector<int> all(static_cast<std::size_t>(A.rows()));
   std::iota(all.begin(), all.end(), 0);
