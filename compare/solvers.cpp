@@ -209,7 +209,7 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
   for (Iteration& iteration : solution.trace) iteration.residual /= scales.force;
   solution.residual = end.residual / scales.force;
   const Vector u = motion_of(problem, solution.p, solution.a);
-  Judgement judgement = judge(problem, solution.p, u, measure, options.judge);
+  Judgement judgement = judge(problem, solution.p, solution.a, u, measure, options.judge);
   solution.certificate = judgement.certificate;
   solution.natural_map_residual = judgement.natural_map_residual;
   solution.rounding = judgement.rounding;

@@ -1,22 +1,36 @@
 #include "scabo/contact/certificate.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "scabo/contact/judge.hpp"
 
 namespace scabo::contact {
 
-Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales) {
-  return certify_at(problem, p, motion_of(problem, p, a), scales);
+namespace {
+
+/// Each motion nearer to zero by the rounding error of G a.
+Vector beyond_rounding(const Problem& problem, const Vector& a, const Vector& motion, double length) {
+  constexpr double most = 1e-8;
+  const Vector lost = std::numeric_limits<double>::epsilon() * (problem.G.sparse().cwiseAbs() * a.cwiseAbs());
+  return motion.binaryExpr(lost.cwiseMin(most * length),
+                           [](double u, double error) { return std::copysign(std::max(std::abs(u) - error, 0.0), u); });
 }
 
-[[gnu::hot]] Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion,
-                                    const Scales& scales) {
+}  // namespace
+
+Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales) {
+  return certify_at(problem, p, a, motion_of(problem, p, a), scales);
+}
+
+[[gnu::hot]] Certificate certify_at(const Problem& problem, const Vector& p, const Vector& a,
+                                    const Vector& motion_found, const Scales& scales) {
   Certificate certificate;
-  if (!motion.allFinite() || !p.allFinite()) {  // comparisons with NaN would all seem to be satisfied
+  if (!motion_found.allFinite() || !p.allFinite()) {  // comparisons with NaN would all seem to be satisfied
     certificate.penetration = HUGE_VAL;
     return certificate;
   }
+  const Vector motion = a.size() > 0 ? beyond_rounding(problem, a, motion_found, scales.length) : motion_found;
   const double work = scales.force * scales.length;
   const Eigen::Index d = problem.dimension;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {

@@ -1,6 +1,10 @@
 // The conditions that every increment must satisfy to count as solved. All figures are dimensionless: forces are
 // divided by the largest force, lengths by the largest motion that the acting forces cause (judge.hpp defines both
 // scales and the criterion).
+//
+// Gaps and slips are those beyond the rounding of the rigid motions, eps sum_j |G_ij| |a_j|, of which at most 1e-8 of
+// the length scale is granted. The top of a leaning tower of 200 blocks moves so far that the last digit of its motion
+// alone would be a slip of 1e-10: no numbers in double precision let its blocks stick better.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +36,8 @@ struct Scales {
 
 /// The part of the certificate that follows from the discrete problem, for forces `p` (dN) and rigid motions `a` (m).
 Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales);
-/// The same for known motions u.
-Certificate certify_at(const Problem& problem, const Vector& p, const Vector& motion, const Scales& scales);
+/// The same for known motions u of these rigid motions.
+Certificate certify_at(const Problem& problem, const Vector& p, const Vector& a, const Vector& motion,
+                       const Scales& scales);
 
 }  // namespace scabo::contact

@@ -14,8 +14,6 @@ namespace scabo::contact {
 
 namespace held {
 
-using Content = std::function<bool(const Vector&, const Vector&)>;
-
 struct HeldConstants {
   double aim = 1e-3;      ///< of the square of the slips' change: m at which a round ends
   double least = 1e-22;   ///< of the mean square of the loads: m that rounding leaves
@@ -41,7 +39,7 @@ class FixedPoint {
         change_(scale_),
         held_(Vector::Zero(problem.pairs())) {}
 
-  InteriorPointEnd advance(double aim, int rounds, double fall, const Content& content, const Deadline& deadline) {
+  InteriorPointEnd advance(double aim, int rounds, double fall, const IsSolution& content, const Deadline& deadline) {
     InteriorPointEnd end;
     end.residual = HUGE_VAL;
     while (rounds_ < rounds) {
@@ -62,7 +60,7 @@ class FixedPoint {
   };
 
   /// The convex problem of the slips held; the natural map of the last point.
-  double solve(const Content& content, const Deadline& deadline, InteriorPointEnd& end) {
+  double solve(const IsSolution& content, const Deadline& deadline, InteriorPointEnd& end) {
     const HeldConstants& c = held_constants;
     const double enough = std::max(c.aim * change_ * change_, c.least * scale_ * scale_);
     steps_.hold(held_);
@@ -160,7 +158,7 @@ HeldSlips::~HeldSlips() = default;
 HeldSlips::HeldSlips(HeldSlips&&) noexcept = default;
 HeldSlips& HeldSlips::operator=(HeldSlips&&) noexcept = default;
 
-InteriorPointEnd HeldSlips::advance(double aim, int rounds, double fall, const held::Content& content,
+InteriorPointEnd HeldSlips::advance(double aim, int rounds, double fall, const IsSolution& content,
                                     const Deadline& deadline) {
   return std::visit([&](auto& of) { return of.advance(aim, rounds, fall, content, deadline); }, rounds_->of);
 }

@@ -22,7 +22,6 @@
 // square of the change of s: from closer to the boundary the steps collapse.
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "scabo/contact/interior_point.hpp"
@@ -40,8 +39,7 @@ class HeldSlips {
   /// Goes on where it ended before, until `content` accepts forces and motions, the natural map is at most `aim` after
   /// a round, `rounds` rounds are done in all, or the slips' distance |s - |u'_t|| is larger than `fall` per round
   /// times that of the first. The best point of this call.
-  InteriorPointEnd advance(double aim, int rounds, double fall,
-                           const std::function<bool(const Vector& p, const Vector& motion)>& content,
+  InteriorPointEnd advance(double aim, int rounds, double fall, const IsSolution& content,
                            const Deadline& deadline = {});
 
  private:

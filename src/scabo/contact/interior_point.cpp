@@ -11,8 +11,7 @@ namespace scabo::contact {
 namespace {
 
 template <int d>
-InteriorPointEnd follow_to_the_end(const Problem& problem, double start_factor,
-                                   const std::function<bool(const Vector&, const Vector&)>& content,
+InteriorPointEnd follow_to_the_end(const Problem& problem, double start_factor, const IsSolution& content,
                                    const Deadline& deadline) {
   constexpr int most = 100;     // towers and walls that are solved take 11 to 90
   constexpr int patience = 5;   // steps without `gain` in the residual or in m: rounding, or steps that collapsed
@@ -49,9 +48,8 @@ bool may_take_interior_points(const Problem& problem) {
          !(problem.q.isZero(0.0) && problem.f.isZero(0.0));
 }
 
-InteriorPointEnd interior_points(const Problem& problem,
-                                 const std::function<bool(const Vector& p, const Vector& motion)>& content,
-                                 const Deadline& deadline, double start_factor) {
+InteriorPointEnd interior_points(const Problem& problem, const IsSolution& content, const Deadline& deadline,
+                                 double start_factor) {
   return problem.dimension == 3 ? follow_to_the_end<3>(problem, start_factor, content, deadline)
                                 : follow_to_the_end<2>(problem, start_factor, content, deadline);
 }

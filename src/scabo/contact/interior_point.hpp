@@ -31,10 +31,10 @@
 // cones, P_K(x - y), if that is a solution as well.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "scabo/contact/deadline.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/problem.hpp"
 #include "scabo/contact/solution.hpp"
 
@@ -54,8 +54,7 @@ bool may_take_interior_points(const Problem& problem);
 
 /// `content`, which may be empty, judges forces and motions after each step. All pairs start with the same normal
 /// force, `start_factor` times what the loads suggest.
-InteriorPointEnd interior_points(const Problem& problem,
-                                 const std::function<bool(const Vector& p, const Vector& motion)>& content,
-                                 const Deadline& deadline = {}, double start_factor = 1.0);
+InteriorPointEnd interior_points(const Problem& problem, const IsSolution& content, const Deadline& deadline = {},
+                                 double start_factor = 1.0);
 
 }  // namespace scabo::contact

@@ -121,10 +121,10 @@ double Measure::rounding(const Problem& problem, const Vector& p, const Vector& 
   return std::numeric_limits<double>::epsilon() * lost / (at_work_ > 0.0 ? at_work_ : largest_of(p));
 }
 
-[[gnu::hot]] Judgement judge(const Problem& problem, const Vector& p, const Vector& motion, const Measure& measure,
-                             Judge by) {
+[[gnu::hot]] Judgement judge(const Problem& problem, const Vector& p, const Vector& a, const Vector& motion,
+                             const Measure& measure, Judge by) {
   Judgement judgement;
-  judgement.certificate = certify_at(problem, p, motion, measure.scales(p));
+  judgement.certificate = certify_at(problem, p, a, motion, measure.scales(p));
   judgement.natural_map_residual = measure.natural_map(problem, p, motion);
   judgement.rounding = measure.rounding(problem, p, motion);
   judgement.figure = by == Judge::certificate

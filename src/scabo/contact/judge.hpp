@@ -23,6 +23,7 @@
 // written in other units; scaling by powers of two is exact.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "scabo/contact/certificate.hpp"
@@ -69,7 +70,12 @@ class Measure {
   double stiffness_ = 1.0, at_work_ = 0.0, reference_ = 1.0, norm_ = 0.0;
 };
 
-Judgement judge(const Problem& problem, const Vector& p, const Vector& motion, const Measure& measure, Judge by);
+/// For the motions u that the forces p and the rigid motions a cause.
+Judgement judge(const Problem& problem, const Vector& p, const Vector& a, const Vector& motion, const Measure& measure,
+                Judge by);
+
+/// Whether forces, rigid motions and the motions u that they cause are a solution.
+using IsSolution = std::function<bool(const Vector& p, const Vector& a, const Vector& motion)>;
 
 /// The reason why the final forces of a solver are not a solution: its own `story`, the figure that was reached, and
 /// the figure that rounding allows.

@@ -19,8 +19,7 @@ Scaled scaled(const Problem& problem) {
   return result;
 }
 
-Ladder::Ladder(const Problem& scaled_problem, const SolverOptions& options, double small,
-               std::function<bool(const Vector& p, const Vector& motion)> content)
+Ladder::Ladder(const Problem& scaled_problem, const SolverOptions& options, double small, IsSolution content)
     : problem_(scaled_problem), options_(options), small_(small), content_(std::move(content)) {}
 
 std::function<void(const Iteration&)> Ladder::counted(const std::function<void(const Iteration&)>& tell) const {

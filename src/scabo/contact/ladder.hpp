@@ -33,8 +33,7 @@ class Ladder {
  public:
   /// `small`: the largest |H| at which Newton may stop; `content`: decides whether forces and (scaled) motions are
   /// accepted, if H does not.
-  Ladder(const Problem& scaled_problem, const SolverOptions& options, double small,
-         std::function<bool(const Vector& p, const Vector& motion)> content);
+  Ladder(const Problem& scaled_problem, const SolverOptions& options, double small, IsSolution content);
 
   /// Returns the best result when no strategy converges. `hopeless`, if given, is called once, after the first
   /// attempts.
@@ -108,7 +107,7 @@ class Ladder {
   const Problem& problem_;
   const SolverOptions& options_;
   double small_;
-  std::function<bool(const Vector&, const Vector&)> content_;
+  IsSolution content_;
   int iterations_ = 0, coarse_iterations_ = 0;
   std::vector<Iteration> trace_;
   std::optional<Collapse> collapse_;

@@ -116,7 +116,7 @@ PathEnd Ladder::along_path(const PathStart& start) {
 NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
   const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(found.p, found.a);
   found.residual = at.largest();
-  found.converged = content_ && content_(found.p, at.motion);
+  found.converged = content_ && content_(found.p, found.a, at.motion);
   Run how{"newton after " + name, 0.0, 1.0, few};
   how.soft = has_many_motions(problem_);
   NewtonEnd end = newton_alone(found.p, found.a, how);

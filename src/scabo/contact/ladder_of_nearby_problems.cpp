@@ -74,7 +74,7 @@ NewtonEnd Ladder::vanishing_proximal(Vector p, int most) {
     iterations_ += inner.iterations;
     if (!inner.p.allFinite()) break;
     p = inner.p;
-    if (content_ && judges_all() && content_(p, motion_of(problem_, p, Vector()))) {
+    if (content_ && judges_all() && content_(p, Vector(), motion_of(problem_, p, Vector()))) {
       end = std::move(inner);
       end.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(p, Vector()).largest();
       end.converged = true;

@@ -108,9 +108,9 @@ NewtonEnd Ladder::swept(const Vector& p, int sweeps, double regularisation, int 
   iteration.start(swept);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     const bool still = iteration.sweep(swept) <= 1e-12 * swept.lpNorm<Eigen::Infinity>();
-    if (judges_all() && content_(swept, iteration.motion())) {
+    if (judges_all() && content_(swept, Vector(), iteration.motion())) {
       iteration.start(swept);  // the motion afresh, without what rounding added from pair to pair
-      if (content_(swept, iteration.motion())) {
+      if (content_(swept, Vector(), iteration.motion())) {
         NewtonEnd end = end_of_sweeps(std::move(swept), sweep + 1);
         end.converged = true;
         return end;

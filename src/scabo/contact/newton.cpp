@@ -93,7 +93,7 @@ class Newton {
   void keep_best() {
     const double merit = at_.merit();
     const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit));
-    const bool content = asked && options_.content(p_, at_.motion);
+    const bool content = asked && options_.content(p_, a_, at_.motion);
     if (merit < best_merit_ || content) {
       best_merit_ = merit;
       end_.p = p_;

@@ -9,6 +9,7 @@
 
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/deadline.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/solution.hpp"
 
 namespace scabo::contact {
@@ -26,7 +27,7 @@ struct NewtonOptions {
   Deadline deadline;  ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration;  ///< may be empty; what it throws ends the solve
   /// Converged as well when this says so of forces and motions; may be empty.
-  std::function<bool(const Vector& p, const Vector& motion)> content;
+  IsSolution content;
   bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small and no longer falls
 };
 

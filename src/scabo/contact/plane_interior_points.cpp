@@ -86,8 +86,7 @@ class PlaneInteriorPoints::Implementation {
     }
   }
 
-  InteriorPointEnd advance(double aim, const std::function<bool(const Vector&, const Vector&)>& content,
-                           const Deadline& deadline) {
+  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline) {
     InteriorPointEnd end;
     end.residual = HUGE_VAL;
     int since = 0;
@@ -104,7 +103,7 @@ class PlaneInteriorPoints::Implementation {
       least_residual_ = std::min(least_residual_, residual);
       if (residual < end.residual) end.residual = residual, end.p = p, end.a = a;
       end.trace.push_back({end.iterations, at.largest(), at.merit(), step_, 0, "interior point"});
-      if (content && content(p, at.motion)) {
+      if (content && content(p, a, at.motion)) {
         end.p = p, end.a = a;
         end.content = true;
         break;
@@ -400,9 +399,7 @@ PlaneInteriorPoints::PlaneInteriorPoints(const Problem& problem, const Vector& p
     : implementation_(std::make_unique<Implementation>(problem, p, a, start)) {}
 PlaneInteriorPoints::~PlaneInteriorPoints() = default;
 
-InteriorPointEnd PlaneInteriorPoints::advance(double aim,
-                                              const std::function<bool(const Vector&, const Vector&)>& content,
-                                              const Deadline& deadline) {
+InteriorPointEnd PlaneInteriorPoints::advance(double aim, const IsSolution& content, const Deadline& deadline) {
   return implementation_->advance(aim, content, deadline);
 }
 

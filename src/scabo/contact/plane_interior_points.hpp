@@ -35,8 +35,7 @@ class PlaneInteriorPoints {
 
   /// Steps until the largest |H|, over the largest force, is not above `aim`, or until they no longer lead on.
   /// `residual` is that figure.
-  InteriorPointEnd advance(double aim, const std::function<bool(const Vector& p, const Vector& motion)>& content,
-                           const Deadline& deadline);
+  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline);
 
  private:
   class Implementation;

@@ -38,7 +38,7 @@ class SoftNewton {
       equations_.evaluate(p_, a_, at_);
     }
     if (!end_.converged && options_.content && end_.residual <= near * aim())
-      end_.converged = options_.content(end_.p, equations_.residual(end_.p, end_.a).motion);
+      end_.converged = options_.content(end_.p, end_.a, equations_.residual(end_.p, end_.a).motion);
     return std::move(end_);
   }
 
@@ -55,7 +55,7 @@ class SoftNewton {
   void keep_best() {
     const double merit = at_.merit();
     const bool stuck = at_.largest() <= near * aim() && merit > fallen * best_;
-    const bool content = options_.content && stuck && options_.content(p_, at_.motion);
+    const bool content = options_.content && stuck && options_.content(p_, a_, at_.motion);
     if (merit < best_ || content) {
       best_ = merit;
       end_.p = p_;

@@ -85,7 +85,7 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
                            const SolverOptions& options, bool singular) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
   const Scales scales = measure.scales(solution.p);
-  const Judgement judgement = judge(problem, solution.p, motion, measure, options.judge);
+  const Judgement judgement = judge(problem, solution.p, solution.a, motion, measure, options.judge);
   solution.certificate = judgement.certificate;
   solution.natural_map_residual = judgement.natural_map_residual;
   solution.rounding = judgement.rounding;
@@ -151,10 +151,9 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
   const double asked = 0.9 * options.tolerance;
   // The certificate knows complementarity as a product, p_n g; where it decides, the natural map must be small as well.
   const double asked_of_map = by_map ? asked : 100.0 * asked;
-  std::function<bool(const Vector&, const Vector&)> content = [&, in_forces = measure.of_forces()](
-                                                                  const Vector& p, const Vector& motion) {
+  IsSolution content = [&, in_forces = measure.of_forces()](const Vector& p, const Vector& a, const Vector& motion) {
     return in_forces.natural_map(problem, p, motion) <= asked_of_map &&
-           judge(scaled_problem.problem, p, motion, in_forces, options.judge).solved(asked);
+           judge(scaled_problem.problem, p, a, motion, in_forces, options.judge).solved(asked);
   };
   Ladder ladder(scaled_problem.problem, options, small, std::move(content));
   NewtonEnd end;

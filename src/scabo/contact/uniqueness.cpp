@@ -19,7 +19,7 @@ double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infin
 
 bool solves(const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options) {
   return p.allFinite() &&
-         judge(problem, p, motion_of(problem, p, a), Measure(problem, p, options.force_scale), Judge::certificate)
+         judge(problem, p, a, motion_of(problem, p, a), Measure(problem, p, options.force_scale), Judge::certificate)
              .solved(options.tolerance);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace scabo::contact {
 namespace {
@@ -116,6 +117,33 @@ TEST(Certificate, OfABodyThatContactAloneHolds) {
   expect_figures(judged(problem, plane(4.0, 0.0), plane(0.0, 0.0)), {.rigid_balance = 0.05});
   problem.f[0] = -4.0;
   expect_figures(judged(problem, plane(4.0, 0.0), plane(0.0, 0.0)), {});
+}
+
+// Two rigid motions of 1e7 cancel in the motion of the pair but for what eps (1e7 + 1e7) = 4.4e-9 hides; 1e-9 of it is
+// granted.
+TEST(Certificate, GrantsSlipsTheRoundingOfRigidMotions) {
+  Problem problem = with_friction(0.5);
+  problem.W = Matrix(0.01 * Matrix::Identity(2, 2));
+  problem.G = Matrix{{0.0, 0.0}, {1.0, -1.0}};
+  problem.f = Eigen::Vector2d::Zero();
+  problem.q = plane(-0.04, 0.0);
+  const Vector p = plane(4.0, 0.0), a = Vector::Constant(2, 1e7);
+  const auto slip_of = [&](double slip) {
+    return certify_at(problem, p, a, plane(0.0, slip), scales).slip_direction * scales.force * scales.length / 2.0;
+  };
+  const double hidden = std::numeric_limits<double>::epsilon() * 2e7;
+  EXPECT_EQ(slip_of(5e-10), 0.0);
+  EXPECT_EQ(slip_of(-5e-10), 0.0);
+  // At most 1e-8 of the length scale, 1e-9: bodies that fly away are not held.
+  EXPECT_NEAR(slip_of(1e-8), 1e-8 - 1e-9, 1e-15);
+  EXPECT_NEAR(slip_of(-1e-8), 1e-8 - 1e-9, 1e-15);
+  const Vector smaller = 1e-2 * a;
+  EXPECT_NEAR(certify_at(problem, p, smaller, plane(0.0, 1e-8), scales).slip_direction * 0.5, 1e-8 - 1e-2 * hidden,
+              1e-15);
+  // An open pair without force and a gap of rounding: no penetration.
+  problem.G = Matrix{{1.0, -1.0}, {0.0, 0.0}};
+  EXPECT_EQ(certify_at(problem, plane(0.0, 0.0), a, plane(-5e-10, 0.0), scales).penetration, 0.0);
+  EXPECT_NEAR(certify_at(problem, plane(0.0, 0.0), a, plane(-2e-9, 0.0), scales).penetration, 1e-8, 1e-15);
 }
 
 TEST(Certificate, WorstIsTheLargestOfItsFigures) {

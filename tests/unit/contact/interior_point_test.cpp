@@ -136,7 +136,7 @@ TEST_P(InteriorPointsOnTowers, WithFrictionThatDiffersReachTheLaw) {
 TEST_P(InteriorPointsOnTowers, EndAtTheBoundaryOfTheCones) {
   const auto [d, blocks, points] = GetParam();
   const Problem problem = tower_of_blocks(d, blocks, points, 0.4);
-  const InteriorPointEnd end = interior_points(problem, [&](const Vector& p, const Vector& motion) {
+  const InteriorPointEnd end = interior_points(problem, [&](const Vector& p, const Vector&, const Vector& motion) {
     return Measure(problem).natural_map(problem, p, motion) <= 1e-5;
   });
   ASSERT_TRUE(end.content);
@@ -164,7 +164,8 @@ INSTANTIATE_TEST_SUITE_P(Space, InteriorPointsOnTowers, ::testing::Values(TowerC
 TEST(InteriorPoints, TheJudgeEndsThem) {
   const Problem problem = tower_of_blocks(3, 4, 2, 0.4);
   int asked = 0;
-  const InteriorPointEnd end = interior_points(problem, [&](const Vector&, const Vector&) { return ++asked == 3; });
+  const InteriorPointEnd end =
+      interior_points(problem, [&](const Vector&, const Vector&, const Vector&) { return ++asked == 3; });
   EXPECT_TRUE(end.content);
   EXPECT_EQ(end.iterations, 2);
   EXPECT_LE(interior_points(problem, {}, Deadline::in(0.0)).iterations, 0);
@@ -184,9 +185,10 @@ TEST(InteriorPoints, OneCubePushedSidewaysSlides) {
   // Slips held: the first round has none of them, so that the pair is lifted by mu |u_t| less than it must be.
   EXPECT_LE((HeldSlips(problem).advance(1e-9, 50, HUGE_VAL, {}).p - Eigen::Vector3d(1.0, -0.24, -0.32)).norm(), 1e-7);
   // Handed over as a pair that slips: at the bound of friction to the last digit.
-  const InteriorPointEnd judged = interior_points(problem, [&](const Vector& forces, const Vector& motion) {
-    return Measure(problem).natural_map(problem, forces, motion) <= 1e-6;
-  });
+  const InteriorPointEnd judged =
+      interior_points(problem, [&](const Vector& forces, const Vector&, const Vector& motion) {
+        return Measure(problem).natural_map(problem, forces, motion) <= 1e-6;
+      });
   EXPECT_TRUE(judged.content);
   EXPECT_NEAR(judged.p.tail<2>().norm(), 0.4 * judged.p[0], 1e-15);
 }
@@ -262,10 +264,10 @@ TEST(InteriorPoints, BalanceTheRigidMotionsOfElasticBodies) {
     if (by_newton.status != Status::solved) continue;
     ++asked;
     const Measure measure(problem);
-    const auto content = [&](const Vector& p, const Vector& motion) {
+    const auto content = [&](const Vector& p, const Vector& a, const Vector& motion) {
       // As in a run: the certificate takes complementarity as a product, of which either factor may be 1e-5.
       return measure.natural_map(problem, p, motion) <= 1e-9 &&
-             judge(problem, p, motion, measure, Judge::certificate).solved(1e-10);
+             judge(problem, p, a, motion, measure, Judge::certificate).solved(1e-10);
     };
     InteriorPointEnd end;
     for (const double start : {1.0, 10.0, 1000.0})

@@ -183,8 +183,8 @@ TEST(Rounding, NoCertificateOfZerosOnAnAnswerThatIsLostInIt) {
     const Vector p = size * Eigen::Vector3d(2.0, -1.0, 0.0), u = motion_of(problem, p, Vector());
     ASSERT_LT(u[0], -0.5);
     for (const Judge by : {Judge::certificate, Judge::natural_map})
-      EXPECT_FALSE(judge(problem, p, u, measure, by).solved(1e-10)) << size;
-    EXPECT_GE(judge(problem, p, u, measure, Judge::certificate).certificate.penetration, 0.5) << size;
+      EXPECT_FALSE(judge(problem, p, Vector(), u, measure, by).solved(1e-10)) << size;
+    EXPECT_GE(judge(problem, p, Vector(), u, measure, Judge::certificate).certificate.penetration, 0.5) << size;
   }
   // The natural map itself does not see it: rounding has to be asked.
   const Vector p = 1e20 * Eigen::Vector3d(2.0, -1.0, 0.0), u = motion_of(problem, p, Vector());
@@ -213,7 +213,7 @@ TEST(Rounding, IsToldWhereItHidesTheAnswer) {
   for (const double lambda : {0.0, 1.0, 1e3, 1e8, 1e12}) {
     const Vector p = Eigen::Vector4d(1.0 + lambda, 0.0, lambda, 0.0), u = motion_of(problem, p, Vector());
     ASSERT_EQ(u, Vector(Vector::Zero(4)));
-    const Judgement judgement = judge(problem, p, u, measure, Judge::natural_map);
+    const Judgement judgement = judge(problem, p, Vector(), u, measure, Judge::natural_map);
     EXPECT_EQ(judgement.figure, 0.0);
     // eps sum |W| |p| / |q|, with mean W_ii = 1.
     EXPECT_NEAR(judgement.rounding, 2.220446049250313e-16 * (1.0 + 2.0 * lambda), 1e-15 * (1e-3 + lambda));

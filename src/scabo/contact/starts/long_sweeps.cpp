@@ -31,8 +31,7 @@ LongSweeps::LongSweeps(const Problem& problem, Vector p, Form form)
   iteration_.start(p_);
 }
 
-bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vector&)>& content,
-                     const Deadline& deadline) {
+bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadline) {
   const auto go_on = [&] {
     return sweeps_ < most || (sweeps_ < 4 * most && sweeps_ - gained_ <= std::max(least_patience, sweeps_ / 2));
   };
@@ -58,7 +57,7 @@ bool LongSweeps::run(int most, const std::function<bool(const Vector&, const Vec
       least_ = map;
       best_ = p_;
     }
-    if (content && content(p_, motion) && content(p_, motion_of(problem_, p_, Vector()))) {
+    if (content && content(p_, Vector(), motion) && content(p_, Vector(), motion_of(problem_, p_, Vector()))) {
       best_ = p_;
       return true;
     }

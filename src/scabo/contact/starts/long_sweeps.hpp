@@ -15,8 +15,6 @@
 // stays there for good. A sweep of 1,000 pairs takes 0.15 ms, a step of interior points or of Newton 50 to 300 ms.
 #pragma once
 
-#include <functional>
-
 #include "scabo/contact/deadline.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
 #include "scabo/contact/judge.hpp"
@@ -32,8 +30,7 @@ class LongSweeps {
   /// Goes on where it ended before, until `content` accepts forces and motions (true), the deadline has passed, or
   /// `most` sweeps are done in all; up to four times as many where the second half of them, or the last 500, halved the
   /// least natural map.
-  bool run(int most, const std::function<bool(const Vector& p, const Vector& motion)>& content,
-           const Deadline& deadline = {});
+  bool run(int most, const IsSolution& content, const Deadline& deadline = {});
 
   /// Goes on from `p` if its natural map is smaller than the least one so far.
   void restart(const Vector& p);
