@@ -194,8 +194,8 @@ TEST(InteriorPoints, OneCubePushedSidewaysSlides) {
 }
 
 /// Accepts a natural map of 1e-10.
-std::function<bool(const Vector&, const Vector&)> within_1e10(const Problem& problem) {
-  return [&problem, measure = Measure(problem)](const Vector& p, const Vector& motion) {
+IsSolution within_1e10(const Problem& problem) {
+  return [&problem, measure = Measure(problem)](const Vector& p, const Vector&, const Vector& motion) {
     return measure.natural_map(problem, p, motion) <= 1e-10;
   };
 }
