@@ -31,6 +31,10 @@ constexpr double worth = 0.03;                           // ... and at least
 constexpr double off = 10.0;  // products further from their middle than this factor are led back by correctors
 // A second aim of the products, this part of the usual one, if the step is not shorter than this part of it.
 constexpr double bolder = 0.1, as_long = 0.9;
+// A step shorter than `jammed`, and not one of the first few, is followed by factors divided anew, with products
+// `wider`.
+constexpr double jammed = 0.3, wider = 3.0;
+constexpr int free_steps = 2, most_divided = 8;
 // Parts of the factors that may go less far than the others, and how far: they keep at least 1 - `nearly` of what they
 // are, or what gives this part of the usual product.
 constexpr std::array<double, 7> shorter{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
@@ -69,21 +73,10 @@ class PlaneInteriorPoints::Implementation {
     a_ = a.cwiseQuotient(length_);
     p_n_.resize(N_), p_t_.resize(N_), u_n_.resize(N_), forward_.resize(N_), backward_.resize(N_);
     normal_.resize(N_), plus_.resize(N_), minus_.resize(N_);
-    const Residual at = equations_.residual(p, a);
     double mean = 0.0;
     for (Index i = 0; i < N_; ++i) mean += std::abs(p[2 * i]) / static_cast<double>(N_);
     const double friction = mu_.mean();
-    const double middle = usual * start * friction * friction * std::max(mean * mean, 1e-300);
-    for (Index i = 0; i < N_; ++i) {
-      const double r_n = equations_.r()[2 * i], r_t = equations_.r()[2 * i + 1];
-      const auto [p_n, gap] = divided(p[2 * i] - r_n * at.motion[2 * i], r_n * middle);
-      p_n_[i] = p_n, u_n_[i] = gap / r_n;
-      const auto [s_plus, s_minus] =
-          divided_bound(p[2 * i + 1] - r_t * at.motion[2 * i + 1], mu_[i] * p_n, r_t * middle);
-      p_t_[i] = 0.5 * (s_plus - s_minus);
-      normal_[i] = p_n, plus_[i] = s_plus, minus_[i] = s_minus;
-      forward_[i] = middle / s_plus, backward_[i] = middle / s_minus;
-    }
+    divide(p, a, usual * start * friction * friction * std::max(mean * mean, 1e-300));
   }
 
   InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline) {
@@ -109,11 +102,41 @@ class PlaneInteriorPoints::Implementation {
         break;
       }
       if (residual <= aim || steps_ >= most_steps || since >= patience || deadline.passed() || !take_step()) break;
+      if (++since_divided_ > free_steps && step_ < jammed && divided_again_ < most_divided) {
+        divide_again();
+        since = 0;
+      }
     }
     return end;
   }
 
  private:
+  /// Factors from forces and motions, all products `middle`.
+  void divide(const Vector& p, const Vector& a, double middle) {
+    const Residual at = equations_.residual(p, a);
+    for (Index i = 0; i < N_; ++i) {
+      const double r_n = equations_.r()[2 * i], r_t = equations_.r()[2 * i + 1];
+      const auto [p_n, gap] = divided(p[2 * i] - r_n * at.motion[2 * i], r_n * middle);
+      p_n_[i] = p_n, u_n_[i] = gap / r_n;
+      const auto [s_plus, s_minus] =
+          divided_bound(p[2 * i + 1] - r_t * at.motion[2 * i + 1], mu_[i] * p_n, r_t * middle);
+      p_t_[i] = 0.5 * (s_plus - s_minus);
+      normal_[i] = p_n, plus_[i] = s_plus, minus_[i] = s_minus;
+      forward_[i] = middle / s_plus, backward_[i] = middle / s_minus;
+    }
+    since_divided_ = 0;
+  }
+
+  /// From the forces and motions of now. Where a step is short some factors are far smaller than their products ask
+  /// for, and each step that follows ends at them.
+  void divide_again() {
+    const Vector p = forces(), a = a_.cwiseProduct(length_);
+    evaluate(equations_.residual(p, a).motion);
+    divide(p, a, wider * middle_);
+    least_middle_ = HUGE_VAL;
+    ++divided_again_;
+  }
+
   /// x, y > 0 with x - y = `difference` and x y = m.
   static std::pair<double, double> divided(double difference, double m) {
     const double larger = 0.5 * (std::abs(difference) + std::sqrt(difference * difference + 4.0 * m));
@@ -392,7 +415,7 @@ class PlaneInteriorPoints::Implementation {
   std::vector<std::array<Index, 3>> diagonal_;  // entries nn, tn and tt of every pair
   linalg::SparseGeneralSolver lu_;
   double middle_ = 0.0, step_ = 0.0, least_middle_ = HUGE_VAL, least_residual_ = HUGE_VAL;
-  int steps_ = 0;
+  int steps_ = 0, since_divided_ = 0, divided_again_ = 0;
 };
 
 PlaneInteriorPoints::PlaneInteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start)

@@ -13,7 +13,8 @@
 //
 // The six factors of a pair are kept apart from p_n, s+- and the motions they stand for. A step would end where the
 // first of some ten thousand comes to its boundary; if a few stay behind, the others go further, and what then lacks in
-// the equations of those few, p_n = x_n and so on, is taken by the next step.
+// the equations of those few, p_n = x_n and so on, is taken by the next step. Where a step is short all the same, all
+// factors are divided anew from the forces and motions reached, with equal products.
 //
 // In contact/interior_point, for space, the same law is one of cones, y = (u_n + |u_t|, u_t): its path has a kink
 // wherever the friction of a pair changes its sign.
