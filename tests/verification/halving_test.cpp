@@ -80,6 +80,46 @@ TEST(Halving, IsDoneAsOftenAsAllowed) {
   expect_path(jam(0.1, 4), {1.0, 0.5, 0.25, 0.125, 0.0625, 0.125}, 0.1);
 }
 
+/// Two blocks with a joint on a floor, and a push. With a single iteration nothing converges.
+std::string blocks(const std::string& contacts, const std::string& steps) {
+  return fmt::format(R"(
+scabo: 1
+materials: {{stone: {{young: 5e9, poisson: 0.2, density: 2000}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [3, 1]}}}}}}
+  lower: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [1, 1]}}}}, mesh: {{size: 0.25, order: 1}}}}
+  upper: {{material: stone, shape: {{rectangle: {{corner: [0, 1], size: [1, 1]}}}}, mesh: {{size: 0.25, order: 1}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+loads:
+  weight: {{gravity: 9.81}}
+  push: {{on: upper.left, traction: [6e3, 0]}}
+contacts:
+  foot: {{between: [floor.top, lower.bottom], friction: 0.6}}
+  joint: {{between: [lower.top, upper.bottom], {}}}
+solver: {{iterations: 1, halvings: 3}}
+steps: [{}]
+)",
+                     contacts, steps);
+}
+
+// All loads at once from nothing: half of them are the same problem, with half of all forces and motions.
+TEST(Halving, IsNotDoneWhereSmallerPartsAreTheSameProblem) {
+  const auto halvings = [](const std::string& contacts, const std::string& steps) {
+    const auto solution = run(blocks(contacts, steps));
+    EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged) << contacts << steps;
+    const int done = solution.increments.back().halvings;
+    EXPECT_EQ(solution.reason.find("the same problem, scaled") != std::string::npos, done == 0) << solution.reason;
+    return done;
+  };
+  const std::string together = "{loads: {weight: 1, push: 1}}";
+  EXPECT_EQ(halvings("friction: 0.6", together), 0);
+  EXPECT_EQ(halvings("friction: {forward: 0.6, backward: 0.5}", together), 0);
+  // Lengths and strengths, which loads do not scale; and friction that changes.
+  EXPECT_EQ(halvings("friction: 0.6, gap: 1e-9", together), 3);
+  EXPECT_EQ(halvings("friction: 0.6, cohesion: 1, tensile_strength: 1", together), 3);
+  EXPECT_EQ(halvings("friction: 0.6", "{loads: {weight: 1, push: 1}, friction: {joint: 0.3}}"), 3);
+}
+
 // Where the wall stops short of the bar nothing is halved.
 TEST(Halving, IsNotDoneWhereTheWholeWayConverges) {
   const Jam free = jam(1.1, 6);

@@ -45,6 +45,46 @@ FreeMotion free_motion(const Prepared& prepared, const State& state) {
   return free;
 }
 
+/// The contact problem of an increment, its laws not yet included.
+struct Posed {
+  contact::Problem problem;
+  Vector motion_of_held;  ///< 2N, of pairs that supports hold
+};
+
+/// From `from` to `factors`; loads and supports of `to` are set.
+Posed pose(const Prepared& prepared, const State& from, const Factors& factors, State& to) {
+  const auto& parts = prepared.structure.parts;
+  const system::ContactSystem& system = prepared.contact;
+  const auto N = static_cast<Eigen::Index>(system.pairs.size());
+  to.factors = factors;
+  to.replaced = from.replaced;
+  to.offset = from.offset;
+  to.held_offset = from.held_offset;
+  to.released = from.released;
+  to.forces = applied_forces(prepared, factors, to.released);
+  to.prescribed = prescribed_values(prepared, factors.supports, to.replaced.moved);
+
+  Posed posed;
+  contact::Problem& problem = posed.problem;
+  problem.W = system.W;
+  problem.q = Vector::Zero(2 * N);
+  problem.G = system.G;
+  problem.f = Vector::Zero(system.rigid_motions());
+  for (Eigen::Index i = 0; i < N; ++i) {
+    problem.q[2 * i] = gap_at(prepared, factors, i);
+    problem.q[2 * i + 1] = -from.slip[i];
+  }
+  if (from.offset.size() > 0) problem.q += from.offset;
+  if (from.replaced.offset.size() > 0) problem.q += from.replaced.offset;
+  FreeMotion free = free_motion(prepared, to);
+  problem.q += free.pairs;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (!prepared.is_absent(p))
+      problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
+  posed.motion_of_held = std::move(free.held);
+  return posed;
+}
+
 /// Supports on both sides may hold a pair; they must not press its points into each other. `motion`: of these pairs.
 void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
@@ -111,41 +151,17 @@ State initial_state(const Prepared& prepared) {
 }
 
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
-  const auto& parts = prepared.structure.parts;
-  const system::ContactSystem& system = prepared.contact;
-  const auto N = static_cast<Eigen::Index>(system.pairs.size());
+  const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
   Attempt result;
   State& to = result.state;
-  to.factors = factors;
-  to.replaced = from.replaced;
-  to.offset = from.offset;
-  to.held_offset = from.held_offset;
-  to.released = from.released;
-  to.forces = applied_forces(prepared, factors, to.released);
-  to.prescribed = prescribed_values(prepared, factors.supports, to.replaced.moved);
-
-  contact::Problem problem;
-  problem.W = system.W;
-  problem.q = Vector::Zero(2 * N);
-  problem.G = system.G;
-  problem.f = Vector::Zero(system.rigid_motions());
-  for (Eigen::Index i = 0; i < N; ++i) {
-    problem.q[2 * i] = gap_at(prepared, factors, i);
-    problem.q[2 * i + 1] = -from.slip[i];
-  }
-  if (from.offset.size() > 0) problem.q += from.offset;
-  if (from.replaced.offset.size() > 0) problem.q += from.replaced.offset;
+  Posed posed = pose(prepared, from, factors, to);
+  contact::Problem& problem = posed.problem;
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
   options.on_iteration = prepared.on_iteration;
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
-  FreeMotion free = free_motion(prepared, to);
-  problem.q += free.pairs;
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    if (!prepared.is_absent(p))
-      problem.f.segment(system.first_rigid[p], parts[p]->rigid_motions().cols()) = loads_on_motions(prepared, p, to);
-  check_held_pairs(prepared, std::move(free.held), from.held_offset, from.replaced);
+  check_held_pairs(prepared, std::move(posed.motion_of_held), from.held_offset, from.replaced);
 
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
@@ -171,6 +187,30 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   return result;
+}
+
+bool is_same_scaled(const Prepared& prepared, const State& from, const Attempt& tried, const Factors& less) {
+  constexpr double rounding = 1e-12;
+  const contact::Problem& more = tried.problem;
+  const contact::JointLaws laws = laws_at(prepared, less);
+  const bool remembers =
+      std::any_of(laws.of_pair.begin(), laws.of_pair.end(), [](const auto& law) { return law->remembers(); });
+  if (remembers || !from.p.isZero(0.0) || !from.a.isZero(0.0)) return false;
+  State to;
+  contact::Problem fewer = pose(prepared, from, less, to).problem;
+  contact::set_limits(laws, from.history, fewer);
+  if (fewer.mu != more.mu || fewer.mu_backward.size() != more.mu_backward.size() ||
+      (fewer.mu_backward.size() > 0 && fewer.mu_backward != more.mu_backward) || fewer.cohesion.size() > 0 ||
+      fewer.tension.size() > 0 || more.cohesion.size() > 0 || more.tension.size() > 0)
+    return false;
+  const double all = more.q.squaredNorm() + more.f.squaredNorm();
+  if (!(all > 0.0)) return false;
+  const double part = (more.q.dot(fewer.q) + more.f.dot(fewer.f)) / all;
+  const auto proportional = [&](const Vector& a, const Vector& b) {
+    return a.size() == 0 ||
+           (a - part * b).lpNorm<Eigen::Infinity>() <= rounding * part * b.lpNorm<Eigen::Infinity>();
+  };
+  return part > 0.0 && proportional(fewer.q, more.q) && proportional(fewer.f, more.f);
 }
 
 Vec2 unplaced_motion(const Prepared& prepared, const Replacing& replaced, int contact) {

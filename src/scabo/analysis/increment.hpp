@@ -120,6 +120,9 @@ struct Attempt {
   std::optional<UniquenessResult> uniqueness;
 };
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors);
+/// Whether the attempt `tried` from `from` is, but for a factor of all forces and motions, that to `less` as well: no
+/// contact forces or slip so far, no gaps, loads in the same proportion, and laws that are cones and do not remember.
+bool is_same_scaled(const Prepared& prepared, const State& from, const Attempt& tried, const Factors& less);
 
 /// The problem of an attempt in a form that other solvers can use.
 DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt);

@@ -52,6 +52,14 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
   return reason;
 }
 
+/// The tolerance is for forces relative to the largest load of the whole step, so that a figure just above it may be
+/// within it at half of the loads.
+bool is_far_from_solved(const Prepared& prepared, const Attempt& tried) {
+  constexpr double far = 1e4;
+  return tried.solution.status == contact::Status::not_converged &&
+         tried.certificate.worst() > far * prepared.model.solver.tolerance;
+}
+
 /// Where motions are so large beside deformations that forces are lost in rounding; empty where they are not.
 std::string lost_in_rounding(const Attempt& tried, double tolerance) {
   constexpr double allowance = 1e-3;  // Attempt::rounding allows for a thousand roundings
@@ -185,8 +193,11 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
         tried.solution.status != contact::Status::mechanism && tried.solution.status != contact::Status::collapse;
     reached.stopped = smaller_steps_may_help && options.stop && *options.stop;
     if (reached.stopped) return reached;
-    if (!smaller_steps_may_help || !may_halve) {
+    const bool in_vain = smaller_steps_may_help && may_halve && !large && is_far_from_solved(prepared, tried) &&
+                         is_same_scaled(prepared, reached.state, tried, factors_at(reached.part + 0.5 * part));
+    if (!smaller_steps_may_help || !may_halve || in_vain) {
       give_up(prepared, tried, next, reached);
+      if (in_vain) reached.reason += "; smaller parts of these loads are the same problem, scaled, and were not tried";
       return reached;
     }
     ++reached.halvings;
