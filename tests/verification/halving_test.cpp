@@ -14,7 +14,7 @@ namespace {
 /// 0.02 / sqrt(2) along the normal while it moves along its face, which drags the end towards it. With mu tan(45) > 1
 /// friction draws the end in by more than pressure pushes it back: the pairs jam, and there are no forces at all, once
 /// the wall is there, at `closed_at` of its way.
-std::string self_locking_bar(double closed_at) {
+std::string self_locking_bar(double closed_at, const std::string& law) {
   return fmt::format(R"(
 scabo: 1
 materials: {{m: {{young: 1e6, poisson: 0.2}}}}
@@ -25,9 +25,9 @@ supports:
   - {{on: bar.edge_4, fix: [x, y]}}
   - {{on: bar.edge_2, fix: y}}
   - {{on: wall, displacement: [0.03, 0.05]}}
-contacts: {{joint: {{between: [bar.edge_2, wall.edge_3], friction: 1.5, gap: {:.17g}}}}}
+contacts: {{joint: {{between: [bar.edge_2, wall.edge_3], {}, gap: {:.17g}}}}}
 )",
-                     closed_at * 0.02 / std::numbers::sqrt2);
+                     law, closed_at * 0.02 / std::numbers::sqrt2);
 }
 
 struct Jam {
@@ -36,7 +36,7 @@ struct Jam {
   std::vector<bool> accepted;
 };
 
-Jam jam(double closed_at, int halvings) {
+Jam jam(double closed_at, int halvings, const std::string& law = "friction: 1.5") {
   Jam result;
   analysis::Options options;
   options.on_problems = [&](const analysis::IncrementResult&, const std::vector<analysis::DiscreteProblem>& problems) {
@@ -47,7 +47,7 @@ Jam jam(double closed_at, int halvings) {
     }
   };
   result.solution =
-      analysis::solve_static(input::parse_model(self_locking_bar(closed_at), "test.yaml",
+      analysis::solve_static(input::parse_model(self_locking_bar(closed_at, law), "test.yaml",
                                                 {input::parse_override(fmt::format("solver.halvings={}", halvings))}),
                              options);
   return result;
@@ -80,44 +80,19 @@ TEST(Halving, IsDoneAsOftenAsAllowed) {
   expect_path(jam(0.1, 4), {1.0, 0.5, 0.25, 0.125, 0.0625, 0.125}, 0.1);
 }
 
-/// Two blocks with a joint on a floor, and a push. With a single iteration nothing converges.
-std::string blocks(const std::string& contacts, const std::string& steps) {
-  return fmt::format(R"(
-scabo: 1
-materials: {{stone: {{young: 5e9, poisson: 0.2, density: 2000}}}}
-bodies:
-  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [3, 1]}}}}}}
-  lower: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [1, 1]}}}}, mesh: {{size: 0.25, order: 1}}}}
-  upper: {{material: stone, shape: {{rectangle: {{corner: [0, 1], size: [1, 1]}}}}, mesh: {{size: 0.25, order: 1}}}}
-supports: [{{on: floor, fix: [x, y]}}]
-loads:
-  weight: {{gravity: 9.81}}
-  push: {{on: upper.left, traction: [6e3, 0]}}
-contacts:
-  foot: {{between: [floor.top, lower.bottom], friction: 0.6}}
-  joint: {{between: [lower.top, upper.bottom], {}}}
-solver: {{iterations: 1, halvings: 3}}
-steps: [{}]
-)",
-                     contacts, steps);
-}
-
-// All loads at once from nothing: half of them are the same problem, with half of all forces and motions.
+// Without a gap, half of the way is the same problem with half of all forces and motions: it is not tried. A gap and
+// strengths are lengths and stresses that the way does not scale.
 TEST(Halving, IsNotDoneWhereSmallerPartsAreTheSameProblem) {
-  const auto halvings = [](const std::string& contacts, const std::string& steps) {
-    const auto solution = run(blocks(contacts, steps));
-    EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged) << contacts << steps;
-    const int done = solution.increments.back().halvings;
-    EXPECT_EQ(solution.reason.find("the same problem, scaled") != std::string::npos, done == 0) << solution.reason;
-    return done;
-  };
-  const std::string together = "{loads: {weight: 1, push: 1}}";
-  EXPECT_EQ(halvings("friction: 0.6", together), 0);
-  EXPECT_EQ(halvings("friction: {forward: 0.6, backward: 0.5}", together), 0);
-  // Lengths and strengths, which loads do not scale; and friction that changes.
-  EXPECT_EQ(halvings("friction: 0.6, gap: 1e-9", together), 3);
-  EXPECT_EQ(halvings("friction: 0.6, cohesion: 1, tensile_strength: 1", together), 3);
-  EXPECT_EQ(halvings("friction: 0.6", "{loads: {weight: 1, push: 1}, friction: {joint: 0.3}}"), 3);
+  for (const std::string law : {"friction: 1.5", "friction: {forward: 1.5, backward: 1.6}"}) {
+    const Jam same = jam(0.0, 4, law);
+    expect_path(same, {1.0}, 0.0);
+    EXPECT_EQ(same.solution.outcome, analysis::Outcome::not_converged) << law;
+    EXPECT_NE(same.solution.reason.find("the same problem, scaled"), std::string::npos) << same.solution.reason;
+  }
+  expect_path(jam(1e-6, 3), {1.0, 0.5, 0.25, 0.125}, 1e-6);
+  const Jam strong = jam(0.0, 3, "friction: 1.5, cohesion: 1e-3, tension: 1e-4");
+  expect_path(strong, {1.0, 0.5, 0.25, 0.125}, 0.0);
+  EXPECT_EQ(strong.solution.reason.find("the same problem, scaled"), std::string::npos) << strong.solution.reason;
 }
 
 // Where the wall stops short of the bar nothing is halved.

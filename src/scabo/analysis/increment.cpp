@@ -207,8 +207,7 @@ bool is_same_scaled(const Prepared& prepared, const State& from, const Attempt& 
   if (!(all > 0.0)) return false;
   const double part = (more.q.dot(fewer.q) + more.f.dot(fewer.f)) / all;
   const auto proportional = [&](const Vector& a, const Vector& b) {
-    return a.size() == 0 ||
-           (a - part * b).lpNorm<Eigen::Infinity>() <= rounding * part * b.lpNorm<Eigen::Infinity>();
+    return a.size() == 0 || (a - part * b).lpNorm<Eigen::Infinity>() <= rounding * part * b.lpNorm<Eigen::Infinity>();
   };
   return part > 0.0 && proportional(fewer.q, more.q) && proportional(fewer.f, more.f);
 }

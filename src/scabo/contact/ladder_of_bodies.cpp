@@ -99,8 +99,8 @@ PathEnd Ladder::along_path(const PathStart& start) {
     const int pairs = problem_.pairs();
     options.changes = 100;
     options.leap = pairs > least_of_leaps ? 6 : 0;
-    // Paths that arrive take up to two changes for each pair; of more pairs it would take minutes.
-    options.most = pairs > least_of_leaps ? 1500 + pairs / 10 : 8 * pairs + 100;
+    // Paths that arrive take up to two changes for each pair, those that end in a fall up to eight.
+    options.most = 8 * pairs + 100;
     options.patience = 300 + pairs / 20;
   }
   options.on_factorisation = [&](const Vector& p, const Vector& a) {
