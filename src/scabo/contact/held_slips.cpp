@@ -9,6 +9,7 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/interior_steps.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
@@ -67,6 +68,7 @@ class FixedPoint {
     double least_gap = HUGE_VAL;
     for (int step = 0, since = 0;; ++step, ++end.iterations) {
       interruption_point();
+      deadline.spend(operations_of_system(*problem_));
       steps_.evaluate();
       if (step == 0) steps_.measure_from_here();
       const double map = judge_iterate(steps_, *problem_, measure_, content, "slips held", end);

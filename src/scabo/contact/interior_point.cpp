@@ -5,6 +5,7 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/interior_steps.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
@@ -24,6 +25,7 @@ InteriorPointEnd follow_to_the_end(const Problem& problem, double start_factor, 
   int since = 0;
   for (;; ++end.iterations) {
     interruption_point();
+    deadline.spend(operations_of_system(problem));
     steps.evaluate();
     if (end.iterations == 0) steps.measure_from_here();
     const double before = end.residual;

@@ -7,6 +7,7 @@
 #include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/soft_newton.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
@@ -105,6 +106,7 @@ PathEnd Ladder::along_path(const PathStart& start) {
   }
   options.on_factorisation = [&](const Vector& p, const Vector& a) {
     const Residual at = equations.residual(p, a);
+    options_.deadline.spend(operations_of_system(problem_));
     trace_.push_back({++iterations_ + coarse_iterations_, at.largest(), at.merit(), 1.0, 0, "path"});
     if (options_.on_iteration) options_.on_iteration(trace_.back());
   };

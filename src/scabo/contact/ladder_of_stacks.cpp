@@ -6,6 +6,7 @@
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
@@ -107,6 +108,7 @@ NewtonEnd Ladder::swept(const Vector& p, int sweeps, double regularisation, int 
   Vector swept = p;
   iteration.start(swept);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
+    options_.deadline.spend(operations_of_sweep(problem_));
     const bool still = iteration.sweep(swept) <= 1e-12 * swept.lpNorm<Eigen::Infinity>();
     if (judges_all() && content_(swept, Vector(), iteration.motion())) {
       iteration.start(swept);  // the motion afresh, without what rounding added from pair to pair

@@ -5,6 +5,7 @@
 
 #include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
@@ -17,6 +18,7 @@ class Newton {
         options_(options),
         direction_(equations),
         many_(may_bond(equations.problem())),
+        operations_(operations_of_system(equations.problem())),
         p_(std::move(p)),
         a_(std::move(a)) {}
 
@@ -34,6 +36,7 @@ class Newton {
           options_.deadline.passed() || creeps())
         break;
       ++end_.iterations;
+      options_.deadline.spend(operations_);
       if (many_ && step_of_many_bodies(first)) continue;
       const bool found = find_direction(first, NewtonDirection::Ties::as_d_takes_them);
       if (found && line_search()) continue;
@@ -182,7 +185,8 @@ class Newton {
   const BDifferentiableEquations& equations_;
   const NewtonOptions& options_;
   NewtonDirection direction_;
-  bool many_;  // bodies
+  bool many_;          // bodies
+  double operations_;  // of an iteration
   Vector p_, a_, d_, change_, trial_p_;
   Residual at_, trial_;
   std::vector<Branch> before_;

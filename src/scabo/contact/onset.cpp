@@ -11,8 +11,7 @@ namespace scabo::contact {
 
 namespace {
 
-constexpr int most_pairs_of_onset = 4000;
-constexpr double patience_of_onset = 20.0;  // s; a picture is not worth more
+constexpr double most_entries_of_onset = 6.4e7;  // of W: half a gigabyte
 
 /// Entries of pairs.
 Vector values_of(const Vector& values, const std::vector<int>& pairs) {
@@ -30,6 +29,19 @@ std::vector<int> moved_pairs(const Problem& problem) {
   for (int i = 0; i < problem.pairs(); ++i)
     if (moves[static_cast<std::size_t>(i)]) pairs.push_back(i);
   return pairs;
+}
+
+/// Entries of W of these pairs, not less than there are; the pairs of a body have those of its three motions.
+double entries_of(const Problem& problem, const std::vector<int>& pairs, bool many) {
+  const double rows = 2.0 * static_cast<double>(pairs.size());
+  if (!many) return rows * rows;
+  const RigidMap::Sparse& G = problem.G.sparse();
+  double entries = 0.0;
+  for (Eigen::Index motion = 0; motion < G.outerSize(); ++motion) {
+    const auto moved = static_cast<double>(G.col(motion).nonZeros());
+    entries += moved * moved / 3.0;
+  }
+  return entries;
 }
 
 /// The problem of these pairs alone, its loads and strengths times `scale`; W and q stay empty.
@@ -95,14 +107,15 @@ Vector of_states(const Problem& problem, const RigidMap::Sparse& inverse_mass, c
 
 }  // namespace
 
-std::optional<Vector> onset_of_motion(const Problem& problem, const RigidMap::Sparse& inverse_mass) {
+std::optional<Vector> onset_of_motion(const Problem& problem, const RigidMap::Sparse& inverse_mass,
+                                      double most_operations) {
   if (problem.dimension != 2 || problem.f.size() == 0 || problem.f.isZero(0.0)) return std::nullopt;
   const std::vector<int> pairs = moved_pairs(problem);
-  if (pairs.size() > most_pairs_of_onset) return std::nullopt;
+  const bool many = has_many_motions(problem);
+  if (entries_of(problem, pairs, many) > most_entries_of_onset) return std::nullopt;
   const Problem whole = of_moved_pairs(problem, pairs, std::exp2(-std::ilogb(problem.f.norm())));
   const Vector fall = inverse_mass * whole.f;  // without any contact
   if (pairs.empty()) return Vector(fall.normalized());
-  const bool many = has_many_motions(problem);
 
   Problem at_rest = whole;
   const RigidMap::Sparse& G = whole.G.sparse();
@@ -114,7 +127,7 @@ std::optional<Vector> onset_of_motion(const Problem& problem, const RigidMap::Sp
   SolverOptions options;
   options.judge = Judge::natural_map;
   options.tolerance = 1e-11;
-  options.deadline = Deadline::in(patience_of_onset);
+  options.deadline = Deadline::after(most_operations);
   const Solution solution = solve(at_rest, {}, options);
   if (solution.status != Status::solved) return std::nullopt;
 

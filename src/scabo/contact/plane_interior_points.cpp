@@ -10,6 +10,7 @@
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/joint_order.hpp"
+#include "scabo/contact/work.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
@@ -85,6 +86,7 @@ class PlaneInteriorPoints::Implementation {
     int since = 0;
     for (;; ++end.iterations, ++steps_) {
       interruption_point();
+      deadline.spend(operations_of_system(problem_));
       const Vector p = forces(), a = a_.cwiseProduct(length_);
       const Residual at = equations_.residual(p, a);
       const double residual = at.largest() / std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scabo/contact/soft_direction.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
@@ -28,6 +29,7 @@ class SoftNewton {
       if (best_ <= options_.fall * gained) gained = best_, gained_at = steps;
       if (end_.converged || !std::isfinite(at_.merit()) || steps >= most_steps || options_.deadline.passed()) break;
       if (end_.iterations >= options_.iterations || steps - gained_at >= options_.patience) break;
+      options_.deadline.spend(operations_of_system(equations_.problem()));
       const bool found = direction_.find(at_, p_, d_);
       end_.iterations = direction_.factorisations();
       if (!found) break;

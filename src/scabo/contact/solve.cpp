@@ -58,7 +58,9 @@ namespace {
 /// The reason why the problem was not solved.
 std::string story_of(const Solution& solution, const SolverOptions& options, bool singular) {
   char text[160];
-  if (options.deadline.passed())
+  if (options.deadline.passed() && options.deadline.of_work())
+    std::snprintf(text, sizeof text, "the limit of work ended the search after %d iterations", solution.iterations);
+  else if (options.deadline.passed())
     std::snprintf(text, sizeof text, "the time limit of %g s ended the search after %d iterations",
                   options.deadline.seconds(), solution.iterations);
   else if (singular)

@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCore>
 #include <cmath>
+#include <vector>
 
 #include "scabo/contact/rigid_motions.hpp"
 #include "unit/contact/problems.hpp"
@@ -77,6 +78,46 @@ TEST(Onset, IsThereWhereAMechanismIsProven) {
     for (int i = 0; i < problem.pairs(); ++i) EXPECT_GT(u[2 * i], -1e-8) << round << ", " << i;
   }
   EXPECT_GT(mechanisms, 100);
+}
+
+/// Blocks as above side by side, each with its own three motions.
+Problem separate_blocks(int blocks, int pairs, double friction, const Eigen::Vector3d& f) {
+  const Problem one = loaded_block(pairs, friction, f);
+  Problem problem;
+  problem.q = Vector::Zero(2 * blocks * pairs);
+  problem.mu = Vector::Constant(blocks * pairs, friction);
+  problem.f = f.replicate(blocks, 1);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int block = 0; block < blocks; ++block)
+    for (int row = 0; row < 2 * pairs; ++row)
+      for (int k = 0; k < 3; ++k) entries.emplace_back(2 * block * pairs + row, 3 * block + k, one.G.dense()(row, k));
+  RigidMap::Sparse G(problem.q.size(), 3 * blocks);
+  G.setFromTriplets(entries.begin(), entries.end());
+  problem.G = RigidMap(std::move(G));
+  return problem;
+}
+
+// 5,000 pairs of 500 bodies. What limits the search is work, which no machine does faster than another.
+TEST(Onset, OfManyPairsIsFoundWhereTheyBelongToManyBodies) {
+  constexpr int blocks = 500;
+  const Problem problem = separate_blocks(blocks, 10, 0.5, {8.0, -10.0, 0.0});
+  const auto v = onset_of_motion(problem, diagonal(Vector::Ones(3 * blocks)));
+  ASSERT_TRUE(v.has_value());
+  const Vector expected = Vector(Eigen::Vector3d(1.0, 0.0, 0.0).replicate(blocks, 1)).normalized();
+  EXPECT_LT((*v - expected).norm(), 1e-8);
+}
+
+TEST(Onset, IsNotThereForLessWorkThanItNeeds) {
+  const Problem problem = loaded_block(5, 0.5, {8.0, -10.0, 0.0});
+  const auto with = [&](double operations) {
+    return onset_of_motion(problem, diagonal(Vector::Ones(3)), operations).has_value();
+  };
+  EXPECT_FALSE(with(1.0));
+  double enough = 1.0;
+  while (!with(enough) && enough < 1e9) enough *= 2.0;
+  EXPECT_GT(enough, 100.0);  // a sweep over its ten rows
+  EXPECT_LT(enough, 1e6);
+  for (int round = 0; round < 20; ++round) EXPECT_FALSE(with(0.5 * enough)) << round;
 }
 
 TEST(Onset, IsNotThereWithoutLoads) {

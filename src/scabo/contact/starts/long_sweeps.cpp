@@ -6,14 +6,16 @@
 #include <utility>
 
 #include "scabo/base/interruption.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
-constexpr int round_of = 20;         // sweeps
-constexpr int depth = 8;             // changes remembered
-constexpr int least_patience = 500;  // sweeps in which the natural map is halved: they gain
+constexpr int round_of = 20;            // sweeps
+constexpr int depth = 8;                // changes remembered
+constexpr double part_of_joints = 0.1;  // work of a sweep over joints, of one over pairs
+constexpr int least_patience = 500;     // sweeps in which the natural map is halved: they gain
 
 }  // namespace
 
@@ -44,6 +46,7 @@ bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadli
       moved = iteration_.sweep(p_) > 0.0 || moved;
     }
     sweeps_ += round_of;
+    deadline.spend(round_of * (iteration_.of_joints() ? part_of_joints : 1.0) * operations_of_sweep(problem_));
     const Vector& motion = iteration_.motion();
     const double map = measure_.natural_map(problem_, p_, motion);
     if (extrapolated_ && !(map <= map_of_round_)) {

@@ -7,6 +7,7 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
@@ -118,6 +119,7 @@ class Sweeps {
     before_ = p_;
     while (end.sweeps < most) {
       interruption_point();
+      deadline.spend(operations_of_sweep(problem_));
       sweeps_.sweep(p_, motion_);
       ++end.sweeps;
       double figure = measure_.natural_map(problem_, p_, motion_);
