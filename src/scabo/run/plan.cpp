@@ -170,8 +170,10 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
   const bool many_bodies = width < 0.5 * components;                          // W and the systems are sparse
-  plan.contact += plan.increments * (many_bodies ? costs.wall_seconds * std::pow(components * width, 1.5)
-                                                 : costs.contact_seconds * components * components);
+  if (many_bodies) plan.bytes += costs.wall_bytes * components * width;
+  const double iterations = costs.wall_first_iterations + costs.wall_iterations * (plan.increments - 1);
+  plan.contact += many_bodies ? iterations * costs.wall_seconds * components * width
+                              : plan.increments * costs.contact_seconds * components * components;
   return plan;
 }
 

@@ -12,8 +12,9 @@
 //     condensation        dense: dense_condense_seconds n^2 k; sparse: sweep_seconds n + condense_seconds k n^0.5 +
 //                         flexibility_seconds k^2
 //     contact             contact_bytes k^2; contact_seconds (2N)^2 for each increment; of many bodies, eliminated by
-//                         nested dissection, wall_seconds (2N k)^1.5, k averaged; of more than 6,000 pairs of few
-//                         bodies a factor of all bodies, joined_iterations times in an increment
+//                         nested dissection, wall_bytes 2N k besides and wall_seconds 2N k for each iteration, k
+//                         averaged; of more than 6,000 pairs of few bodies a factor of all bodies, joined_iterations
+//                         times in an increment
 //
 // Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
@@ -55,7 +56,10 @@ struct CostConstants {
   double flexibility_seconds = 1.4e-9;      ///< for k^2
   double contact_bytes = 50.0;              ///< for k^2 of each body: W and matrices of Newton's method
   double contact_seconds = 6.5e-8;          ///< for (2N)^2 and one increment
-  double wall_seconds = 3.3e-9;             ///< for (2N k)^1.5 of many bodies and one increment, k of an average body
+  double wall_seconds = 1e-6;               ///< for 2N k of many bodies and one iteration, k of an average body
+  double wall_first_iterations = 8.0;       ///< of the first increment, from bonded pairs: 2 to 14
+  double wall_iterations = 10.0;            ///< of each one after it: 4 under small loads, 60 near the collapse load
+  double wall_bytes = 300.0;                ///< for 2N k of many bodies: their saddle matrix and its factor
   double joined_iterations = 15.0;          ///< of Newton, each with twice the time of a factorisation
   double field_seconds = 1.8e-6;            ///< for n and one increment with fields
   double fem_field_seconds = 8.5e-7;        ///< for n of finite elements

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 #include "support/long_double.hpp"
 
@@ -73,6 +74,29 @@ TEST(SchurExponential, OutsideTheSectorByTheDenseExponential) {
   Matrix S(3, 3);  // 1 +- 5i: 79 degrees
   S << 1.0, -5.0, 0.3, 5.0, 1.0, -0.2, 0.0, 0.0, 3.0;
   expect_agrees(S, 1e-13);
+}
+
+// Pairs 1.2 +- 3i, 1.5 +- 8i ... up to 90 degrees from the axis once a shift is taken off, as those of slender and
+// graded super-elements. Each size is the least for which another contour is cheaper than the dense exponential.
+TEST(SchurExponential, ManyPairsNearTheImaginaryAxis) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> entry;
+  for (const auto& [n, imaginary] : {std::pair(32, 1.5), std::pair(60, 2.6), std::pair(152, 6.0)}) {
+    Matrix S = Matrix::NullaryExpr(n, n, [&] { return 0.02 * entry(random); });
+    S.triangularView<Eigen::StrictlyLower>().setZero();
+    for (int i = 0; i < n; i += 2) {
+      const double part = static_cast<double>(i) / n;
+      S(i, i) = S(i + 1, i + 1) = 1.2 + 30.0 * part * part;
+      S(i, i + 1) = imaginary * (1.0 + part), S(i + 1, i) = -imaginary * (1.0 + part);
+    }
+    const SchurExponential schur(S);
+    const Vector c = Vector::LinSpaced(n, -1.0, 2.0), w = Vector::LinSpaced(n, 1.0, -0.5);
+    const double shift = 1.0;
+    for (const double s : {-0.7, -3.0}) {
+      const Vector expected = std::exp(-shift * s) * oracle(schur.T(), c, w, s);
+      EXPECT_LT((schur.propagate(c, {{2.0, -w}}, s, shift) - expected).norm(), 1e-12 * c.norm()) << n << ", s = " << s;
+    }
+  }
 }
 
 TEST(SchurExponential, RandomMatricesFarFromNormal) {
