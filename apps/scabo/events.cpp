@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scabo/analysis/mechanism.hpp"
 #include "scabo/result/summary.hpp"
 #include "scabo/result/version.hpp"
 #include "scabo/run/failures.hpp"
@@ -206,6 +207,11 @@ void Events::error(const std::string& text) {
                 {{"text", text}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}, {"path", nullptr}}));
 }
 
+void Events::not_solved(const analysis::StaticSolution& solution) {
+  outcome_ = solution.outcome;
+  if (solution.mechanism) mechanism_ = analysis::describe(*solution.mechanism, solution.model);
+}
+
 void Events::print_summary(const std::string& text) const {
   wanted_ ? print_to_stderr(text) : app::print_summary(text);
 }
@@ -213,7 +219,9 @@ void Events::print_summary(const std::string& text) const {
 void Events::finished(ExitStatus status) {
   end_stage();
   write(line_of("finished", seconds_since(start_),
-                {{"status", name_of(status, outcome_)}, {"exit_status", static_cast<int>(status)}}));
+                {{"status", name_of(status, outcome_)},
+                 {"exit_status", static_cast<int>(status)},
+                 {"mechanism", or_null(mechanism_)}}));
 }
 
 void Events::write(std::string line) {

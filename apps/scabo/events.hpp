@@ -40,8 +40,8 @@ class Events {
   void error(const std::string& text);
   /// Text for people: on standard output, or on standard error if that has the events.
   void print_summary(const std::string& text) const;
-  /// `not_converged`, `mechanism` or `collapse`, for the last event.
-  void outcome(analysis::Outcome outcome) { outcome_ = outcome; }
+  /// How a run that is not solved ended, for the last event.
+  void not_solved(const analysis::StaticSolution& solution);
 
  private:
   void end_stage();
@@ -54,6 +54,7 @@ class Events {
   std::optional<std::string> stage_;
   std::optional<analysis::IncrementBegin> increment_;
   std::optional<analysis::Outcome> outcome_;
+  std::optional<std::string> mechanism_;  ///< which bodies move, if they do
   run::TimeLeft time_left_;
 };
 

@@ -138,7 +138,7 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
   }
   if (status != ExitStatus::solved) {
     const std::string why = run::why_not_solved(solution, status != ExitStatus::not_converged);
-    events.outcome(solution.outcome);
+    events.not_solved(solution);
     events.error(why);
     print_error(why);
   }

@@ -20,7 +20,7 @@ KEYS = {
                       "coarse_iterations", "halvings", "pairs", "reason", "seconds", "done", "seconds_left"},
     "warning": {"kind", "text"},
     "error": {"text", "file", "line", "column", "path"},
-    "finished": {"status", "exit_status"},
+    "finished": {"status", "exit_status", "mechanism"},
 }
 
 
@@ -116,6 +116,9 @@ class Events(support.InTemporaryDirectory):
         self.assertIn("mechanism", end["reason"])
         self.assertIn("mechanism", self.of_kind(events, "error")[0]["text"])
         self.assertEqual((events[-1]["status"], events[-1]["exit_status"]), ("mechanism", 2))
+        summary = json.loads((self.directory / "block.results" / "summary.json").read_text())
+        self.assertEqual(events[-1]["mechanism"], summary["mechanism"]["text"])
+        self.assertIn("'", events[-1]["mechanism"], "no body is named")
 
     def test_warnings(self):
         run = self.run_steps("--set", "loads.tip.force=[0,-1e9]", increments=1)

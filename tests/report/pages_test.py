@@ -174,6 +174,13 @@ class Pages(unittest.TestCase):
         self.assertIsNone(content["field"])
         self.assertIsNone(content["pairs"])
 
+    def test_the_motion_of_a_mechanism(self):
+        self.change_summary(status="mechanism", reason="no forces balance the loads",
+                            mechanism={"text": "1 of 2 bodies moves: 'upper' slides"})
+        text = self.content(page.page_of(self.results))["verdict"]["text"]
+        self.assertTrue(text.startswith("No forces balance the loads. 1 of 2 bodies moves: 'upper' slides. "
+                                        "The file mechanism.vtu shows the motion."), text)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -68,6 +68,7 @@ class Program(support.InTemporaryDirectory):
         self.scabo("run", "sliding.yaml", "--report", "-q", status=2)
         text = (self.directory / "sliding.report.html").read_text(encoding="utf-8")
         self.assertIn('"heading":"The loads are more than the structure can carry"', text)
+        self.assertIn("The file mechanism.vtu shows the motion.", text)
 
     def test_of_bodies_that_come_and_go(self):
         """Fields and pairs of the increments that have the mesh of the last one, and a sentence that says so."""

@@ -33,6 +33,8 @@ def verdict(summary, increments):
     """How the run ended: a level for its colour, a heading and sentences."""
     level, heading = STATUS.get(summary["status"], ("bad", summary["status"].replace("_", " ")))
     sentences = [sentence(summary["reason"])] if summary.get("reason") else []
+    if summary.get("mechanism"):
+        sentences.append(f"{sentence(summary['mechanism']['text'])} The file mechanism.vtu shows the motion.")
     if summary.get("analysis") == "modal":
         count = len(summary.get("modes", []))
         heading = "Solved" if summary["status"] == "solved" else heading
