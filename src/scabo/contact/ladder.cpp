@@ -40,6 +40,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.patience = how.patience;
   options.fall = how.fall;
   options.first_fall = how.first_fall;
+  options.watched = how.watched;
   options.stage = how.stage;
   options.deadline = options_.deadline;
   options.on_iteration = counted(options_.on_iteration);
@@ -82,24 +83,22 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   const int most = paths ? std::min(few, options_.iterations) : 0;
   const bool inner = many && may_take_interior_points(problem_);
   if (!cold && !many && problem_.G.cols() > 0 && better(on_kept_states(p, a))) return best;
-  if (!cold) {
+  if (!cold && inner && !paths_first) {
+    constexpr int most_of_soft = 14, slowly = 5;
+    if (better(softly(p, a, {"newton", 0.0, 1.0, most_of_soft, slowly}))) return best;
+    if (better(inside_near(best.p, best.a, near_by))) return best;
+  } else if (!cold) {
     Run how{"newton", 0.0, 1.0, most, patience};
     if (paths) how.first_fall = 0.15;  // as in bonded()
-    if (inner && !paths_first) {
-      how.iterations = 10;
-      how.patience = 2;
-      how.fall = 0.1;
-    }
     if (better(newton_of_many(p, a, how))) return best;
   }
-  if (!cold && inner && !paths_first && better(inside_near(best.p, best.a, near_by))) return best;
   if (!cold && paths && better(along_loads(p, a))) return best;
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
   if (held_together && better(bonded(*held_together))) return best;
   if (hopeless && hopeless()) return best;
   if (inner && !paths_first && held_together)
     for (const double start : {1.0, 0.05})
-      if (better(inside_near(best.p, best.a, start))) return best;
+      if (better(inside_near(held_together->p, held_together->a, start))) return best;
   if (paths && held_together) {
     if (better(along_paths(*held_together, touching))) return best;
     // Where Newton's method ends far away, paths may turn back below a load that is carried.

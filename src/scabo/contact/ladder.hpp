@@ -54,10 +54,11 @@ class Ladder {
     std::string stage;
     double regularisation = 0.0;
     double r_factor = 1.0;
-    int iterations = 0;  ///< 0: those of the options
-    int patience = 0;    ///< NewtonOptions::patience
-    double fall = 0.5;   ///< NewtonOptions::fall
+    int iterations = 0;       ///< 0: those of the options
+    int patience = 0;         ///< NewtonOptions::patience
+    double fall = 0.5;        ///< NewtonOptions::fall
     double first_fall = 1.0;  ///< NewtonOptions::first_fall
+    int watched = 6;          ///< NewtonOptions::watched
     bool soft = false;        ///< contact/soft_newton, where it may
   };
   /// Pairs of many bodies up to which a path comes before interior points: each of its changes of state costs a solve
@@ -73,6 +74,7 @@ class Ladder {
   NewtonEnd run(const Problem& problem, const Vector& p, const Vector& a, const Run& how);
   NewtonEnd newton_alone(const Vector& p, const Vector& a, const Run& how) { return run(problem_, p, a, how); }
   NewtonEnd newton_of_many(const Vector& p, const Vector& a, const Run& how);
+  NewtonEnd softly(const Vector& p, const Vector& a, Run how);
   NewtonEnd climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                           const std::function<bool()>& hopeless);
   NewtonEnd on_kept_states(const Vector& p, const Vector& a);

@@ -31,21 +31,29 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};
   if (may_follow_path(problem_)) how.first_fall = 0.15;
-  if (!small) how.patience = 2, how.fall = 0.1;  // what falls more slowly takes more iterations than interior points
+  if (!small) {
+    how.patience = 2, how.fall = 0.1;  // what falls more slowly takes more iterations than interior points
+    how.watched = 0;
+  }
   return newton_of_many(start.p, start.a, how);
 }
 
-/// Where Newton's method ends because it has no direction, bodies slide on all their pairs, and directions that hold
-/// them follow.
+/// Where Newton's method has come nearer and ends because it has no direction, or none that descends, directions that
+/// are held softly follow: bodies may slide on all their pairs, or a wrong state lets one go.
 NewtonEnd Ladder::newton_of_many(const Vector& p, const Vector& a, const Run& how) {
   constexpr int few = 12, patience = 4;
   NewtonEnd end = newton_alone(p, a, how);
-  if (!end.singular || end.converged || late() || problem_.pairs() <= most_of_paths_first || !may_soften(problem_))
+  const bool given_up = !end.singular && end.iterations <= 1;
+  if (given_up || end.converged || late() || problem_.pairs() <= most_of_paths_first || !may_soften(problem_))
     return end;
-  Run held{"newton, bodies held", 0.0, 1.0, few, patience};
-  held.soft = true;
-  NewtonEnd more = newton_alone(end.p, end.a, held);
+  NewtonEnd more = softly(end.p, end.a, {"newton, bodies held", 0.0, 1.0, few, patience});
   return more.converged || more.residual < end.residual ? more : end;
+}
+
+/// Newton's method with directions that are held softly (contact/soft_newton), where it may be.
+NewtonEnd Ladder::softly(const Vector& p, const Vector& a, Run how) {
+  how.soft = true;
+  return newton_alone(p, a, how);
 }
 
 /// The path of the loads from the last increment to this one.
@@ -128,13 +136,13 @@ NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
 }
 
 /// Interior points of a plane problem from forces and motions that are known roughly. When |H| has fallen far enough
-/// for nearly all states to be right, a few Newton iterations reach the solution; where they do not, steps follow once
-/// more.
+/// for most states to be right, a few Newton iterations reach the solution; where they do not, steps follow once more.
 NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
   constexpr int few = 7, slowly = 4, hardly = 2;
+  constexpr double first_aim = 1e-2, next_aim = 0.7;  // |H| at which Newton follows; the next one, of the last one
   PlaneInteriorPoints points(problem_, p, a, start);
   NewtonEnd best = nothing();
-  for (const double aim : {2e-3, 5e-4, 1e-4, 0.0}) {
+  for (double aim = first_aim;;) {
     InteriorPointEnd reached = points.advance(aim, content_, options_.deadline);
     for (Iteration& iteration : reached.trace) {
       iteration.iteration += iterations_ + coarse_iterations_;
@@ -149,13 +157,11 @@ NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
       return confirmed(std::move(found), hardly, "interior points");
     }
     if (late()) return best;
-    Run how{"newton after interior points", 0.0, 1.0, few, slowly};
-    how.soft = true;
-    NewtonEnd end = newton_alone(reached.p, reached.a, how);
+    NewtonEnd end = softly(reached.p, reached.a, {"newton after interior points", 0.0, 1.0, few, slowly});
     if (end.converged || end.residual < best.residual) best = std::move(end);
     if (best.converged || late() || reached.residual > aim) return best;
+    aim = next_aim * reached.residual;
   }
-  return best;
 }
 
 /// Interior points for elastic bodies from starts with these factors, then Newton from the best of them.

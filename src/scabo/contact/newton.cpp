@@ -38,6 +38,10 @@ class Newton {
       ++end_.iterations;
       options_.deadline.spend(operations_);
       if (many_ && step_of_many_bodies(first)) continue;
+      if (many_ && options_.watched == 0) {
+        end_.singular = !found_;
+        break;
+      }
       const bool found = find_direction(first, NewtonDirection::Ties::as_d_takes_them);
       if (found && line_search()) continue;
       if (!found || ++unchecked_ > options_.unchecked) {
@@ -66,24 +70,25 @@ class Newton {
   /// Math. Programming Study 16 (1982) 1). A tower of 50 blocks at half of its overturning load: 43 iterations with the
   /// search alone.
   bool step_of_many_bodies(double first) {
-    constexpr int watched = 6, patience = 8;
+    constexpr int patience = 8;
     constexpr double long_enough = 0.5;
     if (watch_ > 0 && at_.merit() < watched_merit_) watch_ = 0;
-    if (watch_ == watched) {
+    if (watch_ > 0 && watch_ == options_.watched) {
       p_ = watched_p_;
       a_ = watched_a_;
       equations_.evaluate(p_, a_, at_);
       watch_ = 0;
       patience_ = patience;
     }
-    if (!find_direction(first, NewtonDirection::Ties::free)) return false;
+    found_ = find_direction(first, NewtonDirection::Ties::free);
+    if (!found_) return false;
     const double step = descending_step();
     if (watch_ == 0 && (step >= long_enough || (patience_ > 0 && step > 0.0))) {
       --patience_;
       take(step);
       return true;
     }
-    if (patience_ > 0) return false;
+    if (patience_ > 0 || options_.watched == 0) return false;
     if (watch_++ == 0) {
       watched_p_ = p_;
       watched_a_ = a_;
@@ -186,6 +191,7 @@ class Newton {
   const NewtonOptions& options_;
   NewtonDirection direction_;
   bool many_;          // bodies
+  bool found_ = true;  // the last direction of many bodies
   double operations_;  // of an iteration
   Vector p_, a_, d_, change_, trial_p_;
   Residual at_, trial_;

@@ -20,11 +20,12 @@ struct NewtonOptions {
   int iterations = 50;          ///< most
   double regularisation = 0.0;  ///< alpha, relative to 1 / r: at the start; it vanishes with |H|
   int unchecked = 8;            ///< full steps without descent, most
+  int watched = 6;              ///< the same of many bodies, after which the search is used; 0: none, and it ends there
   int patience = 0;             ///< ends when the smallest merit did not fall by `fall` in so many iterations; 0: never
   double fall = 0.5;
   double first_fall = 1.0;  ///< ends where the first iteration leaves more than this part of the merit
   std::string stage = "newton";
-  Deadline deadline;  ///< no iteration begins after it
+  Deadline deadline;                                   ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration;  ///< may be empty; what it throws ends the solve
   /// Converged as well when this says so of forces and motions; may be empty.
   IsSolution content;

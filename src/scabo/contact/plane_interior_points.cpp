@@ -25,13 +25,15 @@ constexpr double usual = 12.0;  // products of the start over the square of the 
 constexpr int most_steps = 80;
 constexpr int patience = 6;                              // steps without a gain in |H| or in the products
 constexpr double gain = 0.9;                             // of the least so far
+constexpr double whole = 0.85;                           // least step after which Newton's method may follow
 constexpr double least_part = 0.98, most_part = 0.9995;  // of the way to the nearest boundary
 constexpr int correctors = 6;                            // most, each a solve
 constexpr double wanted = 0.3;                           // by which a corrector lengthens the step, at best; ...
 constexpr double worth = 0.03;                           // ... and at least
 constexpr double off = 10.0;  // products further from their middle than this factor are led back by correctors
-// A second aim of the products, this part of the usual one, if the step is not shorter than this part of it.
-constexpr double bolder = 0.1, as_long = 0.9;
+/// Aims of the products, as parts of Mehrotra's: his is cautious where a few of ten thousand factors shorten the
+/// predictor, which correctors and longer steps then pass.
+constexpr std::array<double, 3> aims{1.0, 0.3, 0.1};
 // A step shorter than `jammed`, and not one of the first few, is followed by factors divided anew, with products
 // `wider`.
 constexpr double jammed = 0.3, wider = 3.0;
@@ -56,7 +58,6 @@ class PlaneInteriorPoints::Implementation {
     Direction d;
     double target = 0.0;  ///< of the products
     double step = 0.0;
-    double left = HUGE_VAL;  ///< of products and distances, over those of the present point
   };
   /// Products of the three factors of every pair.
   struct Products {
@@ -103,7 +104,9 @@ class PlaneInteriorPoints::Implementation {
         end.content = true;
         break;
       }
-      if (residual <= aim || steps_ >= most_steps || since >= patience || deadline.passed() || !take_step()) break;
+      if ((residual <= aim && step_ >= whole) || steps_ >= most_steps || since >= patience || deadline.passed() ||
+          !take_step())
+        break;
       if (++since_divided_ > free_steps && step_ < jammed && divided_again_ < most_divided) {
         divide_again();
         since = 0;
@@ -313,21 +316,29 @@ class PlaneInteriorPoints::Implementation {
       far = longer;
     }
     plan.step = std::min(1.0, std::clamp(1.0 - target / middle_, least_part, most_part) * far);
-    plan.left = sum_of(products(plan.d, plan.step)) / static_cast<double>(3 * N_) / middle_ + 1.0 - plan.step;
     return plan;
   }
 
+  /// The plan after which least is left.
   bool take_step() {
     if (!factorise()) return false;
     const Direction first = direction({-now_.normal, -now_.forward, -now_.backward}, true);
     const double predicted = std::min(1.0, reach(first));
     const double reached = std::max(sum_of(products(first, predicted)), 0.0) / static_cast<double>(3 * N_);
     const double target = std::pow(std::min(reached / middle_, 1.0), 3) * middle_;
-    Plan best = plan(first, predicted, target), bold = plan(first, predicted, bolder * target);
-    if (bold.step >= as_long * best.step && bold.left < best.left) best = std::move(bold);
-    step_ = best.step;
-    if (!std::isfinite(step_)) return false;
-    take_longest(best);
+    std::array<Plan, aims.size()> plans;
+    for (std::size_t k = 0; k < aims.size(); ++k) plans[k] = plan(first, predicted, aims[k] * target);
+    const Point from = point();
+    const double middle = middle_;
+    Point best;
+    double least = HUGE_VAL;
+    for (const Plan& plan : plans) {
+      if (!std::isfinite(plan.step)) continue;
+      const double step = longest_step(plan, from, middle), left = left_after(plan, step, from, middle);
+      if (left < least) least = left, best = point(), step_ = step;
+    }
+    if (least == HUGE_VAL) return false;
+    set(best);
     return true;
   }
 
@@ -345,18 +356,16 @@ class PlaneInteriorPoints::Implementation {
 
   /// The step `plan`.step ends where the first factor comes to its boundary. If a few go less far than the others, the
   /// others go further: the linear equations of those few are then not met, and the next step takes it. Of such steps
-  /// the one is taken after which least is left.
-  void take_longest(const Plan& plan) {
+  /// the one after which least is left.
+  double longest_step(const Plan& plan, const Point& from, double middle) {
     const Direction& d = plan.d;
-    const Point from = point();
-    const double middle = middle_;
     std::vector<double> rates;
     rates.reserve(static_cast<std::size_t>(6 * N_));
     const auto collect = [&](const Array& x, const Array& dx) {
       for (Index i = 0; i < N_; ++i) rates.push_back(-dx[i] / x[i]);
     };
-    collect(normal_, d.normal), collect(plus_, d.plus), collect(minus_, d.minus);
-    collect(u_n_, d.u_n), collect(forward_, d.forward), collect(backward_, d.backward);
+    collect(from.normal, d.normal), collect(from.plus, d.plus), collect(from.minus, d.minus);
+    collect(from.u_n, d.u_n), collect(from.forward, d.forward), collect(from.backward, d.backward);
     std::sort(rates.begin(), rates.end(), std::greater<>());
     std::vector<double> steps{plan.step};
     for (const double part : shorter) {
@@ -365,14 +374,18 @@ class PlaneInteriorPoints::Implementation {
       if (step > steps.back()) steps.push_back(step);
     }
     if (steps.back() < 1.0) steps.push_back(1.0);
-    double least = HUGE_VAL;
+    double least = HUGE_VAL, longest = plan.step;
     for (const double step : steps) {
-      take(plan, step, middle);
-      const double left = left_over();
-      if (left < least || step == plan.step) least = left, step_ = step;
-      set(from);
+      const double left = left_after(plan, step, from, middle);
+      if (left < least || step == plan.step) least = left, longest = step;
     }
-    take(plan, step_, middle);
+    return longest;
+  }
+
+  double left_after(const Plan& plan, double step, const Point& from, double middle) {
+    set(from);
+    take(plan, step, middle);
+    return left_over();
   }
 
   /// This part of the way, but of factors that would leave their domain less.
@@ -416,7 +429,7 @@ class PlaneInteriorPoints::Implementation {
   Sparse G_, whole_, K_;
   std::vector<std::array<Index, 3>> diagonal_;  // entries nn, tn and tt of every pair
   linalg::SparseGeneralSolver lu_;
-  double middle_ = 0.0, step_ = 0.0, least_middle_ = HUGE_VAL, least_residual_ = HUGE_VAL;
+  double middle_ = 0.0, step_ = 1.0, least_middle_ = HUGE_VAL, least_residual_ = HUGE_VAL;
   int steps_ = 0, since_divided_ = 0, divided_again_ = 0;
 };
 

@@ -11,23 +11,25 @@ namespace {
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// With a hundred and ten times as much the last digits came by a factor of six a step at 0.99 of a limit load.
-constexpr double raise = 1e-6, least_hold = 1e-7;
-/// Instead of `least_hold`, of motions that stay as they are.
+/// On the rows of motions: this part of |H| over the largest force, and within which limits. With less than 1e-6 rows
+/// that contradict each other by rounding lead away from where |H| is 1e-8.
+constexpr double of_residual = 0.1, least_raise = 1e-6, most_raise = 1e-2;
+/// On the rows of balance: this part of the same, at least. 1e-7 kept 40 x 40 blocks at 4e-9.
+constexpr double of_raise = 0.1, least_hold = 1e-9;
+/// On the rows of balance of motions that stay as they are.
 constexpr double firm = 1.0;
 /// Products with the factor of an earlier step, most, and pairs that have changed since then. `exact_enough`: what is
 /// left of the right-hand side; the softness leaves more.
 constexpr int most_products = 30, most_changed = 100;
-constexpr GmresOptions reused{1e-8, most_products, most_products};
+constexpr GmresOptions by_old_factor{1e-8, most_products, most_products};
 constexpr double exact_enough = 1e-6;
 
 }  // namespace
 
 SoftDirection::SoftDirection(const BDifferentiableEquations& equations) : equations_(equations), sliding_(equations) {
   const Sparse& G = equations.problem().G.sparse();
-  least_hold_.resize(G.cols());
-  for (Index k = 0; k < G.cols(); ++k) least_hold_[k] = least_hold * G.col(k).squaredNorm();
-  hold_ = least_hold_;
+  size_.resize(G.cols());
+  for (Index k = 0; k < G.cols(); ++k) size_[k] = G.col(k).squaredNorm();
 }
 
 std::vector<SoftDirection::State> SoftDirection::states_of(const Residual& at) {
@@ -53,12 +55,12 @@ bool SoftDirection::asks_for_motion(const std::vector<State>& states, Index row)
 void SoftDirection::apply(const std::vector<State>& states, const Vector& x, Vector& image) {
   const Problem& problem = equations_.problem();
   const Vector& r = equations_.r();
-  const Index forces = r.size(), m = hold_.size();
+  const Index forces = r.size(), m = size_.size();
   equations_.motion_along(x, motion_);
   image.resize(forces + m);
   for (Index k = 0; k < forces; ++k) {
     if (asks_for_motion(states, k)) {
-      image[k] = r[k] * motion_[k] + raise * x[k];
+      image[k] = r[k] * motion_[k] + raise_ * x[k];
     } else {
       image[k] = x[k];
       if (k % 2 == 1) image[k] -= states[static_cast<std::size_t>(k / 2)].slope * x[k - 1];
@@ -73,7 +75,7 @@ bool SoftDirection::factorise() {
   const Problem& problem = equations_.problem();
   const Vector& r = equations_.r();
   const Sparse &W = problem.W.sparse(), &G = problem.G.sparse();
-  const Index forces = r.size(), m = hold_.size();
+  const Index forces = r.size(), m = size_.size();
   std::vector<int> place(static_cast<std::size_t>(forces), -1);
   unknowns_.clear();
   for (Index k = 0; k < forces; ++k) {
@@ -96,7 +98,7 @@ bool SoftDirection::factorise() {
         if (const int to = place[static_cast<std::size_t>(it.row())]; to >= 0)
           add(to, j, weight * r[it.row()] * it.value());
     }
-    add(j, j, raise);
+    add(j, j, raise_);
   }
   for (Index k = 0; k < m; ++k) {
     for (Sparse::InnerIterator it(G, k); it; ++it) {
@@ -128,7 +130,7 @@ bool SoftDirection::factorise() {
 void SoftDirection::solve(const Vector& right, Vector& x) {
   const Problem& problem = equations_.problem();
   const Vector& r = equations_.r();
-  const Index forces = r.size(), m = hold_.size(), size = static_cast<Index>(unknowns_.size());
+  const Index forces = r.size(), m = size_.size(), size = static_cast<Index>(unknowns_.size());
   x.setZero(forces + m);
   for (Index k = 0; k < forces; ++k) {
     if (asks_for_motion(held_, k)) continue;
@@ -159,17 +161,22 @@ void SoftDirection::solve(const Vector& right, Vector& x) {
 bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
   std::vector<State> states = states_of(at);
   Vector right = at.H;
-  hold_ = least_hold_;
-  for (const int motion : sliding_.hold(p, at, states, right)) hold_[motion] *= firm / least_hold;
+  const double largest = std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
+  const double left = of_residual * at.largest() / largest;
+  raise_ = std::clamp(left, least_raise, most_raise);
+  hold_ = std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_;
+  for (const int motion : sliding_.hold(p, at, states, right)) hold_[motion] = firm * size_[motion];
   right = -right;
+  reused_ = false;
   if (!held_.empty()) {
     int changed = 0;
     for (std::size_t i = 0; i < states.size(); ++i) changed += !(states[i] == held_[i]);
     if (changed <= most_changed) {
       d.setZero(right.size());
-      const double left = gmres([&](const Vector& x, Vector& image) { apply(states, x, image); },
-                                [&](const Vector& b, Vector& x) { solve(b, x); }, right, d, reused);
-      if (left <= exact_enough && d.allFinite()) return true;
+      const double remains = gmres([&](const Vector& x, Vector& image) { apply(states, x, image); },
+                                   [&](const Vector& b, Vector& x) { solve(b, x); }, right, d, by_old_factor);
+      reused_ = remains <= exact_enough && d.allFinite();
+      if (reused_) return true;
     }
   }
   held_ = std::move(states);

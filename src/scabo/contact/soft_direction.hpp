@@ -2,9 +2,12 @@
 // the diagonal of A.
 //
 // Close to a solution a wall may be nearly a mechanism: most joints slip, and one wrong state lets a block go. The
-// exact direction is then a thousand times too long. The matrix therefore has 1e-6 (of 1 / r) on its rows of motions,
-// and -1e-7, for a motion that moves one component of one pair by 1, on its rows of balance: what is not determined
-// moves little. It is not taken back: an error is left, and the next step takes it.
+// exact direction is then a thousand times too long. And where three bodies meet in a point, one motion of its three
+// pairs follows from the other two: rows of pairs that are taken to stick all at once may contradict each other. The
+// matrix therefore has a tenth of |H| over the largest force, from 1e-6 to 1e-2 (of 1 / r), on its rows of motions, and
+// a tenth of that with the opposite sign, for a motion that moves one component of one pair by 1, on its rows of
+// balance: what is not determined moves little. It is not taken back: an error is left, which the next step takes, and
+// as it shrinks with |H| convergence stays fast (Yamashita and Fukushima, Computing Suppl. 15 (2001) 239).
 //
 //     presses:  r_n (W dp + G da)_n = -H_n        open:   dp_n = -H_n
 //     sticks:   r_t (W dp + G da)_t = -H_t        slips:  dp_t - e mu dp_n = -H_t        G'dp = -H_R
@@ -36,6 +39,9 @@ class SoftDirection {
   bool find(const Residual& at, const Vector& p, Vector& d);
 
   int factorisations() const { return factorisations_; }
+  /// Whether the last direction came by the factor of an earlier one.
+  bool reused() const { return reused_; }
+  void forget_factor() { held_.clear(); }
 
  private:
   using State = PairState;
@@ -51,7 +57,8 @@ class SoftDirection {
 
   const BDifferentiableEquations& equations_;
   SlidingBodies sliding_;
-  Vector least_hold_, hold_;  ///< on the rows of balance
+  double raise_ = 0.0;       ///< on the rows of motions
+  Vector size_, hold_;       ///< of the columns of G, squared; on the rows of balance
   std::vector<State> held_;  ///< of the factor; empty: none
   std::vector<Unknown> unknowns_;
   Eigen::SparseMatrix<double> A_;
@@ -59,6 +66,7 @@ class SoftDirection {
   std::optional<JointOrder> joint_order_;
   Vector motion_, reduced_, y_, left_, more_;
   int factorisations_ = 0;
+  bool reused_ = false;
 };
 
 }  // namespace scabo::contact

@@ -34,7 +34,12 @@ class SoftNewton {
       end_.iterations = direction_.factorisations();
       if (!found) break;
       step = descending_step();
-      if (step < least_step) break;
+      if (step < least_step) {
+        if (!direction_.reused()) break;
+        direction_.forget_factor();  // GMRES leaves a part of the right-hand side
+        step = 0.0;
+        continue;
+      }
       p_ += step * d_.head(p_.size());
       a_ += step * d_.tail(a_.size());
       equations_.evaluate(p_, a_, at_);
