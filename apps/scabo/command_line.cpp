@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -296,8 +297,9 @@ class CommandLine {
   /// Prints the requested help or version, or a mistake in one line with its remedy.
   ExitStatus explain(const CLI::ParseError& error, const std::vector<std::string>& words) const {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      app_.exit(error);
-      return ExitStatus::solved;
+      std::ostringstream text, nothing;
+      app_.exit(error, text, nothing);
+      return print(text.str());
     }
     const auto chosen = app_.get_subcommands();
     const std::string command = chosen.empty() ? "scabo" : "scabo " + chosen.front()->get_name();

@@ -76,11 +76,12 @@ class Streams(support.InTemporaryDirectory):
                 self.assertEqual(summary_of(self.directory / "out")["status"], "solved")
 
     def test_a_text_that_is_the_answer_must_be_written(self):
-        for command in ('schema', 'check "$BEAM"', 'exponents "$BEAM"'):
-            with self.subTest(command=command):
-                ended = self.shell(f'"$SCABO" {command} >&-')
-                self.assertEqual(ended.returncode, FAILURE)
-                self.assertIn("cannot write to standard output", ended.stderr)
+        for command in ('schema', 'check "$BEAM"', 'exponents "$BEAM"', '--version', '--help', 'run --help'):
+            for full in (">&-", ">/dev/full"):
+                with self.subTest(command=command, full=full):
+                    ended = self.shell(f'"$SCABO" {command} {full}')
+                    self.assertEqual(ended.returncode, FAILURE)
+                    self.assertIn("cannot write to standard output", ended.stderr)
 
     def test_errors_keep_their_status_without_a_standard_error(self):
         self.assertEqual(self.shell('"$SCABO" check no_such.yaml 2>&-').returncode, WRONG_INPUT)
