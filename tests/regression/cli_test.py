@@ -53,6 +53,25 @@ class CommandLine(support.InTemporaryDirectory):
         self.assertIn("cannot write to standard output", run.stderr)
 
 
+class Output(support.InTemporaryDirectory):
+    def test_forces_that_are_rounding_are_shown_as_zero(self):
+        """A disc that its support moves without stress."""
+        (self.directory / "disc.yaml").write_text("""
+scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  disc: {material: steel, shape: {circle: {centre: [0, 1], radius: 1}}, mesh: {size: 0.3}}
+  floor: {rigid: true, shape: {rectangle: {corner: [-2, -1], size: [4, 1]}}}
+supports:
+  - {on: floor, fix: [x, y]}
+  - {on: {body: disc, near: [0, 2]}, displacement: [0, -0.0001], name: push}
+contacts: {base: {between: [disc.rim, floor.top]}}
+""")
+        run = scabo("run", "disc.yaml", cwd=self.directory)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        self.assertRegex(run.stdout, r"\n  push +0 +0\n")
+
+
 class Input(support.InTemporaryDirectory):
     def test_missing_file(self):
         for command in ("run", "check"):
