@@ -77,6 +77,8 @@ TEST(Overrides, MistakesNameTheOverride) {
   EXPECT_EQ(mistake("scabo.version", "1"), "model.yaml: --set scabo.version: scabo is empty");
   EXPECT_THAT(mistake("loads.push.force", "[0, "), HasSubstr("model.yaml: --set loads.push.force: not valid YAML"));
   EXPECT_THAT(mistake("materials.steel.young", ""), HasSubstr("has no value: give one"));
+  EXPECT_THAT(mistake("bodies.block.mesh.order", ""),
+              HasSubstr("--set bodies.block.mesh.order: has no value: give one"));
   EXPECT_THAT(mistake("bodies.block.mesh.size", "1e-9"), HasSubstr("--set bodies.block.mesh.size: gives"));
 }
 
