@@ -41,6 +41,26 @@ class CommandLine(support.InTemporaryDirectory):
                 self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
                 self.assertRegex(run.stderr, r"^scabo: .* \(see `scabo.* --help`\)\n$")
 
+    def test_numbers_out_of_range_say_what_they_may_be(self):
+        for option, value, message in [
+            ("--threads", "0", "must be a whole number from 1 to 1024, not '0'"),
+            ("--threads", "many", "must be a whole number from 1 to 1024, not 'many'"),
+            ("--threads", "1.5", "must be a whole number from 1 to 1024, not '1.5'"),
+            ("--divide-from", "-1", "must be 0 or a larger number, not '-1'"),
+        ]:
+            with self.subTest(option=option, value=value):
+                run = scabo("run", BEAM, f"{option}={value}", cwd=self.directory)
+                self.assertEqual((run.returncode, run.stderr), (WRONG_INPUT, f"scabo: {option}: {message} (see `scabo run --help`)\n"))
+        for option, value, message in [
+            ("--time-limit", "0", "must be a number greater than 0, not '0'"),
+            ("--time-limit", "inf", "must be a number greater than 0, not 'inf'"),
+            ("--tolerance", "1e-30", "must be a number from 1e-15 to 0.1, not '1e-30'"),
+            ("--iterations", "0", "must be a whole number from 1 to 100000000, not '0'"),
+        ]:
+            with self.subTest(option=option, value=value):
+                run = scabo("contact", "no.dat", option, value, cwd=self.directory)
+                self.assertEqual((run.returncode, run.stderr), (WRONG_INPUT, f"scabo: {option}: {message} (see `scabo contact --help`)\n"))
+
     def test_schema_is_json(self):
         run = scabo("schema")
         self.assertEqual((run.returncode, run.stderr), (SOLVED, ""))

@@ -70,7 +70,7 @@ TEST(Overrides, MistakesNameTheOverride) {
             "model.yaml: --set materials.steel.yuong: unknown key 'yuong' (available: young, poisson, density, "
             "orthotropic, anisotropic, expansion)");
   EXPECT_EQ(mistake("supports.1.fix", "x"),
-            "model.yaml: --set supports.1.fix: supports is a list: use a number from 0 to 0, not '1'");
+            "model.yaml: --set supports.1.fix: supports is a list of one entry: write 0, not '1'");
   EXPECT_EQ(
       mistake("title.of.it", "x"),
       "model.yaml: --set title.of.it: the model has no 'title' (available: scabo, materials, bodies, supports, loads)");
