@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "commands.hpp"
 #include "compare/solvers.hpp"
 #include "new_model.hpp"
+#include "number_checks.hpp"
 #include "scabo/result/version.hpp"
 #include "scabo/run/failures.hpp"
 #include "startup.hpp"
@@ -147,7 +149,7 @@ class CommandLine {
     run_->add_option("--threads", run_options_.threads,
                      "Largest number of threads, 1 or more; default: one for each processor. Small models use one")
         ->option_text("N")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
     run_->add_flag("--json-lines", run_options_.json_lines,
                    "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
@@ -163,7 +165,7 @@ class CommandLine {
         ->add_option("--threads", resume_options_.threads,
                      "Largest number of threads; default: as before. Another number may change the last digits")
         ->option_text("N")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     resume_->add_flag("-q,--quiet", resume_options_.quiet, "Prints only errors and warnings");
     add_division(*resume_, resume_options_.divide_from);
     resume_->add_flag(
@@ -182,12 +184,12 @@ class CommandLine {
         ->option_text("DIR");
     sweep_->add_option("-j,--jobs", sweep_options_.jobs, "Runs at a time; default: one for each processor")
         ->option_text("N")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     sweep_
         ->add_option("--threads", sweep_options_.threads,
                      "Threads of each run; default: processors over runs at a time")
         ->option_text("N")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     sweep_->add_flag("--anew", sweep_options_.anew, "Replaces what DIR holds of another sweep, and runs all points");
     sweep_->add_flag("-q,--quiet", sweep_options_.quiet, "Prints only errors");
     sweep_->footer(sweep_example);
@@ -207,15 +209,15 @@ class CommandLine {
         ->add_option("--tolerance", contact_options_.tolerance,
                      "Limit of the natural-map residual or the certificate; default 1e-10")
         ->option_text("X")
-        ->check(CLI::Range(1e-15, 0.1));
+        ->check(number_from(1e-15, 0.1));
     contact_->add_option("--iterations", contact_options_.iterations, "Largest number of iterations of one attempt")
         ->option_text("N")
-        ->check(CLI::Range(1, 100'000'000));
+        ->check(whole_number(1, 100'000'000));
     contact_
         ->add_option("--time-limit", contact_options_.time_limit,
                      "Ends the solve after this time and reports the best iterate")
         ->option_text("SECONDS")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
     contact_->add_flag("--uniqueness", contact_options_.uniqueness, "Looks for other solutions and reports them");
     trace_ = contact_
@@ -296,8 +298,9 @@ class CommandLine {
   /// Prints the requested help or version, or a mistake in one line with its remedy.
   ExitStatus explain(const CLI::ParseError& error, const std::vector<std::string>& words) const {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      app_.exit(error);
-      return ExitStatus::solved;
+      std::ostringstream text, nothing;
+      app_.exit(error, text, nothing);
+      return print(text.str());
     }
     const auto chosen = app_.get_subcommands();
     const std::string command = chosen.empty() ? "scabo" : "scabo " + chosen.front()->get_name();
@@ -335,7 +338,7 @@ class CommandLine {
                                 "processes; default: {:.0f}",
                                 divide_from))
         ->option_text("DOFS")
-        ->check(CLI::NonNegativeNumber);
+        ->check(number_from_zero());
   }
 
   /// Accepts only these words.
@@ -389,7 +392,7 @@ class CommandLine {
             "--size", report_options_.size,
             "Largest size of the page in megabytes; default: 25. Of long runs it leaves out fields of increments")
         ->option_text("MB")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     report_->add_flag("-q,--quiet", report_options_.quiet, "Does not print the name of the page");
     report_->footer(report_example);
   }

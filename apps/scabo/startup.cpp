@@ -150,19 +150,19 @@ bool is_set(char* const* environment, const char* assignment) {
 }
 
 void refuse() {
-  char message[320] = "scabo: not enough memory: about 200 MB of address space must be available to start";
+  char message[320] = "scabo: not enough memory: at its start the program needs about 250 MB of address space";
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
     // stdio cannot be used here, because libraries are not initialised.
     char digits[24];
     int count = 0;
-    for (rlim_t kilobytes = limit.rlim_cur / 1024; count == 0 || kilobytes > 0; kilobytes /= 10)
-      digits[count++] = static_cast<char>('0' + kilobytes % 10);
+    for (rlim_t megabytes = limit.rlim_cur / 1'000'000; count == 0 || megabytes > 0; megabytes /= 10)
+      digits[count++] = static_cast<char>('0' + megabytes % 10);
     std::strcat(message, ", and the limit is ");
     std::size_t end = std::strlen(message);
     while (count > 0) message[end++] = digits[--count];
     message[end] = '\0';
-    std::strcat(message, " kB: raise it, as in `ulimit -v 500000`");
+    std::strcat(message, " MB: raise it, as in `ulimit -v 500000`, in kB");
   }
   std::strcat(message, "\n");
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));

@@ -277,8 +277,8 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
         nodes[first + i] = divided ? own_fields_->node_numbers[b][static_cast<std::size_t>(of_points[b][i])]
                                    : static_cast<std::int32_t>(i);
     }
-    result::write_file(to / names[static_cast<std::size_t>(rank_)],
-                       result::vtu_content(grid, values, of.model.output.fields, of.threads, nodes));
+    result::replace_file(to / names[static_cast<std::size_t>(rank_)],
+                         result::vtu_content(grid, values, of.model.output.fields, of.threads, nodes));
   };
   agreed([&] {
     const result::Grid& grid = own_fields_->recovery->grid();

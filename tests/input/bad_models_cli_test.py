@@ -88,7 +88,7 @@ class BadModels(unittest.TestCase):
             ("contacts.joint.frictoin=1", "--set contacts.joint.frictoin: unknown key 'frictoin'"),
             ("contacts.jiont.friction=1", "--set contacts.jiont.friction: contacts has no 'jiont' "
                                           "(did you mean 'joint'?)"),
-            ("supports.2.fix=x", "--set supports.2.fix: supports is a list: use a number from 0 to 1, not '2'"),
+            ("supports.2.fix=x", "--set supports.2.fix: supports is a list: write a number from 0 to 1, not '2'"),
             ("loads.tip.force=[0, nan]", "--set loads.tip.force.1: must be a finite number, not 'nan'"),
             ("loads.tip.force=[0, 1", "--set loads.tip.force: not valid YAML"),
             ("no_value", "'no_value' has no '='"),

@@ -156,6 +156,16 @@ class BadProblems(unittest.TestCase):
         done = subprocess.run([PROGRAM, "contact", str(text)], text=True, capture_output=True, timeout=1200)
         self.assertEqual((done.returncode, done.stderr), (1, f"{text}:8:3: W: must be a number, not 'x'\n"))
 
+    def test_numbers_whose_squares_overflow(self):
+        text = self.file.parent / "problem.dat"
+        for stiffness, motion in (("1e-200", "1e200"), ("1", "1e200"), ("1e-150", "1e10")):
+            with self.subTest(W=stiffness, q=motion):
+                text.write_text(f"2 1\n0\n2 2\n2 2\n1/W 0 0 1/W\n-{motion} 0\n0.3\n".replace("1/W", stiffness))
+                done = subprocess.run([PROGRAM, "contact", str(text)], text=True, capture_output=True, timeout=1200)
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+                self.assertIn(f"has motions q up to {motion.replace('1e10', '1e+10').replace('1e200', '1e+200')}", done.stderr)
+                self.assertIn("use other units", done.stderr)
+
     def test_bytes_changed_at_random(self):
         """Whatever the bytes: a solution or one message, never a crash."""
         write_local(self.file, W, Q, MU)

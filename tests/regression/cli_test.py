@@ -41,6 +41,26 @@ class CommandLine(support.InTemporaryDirectory):
                 self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
                 self.assertRegex(run.stderr, r"^scabo: .* \(see `scabo.* --help`\)\n$")
 
+    def test_numbers_out_of_range_say_what_they_may_be(self):
+        for option, value, message in [
+            ("--threads", "0", "must be a whole number from 1 to 1024, not '0'"),
+            ("--threads", "many", "must be a whole number from 1 to 1024, not 'many'"),
+            ("--threads", "1.5", "must be a whole number from 1 to 1024, not '1.5'"),
+            ("--divide-from", "-1", "must be 0 or a larger number, not '-1'"),
+        ]:
+            with self.subTest(option=option, value=value):
+                run = scabo("run", BEAM, f"{option}={value}", cwd=self.directory)
+                self.assertEqual((run.returncode, run.stderr), (WRONG_INPUT, f"scabo: {option}: {message} (see `scabo run --help`)\n"))
+        for option, value, message in [
+            ("--time-limit", "0", "must be a number greater than 0, not '0'"),
+            ("--time-limit", "inf", "must be a number greater than 0, not 'inf'"),
+            ("--tolerance", "1e-30", "must be a number from 1e-15 to 0.1, not '1e-30'"),
+            ("--iterations", "0", "must be a whole number from 1 to 100000000, not '0'"),
+        ]:
+            with self.subTest(option=option, value=value):
+                run = scabo("contact", "no.dat", option, value, cwd=self.directory)
+                self.assertEqual((run.returncode, run.stderr), (WRONG_INPUT, f"scabo: {option}: {message} (see `scabo contact --help`)\n"))
+
     def test_schema_is_json(self):
         run = scabo("schema")
         self.assertEqual((run.returncode, run.stderr), (SOLVED, ""))
@@ -51,6 +71,25 @@ class CommandLine(support.InTemporaryDirectory):
             run = subprocess.run([support.SCABO, "schema"], stdout=full, stderr=subprocess.PIPE, text=True)
         self.assertEqual(run.returncode, FAILURE)
         self.assertIn("cannot write to standard output", run.stderr)
+
+
+class Output(support.InTemporaryDirectory):
+    def test_forces_that_are_rounding_are_shown_as_zero(self):
+        """A disc that its support moves without stress."""
+        (self.directory / "disc.yaml").write_text("""
+scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  disc: {material: steel, shape: {circle: {centre: [0, 1], radius: 1}}, mesh: {size: 0.3}}
+  floor: {rigid: true, shape: {rectangle: {corner: [-2, -1], size: [4, 1]}}}
+supports:
+  - {on: floor, fix: [x, y]}
+  - {on: {body: disc, near: [0, 2]}, displacement: [0, -0.0001], name: push}
+contacts: {base: {between: [disc.rim, floor.top]}}
+""")
+        run = scabo("run", "disc.yaml", cwd=self.directory)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        self.assertRegex(run.stdout, r"\n  push +0 +0\n")
 
 
 class Input(support.InTemporaryDirectory):

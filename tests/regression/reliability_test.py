@@ -76,11 +76,12 @@ class Streams(support.InTemporaryDirectory):
                 self.assertEqual(summary_of(self.directory / "out")["status"], "solved")
 
     def test_a_text_that_is_the_answer_must_be_written(self):
-        for command in ('schema', 'check "$BEAM"', 'exponents "$BEAM"'):
-            with self.subTest(command=command):
-                ended = self.shell(f'"$SCABO" {command} >&-')
-                self.assertEqual(ended.returncode, FAILURE)
-                self.assertIn("cannot write to standard output", ended.stderr)
+        for command in ('schema', 'check "$BEAM"', 'exponents "$BEAM"', '--version', '--help', 'run --help'):
+            for full in (">&-", ">/dev/full"):
+                with self.subTest(command=command, full=full):
+                    ended = self.shell(f'"$SCABO" {command} {full}')
+                    self.assertEqual(ended.returncode, FAILURE)
+                    self.assertIn("cannot write to standard output", ended.stderr)
 
     def test_errors_keep_their_status_without_a_standard_error(self):
         self.assertEqual(self.shell('"$SCABO" check no_such.yaml 2>&-').returncode, WRONG_INPUT)
@@ -163,16 +164,20 @@ class LongRuns(support.InTemporaryDirectory):
         self.assertEqual(ended.returncode, SOLVED, ended.stderr)
 
     def test_a_limit_on_files_keeps_what_is_finished(self):
-        """As on a full disk: writing fails from some increment on."""
-        for kilobytes in (40, 100):
-            with self.subTest(kilobytes=kilobytes):
+        """As on a full disk: writing fails from some increment on, of which nothing is left."""
+        for kilobytes, fields in ((40, True), (40, False), (100, False)):
+            with self.subTest(kilobytes=kilobytes, fields=fields):
                 ended = run("run", BEAM, "-q", "-o", self.directory / "out", *LONG_RUN,
+                            *(() if fields else ("--set", "output={fields: []}")),
                             before=limited(resource.RLIMIT_FSIZE, kilobytes * 1024))
                 self.assertEqual(ended.returncode, FAILURE)
-                self.assertRegex(ended.stderr, r"^scabo: cannot write .*: File too large\n$")
+                self.assertRegex(ended.stderr, rf"^scabo: cannot write .*{'fields_0001.vtu' if fields else ''}: File too large\n$")
                 numbers = self.assert_readable()
-                self.assertIn(summary_of(self.directory / "out")["status"], ("failed", "running"))
-                self.assertGreaterEqual(len(numbers), 1)
+                self.assertEqual(summary_of(self.directory / "out")["status"], "failed")
+                in_table = sorted({int(row["increment"]) for row in rows_of(self.directory / "out")})
+                self.assertEqual(in_table[:len(numbers)], numbers)
+                self.assertEqual(len(numbers) >= 1, not fields)
+                self.assertEqual([path.name for path in (self.directory / "out").glob("*.part")], [])
 
     def test_a_limit_that_the_motion_of_a_mechanism_meets(self):
         (self.directory / "block.yaml").write_text("""

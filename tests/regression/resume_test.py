@@ -134,6 +134,8 @@ class Resume(unittest.TestCase):
                 if process.wait() != -signal.SIGKILL:
                     break
                 kills += 1
+                for file in self.results.glob("*.vtu"):
+                    self.assertTrue(file.read_bytes().endswith(b"</VTKFile>\n"), file.name)
                 if not (self.results / "checkpoint.hdf5").exists():  # killed before it began
                     process = self.start("run", self.model, "--quiet")
                 elif kills >= KILLS or random.random() < 0.5:
@@ -152,7 +154,7 @@ class Resume(unittest.TestCase):
                      "checkpoint.increments"):
             with open(self.results / name, "ab") as file:
                 file.write(b"half a li")
-        for name in ("fields_9999.vtu", "contact_9999.vtu", "checkpoint.hdf5.new", "checkpoint.hdf5.new.part"):
+        for name in ("fields_9999.vtu", "contact_9999.vtu", "fields_9999.vtu.part", "checkpoint.hdf5.new", "checkpoint.hdf5.new.part"):
             (self.results / name).write_bytes(b"<half")
         run = scabo("resume", self.results)
         self.assertEqual(run.returncode, 0, run.stderr)

@@ -158,7 +158,8 @@ struct IncrementResult {
   std::vector<EdgeForces> edges;  ///< one for each model::EdgeResultant of the history, in its order
   std::vector<Vec2> springs;      ///< one for each of the model, in its order: force on the body
   std::vector<int> absent;        ///< bodies that are not there: not yet added, or removed; ascending
-  /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces.
+  /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces. Where all
+  /// of these are rounding, the forces by which the stiffness would resist displacements as large.
   double largest_force = 0.0;
   contact::Certificate certificate;
   double lost_to_rounding = 0.0;  ///< estimated relative error of displacements, of the rounding of stiffness
@@ -258,10 +259,10 @@ struct StaticSolution {
   std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
   std::vector<Warning> warnings;
   Outcome outcome = Outcome::solved;
-  std::string reason;              ///< if not solved
+  std::string reason;                  ///< if not solved
   std::optional<Mechanism> mechanism;  ///< of outcomes mechanism and collapse
-  int threads = 1;                 ///< of the analysis; worthwhile for its fields as well
-  system::Ranks* ranks = nullptr;  ///< processes among which large bodies are divided; null: this one alone
+  int threads = 1;                     ///< of the analysis; worthwhile for its fields as well
+  system::Ranks* ranks = nullptr;      ///< processes among which large bodies are divided; null: this one alone
   Timing timing;
 };
 

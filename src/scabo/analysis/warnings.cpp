@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "scabo/geometry/box.hpp"
+#include "scabo/model/materials_of.hpp"
 
 namespace scabo::analysis {
 
@@ -204,6 +206,26 @@ std::vector<double> sizes_of_loads(const model::Model& model, const system::Stru
   return sizes;
 }
 
+/// Whether temperature strains one of the materials of a body.
+bool expands(const model::Model& model, const model::Body& body) {
+  const std::set<int> materials = model::materials_of(model, body);
+  return std::any_of(materials.begin(), materials.end(), [&](int material) {
+    const auto& expansion = model.materials[static_cast<std::size_t>(material)].expansion;
+    return expansion && std::any_of(expansion->begin(), expansion->end(), [](double alpha) { return alpha != 0.0; });
+  });
+}
+
+/// Why a load has neither forces nor strains.
+const char* why_zero(const model::Load& load) {
+  if (const auto* gravity = std::get_if<model::Gravity>(&load.kind); gravity && !gravity->value.isZero(0.0))
+    return "has no effect because the density of all materials that it acts on is 0: give them a density, or leave the "
+           "load out";
+  if (std::holds_alternative<model::Temperature>(load.kind))
+    return "has no effect because the temperature does not change, or the expansion of all materials that it acts on "
+           "is 0";
+  return "is zero and has no effect";
+}
+
 /// Loads that are so small beside another one that rounding changes or hides what they cause.
 void warn_of_lost_loads(const model::Model& model, const system::Structure& structure, std::vector<Warning>& warnings) {
   const std::vector<double> sizes = sizes_of_loads(model, structure);
@@ -272,8 +294,11 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
     double largest = 0.0, moving = 0.0;
     const auto& initial = structure.initial[load];
     bool inside = std::any_of(initial.begin(), initial.end(), [](const auto& body) { return !body.is_zero(); });
-    for (const element::CellLoads& body : structure.interior[load])
-      for (const element::InteriorLoads& cell : body) inside = inside || !cell.is_zero();
+    for (std::size_t b = 0; b < structure.interior[load].size(); ++b)
+      for (const element::InteriorLoads& cell : structure.interior[load][b]) {
+        const bool heated = !cell.remainders.empty() || !cell.temperature.is_zero();
+        inside = inside || !cell.loads.empty() || (heated && expands(model, model.bodies[b]));
+      }
     for (std::size_t p = 0; p < structure.parts.size(); ++p) {
       Vector forces = structure.loads[load][p];
       if (forces.size() == 0) continue;
@@ -301,10 +326,10 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
     }
     if (inside || moving > 1e-12 * largest) continue;
     warnings.push_back({WarningKind::load_without_effect, model.loads[load].name,
-                        largest == 0.0 ? fmt::format("load '{}' is zero and has no effect", model.loads[load].name)
-                                       : fmt::format("load '{}' has no effect because all its forces act on supported "
-                                                     "nodes: move the load, or free the support there",
-                                                     model.loads[load].name)});
+                        fmt::format("load '{}' {}", model.loads[load].name,
+                                    largest == 0.0 ? why_zero(model.loads[load])
+                                                   : "has no effect because all its forces act on supported nodes: "
+                                                     "move the load, or free the support there")});
   }
   return warnings;
 }

@@ -111,7 +111,8 @@ Measure Measure::of_forces() const {
       sum += squared_map_of_cone(problem, i, u, p_i);
   }
   if (sum == 0.0) return 0.0;
-  return std::sqrt(sum) / (norm_ > 0.0 ? norm_ : p.norm() > 0.0 ? p.norm() : 1.0);
+  const double residual = std::sqrt(sum) / (norm_ > 0.0 ? norm_ : p.norm() > 0.0 ? p.norm() : 1.0);
+  return std::isfinite(residual) ? residual : HUGE_VAL;  // squares of forces may overflow
 }
 
 double Measure::rounding(const Problem& problem, const Vector& p, const Vector& motion) const {
@@ -143,6 +144,8 @@ std::string reason_of(const Judgement& judgement, Judge by, double tolerance, co
                   "; the best iterate has a %s of %.2g, but the contact forces are so large that rounding makes the "
                   "motions uncertain by %.2g, so that it is not known to be a solution",
                   figure, judgement.figure, judgement.rounding);
+  else if (!std::isfinite(judgement.figure))
+    std::snprintf(text, sizeof text, "; forces or motions are too large to be computed: use other units");
   else
     std::snprintf(text, sizeof text, "; the best iterate has a %s of %.2g, above the tolerance %.2g", figure,
                   judgement.figure, tolerance);

@@ -43,8 +43,8 @@ std::vector<RadialLoad> body_force_loads(const Ring& ring, const LinearField& b_
     }
   });
   std::vector<RadialLoad> loads;
-  if (b_x.constant != 0.0 || b_y.constant != 0.0) loads.push_back(std::move(at_centre));
-  if (b_x.per_x != 0.0 || b_x.per_y != 0.0 || b_y.per_x != 0.0 || b_y.per_y != 0.0) loads.push_back(std::move(growing));
+  if (!at_centre.g.isZero(0.0)) loads.push_back(std::move(at_centre));
+  if (!growing.g.isZero(0.0)) loads.push_back(std::move(growing));
   return loads;
 }
 
@@ -80,8 +80,8 @@ std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, con
     }
   });
   std::vector<RadialLoad> loads;
-  if (temperature.constant != 0.0) loads.push_back(std::move(at_centre));
-  if (temperature.per_x != 0.0 || temperature.per_y != 0.0) loads.push_back(std::move(growing));
+  for (RadialLoad* load : {&at_centre, &growing})
+    if (!load->g.isZero(0.0) || !load->c.isZero(0.0)) loads.push_back(std::move(*load));
   return loads;
 }
 

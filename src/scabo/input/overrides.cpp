@@ -35,6 +35,14 @@ NodePtr mark_as_override(const NodePtr& node, const std::string& path) {
   return copy;
 }
 
+/// Why a list has no entry of that number.
+std::string why_not(const Node& list, const std::string& path, const std::string& number) {
+  const std::size_t count = list.items.size();
+  if (count == 0) return fmt::format("{} is an empty list", path);
+  if (count == 1) return fmt::format("{} is a list of one entry: write 0, not {}", path, quoted_name(number));
+  return fmt::format("{} is a list: write a number from 0 to {}, not {}", path, count - 1, quoted_name(number));
+}
+
 /// Replaces one value; copies the nodes on its path, since aliases share nodes.
 class Replacement {
  public:
@@ -72,9 +80,7 @@ class Replacement {
       std::size_t index = 0;
       const auto [end, code] = std::from_chars(key.data(), key.data() + key.size(), index);
       if (code != std::errc() || end != key.data() + key.size() || index >= node->items.size()) {
-        why_ = node->items.empty() ? fmt::format("{} is an empty list", path)
-                                   : fmt::format("{} is a list: use a number from 0 to {}, not {}", path,
-                                                 node->items.size() - 1, quoted_name(key));
+        why_ = why_not(*node, path, key);
         return nullptr;
       }
       const NodePtr inner = replace(node->items[index], level + 1, here);

@@ -30,7 +30,10 @@ Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name,
   const std::string path = (std::filesystem::path(reading.model.file).parent_path() / name).string();
   const auto [found, is_new] =
       reading.mesh_files.try_emplace(cad ? fmt::format("{}, {}, {}", path, cad->size, cad->order) : path);
-  if (!is_new) return found->second;
+  if (!is_new) {
+    if (!found->second) reading.report.told_elsewhere(value);
+    return found->second;
+  }
   reading.model.files.push_back(path);
   try {
     files::ImportedMesh mesh = cad ? files::mesh_cad_file(path, *cad) : files::read_mesh_file(path);

@@ -38,9 +38,17 @@ Source Value::source() const { return source_of(*node, path); }
 
 Value Value::item(std::size_t index) const { return {node->items[index], join_path(path, std::to_string(index))}; }
 
+namespace {
+
+std::string path_in_file(const Source& at) {
+  return at.path.starts_with(of_command_line) ? at.path.substr(of_command_line.size()) : at.path;
+}
+
+}  // namespace
+
 void Report::error(const Source& at, std::string message) {
   ++count_;
-  paths_.insert(at.path.starts_with(of_command_line) ? at.path.substr(of_command_line.size()) : at.path);
+  paths_.insert(path_in_file(at));
   if (full()) return;
   Source place = at;
   place.path = one_line(at.path);  // keys may be any text
@@ -53,6 +61,10 @@ void Report::error(const Value& at, std::string message) {
     message += fmt::format(" (from {})", quoted_name(at.node->formula));
   error(at.source(), std::move(message));
 }
+
+bool Report::is_told(const Source& at) const { return paths_.contains(path_in_file(at)); }
+
+void Report::told_elsewhere(const Value& at) { paths_.insert(at.path); }
 
 void Report::throw_if_any(const std::string& file) {
   if (count_ == 0) return;
@@ -300,7 +312,7 @@ void Report::add(const Value& root, const std::vector<model::Mistake>& mistakes)
   std::set<std::string> told_here;
   for (const model::Mistake& mistake : mistakes) {
     if (mistake.given == "nan") continue;  // stands for a number that could not be read
-    if (full()) {  // without looking them up
+    if (full()) {                          // without looking them up
       if (!is_within_told(mistake.at.path)) ++count_;
       continue;
     }
@@ -362,7 +374,10 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
   }
   const bool takes_on = std::find(known.begin(), known.end(), "on") != known.end();
   for (const MapEntry& entry : node.entries) {
-    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) {
+      refuse_empty(entry);
+      continue;
+    }
     if (report_.full()) {
       broken_ = true;
       report_.error(map_, "");  // counted
@@ -372,6 +387,7 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
     if (takes_on && entry.key == written_for_on) {
       if (node.find("on") != nullptr)
         report_.error(at, "is read as 'on', which is given as well: remove one of the two");
+      refuse_empty(entry);
       continue;
     }
     const auto planned =
@@ -396,6 +412,12 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
   }
 }
 
+void MapReader::refuse_empty(const MapEntry& entry) const {
+  if (entry.value->kind != Node::Kind::null || map_.path.empty()) return;
+  const Source at = source_of_key(map_, entry);
+  if (!report_.is_told(at)) report_.error(at, "has no value: give one");  // some maps are read twice
+}
+
 const MapEntry* MapReader::entry_of(std::string_view key) const {
   const MapEntry* entry = map_.node->find(key);
   return entry == nullptr && key == "on" ? map_.node->find(written_for_on) : entry;
@@ -412,7 +434,7 @@ std::optional<Value> MapReader::need(std::string_view key) const {
   auto value = get(key);
   if (value || !is_map_) return value;
   if (entry_of(key) != nullptr) {
-    report_.error(key_source(key), "has no value: give one");
+    if (map_.path.empty()) report_.error(key_source(key), "has no value: give one");
   } else if (!broken_ && std::find(misspelt_.begin(), misspelt_.end(), key) == misspelt_.end()) {
     report_.error(map_, fmt::format("'{}' is missing", key));
   }

@@ -46,6 +46,11 @@ class Report {
   /// Adds what validate says about the model read from `root`, each at its place in the file. Left out are mistakes of
   /// parts that could not be read, which have been reported.
   void add(const Value& root, const std::vector<model::Mistake>& mistakes);
+  /// A value is missing because of a mistake that was reported at another place, as a file that several bodies name:
+  /// nothing more is said about its part of the model.
+  void told_elsewhere(const Value& at);
+  /// Whether there is a mistake with this path.
+  bool is_told(const Source& at) const;
   std::size_t count() const { return count_; }
   bool clean() const { return count_ == 0; }
   /// Whether further mistakes are only counted: their messages, and suggestions in them, need not be made.
@@ -82,7 +87,9 @@ std::vector<Entry> read_named(Report& report, const Value& value, std::string_vi
 /// Whether `text` is a name (model/wording.hpp); reports it at `at` if it is not.
 bool check_name(Report& report, const Source& at, std::string_view text);
 
-/// A map with known keys. The constructor reports all other keys.
+/// A map with known keys. The constructor reports all other keys, and keys without a value: what was meant to be given
+/// must not be taken for its default. Only sections of the model may be empty, as where all of their entries are
+/// comments.
 class MapReader {
  public:
   /// `example` is shown if the value is not a map.
@@ -92,9 +99,9 @@ class MapReader {
   bool is_map() const { return is_map_; }
   bool all_known() const { return !broken_ && misspelt_.empty(); }
   const Value& map() const { return map_; }
-  /// The value of a key; nothing if the key is absent or has no value.
+  /// The value of a key; nothing if the key is absent or has no value, which the constructor has reported.
   std::optional<Value> get(std::string_view key) const;
-  /// The same, but an absent or empty key is reported.
+  /// The same, but an absent key, and an empty section of the model, is reported.
   std::optional<Value> need(std::string_view key) const;
   bool has(std::string_view key) const { return get(key).has_value(); }
   Source key_source(std::string_view key) const;
@@ -105,6 +112,7 @@ class MapReader {
   Report& report_;
   Value map_;
   bool is_map_ = false;
+  void refuse_empty(const MapEntry& entry) const;
   /// The entry of a key, or nullptr. Writers of YAML 1.1 turn the key `on` into `true`, so that both are accepted.
   const MapEntry* entry_of(std::string_view key) const;
   bool broken_ = false;                // some unknown key resembles no known one and may stand for a missing key

@@ -72,9 +72,11 @@ std::vector<Diagnostic> too_large_parts(const model::Body& body, const BodyMesh&
   std::size_t nodes = 0;
   for (const Cell& cell : mesh.cells) nodes = std::max(nodes, cell.nodes().size());
   if (2.0 * static_cast<double>(nodes) <= model::limits::superelement_dofs) return {};
-  return {{body.mesh.source, fmt::format("one of the {} super-elements of body '{}' would have {} degrees of freedom, "
-                                         "more than the {:.6g} allowed: write kind: polygons, or use larger sizes",
-                                         mesh.cells.size(), body.name, 2 * nodes, model::limits::superelement_dofs)}};
+  const std::string which =
+      mesh.cells.size() > 1 ? fmt::format("one of the {} super-elements", mesh.cells.size()) : "the super-element";
+  return {{body.mesh.source, fmt::format("{} of body '{}' would have {} degrees of freedom, more than the {:.6g} "
+                                         "allowed: write kind: polygons, or use larger sizes",
+                                         which, body.name, 2 * nodes, model::limits::superelement_dofs)}};
 }
 
 /// Places `near` the mouth of a crack, where two nodes are equally close.

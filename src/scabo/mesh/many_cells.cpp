@@ -372,7 +372,8 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
       return Diagnostic{body.source, error.diagnostics().front().message};
     }
   }
-  const double nodes = body.mesh.kind == model::MeshKind::parts ? 0.0 : approximate_nodes(body);
+  // Few parts have nodes on their sides alone, of which those on the outline are counted.
+  const double nodes = body.mesh.kind == model::MeshKind::parts ? count_boundary_nodes(body) : approximate_nodes(body);
   const geometry::Box box = geometry::box_of(body.outline);
   const double thickness = (box.high - box.low).minCoeff();
   const bool thin = body.mesh.kind == model::MeshKind::quadtree && thickness < body.mesh.size;

@@ -62,7 +62,7 @@ void check_regions(const BodyCheck& of) {
     const std::string path = path_of(of.path + ".regions", region.name, i);
     check_name(of.checking, path, region.name, "region", names);
     check_material(of.checking, path, "material", region.material);
-    if (!check_outline(of.checking, path + ".shape", region.outline)) continue;
+    if (!check_outline(of.checking, path + ".shape", region.outline, outline_size(of.outline))) continue;
     if (!geometry::overlap_of(of.outline, region.outline, tolerance).share_area) {
       of.checking.error(path, "shape",
                         fmt::format("region '{}' lies outside of the body: move it inside", region.name));

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scabo/model/checking.hpp"
+#include "scabo/model/materials_of.hpp"
 
 namespace scabo::model {
 
@@ -68,18 +69,6 @@ void check_law(Checking& checking, const std::string& path, const Anisotropic& a
                    "smaller D12, D16 or D26");
 }
 
-/// Indices of the materials of a body, without those that do not exist.
-std::set<int> materials_of(const Model& model, const Body& body) {
-  std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
-  materials.insert(body.region_materials.begin(), body.region_materials.end());
-  if (materials.empty()) materials.insert(body.material);
-  for (const Region& region : body.regions) materials.insert(region.material);
-  if (body.image)
-    for (const auto& [label, material] : body.image->materials) materials.insert(material);
-  std::erase_if(materials, [&](int i) { return i < 0 || static_cast<std::size_t>(i) >= model.materials.size(); });
-  return materials;
-}
-
 /// First and last + 1 of the bodies on which a load on whole bodies acts.
 std::pair<std::size_t, std::size_t> bodies_under(const Checking& checking, const Load& load) {
   if (!load.on) return {0, checking.model.bodies.size()};
@@ -117,6 +106,17 @@ void check_density_of_modal_analysis(Checking& checking) {
 }
 
 }  // namespace
+
+std::set<int> materials_of(const Model& model, const Body& body) {
+  std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
+  materials.insert(body.region_materials.begin(), body.region_materials.end());
+  if (materials.empty()) materials.insert(body.material);
+  for (const Region& region : body.regions) materials.insert(region.material);
+  if (body.image)
+    for (const auto& [label, material] : body.image->materials) materials.insert(material);
+  std::erase_if(materials, [&](int i) { return i < 0 || static_cast<std::size_t>(i) >= model.materials.size(); });
+  return materials;
+}
 
 void check_materials(Checking& checking) {
   std::unordered_set<std::string> names;

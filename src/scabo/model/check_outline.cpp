@@ -15,6 +15,9 @@ namespace scabo::model {
 namespace {
 
 constexpr double rounding = 1e-9;  // of coordinates, relative to the size of the outline
+/// Least length of a piece of an outline, and least size of a hole or region, relative to the size of the body. Meshers
+/// take lines within 1e-9 of it as one; with pieces of 3.5e-9 they failed, with pieces of 1e-8 they do not.
+constexpr double smallest_part = 1e-8;
 
 /// One outline under check.
 struct Shape {
@@ -22,6 +25,7 @@ struct Shape {
   const std::string& path;
   const Outline& outline;
   double size = 0.0;
+  double body_size = 0.0;  ///< at least `size`; larger where the outline is that of a hole or region
 
   std::string name(std::size_t edge) const { return shown_name(outline.edges[edge]); }
   /// Path of an edge: that in its file, or by its name.
@@ -161,6 +165,17 @@ bool check_closed(const Shape& shape) {
   return true;
 }
 
+/// Holes and regions are not so small that coordinates do not resolve them.
+bool check_part(const Shape& shape) {
+  const double least = smallest_part * shape.body_size;
+  if (shape.size >= least || shape.size == shape.body_size) return true;
+  shape.error(
+      fmt::format("is only {:.3g} in size, too small beside the body: its parts must be at least {:.0e} of its size, "
+                  "{:.3g} here; enlarge it, or leave it out",
+                  shape.size, smallest_part, least));
+  return false;
+}
+
 bool check_extent(const Shape& shape) {
   double farthest = 0.0;
   for (const Edge& edge : shape.outline.edges) farthest = std::max(farthest, edge.start.cwiseAbs().maxCoeff());
@@ -186,11 +201,16 @@ bool check_extent(const Shape& shape) {
 
 bool check_lengths(const Shape& shape) {
   for (std::size_t i = 0; i < shape.outline.edges.size(); ++i) {
-    const Edge& edge = shape.outline.edges[i];
-    if (edge.length() > rounding * shape.size) continue;
-    shape.error_of_edge(i, "",
-                        fmt::format("{} has no length because both its ends are at {}: remove it, or move one end",
-                                    shape.name(i), point_text(edge.start)));
+    const double length = shape.outline.edges[i].length(), least = smallest_part * shape.body_size;
+    if (length >= least) continue;
+    const std::string why =
+        length <= rounding * shape.size
+            ? fmt::format("has no length because both its ends are at {}", point_text(shape.outline.edges[i].start))
+            : fmt::format(
+                  "is only {:.3g} long, too short beside the body, whose pieces must be at least {:.0e} of its "
+                  "size, {:.3g} here",
+                  length, smallest_part, least);
+    shape.error_of_edge(i, "", fmt::format("{} {}: remove it, or move one end", shape.name(i), why));
     return false;
   }
   return true;
@@ -254,15 +274,16 @@ std::vector<Outline> chains_of(const Outline& outline) {
   return chains;
 }
 
-/// One closed chain.
-bool check_chain(Checking& checking, const std::string& path, const Outline& chain) {
+/// One closed chain; `body_size` is 0 where it is the outline of the body itself.
+bool check_chain(Checking& checking, const std::string& path, const Outline& chain, double body_size) {
   Shape shape{checking, path, chain};
   if (!check_counts(shape) || !check_numbers(shape) || !check_names(shape)) return false;
   for (std::size_t i = 0; i < chain.edges.size(); ++i)
     if (chain.edges[i].arc && !check_arc(shape, i)) return false;
   shape.size = geometry::outline_size(chain);
-  return check_extent(shape) && check_closed(shape) && check_lengths(shape) && check_simple(shape) &&
-         check_rectangle(shape);
+  shape.body_size = std::max(body_size, shape.size);
+  return check_part(shape) && check_extent(shape) && check_closed(shape) && check_lengths(shape) &&
+         check_simple(shape) && check_rectangle(shape);
 }
 
 /// Path and name of a hole: those in its file, or its number.
@@ -284,12 +305,13 @@ bool check_holes(Checking& checking, const std::string& path, const Outline& out
     before = hole;
   }
   const std::vector<Outline> chains = chains_of(outline);
-  if (!check_chain(checking, path, chains.front())) return false;
+  if (!check_chain(checking, path, chains.front(), 0.0)) return false;
+  const double size = geometry::outline_size(chains.front());
   const std::string body = path.substr(0, path.rfind('.'));
   Outline with = chains.front();
   for (std::size_t k = 1; k < chains.size(); ++k) {
     const auto [at, name] = hole_of(body, chains[k], k - 1);
-    if (!check_chain(checking, at, chains[k])) return false;
+    if (!check_chain(checking, at, chains[k], size)) return false;
     if (!check_inside(checking, at, fmt::format("hole '{}'", name), with, chains[k])) return false;
     Outline hole = chains[k];
     turn_round(hole);
@@ -354,8 +376,8 @@ bool check_imported(Checking& checking, const std::string& path, const Body& bod
   return same;
 }
 
-bool check_outline(Checking& checking, const std::string& path, const Outline& outline) {
-  if (outline.holes.empty()) return check_chain(checking, path, outline);
+bool check_outline(Checking& checking, const std::string& path, const Outline& outline, double body_size) {
+  if (outline.holes.empty()) return check_chain(checking, path, outline, body_size);
   if (!check_counts({checking, path, outline})) return false;
   return check_holes(checking, path, outline);
 }

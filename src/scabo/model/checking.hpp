@@ -96,8 +96,8 @@ void check_fits(Checking& checking);
 void check_stages(Checking& checking);
 
 /// Whether an outline is closed and simple, named, of reasonable size, runs counter-clockwise, and has its holes
-/// inside.
-bool check_outline(Checking& checking, const std::string& path, const Outline& outline);
+/// inside. `body_size`: of the body, where the outline is that of a region in it.
+bool check_outline(Checking& checking, const std::string& path, const Outline& outline, double body_size = 0.0);
 /// Whether the mesh of a body and its outline belong together. The outline is closed, and named; it may touch itself,
 /// as at a crack between cells.
 bool check_imported(Checking& checking, const std::string& path, const Body& body);

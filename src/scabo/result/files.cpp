@@ -48,23 +48,39 @@ int write_at(int descriptor, std::string_view content, off_t position) {
 WriteError::WriteError(std::string_view what, std::filesystem::path path, std::string_view reason)
     : std::runtime_error(fmt::format("{} {}: {}", what, path.string(), reason)), path_(std::move(path)) {}
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
-  const int descriptor = open_empty(path);
+namespace {
+
+/// Writes `at`, which becomes `path`, the name for messages. If that fails, nothing is left of it.
+void write_as(const std::filesystem::path& at, const std::filesystem::path& path, std::string_view content) {
+  const int descriptor = ::open(at.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail_to_write(path, errno);
   int error = write_at(descriptor, content, 0);
   if (::close(descriptor) != 0 && error == 0) error = errno;  // network file systems report here that they are full
   if (error == 0) return;
-  remove_regular(path);
+  remove_regular(at);
   fail_to_write(path, error);
 }
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, std::string_view content) { write_as(path, path, content); }
 
 void replace_file(const std::filesystem::path& path, std::string_view content) {
   std::filesystem::path part = path;
   part += ".part";
-  write_file(part, content);
+  write_as(part, path, content);
   if (std::rename(part.c_str(), path.c_str()) == 0) return;
   const int error = errno;
   remove_regular(part);
   fail_to_write(path, error);
+}
+
+void overwrite(const std::filesystem::path& path, std::string_view content, std::size_t position) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail_to_write(path, errno);
+  int error = write_at(descriptor, content, static_cast<off_t>(position));
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error != 0) fail_to_write(path, error);
 }
 
 void synchronise_file(const std::filesystem::path& path) {
@@ -122,6 +138,16 @@ void GrowingFile::append_before_footer(std::string_view content, std::string_vie
     fail_to_write(path_, error);
   }
   size_ += static_cast<long long>(content.size());
+  footer_ = footer;
+}
+
+void GrowingFile::cut_back(long long size) {
+  if (size >= size_) return;
+  size_ = size;
+  // Over what is there, for which even a full disk has room.
+  const int error = write_at(descriptor_, footer_, size_);
+  if (error != 0 || ::ftruncate(descriptor_, size_ + static_cast<off_t>(footer_.size())) != 0)
+    fail_to_write(path_, error != 0 ? error : errno);
 }
 
 }  // namespace scabo::result

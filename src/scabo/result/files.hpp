@@ -27,6 +27,9 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// The same by writing `path.part` and renaming it: readers see the old or the new content, never a part.
 void replace_file(const std::filesystem::path& path, std::string_view content);
 
+/// Writes `content` over what a file has at `position`, for which a full disk has room. Throws WriteError.
+void overwrite(const std::filesystem::path& path, std::string_view content, std::size_t position);
+
 /// Waits until a file that was written is on the disk.
 void synchronise_file(const std::filesystem::path& path);
 
@@ -60,6 +63,8 @@ class GrowingFile {
   void append(std::string_view content);
   /// Writes `content` and `footer` over the previous footer in one operation, so that the file is always complete.
   void append_before_footer(std::string_view content, std::string_view footer);
+  /// Removes what was appended after the first `size` bytes, as if it had not been; the last footer follows them.
+  void cut_back(long long size);
   void synchronise();  ///< waits until the content is on the disk
 
   const std::filesystem::path& path() const { return path_; }
@@ -69,6 +74,7 @@ class GrowingFile {
   std::filesystem::path path_;
   int descriptor_ = -1;
   long long size_ = 0;  ///< without the footer
+  std::string footer_;  ///< the last one
 };
 
 }  // namespace scabo::result

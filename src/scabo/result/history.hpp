@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
@@ -39,6 +40,8 @@ class History {
   /// Takes the values of rows that were written before into the extremes.
   void restore(std::string_view table);
   const std::vector<HistoryExtremes>& extremes() const { return columns_; }
+  /// Returns to extremes that it had before: rows after them do not count.
+  void take_back(std::vector<HistoryExtremes> extremes) { columns_ = std::move(extremes); }
 
  private:
   struct SectionPoints {

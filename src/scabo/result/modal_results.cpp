@@ -114,7 +114,7 @@ void write_shapes(const std::filesystem::path& directory, analysis::ModalResult&
     result.timing.recover += seconds_since(start);
     start = Clock::now();
     const std::string file = fmt::format("fields_{:04d}.vtu", k + 1);
-    write_file(directory / file, vtu_content(recovery.grid(), fields));
+    replace_file(directory / file, vtu_content(recovery.grid(), fields));
     collection.add(static_cast<double>(k + 1), file);
     result.timing.write += seconds_since(start);
     start = Clock::now();

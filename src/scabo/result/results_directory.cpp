@@ -25,11 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* problems_name = "problems";
+constexpr std::string_view unfinished = ".part";  // as in replace_file
 
-/// `fields_0001.vtu`, `contact_0001.vtu` and the like; also `fields_0001.pvtu` and its parts, `fields_0001_0.vtu` ...
+/// `fields_0001.vtu`, `contact_0001.vtu` and the like; also `fields_0001.pvtu` and its parts, `fields_0001_0.vtu` ...;
+/// and what a kill left of one that was not yet complete, `fields_0001.vtu.part`.
 bool is_vtu_name(const std::string& name, std::string_view begin) {
   if (!name.starts_with(begin)) return false;
   std::string_view rest = std::string_view(name).substr(begin.size());
+  if (rest.ends_with(unfinished)) rest.remove_suffix(unfinished.size());
   const auto digits = [&] {
     const std::size_t count = std::min(rest.find_first_not_of("0123456789"), rest.size());
     rest.remove_prefix(count);
@@ -49,7 +52,8 @@ constexpr const char* mechanism_name = "mechanism.vtu";
 /// Text at the beginning of a result file; nothing for names that are not results.
 std::optional<std::string_view> mark_of(const std::string& name) {
   if (is_vtu_name(name, "fields_") || is_vtu_name(name, "contact_")) return vtk_mark;
-  if (name == "fields.pvd" || name == "contact.pvd" || name == cells_name) return vtk_mark;
+  if (name == "fields.pvd" || name == "contact.pvd") return vtk_mark;
+  if (name == cells_name || name == std::string(cells_name) + ".part") return vtk_mark;
   if (name == mechanism_name || name == std::string(mechanism_name) + ".part") return vtk_mark;
   if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
   if (name == "contact.csv") return contact_table_header;
@@ -166,7 +170,13 @@ void mark_failed(const fs::path& directory, const std::string& reason) noexcept 
   const fs::path file = directory / "summary.json";
   std::ifstream stream(file, std::ios::binary);
   const std::string before((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  replace_file(file, failed_summary(before, reason));
+  try {
+    replace_file(file, failed_summary(before, reason));
+  } catch (const WriteError&) {
+    constexpr std::string_view running = R"("status": "running")", failed = R"("status": "failed" )";
+    static_assert(running.size() == failed.size());
+    if (const auto at = before.find(running); at != std::string::npos) overwrite(file, failed, at);
+  }
 } catch (...) {  // the caller reports why the run ended
 }
 
@@ -298,17 +308,46 @@ analysis::WrittenResults ResultsDirectory::written() {
   return written;
 }
 
-void ResultsDirectory::add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) try {
-  add_files(solution, increment);
+void ResultsDirectory::add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
+  Reached before = reached();
+  try {
+    add_files(solution, increment);
+  } catch (const WriteError&) {
+    take_back(std::move(before));
+    try {  // there is room for what was removed
+      const auto of = std::find_if(solution.increments.begin(), solution.increments.end(),
+                                   [&](const analysis::IncrementResult& one) { return &one == &increment; });
+      replace_file(path_ / "summary.json",
+                   summary_content(solution, complete(solution.timing), true, history_.extremes(),
+                                   static_cast<std::size_t>(of - solution.increments.begin())));
+    } catch (const WriteError&) {
+    }
+    throw;
+  }
   const Stopwatch writing(write_seconds_);
   if (Clock::now() >= next_summary_) write_running_summary(solution);
-} catch (const WriteError&) {
-  try {  // the increment is solved, and there may be room for its totals
-    replace_file(path_ / "summary.json",
-                 summary_content(solution, complete(solution.timing), true, history_.extremes()));
-  } catch (const WriteError&) {
-  }
-  throw;
+}
+
+ResultsDirectory::Reached ResultsDirectory::reached() {
+  Reached reached;
+  for (const GrowingFile* file : growing_files()) reached.sizes.push_back(file->size());
+  reached.finished = finished_;
+  reached.fields_written = fields_written_;
+  reached.log_begun = log_begun_;
+  reached.not_synchronised = not_synchronised_.size();
+  reached.extremes = history_.extremes();
+  return reached;
+}
+
+void ResultsDirectory::take_back(Reached before) {
+  const std::vector<GrowingFile*> files = growing_files();
+  for (std::size_t i = 0; i < files.size(); ++i) files[i]->cut_back(before.sizes[i]);
+  finished_ = before.finished;
+  fields_written_ = before.fields_written;
+  log_begun_ = before.log_begun;
+  not_synchronised_.resize(before.not_synchronised);
+  history_.take_back(std::move(before.extremes));
+  remove_later_fields(path_, fields_written_);
 }
 
 /// What was prepared for another mesh is prepared again.
@@ -369,21 +408,21 @@ void ResultsDirectory::write_fields(const analysis::StaticSolution& solution,
     const Stopwatch writing(write_seconds_);
     const std::string stem = fmt::format("fields_{:04d}", finished_);
     const std::vector<std::string> parts = parts_->write(solution, increment, path_, stem);
-    write_file(path_ / (stem + ".pvtu"), pvtu_content(output_.fields, parts));
+    replace_file(path_ / (stem + ".pvtu"), pvtu_content(output_.fields, parts));
     for (const std::string& part : parts) not_synchronised_.push_back(path_ / part);
     not_synchronised_.push_back(path_ / (stem + ".pvtu"));
     fields_collection_->add(pseudo_time(increment), stem + ".pvtu");
   } else if (of_bodies) {
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("fields_{:04d}.vtu", finished_);
-    write_file(path_ / file, *of_bodies);
+    replace_file(path_ / file, *of_bodies);
     not_synchronised_.push_back(path_ / file);
     fields_collection_->add(pseudo_time(increment), file);
   }
   if (contact_collection_) {
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("contact_{:04d}.vtu", finished_);
-    write_file(path_ / file, vtu_content(contact_lines(increment)));
+    replace_file(path_ / file, vtu_content(contact_lines(increment)));
     not_synchronised_.push_back(path_ / file);
     contact_collection_->add(pseudo_time(increment), file);
   }
@@ -447,7 +486,7 @@ void ResultsDirectory::finish(const analysis::StaticSolution& solution) {
                  fields_collection_ && !in_parts() ? std::optional(fields_of_bodies(solution, *last)) : std::nullopt);
   if (fields_collection_ && last != solution.increments.rend() && has_many_cells(solution.mesh)) {
     const Stopwatch writing(write_seconds_);
-    write_file(path_ / cells_name, vtu_content(cell_polygons(solution, last->fields), solution.threads));
+    replace_file(path_ / cells_name, vtu_content(cell_polygons(solution, last->fields), solution.threads));
   }
   {
     const Stopwatch writing(write_seconds_);

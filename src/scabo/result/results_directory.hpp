@@ -30,8 +30,8 @@ namespace scabo::result {
 /// The `status` in summary.json; nothing if it cannot be read.
 std::optional<std::string> status_in(const std::filesystem::path& directory);
 
-/// Records in summary.json that an error ended the run: status `failed`, with the reason. If that cannot be written (a
-/// full disk), the file remains as it was: readable, with status `running`.
+/// Records in summary.json that an error ended the run: status `failed`, with the reason. A full disk has room for the
+/// status alone, which is then written over the one before.
 void mark_failed(const std::filesystem::path& directory, const std::string& reason) noexcept;
 
 /// Other processes write the fields of the cells that they have.
@@ -61,7 +61,8 @@ class ResultsDirectory {
   void divide_fields(FieldParts* parts) { parts_ = parts; }
 
   /// Writes the results of an increment; for one that did not converge, only a line of log.txt. Also writes
-  /// summary.json with the results so far, unless that would take more than a twentieth of the time. Throws WriteError.
+  /// summary.json with the results so far, unless that would take more than a twentieth of the time. Throws WriteError;
+  /// if not all files could be written, none of them, and not summary.json either, contains the increment.
   /// What is thrown at an interruption point (base/interruption.hpp) leaves the directory as if it had not been called.
   void add(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
 
@@ -91,6 +92,17 @@ class ResultsDirectory {
   /// New ones, or those of `written`.
   void open_files(const model::Model& model, const analysis::WrittenResults* written);
   void add_files(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
+  /// How far the files have been written.
+  struct Reached {
+    std::vector<long long> sizes;  // of growing_files()
+    int finished = 0, fields_written = 0;
+    bool log_begun = false;
+    std::size_t not_synchronised = 0;
+    std::vector<HistoryExtremes> extremes;
+  };
+  Reached reached();
+  /// Removes what was written since.
+  void take_back(Reached before);
   void begin_log(const analysis::StaticSolution& solution);
   void write_running_summary(const analysis::StaticSolution& solution);
 
@@ -126,7 +138,7 @@ class ResultsDirectory {
   std::optional<FieldCollection> fields_collection_, contact_collection_;
   std::optional<Recovery> recovery_;
   PackedGrid packed_grid_;  // of the grid of recovery_
-  int pairings_ = 0;  // StaticSolution::pairings of the mesh of the evaluations and the recovery
+  int pairings_ = 0;        // StaticSolution::pairings of the mesh of the evaluations and the recovery
   void follow_mesh(const analysis::StaticSolution& solution);
 };
 

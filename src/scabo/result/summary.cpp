@@ -292,7 +292,7 @@ std::optional<long long> peak_memory() {
 }
 
 std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running,
-                            const std::vector<HistoryExtremes>& history) {
+                            const std::vector<HistoryExtremes>& history, std::size_t most) {
   const ModelSizes sizes = sizes_of(solution);
   Json json;
   json["scabo"] = version();
@@ -315,8 +315,8 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
                               {"raised", pass.raised},
                               {"divided", pass.divided}});
   json["increments"] = Json::array();
-  for (const analysis::IncrementResult& increment : solution.increments)
-    json["increments"].push_back(json_of(increment, solution.model));
+  for (std::size_t i = 0; i < std::min(most, solution.increments.size()); ++i)
+    json["increments"].push_back(json_of(solution.increments[i], solution.model));
   if (!history.empty()) {
     json["history"] = Json::object();
     for (const HistoryExtremes& column : history) json["history"][column.column] = json_of(column);

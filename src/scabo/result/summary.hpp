@@ -1,6 +1,7 @@
 // summary.json: the results of a run, for programs (docs/results.md describes every key).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -23,9 +24,10 @@ ModelSizes sizes_of(const analysis::StaticSolution& solution);
 std::optional<long long> peak_memory();
 
 /// Content of summary.json. `running`: the run has not ended, so that figures of the whole run are omitted. `timing`
-/// replaces that of the solution. Values that do not exist are null.
+/// replaces that of the solution. Values that do not exist are null. `most`: only the first so many increments.
 std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running,
-                            const std::vector<HistoryExtremes>& history = {});
+                            const std::vector<HistoryExtremes>& history = {},
+                            std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// The summary of a run ended by an error: `summary` with status `failed` and the reason.
 std::string failed_summary(const std::string& summary, const std::string& reason);

@@ -15,18 +15,19 @@ Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, do
 }
 
 std::string describe_motion(const Eigen::Vector3d& motion, const Vec2& reference, double lever) {
+  constexpr double shown_as_zero = 1e-6;  // of the largest part: motions of many bodies are found to about 1e-8
   const double rotation = motion[2] / lever;
   const Vec2 shift = motion.head<2>();
-  if (std::abs(motion[2]) <= 1e-6 * shift.norm()) {
+  if (std::abs(motion[2]) <= shown_as_zero * shift.norm()) {
     Vec2 along = shift.normalized();
     for (Eigen::Index i = 0; i < 2; ++i)
-      if (std::abs(along[i]) < 1e-9) along[i] = 0.0;
+      if (std::abs(along[i]) < shown_as_zero) along[i] = 0.0;
     return fmt::format("translation along ({:.4g}, {:.4g})", along.x(), along.y());
   }
   // The point that stays: shift + rotation x arm = 0.
   Vec2 pole = reference + Vec2(-shift.y(), shift.x()) / rotation;
   for (Eigen::Index i = 0; i < 2; ++i)
-    if (std::abs(pole[i]) < 1e-9 * lever) pole[i] = 0.0;
+    if (std::abs(pole[i]) < shown_as_zero * lever) pole[i] = 0.0;
   return fmt::format("rotation about ({:.4g}, {:.4g})", pole.x(), pole.y());
 }
 

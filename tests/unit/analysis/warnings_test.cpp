@@ -84,6 +84,31 @@ TEST(Warnings, OfLoadsThatMoveNothing) {
               ElementsAre(HasSubstr("load 'down' has no effect"), HasSubstr("load 'none' is zero")));
 }
 
+TEST(Warnings, OfGravityAndTemperatureOfMaterialsThatKnowNeither) {
+  for (const char* mesh : {"{size: 0.25}", "{kind: fem, size: 0.25}", "{kind: polygons, size: 0.25}"})
+    for (const bool light : {true, false}) {
+      const std::string of_material = light ? "density: 0, expansion: 0" : "density: 2400, expansion: 1e-5";
+      const StaticSolution solution =
+          solve("scabo: 1\nmaterials: {stone: {young: 1e9, poisson: 0.3, " + of_material +
+                "}}\n"
+                "bodies: {block: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: " +
+                mesh +
+                "}}\n"
+                "supports: [{on: block.bottom, fix: [x, y]}]\n"
+                "loads:\n"
+                "  weight: {gravity: [0, -9.81]}\n"
+                "  summer: {on: block, temperature: 20}\n"
+                "  push: {on: block.top, pressure: 1e3}\n");
+      if (light)
+        EXPECT_THAT(texts_of(solution.warnings),
+                    ElementsAre(HasSubstr("load 'weight' has no effect because the density of all materials"),
+                                HasSubstr("load 'summer' has no effect because the temperature does not change, or")))
+            << mesh;
+      else
+        EXPECT_THAT(texts_of(solution.warnings), IsEmpty()) << mesh;
+    }
+}
+
 TEST(Warnings, OfALoadThatIsLostInTheRoundingOfAnother) {
   const auto with = [](const char* small) {
     return texts_of(solve(stack(1e-4, std::string("loads:\n  small: {on: lower.right, traction: [") + small +

@@ -70,13 +70,15 @@ TEST(Overrides, MistakesNameTheOverride) {
             "model.yaml: --set materials.steel.yuong: unknown key 'yuong' (available: young, poisson, density, "
             "orthotropic, anisotropic, expansion)");
   EXPECT_EQ(mistake("supports.1.fix", "x"),
-            "model.yaml: --set supports.1.fix: supports is a list: use a number from 0 to 0, not '1'");
+            "model.yaml: --set supports.1.fix: supports is a list of one entry: write 0, not '1'");
   EXPECT_EQ(
       mistake("title.of.it", "x"),
       "model.yaml: --set title.of.it: the model has no 'title' (available: scabo, materials, bodies, supports, loads)");
   EXPECT_EQ(mistake("scabo.version", "1"), "model.yaml: --set scabo.version: scabo is empty");
   EXPECT_THAT(mistake("loads.push.force", "[0, "), HasSubstr("model.yaml: --set loads.push.force: not valid YAML"));
   EXPECT_THAT(mistake("materials.steel.young", ""), HasSubstr("has no value: give one"));
+  EXPECT_THAT(mistake("bodies.block.mesh.order", ""),
+              HasSubstr("--set bodies.block.mesh.order: has no value: give one"));
   EXPECT_THAT(mistake("bodies.block.mesh.size", "1e-9"), HasSubstr("--set bodies.block.mesh.size: gives"));
 }
 

@@ -2,9 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-
-#include <csignal>
 
 #include "unit/result/solutions.hpp"
 
@@ -23,23 +20,6 @@ std::string write_error(Function function) {
   }
   return "no error";
 }
-
-/// While it lives no file of this process may grow beyond `bytes`: a full disk.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 TEST(Files, AFullDiskIsNamedWithTheFile) {
   const std::string message = write_error([] { GrowingFile("/dev/full").append("data"); });
@@ -101,6 +81,22 @@ TEST(GrowingFile, KeepsWhatItHadWhenAWriteFails) {
   EXPECT_EQ(content_of(path), std::string(900, 'a') + "end");
   file.append_before_footer("c", "end");
   EXPECT_EQ(content_of(path), std::string(900, 'a') + "cend");
+}
+
+TEST(GrowingFile, CutsBackToWhatItHadBefore) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "file";
+  GrowingFile file(path);
+  file.append_before_footer("begin ", "end");
+  const long long before = file.size();
+  file.append_before_footer(std::string(900, 'a'), "end");
+  {
+    const SmallDisk disk(100);
+    file.cut_back(before);
+  }
+  EXPECT_EQ(content_of(path), "begin end");
+  file.append_before_footer("b ", "end");
+  EXPECT_EQ(content_of(path), "begin b end");
 }
 
 }  // namespace

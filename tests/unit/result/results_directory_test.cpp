@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "scabo/result/contact_table.hpp"
@@ -202,11 +203,11 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
   const Json summary = Json::parse(content_of(path_ / "summary.json"));
   EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "warning_kinds", "model",
                                             "passes", "increments", "timing", "peak_memory_bytes"));
-  EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs", "plane", "thickness",
-                                                    "materials", "bodies", "contacts", "steps"));
+  EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs", "plane",
+                                                     "thickness", "materials", "bodies", "contacts", "steps"));
   EXPECT_THAT(keys_of(summary["model"]["materials"][0]), ElementsAre("name", "law", "young", "poisson", "density"));
-  EXPECT_THAT(keys_of(summary["model"]["bodies"][0]), ElementsAre("name", "rigid", "unbounded", "materials", "nodes",
-                                                                  "super_elements", "finite_elements"));
+  EXPECT_THAT(keys_of(summary["model"]["bodies"][0]),
+              ElementsAre("name", "rigid", "unbounded", "materials", "nodes", "super_elements", "finite_elements"));
   EXPECT_THAT(keys_of(summary["timing"]), ElementsAre("read", "mesh", "super_elements", "assemble", "factorise",
                                                       "condense", "newton", "recover", "write", "total"));
   const Json& increment = summary["increments"][0];
@@ -329,6 +330,53 @@ TEST_F(Results, TheSummaryIsThereFromTheStart) {
   summary = Json::parse(content_of(path_ / "summary.json"));
   EXPECT_EQ(summary["status"], "failed");
   EXPECT_EQ(summary["reason"], "the disk is full");
+}
+
+TEST_F(Results, AnIncrementThatDoesNotFitIsInNoFile) {
+  auto solution = two_bodies();
+  ResultsDirectory directory(path_, solution.model);
+  solution.increments.push_back(increment_number(solution, 1));
+  directory.add(solution, solution.increments.back());
+  std::map<std::string, std::string> before;
+  for (const auto& file : std::filesystem::directory_iterator(path_))
+    before[file.path().filename()] = content_of(file.path());
+  // The name is too long for the last tables, which are written after contact.csv and the fields.
+  solution.increments.push_back(increment_number(solution, 2));
+  {
+    const SmallDisk disk(20'000);
+    solution.increments.back().step_name = std::string(25'000, 'x');
+    EXPECT_THROW(directory.add(solution, solution.increments.back()), WriteError);
+    mark_failed(path_, "the disk is full");
+  }
+  for (const auto& [name, content] : before)
+    if (name != "summary.json") EXPECT_EQ(content_of(path_ / name), content) << name;
+  EXPECT_FALSE(std::filesystem::exists(path_ / "fields_0002.vtu"));
+  const auto summary = Json::parse(content_of(path_ / "summary.json"));
+  EXPECT_EQ(summary["increments"].size(), 1u);
+  EXPECT_EQ(summary["status"], "failed");
+}
+
+TEST_F(Results, AFullDiskHasRoomForTheStatus) {
+  auto solution = two_bodies();
+  ResultsDirectory directory(path_, solution.model, solution.mesh);
+  const std::string before = content_of(path_ / "summary.json");
+  {
+    const SmallDisk disk(before.size() / 2);
+    mark_failed(path_, "the disk is full");
+  }
+  const auto summary = Json::parse(content_of(path_ / "summary.json"));
+  EXPECT_EQ(summary["status"], "failed");
+  EXPECT_EQ(content_of(path_ / "summary.json").size(), before.size());
+}
+
+TEST_F(Results, LeftoversOfAKilledRunAreRemoved) {
+  std::filesystem::create_directories(path_);
+  for (const char* name : {"fields_0007.vtu.part", "contact_0007.vtu.part", "cells.vtu.part"})
+    write_file(path_ / name, std::string("<?xml version=\"1.0\"?>\n") + std::string(vtk_mark));
+  auto solution = two_bodies();
+  const ResultsDirectory directory(path_, solution.model);
+  for (const auto& file : std::filesystem::directory_iterator(path_))
+    EXPECT_NE(file.path().extension(), ".part") << file.path();
 }
 
 TEST_F(Results, TwoRunsAtOnceAreRefused) {

@@ -2,6 +2,9 @@
 // super-elements.
 #pragma once
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -107,6 +110,23 @@ inline model::Body finite_elements(const std::string& name, const Vec2& corner, 
   body.mesh.kind = model::MeshKind::fem;
   return body;
 }
+
+/// While it lives no file of this process may grow beyond `bytes`: a full disk.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+};
 
 /// An empty directory that is removed at the end.
 class TemporaryDirectory {

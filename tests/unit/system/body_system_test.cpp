@@ -33,6 +33,13 @@ Constraint hold_rigid(const Vec2& point, int component, double value = 0.0) {
 
 const std::vector<Vec2> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
 
+TEST(RigidMotions, DirectionsAreShownWithoutRounding) {
+  EXPECT_EQ(describe_motion({1.0, -4.688e-9, 2e-9}, Vec2::Zero(), 1.0), "translation along (1, 0)");
+  EXPECT_EQ(describe_motion({-3e-8, 2.0, 0.0}, Vec2::Zero(), 1.0), "translation along (0, 1)");
+  EXPECT_EQ(describe_motion({1.0, 1e-3, 0.0}, Vec2::Zero(), 1.0), "translation along (1, 0.001)");
+  EXPECT_EQ(describe_motion({4e-8, -2.0, 1.0}, Vec2::Zero(), 1.0), "rotation about (2, 0)");
+}
+
 TEST(FreeMotions, ThreeWithoutSupportsNoneWhenIsostatic) {
   Vec2 reference;
   double lever = 0.0;
@@ -211,8 +218,8 @@ TEST(RigidBody, KeepsTheMotionsThatNothingHolds) {
 
 TEST(RigidBody, FindsSupportsThatContradictEachOther) {
   std::string contradiction;
-  rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 0, 0.1), hold_rigid({2, 0}, 0, 0.2)},
-             {}, contradiction);  // it would stretch
+  rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 0, 0.1), hold_rigid({2, 0}, 0, 0.2)}, {},
+             contradiction);  // it would stretch
   EXPECT_NE(contradiction, "");
   contradiction.clear();
   rigid_body({1, 1}, 2.0, {hold_rigid({0, 0}, 0, 0.1), hold_rigid({2, 0}, 0, 0.1)}, {}, contradiction);

@@ -1,12 +1,34 @@
 #include "scabo/contact/files/saved_problem.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/contact/files/hdf5_file.hpp"
 #include "scabo/contact/files/text_problem.hpp"
+#include "scabo/contact/judge.hpp"
 
 namespace scabo::contact {
+
+namespace {
+
+double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
+
+/// Residuals contain squares of motions and of the forces q / W, which must not overflow.
+void check_magnitudes(const std::string& file, const Problem& problem) {
+  constexpr double most = 1e150;
+  const double motion = largest_of(problem.q), stiffness = stiffness_of(problem);
+  const double force = std::max(stiffness * motion, largest_of(problem.f));
+  if (motion <= most && force <= most) return;
+  throw InputError(file, {{{},
+                           fmt::format("has motions q up to {:.1g} and a mean stiffness 1 / W_ii of {:.1g}: motions "
+                                       "and the forces that follow may be at most {:.0e}; use other units",
+                                       motion, stiffness, most)}});
+}
+
+}  // namespace
 
 SavedProblem read_problem_file(const std::string& file) {
   namespace fs = std::filesystem;
@@ -16,14 +38,16 @@ SavedProblem read_problem_file(const std::string& file) {
   if (!fs::exists(status)) refuse("no such file");
   if (fs::is_directory(status)) refuse("is a directory: name a problem file");
   if (!fs::is_regular_file(status)) refuse("is not a regular file");
-  if (is_hdf5(file)) return read_fclib(file);
+  const bool hdf5 = is_hdf5(file);
   // The name is that of an HDF5 file but the content is not. Reading it as text would fail at the first byte with a
   // misleading message.
   const std::string ending = fs::path(file).extension().string();
-  if (ending == ".hdf5" || ending == ".h5" || ending == ".hdf")
+  if (!hdf5 && (ending == ".hdf5" || ending == ".h5" || ending == ".hdf"))
     refuse("is not an HDF5 file: it is empty, damaged or of another format; use a complete copy");
   if (fs::file_size(file, error) == 0) refuse("is empty");
-  return read_text_problem(file);
+  SavedProblem saved = hdf5 ? read_fclib(file) : read_text_problem(file);
+  check_magnitudes(file, saved.problem);
+  return saved;
 }
 
 }  // namespace scabo::contact
