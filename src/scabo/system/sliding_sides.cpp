@@ -1,0 +1,108 @@
+#include "scabo/system/sliding_sides.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/mesh/concurrent_rays.hpp"
+#include "scabo/mesh/interface.hpp"
+
+namespace scabo::system {
+
+namespace {
+
+/// The least tangential force per normal force that pairs can carry; nothing if they carry some without a normal force.
+std::optional<double> least_friction(const model::Model& model, std::size_t c) {
+  const model::Contact& contact = model.contacts[c];
+  if (contact.bond || contact.cohesion > 0.0 || contact.tension > 0.0 || contact.shear_strength) return std::nullopt;
+  double least = contact.friction_along.empty() ? contact.friction : contact.friction_along.front().friction;
+  for (const std::optional<double>& other :
+       {contact.backward_friction, contact.dynamic_friction, contact.backward_dynamic_friction})
+    if (other) least = std::min(least, *other);
+  for (const model::FrictionPoint& point : contact.friction_along) least = std::min(least, point.friction);
+  for (const model::Step& step : model.steps)
+    for (const std::vector<double>* changed : {&step.friction, &step.backward_friction})
+      if (!changed->empty()) least = std::min(least, (*changed)[c]);
+  return least;
+}
+
+/// Motions of a part as [u_x, u_y, L rotation] at `point`.
+Matrix motions_at(const BodySystem& part, const Vec2& point, double length) {
+  Matrix motions(3, part.rigid_coordinates().cols());
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    const Eigen::Vector3d motion = part.rigid_coordinates().col(k);
+    motions.col(k) << rigid_point(point, part.reference(), part.lever()) * motion, motion[2] * length / part.lever();
+  }
+  return motions;
+}
+
+bool spans(const Matrix& motions, const Eigen::Vector3d& wanted) {
+  constexpr double rounding = 1e-9;
+  if (motions.cols() == 0) return false;
+  const Eigen::ColPivHouseholderQR<Matrix> factor(motions);
+  return (motions * factor.solve(wanted) - wanted).norm() <= rounding;
+}
+
+/// How the parts of the two sides may move about the common point.
+struct Slide {
+  bool of_a = false, of_b = false, of_both = false;
+};
+
+Slide slide_of(const Structure& structure, const model::Contact& contact, const mesh::Rays& rays,
+               const mesh::ContactPair& at) {
+  const std::size_t a = structure.dofs.part_of(contact.a.body), b = structure.dofs.part_of(contact.b.body);
+  if (a == b) return {};
+  const BodySystem &part_a = *structure.parts[a], &part_b = *structure.parts[b];
+  const double length = std::max(part_a.lever(), part_b.lever());
+  // At the pair: turning about a centre far away is moving across.
+  Eigen::Vector3d wanted;
+  if (const auto centre = rays.centre()) {
+    const Vec2 arm = at.point_b - *centre;
+    wanted << -arm.y(), arm.x(), length;
+  } else {
+    wanted << tangent_of(rays.through(at.point_b).direction), 0.0;
+  }
+  wanted.normalize();
+  const Matrix of_a = motions_at(part_a, at.point_b, length), of_b = motions_at(part_b, at.point_b, length);
+  Matrix together(3, of_a.cols() + of_b.cols());
+  together << of_b, -of_a;
+  return {spans(of_a, wanted), spans(of_b, wanted), spans(together, wanted)};
+}
+
+}  // namespace
+
+void let_slide(const Structure& structure, const model::Model& model, mesh::Mesh& mesh) {
+  for (mesh::Interface& interface : mesh.interfaces) {
+    const auto c = static_cast<std::size_t>(interface.contact);
+    const model::Contact& contact = model.contacts[c];
+    const std::optional<double> friction = least_friction(model, c);
+    if (!friction || contact.large_slip || interface.pairs.empty()) continue;
+    const bool floats = [&] {
+      for (const model::Place& place : {contact.a, contact.b})
+        if (structure.parts[structure.dofs.part_of(place.body)]->rigid_coordinates().cols() > 0) return true;
+      return false;
+    }();
+    if (!floats) continue;
+    const std::optional<mesh::Rays> rays = mesh::concurrent_rays(model, contact, mesh);
+    if (!rays) continue;
+    const Slide slide = slide_of(structure, contact, *rays, interface.pairs[interface.pairs.size() / 2]);
+    if (!slide.of_both) continue;
+
+    std::vector<mesh::ContactPair> turned = interface.pairs;
+    double deviation = 0.0;
+    for (mesh::ContactPair& pair : turned) {
+      const Vec2 point = slide.of_a == slide.of_b ? Vec2(0.5 * (pair.point_a + pair.point_b))
+                         : slide.of_b             ? pair.point_b
+                                                  : pair.point_a;
+      const Vec2 along = rays->through(point).direction;
+      const Vec2 normal = along.dot(pair.normal) < 0.0 ? Vec2(-along) : along;
+      deviation = std::max(deviation, std::abs(cross(pair.normal, normal)));
+      pair.normal = normal;
+    }
+    if (*friction > 0.0 && *friction >= deviation) continue;
+    mesh::set_gaps(turned, contact.gap);
+    interface.pairs = std::move(turned);
+  }
+}
+
+}  // namespace scabo::system
