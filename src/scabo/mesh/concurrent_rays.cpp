@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/geometry/line_basis.hpp"
+
 namespace scabo::mesh {
 
 namespace {
@@ -45,8 +47,7 @@ std::optional<geometry::Arc> arc_through(const geometry::Edge& chain, double lon
 }
 
 /// The edge as a line or an arc.
-std::optional<geometry::Edge> plain(const model::Model& model, const model::Place& place, const Mesh& mesh) {
-  const auto body = static_cast<std::size_t>(place.body), index = static_cast<std::size_t>(place.index);
+std::optional<geometry::Edge> plain(const model::Model& model, std::size_t body, std::size_t index, const Mesh& mesh) {
   geometry::Edge edge = model.bodies[body].outline.edges[index];
   if (!edge.is_chain()) return edge;
   double longest = 0.0;
@@ -61,13 +62,46 @@ std::optional<geometry::Edge> plain(const model::Model& model, const model::Plac
   return edge;
 }
 
+/// Area between an element and the arc through its ends.
+double area_beside(const LineElement& element, const geometry::Arc& arc, const std::vector<Vec2>& nodes) {
+  const int order = static_cast<int>(element.nodes.size()) - 1;
+  const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
+  const auto point = [&](int i) -> Vec2 {
+    return nodes[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)])] - arc.centre;
+  };
+  double twice = 0.0;  // by Lobatto's rule, exact for the degree 2 p - 1 of x times its derivative
+  for (int i = 0; i <= order; ++i) {
+    Vec2 along = Vec2::Zero();
+    for (int j = 0; j <= order; ++j) along += basis.derivatives_at_nodes()(i, j) * point(j);
+    twice += basis.weights()[static_cast<std::size_t>(i)] * cross(point(i), along);
+  }
+  const Vec2 from = point(0), to = point(order);
+  const double angle = std::atan2(cross(from, to), from.dot(to));
+  return 0.5 * std::abs(arc.radius * arc.radius * angle - twice);
+}
+
 }  // namespace
+
+double lost_of_arcs(const model::Model& model, int body, const Mesh& mesh) {
+  const auto b = static_cast<std::size_t>(body);
+  const BodyMesh& of = mesh.bodies[b];
+  double lost = 0.0;
+  for (std::size_t index = 0; index < of.edges.size(); ++index) {
+    const std::optional<geometry::Edge> edge = plain(model, b, index, mesh);
+    if (!edge || !edge->arc) continue;
+    for (const LineElement& element : of.edges[index]) lost += area_beside(element, *edge->arc, of.nodes);
+  }
+  return lost / std::abs(model.bodies[b].outline.area());
+}
 
 std::optional<Rays> concurrent_rays(const model::Model& model, const model::Contact& contact, const Mesh& mesh) {
   for (const model::Place& place : {contact.a, contact.b})
     if (place.kind != model::Place::Kind::edge || model.bodies[static_cast<std::size_t>(place.body)].rigid)
       return std::nullopt;
-  const std::optional<geometry::Edge> a = plain(model, contact.a, mesh), b = plain(model, contact.b, mesh);
+  const auto of = [&](const model::Place& place) {
+    return plain(model, static_cast<std::size_t>(place.body), static_cast<std::size_t>(place.index), mesh);
+  };
+  const std::optional<geometry::Edge> a = of(contact.a), b = of(contact.b);
   if (!a || !b || (!a->arc && !b->arc)) return std::nullopt;
   return Rays(*a, *b);
 }

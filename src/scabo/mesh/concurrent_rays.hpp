@@ -14,4 +14,7 @@ namespace scabo::mesh {
 /// points are on one circle but for a hundredth of what its elements depart from it; with any other chain, nothing.
 std::optional<Rays> concurrent_rays(const model::Model& model, const model::Contact& contact, const Mesh& mesh);
 
+/// Area between the arcs of a body and the elements on them, relative to the body: what division changes of its shape.
+double lost_of_arcs(const model::Model& model, int body, const Mesh& mesh);
+
 }  // namespace scabo::mesh

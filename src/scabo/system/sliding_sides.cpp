@@ -1,5 +1,6 @@
 #include "scabo/system/sliding_sides.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -69,9 +70,42 @@ Slide slide_of(const Structure& structure, const model::Contact& contact, const 
   return {spans(of_a, wanted), spans(of_b, wanted), spans(together, wanted)};
 }
 
+/// Takes the resultants along the motion about the common point out of the loads on a part, where they are no more than
+/// `lost` of a load.
+void balance(Structure& structure, std::size_t p, const mesh::Rays& rays, const Vec2& at, double lost) {
+  const BodySystem& part = *structure.parts[p];
+  Eigen::Vector3d wanted;
+  if (const auto centre = rays.centre()) {
+    const Vec2 arm = part.reference() - *centre;
+    wanted << -arm.y(), arm.x(), part.lever();
+  } else {
+    wanted << tangent_of(rays.through(at).direction), 0.0;
+  }
+  const Vector amplitudes = Eigen::ColPivHouseholderQR<Matrix>(part.rigid_coordinates()).solve(wanted).normalized();
+  for (std::vector<Vector>& load : structure.loads) {
+    Vector& forces = load[p];
+    if (forces.size() == 0) continue;
+    const double resultant = amplitudes.dot(Vector(part.rigid_motions().transpose() * forces));
+    if (resultant == 0.0 || std::abs(resultant) > lost * forces.lpNorm<1>()) continue;
+    add_resultants(part.rigid_motions(), -resultant * amplitudes, forces);
+  }
+}
+
 }  // namespace
 
-void let_slide(const Structure& structure, const model::Model& model, mesh::Mesh& mesh) {
+void add_resultants(const Matrix& rigid, const Vector& resultants, Vector& forces) {
+  std::vector<int> loaded;
+  for (Eigen::Index i = 0; i < forces.size(); ++i)
+    if (forces[i] != 0.0) loaded.push_back(static_cast<int>(i));
+  const Matrix motions = rigid(loaded, Eigen::all);
+  const Eigen::LDLT<Matrix> squares(motions.transpose() * motions);
+  if (squares.info() == Eigen::Success && squares.rcond() > 1e-6)
+    forces(loaded) += motions * squares.solve(resultants);
+  else  // few forces, or parallel ones
+    forces += rigid * Matrix(rigid.transpose() * rigid).ldlt().solve(resultants);
+}
+
+void let_slide(Structure& structure, const model::Model& model, mesh::Mesh& mesh) {
   for (mesh::Interface& interface : mesh.interfaces) {
     const auto c = static_cast<std::size_t>(interface.contact);
     const model::Contact& contact = model.contacts[c];
@@ -101,7 +135,15 @@ void let_slide(const Structure& structure, const model::Model& model, mesh::Mesh
     }
     if (*friction > 0.0 && *friction >= deviation) continue;
     mesh::set_gaps(turned, contact.gap);
+    const Vec2 at = turned[turned.size() / 2].point_b;
     interface.pairs = std::move(turned);
+    for (const auto& [body, moves] : {std::pair(contact.a.body, slide.of_a), std::pair(contact.b.body, slide.of_b)}) {
+      if (!moves) continue;
+      const std::size_t part = structure.dofs.part_of(body);
+      double lost = 0.0;
+      for (const int of : structure.dofs.bodies_of(part)) lost = std::max(lost, mesh::lost_of_arcs(model, of, mesh));
+      balance(structure, part, *rays, at, lost);
+    }
   }
 }
 
