@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "scabo/mesh/concurrent_rays.hpp"
 #include "scabo/mesh/interface.hpp"
@@ -70,6 +72,30 @@ Slide slide_of(const Structure& structure, const model::Contact& contact, const 
   return {spans(of_a, wanted), spans(of_b, wanted), spans(together, wanted)};
 }
 
+/// Whether the sides touch all along, or overlap, and another contact has pairs at their nodes. Forces of a uniform
+/// pressure are then shared there by normals that differ, those of the two elements that meet at such a node: with one
+/// normal, a force could pass around the node through the bodies that meet there.
+bool presses_beside_another(const mesh::Mesh& mesh, const model::Model& model, const mesh::Interface& interface) {
+  double largest = 0.0, length = 0.0;
+  for (const mesh::ContactPair& pair : interface.pairs) {
+    largest = std::max(largest, pair.gap);
+    length = std::max(length, (pair.point_a - interface.pairs.front().point_a).norm());
+  }
+  constexpr double touching = 1e-9;
+  if (largest > touching * length) return false;
+  const model::Contact& contact = model.contacts[static_cast<std::size_t>(interface.contact)];
+  std::set<std::pair<int, int>> own;  // body, node
+  for (const mesh::ContactPair& pair : interface.pairs)
+    own.insert({{contact.a.body, pair.node_a}, {contact.b.body, pair.node_b}});
+  for (const mesh::Interface& other : mesh.interfaces) {
+    if (other.contact == interface.contact) continue;
+    const model::Contact& named = model.contacts[static_cast<std::size_t>(other.contact)];
+    for (const mesh::ContactPair& pair : other.pairs)
+      if (own.contains({named.a.body, pair.node_a}) || own.contains({named.b.body, pair.node_b})) return true;
+  }
+  return false;
+}
+
 /// Takes the resultants along the motion about the common point out of the loads on a part, where they are no more than
 /// `lost` of a load.
 void balance(Structure& structure, std::size_t p, const mesh::Rays& rays, const Vec2& at, double lost) {
@@ -118,7 +144,7 @@ void let_slide(Structure& structure, const model::Model& model, mesh::Mesh& mesh
     }();
     if (!floats) continue;
     const std::optional<mesh::Rays> rays = mesh::concurrent_rays(model, contact, mesh);
-    if (!rays) continue;
+    if (!rays || presses_beside_another(mesh, model, interface)) continue;
     const Slide slide = slide_of(structure, contact, *rays, interface.pairs[interface.pairs.size() / 2]);
     if (!slide.of_both) continue;
 

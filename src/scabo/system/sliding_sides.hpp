@@ -15,7 +15,8 @@ namespace scabo::system {
 
 /// Directs the normals of such pairs, those of elastic sides without bond, strength or so much friction that it exceeds
 /// the deviations, along the lines through the common point and the node of the body that moves about it: exactly, but
-/// for rounding. Where both bodies may, through the point halfway between the two nodes.
+/// for rounding. Where both bodies may, through the point halfway between the two nodes. Sides that touch all along and
+/// share a node with another contact keep their normals.
 ///
 /// Loads on a body that may turn about the common point keep no moment about it that the division of its arcs explains:
 /// up to the part that the area between arcs and elements is of the body. The weight of a disc of straight elements
