@@ -91,8 +91,8 @@ loads: {{press: {{on: upper.cut, traction: [{}, {}]}}}}
                      model.swapped ? "upper.zone, lower.zone" : "lower.zone, upper.zone", down.x(), down.y());
 }
 
-// Half width b = 2 sqrt(P R / (pi E')), largest pressure 2 P / (pi b), 1 / R = 1 / R_1 + 1 / R_2, E' = E / (2 (1 - nu^2)):
-// 0.6808 and 9.351 for two equal discs.
+// Half width b = 2 sqrt(P R / (pi E')), largest pressure 2 P / (pi b), 1 / R = 1 / R_1 + 1 / R_2, E' = E / (2 (1 -
+// nu^2)): 0.6808 and 9.351 for two equal discs.
 TEST(Rolling, DiscsOnEachOtherWhateverTheMesh) {
   const Drawing turned{1.0, 0.3}, millimetres{1000.0, -1.1}, kilometres{1e-3, 2.5};
   const Hertz models[] = {
@@ -185,9 +185,9 @@ TEST(Rolling, PinInABoreThatIsALittleWider) {
     double dropped;
     double accuracy = 0.01;
   } const models[] = {
-      {"kind: polygons, order: 2", 0.08, {}, 0.0},        {"kind: polygons, order: 1", 0.08, {1.0, 0.7}, 0.0},
-      {"kind: polygons, order: 4", 0.12, {}, -0.001},     {"kind: quadtree, order: 2", 0.08, {1.0, 0.3}, 0.0},
-      {"kind: quadtree, order: 2", 0.05, {}, -0.001},     {"kind: fem, order: 2", 0.08, {1.0, 0.3}, -0.001},
+      {"kind: polygons, order: 2", 0.08, {}, 0.0},          {"kind: polygons, order: 1", 0.08, {1.0, 0.7}, 0.0},
+      {"kind: polygons, order: 4", 0.12, {}, -0.001},       {"kind: quadtree, order: 2", 0.08, {1.0, 0.3}, 0.0},
+      {"kind: quadtree, order: 2", 0.05, {}, -0.001},       {"kind: fem, order: 2", 0.08, {1.0, 0.3}, -0.001},
       {"kind: fem, order: 1", 0.08, {1.0, 0.3}, 0.0, 0.06},
   };
   for (const auto& model : models) {
@@ -214,7 +214,9 @@ TEST(Rolling, PinThatALoadTurnsIsAMechanism) {
 
 /// A body on two feet, in bowls of radius R about centres 2 apart, pressed by 1 and pushed aside by `push`.
 std::string on_two_feet(const char* mesh, double R, double push) {
-  const auto bowl = [&](double x, double half) { return fmt::format("[{}, {}]", x, R - std::sqrt(R * R - half * half)); };
+  const auto bowl = [&](double x, double half) {
+    return fmt::format("[{}, {}]", x, R - std::sqrt(R * R - half * half));
+  };
   const auto foot = [&](const char* name, double x) {
     return fmt::format(R"(
   {0}:
@@ -226,9 +228,8 @@ std::string on_two_feet(const char* mesh, double R, double push) {
         - {{arc: {{to: {4}, centre: [{5}, {6}], direction: clockwise}}, name: bowl}}
         - {{line: {{to: [{1}, -1]}}}}
     mesh: {{{7}, size: 0.1}})",
-                       name, x - 0.4, x + 0.4, [&] {
-                         return fmt::format("[{}, {}]", x + 0.4, R - std::sqrt(R * R - 0.16));
-                       }(),
+                       name, x - 0.4, x + 0.4,
+                       [&] { return fmt::format("[{}, {}]", x + 0.4, R - std::sqrt(R * R - 0.16)); }(),
                        fmt::format("[{}, {}]", x - 0.4, R - std::sqrt(R * R - 0.16)), x, R, mesh);
   };
   const double rise = R - std::sqrt(R * R - 0.04);
@@ -258,8 +259,8 @@ loads: {{press: {{on: body.top, force: [{5}, -1]}}}}
                      foot("left", -1.0), foot("right", 1.0), rise, R, mesh, push);
 }
 
-// The normal forces of a foot point to the centre of its bowl, so that a push H moves their resultants along the feet by
-// e: H = (F_1 e_1 + F_2 e_2) / R. However shallow the bowls are, that is what holds the body.
+// The normal forces of a foot point to the centre of its bowl, so that a push H moves their resultants along the feet
+// by e: H = (F_1 e_1 + F_2 e_2) / R. However shallow the bowls are, that is what holds the body.
 TEST(Rolling, ShallowBowlsHoldABody) {
   for (const char* mesh : {"kind: quadtree, order: 2", "kind: fem, order: 1", "kind: polygons, order: 3"})
     for (const double R : {10.0, 1000.0}) {

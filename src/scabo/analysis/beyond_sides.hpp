@@ -1,4 +1,5 @@
-// Slips that contradict small displacements: bodies that are said to press on each other where they have left each other.
+// Slips that contradict small displacements: bodies that are said to press on each other where they have left each
+// other.
 #pragma once
 
 #include <string>
