@@ -4,6 +4,7 @@
 
 #include "scabo/analysis/outside.hpp"
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/system/sliding_sides.hpp"
 
 namespace scabo::analysis {
 
@@ -51,6 +52,7 @@ std::unique_ptr<const Assembly> assemble(StaticSolution& solution,
   timing.factorise -= structure.assembly_seconds;
   timing.assemble += structure.assembly_seconds;
   timed(timing.assemble, [&] { system::add_loads(structure, solution.model, solution.mesh, solution.cells); });
+  timed(timing.assemble, [&] { system::let_slide(structure, solution.model, solution.mesh); });
   stage("condensation to the contact pairs");
   return timed(timing.condense,
                [&] { return std::make_unique<const Assembly>(std::move(structure), solution, on_iteration); });

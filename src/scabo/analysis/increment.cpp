@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/analysis/beyond_sides.hpp"
 #include "scabo/analysis/branch.hpp"
 #include "scabo/analysis/increment_balance.hpp"
 #include "scabo/analysis/increment_loads.hpp"
@@ -186,6 +187,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   if (scale > 0.0) result.rounding = rounding_of_resistance * resistance(prepared, to) / scale;
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
+  if (result.accepted) result.beyond = slid_beyond_sides(prepared, to);
+  result.accepted = result.accepted && result.beyond.empty();
   return result;
 }
 

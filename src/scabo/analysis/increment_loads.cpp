@@ -1,11 +1,11 @@
 #include "scabo/analysis/increment_loads.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/linalg/twofold.hpp"
 #include "scabo/system/contact_laws.hpp"
+#include "scabo/system/sliding_sides.hpp"
 
 namespace scabo::analysis {
 
@@ -89,15 +89,7 @@ void take_out_rounding(const Matrix& rigid, double sum, Vector& forces) {
   for (double& resultant : resultants)
     if (std::abs(resultant) > rounding_of_sums * sum) resultant = 0.0;
   if (resultants.isZero(0.0)) return;
-  std::vector<int> loaded;
-  for (Eigen::Index i = 0; i < forces.size(); ++i)
-    if (forces[i] != 0.0) loaded.push_back(static_cast<int>(i));
-  const Matrix motions = rigid(loaded, Eigen::all);
-  const Eigen::LDLT<Matrix> squares(motions.transpose() * motions);
-  if (squares.info() == Eigen::Success && squares.rcond() > 1e-6)
-    forces(loaded) -= motions * squares.solve(resultants);
-  else  // few forces, or parallel ones
-    forces -= rigid * Matrix(rigid.transpose() * rigid).ldlt().solve(resultants);
+  system::add_resultants(rigid, -resultants, forces);
 }
 
 std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& factors,

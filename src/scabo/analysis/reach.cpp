@@ -120,7 +120,9 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   } else if (status == Status::collapse) {
     reached.motion = mechanism_of(prepared, tried.solution.motion, FlowRule::coulomb, tried.problem.f);
     reached.reason = describe_collapse(prepared, tried.solution, reached.part, part);
-  } else if (status == Status::solved)
+  } else if (!tried.beyond.empty())
+    reached.reason = tried.beyond;
+  else if (status == Status::solved)
     reached.reason = above_tolerance(prepared, tried, tolerance);
   else
     reached.reason =

@@ -258,6 +258,30 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
   return svd.matrixV().rightCols(m - rank);
 }
 
+Matrix neutral_motions(const Problem& problem) {
+  const Eigen::Index N = problem.pairs(), m = problem.G.cols();
+  if (N == 0 || m == 0 || has_many_motions(problem) || problem.W.is_sparse()) return Matrix(m, 0);
+  std::vector<ContactState> strongest;
+  bool slides = false;
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const bool resists = problem.largest_mu(i) > 0.0 || problem.cohesion_of(i) > 0.0 || problem.tension_of(i) > 0.0;
+    strongest.push_back(resists ? ContactState::stick : ContactState::slip);
+    slides = slides || !resists;
+  }
+  return slides ? undetermined_motions(problem, strongest) : Matrix(m, 0);
+}
+
+WithoutNeutral without_neutral(const Problem& problem, const Matrix& neutral) {
+  const Eigen::Index m = neutral.rows(), k = neutral.cols();
+  const Matrix basis = Eigen::HouseholderQR<Matrix>(neutral).householderQ() * Matrix::Identity(m, m);
+  WithoutNeutral left{problem, basis.rightCols(m - k)};
+  // A holder knows the motions of the whole problem.
+  if (problem.W.is_dense()) left.problem.W = problem.W.with_holder(nullptr);
+  left.problem.G = RigidMap(Matrix(problem.G.dense() * left.kept));
+  left.problem.f = left.kept.transpose() * problem.f;
+  return left;
+}
+
 Problem held_at(const Problem& problem, const Vector& a_0, double c) {
   Problem held = problem;
   if (problem.W.is_sparse()) {

@@ -20,6 +20,19 @@ std::optional<Vector> find_mechanism(const Problem& problem);
 /// position along these is not.
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
 
+/// Rigid motions (orthonormal columns, m x k) that no force of any pair resists, open or closed: of a body that slides
+/// without friction along sides that are straight or concurrent. None where bodies are many.
+Matrix neutral_motions(const Problem& problem);
+
+/// The problem without the rigid motions `neutral`, which stay as they are: a = kept b + neutral neutral' a_0. `kept`
+/// (m x (m - k)) completes them to an orthonormal basis. Whether the loads drive a neutral motion is for the caller to
+/// ask: the equilibrium of these motions is no part of the problem that is left.
+struct WithoutNeutral {
+  Problem problem;
+  Matrix kept;
+};
+WithoutNeutral without_neutral(const Problem& problem, const Matrix& neutral);
+
 /// Rigid motions eliminated by a proximal term: G'p + f = c (a - a_0), so that a = a_0 + (G'p + f) / c. W is formed; m
 /// = 0.
 Problem held_at(const Problem& problem, const Vector& a_0, double c);

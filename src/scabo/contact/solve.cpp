@@ -182,8 +182,48 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
 
 }  // namespace
 
+namespace {
+
+/// Loads that drive a neutral motion by less than this part of them are in balance along it.
+constexpr double balanced = 1e-10;
+
+/// Newton's equations are singular along motions that no pair resists, or worse, determined by the last digits of the
+/// normals alone, which then decide about the forces: the body would move by 1e10 times its deformation to satisfy
+/// them. These motions stay as they were.
+std::optional<Solution> solved_without_neutral(const Problem& problem, const Start& start,
+                                               const SolverOptions& options) {
+  if (!problem.W.is_dense()) return std::nullopt;
+  const Matrix neutral = neutral_motions(problem);
+  if (neutral.cols() == 0) return std::nullopt;
+  const Vector driven = neutral.transpose() * problem.f;
+  if (driven.norm() > balanced * std::max(problem.f.norm(), options.force_scale)) return std::nullopt;
+  const WithoutNeutral left = without_neutral(problem, neutral);
+  const Eigen::Index m = problem.G.cols();
+  const Vector a_start = start.a.size() == m ? start.a : Vector(Vector::Zero(m));
+  Start start_left = start;
+  start_left.a = left.kept.transpose() * a_start;
+  Solution solution = solve(left.problem, start_left, options);
+  solution.a = left.kept * solution.a + neutral * (neutral.transpose() * a_start);
+  if (solution.motion.size() > 0) solution.motion = left.kept * solution.motion;
+  const std::string reason = solution.reason;
+  Vector p_start = start.p;
+  if (p_start.size() != problem.q.size()) p_start.setZero(problem.q.size());
+  const Measure measure(problem, p_start, options.force_scale);
+  const Status status = solution.status;
+  if (status == Status::solved) solution.status = Status::not_converged;  // until it is judged as a whole
+  complete(solution, problem, motion_of(problem, solution.p, solution.a), measure, options, false);
+  if (status != Status::solved) {
+    solution.status = status;
+    solution.reason = reason;
+  }
+  return solution;
+}
+
+}  // namespace
+
 [[gnu::hot]] Solution solve(const Problem& problem, const Start& start, const SolverOptions& options) {
   check_sizes(problem);
+  if (std::optional<Solution> solution = solved_without_neutral(problem, start, options)) return *std::move(solution);
   Vector p_start = start.p;
   if (p_start.size() != problem.q.size()) p_start.setZero(problem.q.size());
   const Measure measure(problem, p_start, options.force_scale);

@@ -6,6 +6,7 @@
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/replace_elements.hpp"
 
 namespace scabo::mesh {
 

@@ -56,7 +56,7 @@ class Matching {
     if (interface_.pairs.empty()) return std::move(interface_);  // the sides have left each other
     if (const std::optional<Diagnostic> back = back_to_back()) return *back;
     order_pairs();
-    finish_gaps();
+    set_gaps(interface_.pairs, contact_.gap);
     return std::move(interface_);
   }
 
@@ -254,15 +254,6 @@ class Matching {
     std::reverse(partners_.begin(), partners_.end());
   }
 
-  void finish_gaps() {
-    // Coordinates have rounding errors; an interface that touches gets gaps of exactly 0, also if it is rotated.
-    const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * largest_coordinate(interface_.pairs);
-    for (ContactPair& pair : interface_.pairs) {
-      const double gap = (pair.point_b - pair.point_a).dot(pair.normal);
-      pair.gap = (std::abs(gap) <= rounding ? 0.0 : gap) + contact_.gap;
-    }
-  }
-
   Joint contact_;
   const model::Body& body_a_;
   const model::Body& body_b_;
@@ -275,6 +266,15 @@ class Matching {
 };
 
 }  // namespace
+
+void set_gaps(std::vector<ContactPair>& pairs, double added) {
+  // Coordinates have rounding errors; an interface that touches gets gaps of exactly 0, also if it is rotated.
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * largest_coordinate(pairs);
+  for (ContactPair& pair : pairs) {
+    const double gap = (pair.point_b - pair.point_a).dot(pair.normal);
+    pair.gap = (std::abs(gap) <= rounding ? 0.0 : gap) + added;
+  }
+}
 
 std::vector<Joint> joints_of(const model::Model& model, const Placement& placement) {
   std::vector<Joint> joints;

@@ -61,6 +61,9 @@ std::variant<Interface, Diagnostic> match_interface(const model::Model& model, i
                                                     const std::vector<BodyMesh>& bodies,
                                                     const Placement& placement = {});
 
+/// Gaps of pairs along their normals, `added` to the geometric ones, which are 0 within the rounding of coordinates.
+void set_gaps(std::vector<ContactPair>& pairs, double added);
+
 /// The interfaces of all contacts and ties, added to a mesh whose bodies are complete, in its placement; what is wrong
 /// with those that are not added. The sides of a tie must lie on each other.
 std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh);

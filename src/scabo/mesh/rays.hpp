@@ -33,6 +33,8 @@ class Rays {
   Rays(const geometry::Edge& a, const geometry::Edge& b);
 
   Ray through(const Vec2& point) const;
+  /// The point through which all rays pass; nothing if they are parallel.
+  std::optional<Vec2> centre() const { return parallel_ ? std::nullopt : std::optional(centre_); }
   /// The ray at the fraction s of the distance (parallel) or angle (through a centre) between the rays through two
   /// points.
   Ray between(const Vec2& from, const Vec2& to, double s) const;

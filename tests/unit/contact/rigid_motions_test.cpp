@@ -132,6 +132,41 @@ TEST(UndeterminedMotions, WhatNothingHoldsAndNothingDrives) {
   EXPECT_EQ(solve(block(6, 0.5, {0.0, -10.0, 0.0})).undetermined.cols(), 0);  // friction holds it
 }
 
+// The last digits of the normals would decide about the forces: their sum times these digits would have to vanish, for
+// which the block would move by 1e12 times its deformation.
+TEST(UndeterminedMotions, NormalsThatDeviateByRoundingHoldNothing) {
+  for (const int pairs : {6, 60, 200}) {
+    const Problem exact = block(pairs, 0.0, {0.0, -10.0, 1.0});
+    Problem rounded = exact;
+    Matrix G = exact.G.dense();
+    for (int i = 0; i < pairs; ++i) G(2 * i, 0) = 1e-13 * (i * 7 % 5 - 2);
+    rounded.G = G;
+    EXPECT_EQ(neutral_motions(rounded).cols(), 1);
+    const Solution expected = solve(exact), solution = solve(rounded);
+    ASSERT_EQ(expected.status, Status::solved) << expected.reason;
+    ASSERT_EQ(solution.status, Status::solved) << solution.reason;
+    EXPECT_LT((solution.p - expected.p).cwiseAbs().maxCoeff(), 1e-8 * expected.p.maxCoeff()) << pairs;
+    EXPECT_NEAR(solution.a[0], 0.0, 1e-9);
+    EXPECT_EQ(solution.undetermined.cols(), 1);
+  }
+}
+
+TEST(UndeterminedMotions, StayWhereTheyWere) {
+  const Problem problem = block(20, 0.0, {0.0, -10.0, 1.0});
+  const Solution solution = solve(problem, {Vector(), Eigen::Vector3d(0.3, 0.0, 0.0), {}});
+  ASSERT_EQ(solution.status, Status::solved) << solution.reason;
+  EXPECT_NEAR(solution.a[0], 0.3, 1e-12);
+}
+
+TEST(UndeterminedMotions, InclinationsFarAboveRoundingAndFrictionHold) {
+  Problem inclined = block(20, 0.0, {0.0, -10.0, 0.0});
+  Matrix G = inclined.G.dense();
+  for (int i = 0; i < 20; ++i) G(2 * i, 0) = 1e-6 * (i % 2 == 0 ? 1.0 : -1.0);
+  inclined.G = G;
+  EXPECT_EQ(neutral_motions(inclined).cols(), 0);
+  EXPECT_EQ(neutral_motions(block(20, 1e-9, {0.0, -10.0, 0.0})).cols(), 0);
+}
+
 // Two blocks side by side on one floor do not know of each other.
 TEST(FloatingBlock, TwoOfThemAreSolvedLikeEach) {
   const Problem one = block(4, 0.4, {2.0, -10.0, 3.0}), two = block(5, 0.2, {-1.0, -20.0, 0.0}, 0.01);

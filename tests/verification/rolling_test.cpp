@@ -1,0 +1,288 @@
+// Bodies that roll or slide without friction along curved sides, and that nothing else holds: contact leaves one motion
+// free, which stays at rest, however the two sides are divided. The pressure is that of the closed form, not one that
+// keeps the body from a motion of many times its size.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "run.hpp"
+#include "scabo/base/warning.hpp"
+
+namespace scabo::verification {
+namespace {
+
+bool tells_of_undetermined_motion(const analysis::StaticSolution& solution) {
+  return std::any_of(solution.warnings.begin(), solution.warnings.end(),
+                     [](const Warning& warning) { return warning.kind == WarningKind::undetermined_motion; });
+}
+
+double largest_pressure(const analysis::IncrementResult& increment) {
+  double largest = 0.0;
+  for (const analysis::PairResult& pair : contact_of(increment).pairs) largest = std::max(largest, pair.pressure);
+  return largest;
+}
+
+double largest_displacement(const analysis::IncrementResult& increment) {
+  double largest = 0.0;
+  for (const analysis::PairResult& pair : contact_of(increment).pairs)
+    largest = std::max({largest, pair.displacement_a.norm(), pair.displacement_b.norm()});
+  return largest;
+}
+
+/// A point in the unit of length, turned.
+struct Drawing {
+  double unit = 1.0, angle = 0.0;
+
+  Vec2 direction(double x, double y) const {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c * x - s * y, s * x + c * y};
+  }
+  std::string at(double x, double y) const {
+    const Vec2 point = unit * direction(x, y);
+    return fmt::format("[{}, {}]", point.x(), point.y());
+  }
+};
+
+// ---- Hertz: two half discs, the upper one held by contact alone --------------------------------------------
+
+struct Hertz {
+  const char* mesh;
+  double size = 0.03;
+  double radius = 8.0;  // of the lower disc; the upper one has 8
+  Drawing drawing;
+  bool swapped = false;
+  double young = 200.0;
+};
+
+std::string half_disc(const Hertz& model, const char* name, double radius, double side) {
+  const Drawing& draw = model.drawing;
+  const double half = 0.9, rise = radius - std::sqrt(radius * radius - half * half);
+  const std::string centre = draw.at(0.0, side * radius);
+  return fmt::format(R"(
+  {0}:
+    material: steel
+    shape:
+      outline:
+        - {{line: {{from: {1}, to: {2}}}, name: cut}}
+        - {{arc: {{to: {3}, centre: {5}}}}}
+        - {{arc: {{to: {4}, centre: {5}}}, name: zone}}
+        - {{arc: {{to: {1}, centre: {5}}}}}
+    mesh: {{{6}, size: {7}, refine: [{{on: zone, size: {8}, growth: 0.1}}]}})",
+                     name, draw.at(side * radius, side * radius), draw.at(-side * radius, side * radius),
+                     draw.at(-side * half, side * rise), draw.at(side * half, side * rise), centre, model.mesh,
+                     2.0 * draw.unit, model.size * draw.unit);
+}
+
+std::string text_of(const Hertz& model) {
+  const Vec2 down = model.young / 200.0 * -0.625 * model.drawing.direction(0.0, 1.0);
+  return fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: {}, poisson: 0.3}}}}
+bodies:{}{}
+supports: [{{on: lower.cut, fix: [x, y]}}]
+contacts: {{joint: {{between: [{}], friction: 0}}}}
+loads: {{press: {{on: upper.cut, traction: [{}, {}]}}}}
+)",
+                     model.young, half_disc(model, "upper", 8.0, 1.0), half_disc(model, "lower", model.radius, -1.0),
+                     model.swapped ? "upper.zone, lower.zone" : "lower.zone, upper.zone", down.x(), down.y());
+}
+
+// Half width b = 2 sqrt(P R / (pi E')), largest pressure 2 P / (pi b), 1 / R = 1 / R_1 + 1 / R_2, E' = E / (2 (1 -
+// nu^2)): 0.6808 and 9.351 for two equal discs.
+TEST(Rolling, DiscsOnEachOtherWhateverTheMesh) {
+  const Drawing turned{1.0, 0.3}, millimetres{1000.0, -1.1}, kilometres{1e-3, 2.5};
+  const Hertz models[] = {
+      {"kind: quadtree, order: 2", 0.04},
+      {"kind: quadtree, order: 2", 0.03},
+      {"kind: quadtree, order: 2", 0.02},
+      {"kind: quadtree, order: 4", 0.03},
+      {"kind: quadtree, order: 2", 0.03, 8.0, turned},
+      {"kind: quadtree, order: 1", 0.03, 12.0, turned, true},
+      {"kind: fem, order: 2", 0.015},
+      {"kind: fem, order: 1", 0.02, 8.000001, millimetres},
+      {"kind: polygons, order: 2", 0.015},
+      {"kind: polygons, order: 4", 0.03},
+      {"kind: polygons, order: 2", 0.02, 8.0, turned},
+      {"kind: polygons, order: 3", 0.03, 20.0, kilometres, true, 210e9},
+  };
+  for (const Hertz& model : models) {
+    SCOPED_TRACE(fmt::format("{}, {}, {}", model.mesh, model.size, model.radius));
+    const auto solution = run(text_of(model));
+    const analysis::IncrementResult& increment = last(solution);
+    const double elasticity = model.young / (2.0 * (1.0 - 0.09)), force = model.young / 20.0 * model.drawing.unit,
+                 radius = model.drawing.unit / (1.0 / 8.0 + 1.0 / model.radius);
+    const double half = 2.0 * std::sqrt(force * radius / (std::numbers::pi * elasticity)),
+                 peak = 2.0 * force / (std::numbers::pi * half);
+    EXPECT_NEAR(largest_pressure(increment), peak, 0.008 * peak);
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    const Vec2 along = model.drawing.direction(1.0, 0.0);
+    for (const analysis::PairResult& pair : contact_of(increment).pairs)
+      if (pair.pressure > 0.0) {
+        least = std::min(least, along.dot(pair.position));
+        most = std::max(most, along.dot(pair.position));
+      }
+    EXPECT_NEAR(0.5 * (most - least), half, 0.03 * half);
+    EXPECT_TRUE(tells_of_undetermined_motion(solution));
+    EXPECT_LT(largest_displacement(increment), 0.3 * model.drawing.unit);
+  }
+}
+
+// A disc on a rigid floor: R = 8, E' = E / (1 - nu^2).
+TEST(Rolling, DiscOnARigidFloor) {
+  for (const double size : {0.04, 0.01}) {
+    const Hertz model{"kind: quadtree, order: 2", size};
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:{}
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-10, -5], size: [20, 5]}}}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+contacts: {{joint: {{between: [floor.top, upper.zone], friction: 0}}}}
+loads: {{press: {{on: upper.cut, pressure: 0.625}}}}
+)",
+                                          half_disc(model, "upper", 8.0, 1.0)));
+    const double peak = std::sqrt(10.0 * 200.0 / 0.91 / (std::numbers::pi * 8.0));
+    EXPECT_NEAR(largest_pressure(last(solution)), peak, 0.005 * peak) << size;
+    EXPECT_TRUE(tells_of_undetermined_motion(solution));
+  }
+}
+
+// ---- a pin under its weight in a bore that is a thousandth wider -------------------------------------------
+
+std::string pin(const char* mesh, double size, const Drawing& draw, double dropped, const std::string& load) {
+  return fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 200, poisson: 0.3, density: 0.1}}}}
+bodies:
+  plate:
+    material: steel
+    shape: {{polygon: {{vertices: [{0}, {1}, {2}, {3}]}}}}
+    holes: {{bore: {{circle: {{centre: {4}, radius: {5}}}}}}}
+    mesh: {{{6}, size: {5}, refine: [{{on: bore, size: {7}, growth: 0.3}}]}}
+  pin:
+    material: steel
+    shape: {{circle: {{centre: {8}, radius: {9}}}}}
+    mesh: {{{6}, size: {5}, refine: [{{on: rim, size: {10}, growth: 0.3}}]}}
+supports: [{{on: plate.edge_1, fix: [x, y]}}]
+contacts: {{joint: {{between: [plate.bore, pin.rim], friction: 0}}}}
+loads: {{{11}}}
+)",
+                     draw.at(-5, -5), draw.at(5, -5), draw.at(5, 5), draw.at(-5, 5), draw.at(0, 0), draw.unit, mesh,
+                     1.1 * size * draw.unit, draw.at(0, dropped), 0.999 * draw.unit, size * draw.unit, load);
+}
+
+// Elements of any order, also those whose weight acts beside the centre of the circle, in the middle of the bore or at
+// its bottom: the same pressure, and the pin may turn.
+TEST(Rolling, PinInABoreThatIsALittleWider) {
+  struct {
+    const char* mesh;
+    double size;
+    Drawing drawing;
+    double dropped;
+    double accuracy = 0.01;
+  } const models[] = {
+      {"kind: polygons, order: 2", 0.08, {}, 0.0},          {"kind: polygons, order: 1", 0.08, {1.0, 0.7}, 0.0},
+      {"kind: polygons, order: 4", 0.12, {}, -0.001},       {"kind: quadtree, order: 2", 0.08, {1.0, 0.3}, 0.0},
+      {"kind: quadtree, order: 2", 0.05, {}, -0.001},       {"kind: fem, order: 2", 0.08, {1.0, 0.3}, -0.001},
+      {"kind: fem, order: 1", 0.08, {1.0, 0.3}, 0.0, 0.06},
+  };
+  for (const auto& model : models) {
+    SCOPED_TRACE(fmt::format("{}, {}, dropped by {}", model.mesh, model.size, -model.dropped));
+    const Vec2 g = model.drawing.direction(0.0, -1.0);
+    const auto solution = run(pin(model.mesh, model.size, model.drawing, model.dropped,
+                                  fmt::format("weight: {{on: pin, gravity: [{}, {}]}}", g.x(), g.y())));
+    EXPECT_NEAR(largest_pressure(last(solution)), 0.2211, model.accuracy * 0.2211);
+    EXPECT_TRUE(tells_of_undetermined_motion(solution));
+    EXPECT_LT(largest_displacement(last(solution)), 0.02);
+  }
+}
+
+// A force beside the centre turns it.
+TEST(Rolling, PinThatALoadTurnsIsAMechanism) {
+  for (const char* mesh : {"kind: polygons, order: 2", "kind: quadtree, order: 1"}) {
+    const auto solution =
+        run(pin(mesh, 0.1, {1.0, 0.3}, 0.0, "push: {on: {body: pin, near: [0.3, 0.1]}, force: [0, -0.3]}"));
+    EXPECT_EQ(solution.outcome, analysis::Outcome::mechanism) << mesh << ": " << solution.reason;
+  }
+}
+
+// ---- two shallow bowls hold a body with two feet ------------------------------------------------------------
+
+/// A body on two feet, in bowls of radius R about centres 2 apart, pressed by 1 and pushed aside by `push`.
+std::string on_two_feet(const char* mesh, double R, double push) {
+  const auto bowl = [&](double x, double half) {
+    return fmt::format("[{}, {}]", x, R - std::sqrt(R * R - half * half));
+  };
+  const auto foot = [&](const char* name, double x) {
+    return fmt::format(R"(
+  {0}:
+    material: steel
+    shape:
+      outline:
+        - {{line: {{from: [{1}, -1], to: [{2}, -1]}}, name: bottom}}
+        - {{line: {{to: {3}}}}}
+        - {{arc: {{to: {4}, centre: [{5}, {6}], direction: clockwise}}, name: bowl}}
+        - {{line: {{to: [{1}, -1]}}}}
+    mesh: {{{7}, size: 0.1}})",
+                       name, x - 0.4, x + 0.4,
+                       [&] { return fmt::format("[{}, {}]", x + 0.4, R - std::sqrt(R * R - 0.16)); }(),
+                       fmt::format("[{}, {}]", x - 0.4, R - std::sqrt(R * R - 0.16)), x, R, mesh);
+  };
+  const double rise = R - std::sqrt(R * R - 0.04);
+  return fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 1000, poisson: 0.3}}}}
+bodies:{0}{1}
+  body:
+    material: steel
+    shape:
+      outline:
+        - {{arc: {{from: [-1.2, {2}], to: [-0.8, {2}], centre: [-1, {3}]}}, name: left_foot}}
+        - {{line: {{to: [-0.8, 0.2]}}}}
+        - {{line: {{to: [0.8, 0.2]}}}}
+        - {{line: {{to: [0.8, {2}]}}}}
+        - {{arc: {{to: [1.2, {2}], centre: [1, {3}]}}, name: right_foot}}
+        - {{line: {{to: [1.2, 0.6]}}}}
+        - {{line: {{to: [-1.2, 0.6]}}, name: top}}
+        - {{line: {{to: [-1.2, {2}]}}}}
+    mesh: {{{4}, size: 0.08}}
+supports: [{{on: left.bottom, fix: [x, y]}}, {{on: right.bottom, fix: [x, y]}}]
+contacts:
+  left: {{between: [left.bowl, body.left_foot], friction: 0}}
+  right: {{between: [right.bowl, body.right_foot], friction: 0}}
+loads: {{press: {{on: body.top, force: [{5}, -1]}}}}
+)",
+                     foot("left", -1.0), foot("right", 1.0), rise, R, mesh, push);
+}
+
+// The normal forces of a foot point to the centre of its bowl, so that a push H moves their resultants along the feet
+// by e: H = (F_1 e_1 + F_2 e_2) / R. However shallow the bowls are, that is what holds the body.
+TEST(Rolling, ShallowBowlsHoldABody) {
+  for (const char* mesh : {"kind: quadtree, order: 2", "kind: fem, order: 1", "kind: polygons, order: 3"})
+    for (const double R : {10.0, 1000.0}) {
+      const double e = 0.05 / R, push = e / R;  // a slip of 0.004 in both
+      const auto solution = run(on_two_feet(mesh, R, push));
+      const analysis::IncrementResult& increment = last(solution);
+      double moment = 0.0;
+      for (const analysis::ContactResult& contact : increment.contacts)
+        for (const analysis::PairResult& pair : contact.pairs)
+          moment += pair.normal_force * (pair.position.x() - std::round(pair.position.x()));
+      EXPECT_NEAR(std::abs(moment), e, 0.02 * e) << mesh << ", " << R;
+      EXPECT_FALSE(tells_of_undetermined_motion(solution));
+    }
+}
+
+// Bowls so shallow that the body would slide out of them before they hold it.
+TEST(Rolling, NoAnswerFromBeyondTheSides) {
+  const auto solution = analysis::solve_static(
+      input::parse_model(on_two_feet("kind: quadtree, order: 2", 1e5, 0.03 / 1e5), "test.yaml", {}));
+  EXPECT_NE(solution.outcome, analysis::Outcome::solved);
+  EXPECT_NE(solution.reason.find("farther than its sides are long"), std::string::npos) << solution.reason;
+}
+
+}  // namespace
+}  // namespace scabo::verification
