@@ -15,7 +15,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// that contradict each other by rounding lead away from where |H| is 1e-8.
 constexpr double of_residual = 0.1, least_raise = 1e-6, most_raise = 1e-2;
 /// On the rows of balance: this part of the same, at least. 1e-7 kept 40 x 40 blocks at 4e-9.
-constexpr double of_raise = 0.1, least_hold = 1e-9;
+constexpr double of_raise = 0.1, least_hold = 1e-7;
 /// On the rows of balance of motions that stay as they are.
 constexpr double firm = 1.0;
 /// Products with the factor of an earlier step, most, and pairs that have changed since then. `exact_enough`: what is
@@ -163,8 +163,8 @@ bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
   Vector right = at.H;
   const double largest = std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
   const double left = of_residual * at.largest() / largest;
-  raise_ = std::clamp(left, least_raise, most_raise);
-  hold_ = std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_;
+  raise_ = multiple_ * std::clamp(left, least_raise, most_raise);
+  hold_ = multiple_ * std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_;
   for (const int motion : sliding_.hold(p, at, states, right)) hold_[motion] = firm * size_[motion];
   right = -right;
   reused_ = false;

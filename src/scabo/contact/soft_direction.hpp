@@ -41,7 +41,11 @@ class SoftDirection {
   int factorisations() const { return factorisations_; }
   /// Whether the last direction came by the factor of an earlier one.
   bool reused() const { return reused_; }
-  void forget_factor() { held_.clear(); }
+  /// The next direction has a factor of its own, with this multiple of the usual softness.
+  void soften(double multiple) {
+    multiple_ = multiple;
+    held_.clear();
+  }
 
  private:
   using State = PairState;
@@ -57,6 +61,7 @@ class SoftDirection {
 
   const BDifferentiableEquations& equations_;
   SlidingBodies sliding_;
+  double multiple_ = 1.0;    ///< of the usual softness
   double raise_ = 0.0;       ///< on the rows of motions
   Vector size_, hold_;       ///< of the columns of G, squared; on the rows of balance
   std::vector<State> held_;  ///< of the factor; empty: none

@@ -1,6 +1,7 @@
 #include "scabo/contact/soft_newton.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scabo/contact/soft_direction.hpp"
@@ -35,8 +36,9 @@ class SoftNewton {
       if (!found) break;
       step = descending_step();
       if (step < least_step) {
-        if (!direction_.reused()) break;
-        direction_.forget_factor();  // GMRES leaves a part of the right-hand side
+        // By its own factor, since GMRES leaves a part of the right-hand side; then with other softness.
+        if (!direction_.reused() && ++tried_ == multiples.size()) break;
+        direction_.soften(multiples[tried_]);
         step = 0.0;
         continue;
       }
@@ -53,6 +55,8 @@ class SoftNewton {
   static constexpr double sufficient = 1e-4;  // descent of the merit, of what the direction promises
   static constexpr double least_step = 1.0 / 16.0;
   static constexpr int most_steps = 20;
+  /// Of the softness: more where rows contradict each other, less where a soft motion is held too firmly.
+  static constexpr std::array<double, 3> multiples{1.0, 100.0, 0.01};
   static constexpr double near = 1e3, fallen = 0.25;  // of the aim; of the least merit: what is left may be rounding
 
   double aim() const {
@@ -101,6 +105,7 @@ class SoftNewton {
   std::vector<Branch> before_;
   NewtonEnd end_;
   double best_ = HUGE_VAL;  // merit
+  std::size_t tried_ = 0;   // multiples
 };
 
 }  // namespace
