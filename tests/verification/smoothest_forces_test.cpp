@@ -188,7 +188,7 @@ TEST(SmoothestForces, OfARigidBlockAreAlongALine) {
         "  floor: {{material: s, shape: {{rectangle: {{corner: [0, -1], size: [2, 1]}}}}, mesh: {{size: 0.125, order: "
         "1}}}}\n  block: {{rigid: true, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}}}\n"
         "supports: [{{on: floor.top, fix: [x, y]}}]\n"
-        "loads: {{press: {{on: block.top, force: [0, -10]}}, turn: {{on: block.top, moment: {}}}}}\n"
+        "loads: {{press: {{on: block, force: [0, -10]}}, turn: {{on: block, moment: {}}}}}\n"
         "contacts: {{base: {{between: [floor.top, block.bottom], friction: 0.5}}}}\n",
         -10.0 * place);
   };

@@ -19,6 +19,7 @@ constexpr double no_motion = 1e-12;     // of the length scale
 constexpr double dependent = 1e-10;     // of entries of A, which are parts of 1
 constexpr double shortness = 1e-5;      // sqrt(E)
 constexpr double worth_changing = 1e-12;  // of the largest force
+constexpr double no_force = 1e-13;        // of the largest force: such a pair is open
 
 /// How the force of a pair may change: p + C y, C of 2 x columns, with rows y -> limit . y >= bound.
 struct Freedom {
@@ -350,7 +351,10 @@ SmoothestForces smoothest_forces(const Problem& problem, const Solution& solutio
     for (std::size_t k = 0; k < group.size(); ++k) {
       const Vec2 of_pair = change.segment<2>(2 * static_cast<Index>(k));
       if (of_pair.isZero(0.0)) continue;
-      result.p.segment<2>(2 * Index{group[k]}) += of_pair;
+      auto force = result.p.segment<2>(2 * Index{group[k]});
+      force += of_pair;
+      const bool may_lift = problem.tension_of(group[k]) == 0.0 && problem.cohesion_of(group[k]) == 0.0;
+      if (may_lift && force[0] <= no_force * scales.force) force.setZero();  // what rounding leaves of a limit
       ++result.changed;
     }
   }

@@ -227,6 +227,9 @@ std::optional<Solution> with_forces(const Solution& solution, Vector p, const Pr
                         options.force_scale);
   complete(other, problem, motion_of(problem, other.p, other.a), measure, options, false);
   if (other.status != Status::solved) return std::nullopt;
+  // The motions differ by rounding, which decides between states where the next increment begins.
+  other.gap = solution.gap;
+  other.slip_increment = solution.slip_increment;
   return other;
 }
 
