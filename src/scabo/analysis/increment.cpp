@@ -9,6 +9,7 @@
 #include "scabo/analysis/branch.hpp"
 #include "scabo/analysis/increment_balance.hpp"
 #include "scabo/analysis/increment_loads.hpp"
+#include "scabo/analysis/undetermined_forces.hpp"
 
 namespace scabo::analysis {
 
@@ -172,6 +173,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     result.uniqueness = follow_history(problem, laws, from.history, result.start, options, evolution);
   result.solution = std::move(evolution.solution);
   result.problem = std::move(evolution.problem);
+  give_smoothest_forces(prepared, result.problem, result.start, options, result.solution);
   to.history = std::move(evolution.history);
   to.p = result.solution.p;
   to.a = result.solution.a;

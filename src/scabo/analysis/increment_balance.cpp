@@ -87,6 +87,31 @@ Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>&
   return N * dofs.of_body(body, u[dofs.part_of(body)]);
 }
 
+Vector thermal_forces(const Prepared& prepared, const Factors& factors, std::size_t p) {
+  Vector forces;
+  if (prepared.structure.thermal.empty() || prepared.is_absent(p)) return forces;
+  const double presence = presence_of(prepared, factors, p);
+  for (const int load : prepared.structure.thermal[p].loads) {
+    const auto number = static_cast<std::size_t>(load);
+    const double factor = presence * factors.loads[number];
+    if (factor == 0.0) continue;
+    if (forces.size() == 0) forces = Vector::Zero(prepared.structure.dofs.size(p));
+    forces += factor * prepared.structure.loads[number][p];
+  }
+  return forces;
+}
+
+double thermal_energy(const Prepared& prepared, const Factors& factors, std::size_t p, const Vector& u) {
+  const Vector forces = thermal_forces(prepared, factors, p);
+  if (forces.size() == 0) return 0.0;
+  const system::ThermalEnergy& thermal = prepared.structure.thermal[p];
+  Vector z(static_cast<Eigen::Index>(thermal.loads.size()));
+  for (Eigen::Index k = 0; k < z.size(); ++k)
+    z[k] = presence_of(prepared, factors, p) *
+           factors.loads[static_cast<std::size_t>(thermal.loads[static_cast<std::size_t>(k)])];
+  return 0.5 * z.dot(thermal.Q * z) - u.dot(forces);
+}
+
 Energy energy_between(const Prepared& prepared, const State& from, const State& to,
                       const std::vector<Balance>& balances) {
   Energy energy = from.energy;
@@ -94,9 +119,11 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
   for (std::size_t p = 0; p < to.u.size(); ++p) {
     energy.external += 0.5 * (from.forces[p] + to.forces[p]).dot(to.u[p] - from.u[p]);
     energy.external += 0.5 * (from.reactions[p] + to.reactions[p]).dot(to.prescribed[p] - from.prescribed[p]);
-    if (!prepared.is_absent(p))
-      energy.elastic +=
-          prepared.structure.parts[p]->elastic_energy(to.u[p], balances[p].forces, balances[p].unbalanced);
+    if (prepared.is_absent(p)) continue;
+    energy.elastic += prepared.structure.parts[p]->elastic_energy(to.u[p], balances[p].forces, balances[p].unbalanced);
+    const double thermal = thermal_energy(prepared, to.factors, p, to.u[p]);
+    energy.elastic += thermal;
+    energy.external += thermal - thermal_energy(prepared, from.factors, p, from.u[p]);
   }
   if (prepared.reference) {
     const Vec2 reached = reference_displacement(prepared, to.u),

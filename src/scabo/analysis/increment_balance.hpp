@@ -19,9 +19,15 @@ struct Balance {
 /// motions.
 std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to);
 
+/// Of a part, what its stored energy is beyond 1/2 u'K u because its temperature has changed (system/thermal_energy.hpp).
+double thermal_energy(const Prepared& prepared, const Factors& factors, std::size_t p, const Vector& u);
+/// Nodal forces of the temperatures of a part; empty where there are none.
+Vector thermal_forces(const Prepared& prepared, const Factors& factors, std::size_t p);
+
 /// Work done on the way between two accepted states, by the trapezoidal rule; displacements are relative to the
 /// reference point. The nodal displacements are not: there the stiffness of an unbounded body is that of one held far
-/// away, which resists a translation.
+/// away, which resists a translation. A temperature does the work of the stress on the strain that it frees, taken from
+/// or given to heat: free expansion takes none, and stores none.
 Energy energy_between(const Prepared& prepared, const State& from, const State& to,
                       const std::vector<Balance>& balances);
 

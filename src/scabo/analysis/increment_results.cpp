@@ -96,10 +96,12 @@ void add(element::CellLoads& to, const element::CellLoads& loads, double factor)
 /// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
 /// stress.
 double lost_to_rounding(const Prepared& prepared, const State& state) {
-  double energy = prepared.reference ? 0.0 : state.energy.elastic, lost = 0.0, resisting = 0.0;
+  // Of displacements: of a body that a temperature expands freely, more than what is stored.
+  const bool known = !prepared.reference && prepared.structure.thermal.empty();
+  double energy = known ? state.energy.elastic : 0.0, lost = 0.0, resisting = 0.0;
   for (std::size_t p = 0; p < state.u.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];
-    if (prepared.reference) energy += part.elastic_energy(state.u[p]);
+    if (!known) energy += part.elastic_energy(state.u[p]);
     lost += part.energy_lost(state.u[p]);
     if (state.u[p].size() > 0) resisting += part.stiff_force(state.u[p]) * state.u[p].lpNorm<Eigen::Infinity>();
   }

@@ -11,6 +11,30 @@
 
 namespace scabo::analysis {
 
+namespace {
+
+/// The part whose stiffness rounding changes most, and what to do about it.
+struct Rounded {
+  std::string name, remedy;
+};
+Rounded most_rounded_part(const Prepared& prepared, const State& state) {
+  std::size_t worst = 0;
+  double largest = 0.0;
+  for (std::size_t p = 0; p < state.u.size(); ++p)
+    if (const double lost = prepared.structure.parts[p]->energy_lost(state.u[p]); lost > largest)
+      largest = lost, worst = p;
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const std::vector<int>& bodies = dofs.bodies_of(worst);
+  const bool all_finite = std::all_of(bodies.begin(), bodies.end(), [&](int b) {
+    return prepared.model.bodies[static_cast<std::size_t>(b)].mesh.kind == model::MeshKind::fem;
+  });
+  return {dofs.name_of(worst, prepared.model),
+          all_finite ? "no mesh of so slender a body is more accurate, check its dimensions"
+                     : "give it mesh {kind: fem}, which rounding changes less"};
+}
+
+}  // namespace
+
 void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
                   std::vector<Warning>& warnings) {
   const auto add = [&](WarningKind kind, const std::string& subject, const std::string& sentence) {
@@ -44,11 +68,12 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
                       at.contacts[c].name));
   }
   constexpr double worth_saying = 3e-5;  // errors of three times the estimate were seen
-  if (at.lost_to_rounding > worth_saying)
+  if (at.lost_to_rounding > worth_saying) {
+    const Rounded most_rounded = most_rounded_part(prepared, reached.state);
     add(WarningKind::rounding, "",
-        fmt::format("rounding of the stiffness of a body this slender may change its displacements by a part of about "
-                    "{:.0e}: give it mesh {{kind: fem}}, or longer elements",
-                    at.lost_to_rounding));
+        fmt::format("rounding of the stiffness of {} may change its displacements by a part of about {:.0e}: {}",
+                    most_rounded.name, at.lost_to_rounding, most_rounded.remedy));
+  }
   if (const std::string large = too_large(prepared, reached.state); !large.empty())
     add(WarningKind::large_displacement, "", large);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/increment_balance.hpp"
 #include "scabo/element/cell_locator.hpp"
 #include "scabo/element/elasticity.hpp"
 #include "scabo/linalg/general_solver.hpp"
@@ -290,10 +291,11 @@ void add_stress_intensity(const Prepared& prepared, const StaticSolution& soluti
   }
 }
 
-/// K u, the forces on all nodes.
+/// K u, the forces on all nodes, less those of temperatures.
 void add_energy(const Prepared& prepared, const State& state, Functional& of) {
   for (std::size_t p = 0; p < of.c.size(); ++p) {
     of.c[p] += state.forces[p] + prepared.contact.motion[p].transpose() * state.p;
+    if (const Vector thermal = thermal_forces(prepared, state.factors, p); thermal.size() > 0) of.c[p] -= thermal;
     if (!prepared.structure.dofs.is_rigid(p))
       system::add_reactions(prepared.structure.parts[p]->constraints(), state.reactions[p], of.c[p]);
   }

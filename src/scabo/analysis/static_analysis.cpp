@@ -350,6 +350,8 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
     return solution;
   }
   solution.warnings = solution.model.warnings;
+  for (Warning& warning : slender_warnings(solution.model, solution.mesh))
+    solution.warnings.push_back(std::move(warning));
   for (Warning& warning : load_warnings(solution.model, assembly->structure))
     solution.warnings.push_back(std::move(warning));
   run_steps(std::move(assembly), large ? &*large : nullptr, solution, options);

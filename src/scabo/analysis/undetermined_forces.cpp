@@ -7,6 +7,8 @@
 #include <map>
 #include <random>
 
+#include "scabo/contact/smoothest_forces.hpp"
+#include "scabo/contact/solve.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 
 namespace scabo::analysis {
@@ -30,11 +32,16 @@ std::map<Eigen::Index, Mat2> left_by_supports(const system::BodySystem& part) {
   return left;
 }
 
-/// Rows of the forces on all bodies by those of the pairs, [M_b'], without what supports take; rows that no pair enters
-/// are left out.
-Sparse forces_on_bodies(const Prepared& prepared) {
+/// Where the forces of the pairs act; blocks that no pair enters are left out.
+contact::ActionOfPairs action_of_pairs(const Prepared& prepared) {
+  contact::ActionOfPairs action;
   Triplets entries;
   int rows = 0;
+  const auto add_block = [&](int size, bool is_point) {
+    action.first_row.push_back(rows);
+    action.is_point.push_back(is_point ? 1 : 0);
+    rows += size;
+  };
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     if (prepared.is_absent(p)) continue;
     const system::BodySystem& part = *prepared.structure.parts[p];
@@ -52,7 +59,7 @@ Sparse forces_on_bodies(const Prepared& prepared) {
         for (Sparse::InnerIterator it(motion, k); it; ++it)
           for (Eigen::Index way = 0; way < ways.rows(); ++way)
             entries.emplace_back(rows + static_cast<int>(way), static_cast<int>(it.row()), ways(way, k) * it.value());
-      rows += static_cast<int>(ways.rows());
+      if (ways.rows() > 0) add_block(static_cast<int>(ways.rows()), false);
       continue;
     }
     const auto left = left_by_supports(part);
@@ -68,12 +75,15 @@ Sparse forces_on_bodies(const Prepared& prepared) {
               entries.emplace_back(rows + static_cast<int>(row), static_cast<int>(it.row()), share * it.value());
           }
         }
-      if (any) rows += 2;
+      if (any) add_block(2, true);
     }
   }
-  Sparse forces(rows, 2 * static_cast<Eigen::Index>(prepared.contact.pairs.size()));
-  forces.setFromTriplets(entries.begin(), entries.end());
-  return forces;
+  action.on_bodies.resize(rows, 2 * static_cast<Eigen::Index>(prepared.contact.pairs.size()));
+  action.on_bodies.setFromTriplets(entries.begin(), entries.end());
+  for (const system::ContactSystem::Pair& pair : prepared.contact.pairs)
+    action.normal.push_back(mesh_pair(prepared, pair).normal);
+  action.area = prepared.contact.laws.area;
+  return action;
 }
 
 /// C: columns of the forces that may change while the pairs keep their states.
@@ -123,6 +133,16 @@ Vector random_null_vector(const Sparse& A) {
   return left.lpNorm<Eigen::Infinity>() <= exact * std::sqrt(mean) ? y : Vector();
 }
 
+/// Whether forces that are not unique are those that the solver happened to find.
+bool left_as_they_are(const Prepared& prepared, const State& state, const contact::Problem& problem) {
+  contact::Solution solution;
+  solution.p = state.p;
+  solution.gap = state.gap;
+  solution.slip_increment = Vector::Zero(problem.pairs());
+  solution.states = state.states;
+  return contact::smoothest_forces(problem, solution, action_of_pairs(prepared), {}).left > 0;
+}
+
 std::string names_of(const Prepared& prepared, const std::vector<std::size_t>& contacts) {
   constexpr std::size_t most = 3;
   std::string text = contacts.size() == 1 ? "contact " : "contacts ";
@@ -136,11 +156,22 @@ std::string names_of(const Prepared& prepared, const std::vector<std::size_t>& c
 
 }  // namespace
 
+void give_smoothest_forces(const Prepared& prepared, const contact::Problem& problem, const contact::Start& start,
+                           const contact::SolverOptions& options, contact::Solution& solution) {
+  if (solution.status != contact::Status::solved || problem.pairs() < 2 || problem.dimension != 2) return;
+  const contact::Scales scales = contact::Measure(problem, start.p, options.force_scale).scales(solution.p);
+  contact::SmoothestForces smooth =
+      contact::smoothest_forces(problem, solution, action_of_pairs(prepared), scales);
+  if (smooth.changed == 0) return;
+  auto other = contact::with_forces(solution, std::move(smooth.p), problem, start, options);
+  if (other) solution = std::move(*other);
+}
+
 Vector undetermined_forces(const Prepared& prepared, const State& state, const contact::Problem& problem) {
   if (problem.pairs() == 0 || problem.dimension != 2 || state.p.isZero(0.0)) return {};
   const Sparse C = free_forces(state, problem);
   if (C.cols() == 0) return {};
-  Vector y = random_null_vector(forces_on_bodies(prepared) * C);
+  Vector y = random_null_vector(action_of_pairs(prepared).on_bodies * C);
   if (y.size() == 0) return {};
   for (double& value : y)
     if (std::abs(value) <= least_share) value = 0.0;
@@ -176,11 +207,12 @@ std::optional<Warning> undetermined_forces_warning(const Prepared& prepared, con
     unique = fmt::format("Displacements and stresses are unique, and so are the total forces of all contacts except {}",
                          names_of(prepared, totals));
   return Warning{WarningKind::undetermined_force, "",
-                 fmt::format("{}: the forces of {} of {} pairs are one of many possibilities, because several bodies "
-                             "meet in a point, or supports hold one side of more pairs than equilibrium needs. {}. Use "
-                             "those, or leave out one of the contacts that meet in a point where the forces of single "
-                             "pairs matter",
-                             names, pairs, prepared.contact.pairs.size(), unique)};
+                 fmt::format("{}: the forces of {} of {} pairs are not unique, because several bodies meet in a point, "
+                             "or supports hold one side of more pairs than equilibrium needs; {}. {}",
+                             names, pairs, prepared.contact.pairs.size(),
+                             left_as_they_are(prepared, state, problem) ? "some of many that are possible are given"
+                                                                        : "the smoothest ones are given",
+                             unique)};
 }
 
 }  // namespace scabo::analysis

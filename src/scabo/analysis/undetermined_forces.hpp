@@ -17,6 +17,11 @@
 
 namespace scabo::analysis {
 
+/// Replaces forces that are not unique by the smoothest ones that the solution admits (contact/smoothest_forces.hpp),
+/// judged anew. Does nothing to a problem that is not solved, or would not be with them.
+void give_smoothest_forces(const Prepared& prepared, const contact::Problem& problem, const contact::Start& start,
+                           const contact::SolverOptions& options, contact::Solution& solution);
+
 /// 2N, [n, t] of every pair: forces of size 1 that may be added in part to those of the state, and zero where the force
 /// of a pair is unique. `problem`: that of the state, with its coefficients. Empty where all forces are unique.
 Vector undetermined_forces(const Prepared& prepared, const State& state, const contact::Problem& problem);

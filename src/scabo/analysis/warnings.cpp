@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "scabo/base/components.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/materials_of.hpp"
 
@@ -283,6 +284,62 @@ std::string stiff_springs(const model::Model& model, const system::Structure& st
       "unbalanced, except on edges along x or y; use a support instead, or a stiffness of at most {:.0e}",
       spring.name, largest, body.rigid ? std::string("the stiffest elastic body") : fmt::format("body '{}'", body.name),
       std::max(spring.stiffness[0], spring.stiffness[1]) * stiff_beside / largest);
+}
+
+double stiffened_in_bending(const mesh::BodyMesh& mesh) {
+  constexpr double least_slenderness = 5.0;
+  if (mesh.cells.size() != 1 || mesh.cells.front().kind != mesh::CellKind::superelement) return 0.0;
+  const mesh::Cell& cell = mesh.cells.front();
+  if (cell.is_open()) return 0.0;
+  double area = 0.0, perimeter = 0.0, longest = 0.0;
+  std::size_t order = 16;
+  for (const mesh::LineElement& element : cell.boundary) {
+    for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i) {
+      const Vec2 from = mesh.nodes[static_cast<std::size_t>(element.nodes[i])] - cell.centre,
+                 to = mesh.nodes[static_cast<std::size_t>(element.nodes[i + 1])] - cell.centre;
+      area += 0.5 * cross(from, to);
+      perimeter += (to - from).norm();
+    }
+    const double side = (mesh.nodes[static_cast<std::size_t>(element.nodes.back())] -
+                         mesh.nodes[static_cast<std::size_t>(element.nodes.front())])
+                            .norm();
+    if (const std::size_t of_element = element.nodes.size() - 1; of_element < order || side > longest) {
+      order = std::min(order, of_element);
+      longest = std::max(longest, side);
+    }
+  }
+  if (!(area > 0.0) || order > 2) return 0.0;  // of an unbounded body the ring runs around its hole
+  const double half = 0.25 * perimeter, root = std::sqrt(std::max(half * half - area, 0.0));
+  const double length = half + root, depth = area / length;
+  if (length < least_slenderness * depth) return 0.0;
+  const double ratio = longest / depth,
+               x = order == 1 ? 0.08 * std::pow(ratio * length / depth, 2) : std::min(0.0022 * std::pow(ratio, 3), 0.06);
+  return x / (1.0 + x);
+}
+
+std::vector<Warning> slender_warnings(const model::Model& model, const mesh::Mesh& mesh) {
+  constexpr double worth_telling = 0.01;
+  std::vector<std::size_t> found;
+  double largest = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].rigid || model.bodies[b].outside) continue;
+    const double part = stiffened_in_bending(mesh.bodies[b]);
+    if (!(part > worth_telling)) continue;
+    found.push_back(b);
+    largest = std::max(largest, part);
+  }
+  if (found.empty()) return {};
+  std::string names = found.size() == 1 ? "body " : "bodies ";
+  const std::size_t named = found.size() <= most_names + 1 ? found.size() : most_names;
+  for (std::size_t i = 0; i < named; ++i) {
+    if (i > 0) names += i + 1 == found.size() ? " and " : ", ";
+    names += fmt::format("'{}'", model.bodies[found[i]].name);
+  }
+  if (named < found.size()) names += fmt::format(" and {} more", found.size() - named);
+  return {{WarningKind::slender, names,
+           fmt::format("{}: a slender super-element of order 1 or 2 with sides this long bends too little, by up to "
+                       "about {:.1g} %: give it mesh {{order: 3}}, or {{kind: fem}}",
+                       names, 100.0 * largest)}};
 }
 
 std::vector<Warning> load_warnings(const model::Model& model, const system::Structure& structure) {

@@ -28,6 +28,8 @@ const char* name_of(WarningKind kind) {
       return "several_solutions";
     case WarningKind::rounding:
       return "rounding";
+    case WarningKind::slender:
+      return "slender";
     case WarningKind::large_displacement:
       return "large_displacement";
     case WarningKind::no_reference:

@@ -19,6 +19,7 @@ enum class WarningKind {
   undetermined_force,  ///< forces of pairs that are not unique although displacements are
   several_solutions,
   rounding,  ///< of the stiffness of a slender body or of stiff springs, or of a load far larger than another
+  slender,   ///< a slender super-element whose sides are too long for its order to bend
   large_displacement,
   no_reference,  ///< an unbounded body under a resultant, without a reference point
   crack,         ///< stress intensity factors that are undefined or not resolved; overlapping faces

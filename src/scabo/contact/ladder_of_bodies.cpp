@@ -157,7 +157,9 @@ NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
       return confirmed(std::move(found), hardly, "interior points");
     }
     if (late()) return best;
-    NewtonEnd end = softly(reached.p, reached.a, {"newton after interior points", 0.0, 1.0, few, slowly});
+    Run how{"newton after interior points", 0.0, 1.0, few, slowly};
+    how.first_fall = 0.5;  // where most states are right the first step leaves a tenth, or it leads nowhere
+    NewtonEnd end = softly(reached.p, reached.a, how);
     if (end.converged || end.residual < best.residual) best = std::move(end);
     if (best.converged || late() || reached.residual > aim) return best;
     aim = next_aim * reached.residual;

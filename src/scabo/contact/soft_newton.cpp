@@ -23,10 +23,12 @@ class SoftNewton {
     end_.a = a_;
     equations_.evaluate(p_, a_, at_);
     int gained_at = 0;
-    double gained = HUGE_VAL, step = 0.0;
+    double gained = HUGE_VAL, step = 0.0, first = 0.0;
     for (int steps = 0;; ++steps) {
       keep_best();
       record(step);
+      if (steps == 0) first = at_.merit();
+      if (steps == 1 && best_ > options_.first_fall * first) break;
       if (best_ <= options_.fall * gained) gained = best_, gained_at = steps;
       if (end_.converged || !std::isfinite(at_.merit()) || steps >= most_steps || options_.deadline.passed()) break;
       if (end_.iterations >= options_.iterations || steps - gained_at >= options_.patience) break;

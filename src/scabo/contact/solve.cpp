@@ -97,14 +97,17 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
     solution.gap[i] = motion[d * i];
     for (Eigen::Index k = 1; k < d; ++k) solution.slip_increment[(d - 1) * i + k - 1] = motion[d * i + k];
   }
-  solution.states = states_of(problem, solution.p, motion, scales);
+  std::vector<ContactState> states = states_of(problem, solution.p, motion, scales);
+  const bool known = solution.status == Status::solved && states == solution.states;  // undetermined motions
+  solution.states = std::move(states);
   if (solution.status == Status::mechanism) return;
   if (judgement.solved(options.tolerance)) {
     solution.status = Status::solved;
-    if (problem.G.cols() > 0) solution.undetermined = undetermined_motions(problem, solution.states);
+    if (problem.G.cols() > 0 && !known) solution.undetermined = undetermined_motions(problem, solution.states);
   } else if (solution.status == Status::collapse) {
     solution.reason = "bodies move on without any further force on every path of equilibria that was followed";
   } else {
+    solution.status = Status::not_converged;
     solution.reason = reason_of(judgement, options.judge, options.tolerance, story_of(solution, options, singular));
   }
 }
@@ -254,6 +257,20 @@ std::optional<Solution> solved_without_neutral(const Problem& problem, const Sta
     return climbed;
   }
   return climbed_solution(problem, measure, p_start, start, options);
+}
+
+std::optional<Solution> with_forces(const Solution& solution, Vector p, const Problem& problem, const Start& start,
+                                    const SolverOptions& options) {
+  Solution other = solution;
+  other.p = std::move(p);
+  const Measure measure(problem, start.p.size() == problem.q.size() ? start.p : Vector(Vector::Zero(problem.q.size())),
+                        options.force_scale);
+  complete(other, problem, motion_of(problem, other.p, other.a), measure, options, false);
+  if (other.status != Status::solved) return std::nullopt;
+  // The motions differ by rounding, which decides between states where the next increment begins.
+  other.gap = solution.gap;
+  other.slip_increment = solution.slip_increment;
+  return other;
 }
 
 }  // namespace scabo::contact

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "scabo/contact/deadline.hpp"
 #include "scabo/contact/judge.hpp"
@@ -27,5 +28,10 @@ struct SolverOptions {
 };
 
 Solution solve(const Problem& problem, const Start& start = {}, const SolverOptions& options = {});
+
+/// A solution with other forces p that cause the same motions, judged anew; nothing if it is not solved with these. Gaps
+/// and slips stay those of `solution`, to the last bit.
+std::optional<Solution> with_forces(const Solution& solution, Vector p, const Problem& problem, const Start& start,
+                                    const SolverOptions& options);
 
 }  // namespace scabo::contact

@@ -63,6 +63,12 @@ Mat3 elasticity_matrix(const model::Material& material, model::Plane plane) {
   return D;
 }
 
+double heat_across(const model::Material& material, model::Plane plane) {
+  if (!material.expansion) return 0.0;
+  const double stress = stress_zz(Vec3::Zero(), material, plane, 1.0);
+  return std::isfinite(stress) ? -stress * (*material.expansion)[2] : 0.0;
+}
+
 Vec3 thermal_strain(const model::Material& material, model::Plane plane) {
   if (!material.expansion) return Vec3::Zero();
   const auto& [a1, a2, a3] = *material.expansion;

@@ -23,6 +23,10 @@ Mat3 elasticity_matrix(const model::Material& material, model::Plane plane);
 /// law of the plane does not determine it.
 double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane, double temperature = 0.0);
 
+/// Twice the energy per volume that plane strain stores across the plane, E_3 alpha_3^2 T^2, per square of temperature:
+/// the strains of the plane do not contain it. 0 in plane stress, and of an anisotropic law of the plane.
+double heat_across(const model::Material& material, model::Plane plane);
+
 /// Thermal strain [xx, yy, gamma_xy] per unit of temperature; in plane strain, the in-plane strain if the strain along
 /// z is held at 0 (isotropic: (1 + nu) alpha). Zero without `expansion`.
 Vec3 thermal_strain(const model::Material& material, model::Plane plane);

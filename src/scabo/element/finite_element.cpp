@@ -382,6 +382,18 @@ ElementVector finite_element_thermal_force(const FiniteElement& element, const M
   });
 }
 
+double finite_element_product(const FiniteElement& element, const LinearField& one, const LinearField& other,
+                              double thickness) {
+  return with_kind(element.kind, [&](auto kind) {
+    double sum = 0.0;
+    integrate<kind()>(element, [&](const auto& shape, double weight) {
+      const Vec2 x = element.x[0] + arm_to(shape, element);
+      sum += one.at(x) * other.at(x) * weight * thickness;
+    });
+    return sum;
+  });
+}
+
 PointValues finite_element_values(const FiniteElement& element, const ElementVector& u, const Mat3& D,
                                   const Vec2& natural, const Vec3& free_strain) {
   return with_kind(element.kind, [&](auto kind) {

@@ -72,6 +72,10 @@ ElementVector finite_element_body_force(const FiniteElement& element, const Line
 ElementVector finite_element_thermal_force(const FiniteElement& element, const Mat3& D, const Vec3& unit_strain,
                                            const LinearField& temperature, double thickness);
 
+/// Integral of the product of two changes of temperature over the volume, by the same rule.
+double finite_element_product(const FiniteElement& element, const LinearField& one, const LinearField& other,
+                              double thickness);
+
 /// Values at natural coordinates: stress = D (strain - free_strain). `u`: 2 size(). Strain and stress are not numbers
 /// where the Jacobian is zero.
 PointValues finite_element_values(const FiniteElement& element, const ElementVector& u, const Mat3& D,

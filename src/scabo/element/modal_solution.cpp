@@ -74,6 +74,29 @@ Vector equivalent_load(const SuperElementSolution& solution, const std::vector<R
   return h;
 }
 
+double work_inside(const SuperElementSolution& solution, const std::vector<RadialLoad>& one,
+                   const std::vector<RadialLoad>& other) {
+  double work = 0.0;
+  for (const Block& block : solution.blocks) {
+    const auto beyond = [&](const std::vector<RadialLoad>& loads) {  // h - c, a column for each load
+      Matrix columns(block.E0.rows(), static_cast<Eigen::Index>(loads.size()));
+      for (std::size_t k = 0; k < loads.size(); ++k) {
+        Vector h = equivalent_load(block, loads[k]);
+        if (loads[k].c.size() > 0) h -= block.T.transpose() * loads[k].c;
+        columns.col(static_cast<Eigen::Index>(k)) = h;
+      }
+      return columns;
+    };
+    const Matrix of_one = beyond(one), products = of_one.transpose() * block.E0.llt().solve(
+                                                     &one == &other ? of_one : beyond(other));
+    for (Eigen::Index i = 0; i < products.rows(); ++i)
+      for (Eigen::Index j = 0; j < products.cols(); ++j)
+        work += products(i, j) /
+                (one[static_cast<std::size_t>(i)].power + other[static_cast<std::size_t>(j)].power);
+  }
+  return work;
+}
+
 void RadialField::set_loads(const Block& block, const ModalBlock& modes, const std::vector<RadialLoad>& loads,
                             Part& part) const {
   if (loads.empty()) return;

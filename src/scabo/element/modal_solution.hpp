@@ -49,6 +49,11 @@ ModalSolution modal_solution(const SuperElementSolution& solution, int threads =
 /// h of eq. (4) for all loads together: the equivalent nodal forces (n).
 Vector equivalent_load(const SuperElementSolution& solution, const std::vector<RadialLoad>& loads);
 
+/// Work of the loads `one` on the motion that the loads `other` cause inside while the boundary is held (symmetric):
+/// sum_ij (h_i - c_i)' E0^-1 (h_j - c_j) / (i + j).
+double work_inside(const SuperElementSolution& solution, const std::vector<RadialLoad>& one,
+                   const std::vector<RadialLoad>& other);
+
 /// Interior field of given boundary displacements, decomposed into modes, including the part caused by loads inside.
 class RadialField {
  public:

@@ -85,6 +85,19 @@ std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, con
   return loads;
 }
 
+double integral_of_product(const Ring& ring, const LinearField& one, const LinearField& other,
+                           const std::vector<double>& per_product, double thickness) {
+  double sum = 0.0;
+  for_each_rule_point(ring, [&](std::size_t e, const Vector& N, const Vector& N_eta, double weight) {
+    const BoundaryPoint point = boundary_point(ring, ring.elements[e], N, N_eta);
+    const double a = one.constant, b = other.constant, to_a = one.at(point.x) - a, to_b = other.at(point.x) - b;
+    // The integral of (a + xi to_a) (b + xi to_b) xi from 0 to 1.
+    sum += (a * b / 2.0 + (a * to_b + b * to_a) / 3.0 + to_a * to_b / 4.0) * point.jacobian() * weight * thickness *
+           per_product[per_product.size() == 1 ? 0 : e];
+  });
+  return sum;
+}
+
 double InteriorLoads::temperature_at(const Vec2& x) const {
   double T = temperature.at(x);
   for (const TemperatureRemainder& remainder : remainders) T += remainder.at(x);

@@ -37,15 +37,6 @@ bool singular_at_centre(const element::ModalSolution& modes) {
 
 void append(fmt::memory_buffer& to, double value) { fmt::format_to(std::back_inserter(to), ",{}", value); }
 
-/// Energy of the stress -E alpha T by which plane strain holds a change of temperature across the plane, which the
-/// strains of the plane do not contain: 1/2 E (alpha T)^2, E and alpha those of axis 3. An anisotropic law of the plane
-/// has none.
-double energy_across(const model::Material& material, model::Plane plane, double temperature) {
-  const double stress = element::stress_zz(element::Vec3::Zero(), material, plane, temperature);
-  if (!material.expansion || !std::isfinite(stress)) return 0.0;
-  return -0.5 * stress * (*material.expansion)[2] * temperature;
-}
-
 }  // namespace
 
 /// The points in one cell, in the finite elements of one body, or in a rigid body.
@@ -175,7 +166,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       result.stress_zz = element::stress_zz(change, of_point, solution.model.analysis.plane, temperature) +
                          initial.zz_at(x, of_point, solution.model.analysis.plane);
       result.energy_density =
-          0.5 * change.dot(elastic) + energy_across(of_point, solution.model.analysis.plane, temperature);
+          0.5 * change.dot(elastic) + 0.5 * element::heat_across(of_point, solution.model.analysis.plane) * temperature * temperature;
     }
   }
   return results;

@@ -464,6 +464,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
       initial[b] = applied.initial;
     }
   }
+  structure.thermal = thermal_energies(model, mesh, structure.dofs, cells, structure.interior);
 }
 
 }  // namespace scabo::system

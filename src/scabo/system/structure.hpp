@@ -12,6 +12,7 @@
 #include "scabo/system/dofs.hpp"
 #include "scabo/system/ranks.hpp"
 #include "scabo/system/springs.hpp"
+#include "scabo/system/thermal_energy.hpp"
 
 namespace scabo::system {
 
@@ -25,6 +26,7 @@ struct Structure {
   std::vector<std::vector<element::CellLoads>> interior;
   /// [load][body]: stress before the body deforms, at factor 1; zero where the load is none.
   std::vector<std::vector<element::InitialStress>> initial;
+  std::vector<ThermalEnergy> thermal;  ///< one for each part; empty if no temperature changes
   /// [load][contact]: sum of the forces of pore pressure in the contact, at factor 1; empty where the load is none.
   std::vector<std::vector<std::optional<double>>> pores;
   /// [load][body]: as `loads`, but apart for bodies that are tied, at the degrees of freedom of each; of pore pressure
