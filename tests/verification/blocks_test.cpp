@@ -206,6 +206,19 @@ TEST(Wall, OfManyPairsTakesFewIterationsUnderItsWeightAlone) {
   EXPECT_LE(last(solution).newton_iterations, 8);
 }
 
+// Most states are those of the increment before: 11 to 13 iterations where interior points came after a few of Newton's
+// method (docs/decisions/0049).
+TEST(Wall, OfManyPairsTakesFewIterationsInEveryIncrement) {
+  const Blocks blocks{16, 16, 0.6};
+  const double push = 0.4 * blocks.collapse_push();
+  const analysis::StaticSolution solution = run(model_of(blocks, push, 6));
+  ASSERT_EQ(solution.increments.size(), 7u);
+  for (const analysis::IncrementResult& increment : solution.increments) EXPECT_LE(increment.newton_iterations, 8);
+  const Vec2 carried = floor_forces(blocks, solution, last(solution));
+  EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
+  EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
+}
+
 TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
   for (const double friction : {0.3, 0.6, 1.0}) holds({4, 4, friction}, 0.99, 10);
 }

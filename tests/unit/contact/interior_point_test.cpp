@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -303,9 +304,11 @@ TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
   EXPECT_GE(solved, solvable - 2);
 }
 
-/// The matrix of soft_direction.hpp, times d, row by row.
-Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equations, const Residual& at,
+/// The matrix of soft_direction.hpp at forces p, times d, row by row.
+Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equations, const Vector& p, const Residual& at,
                  const Vector& d) {
+  const double left = 0.1 * at.largest() / p.lpNorm<Eigen::Infinity>();
+  const double raise = std::clamp(left, 1e-6, 1e-2), hold = std::clamp(0.1 * left, 1e-7, 1e-3);
   const Eigen::Index N = problem.pairs(), m = problem.G.cols();
   const Matrix W = problem.W.dense(), G = problem.G.dense();
   const Vector dp = d.head(2 * N), da = d.tail(m), du = W * dp + G * da;
@@ -313,13 +316,13 @@ Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equatio
   for (Eigen::Index i = 0; i < N; ++i) {
     const Branch& branch = at.branches[static_cast<std::size_t>(i)];
     const Eigen::Index n = 2 * i, t = n + 1;
-    rows[n] = branch.contact ? equations.r()[n] * du[n] + 1e-6 * dp[n] : dp[n];
+    rows[n] = branch.contact ? equations.r()[n] * du[n] + raise * dp[n] : dp[n];
     rows[t] = dp[t];
-    if (branch.tangent == Branch::Tangent::stick) rows[t] = equations.r()[t] * du[t] + 1e-6 * dp[t];
+    if (branch.tangent == Branch::Tangent::stick) rows[t] = equations.r()[t] * du[t] + raise * dp[t];
     if (branch.tangent == Branch::Tangent::slip) rows[t] -= branch.slope * branch.along[0] * dp[n];
   }
   rows.tail(m) = G.transpose() * dp;
-  for (Eigen::Index k = 0; k < m; ++k) rows[2 * N + k] -= 1e-7 * G.col(k).squaredNorm() * da[k];
+  for (Eigen::Index k = 0; k < m; ++k) rows[2 * N + k] -= hold * G.col(k).squaredNorm() * da[k];
   return rows;
 }
 
@@ -342,13 +345,13 @@ TEST(SoftDirection, SolvesForNewStatesWithTheFactorOfEarlierOnes) {
     if (round > 0) EXPECT_GT(changed, 0);
     before = at.branches;
     ASSERT_TRUE(direction.find(at, p, d));
-    EXPECT_LE((soft_rows(problem, equations, at, d) + at.H).norm(), 1e-6 * at.H.norm()) << round;
+    EXPECT_LE((soft_rows(problem, equations, p, at, d) + at.H).norm(), 1e-6 * at.H.norm()) << round;
     EXPECT_EQ(direction.factorisations(), 1);
     for (double& component : p) component *= 1.0 + 0.3 * unit(random);
   }
   p = -p;  // hardly a state is as it was
   ASSERT_TRUE(direction.find(equations.residual(p, a), p, d));
-  EXPECT_LE((soft_rows(problem, equations, equations.residual(p, a), d) + equations.residual(p, a).H).norm(),
+  EXPECT_LE((soft_rows(problem, equations, p, equations.residual(p, a), d) + equations.residual(p, a).H).norm(),
             1e-6 * equations.residual(p, a).H.norm());
 }
 
