@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "run.hpp"
+#include "scabo/analysis/warnings.hpp"
 #include "scabo/result/probe.hpp"
 
 namespace scabo::verification {
@@ -52,6 +53,37 @@ TEST(SlenderBeam, BendsAsABeamAndItsReactionsBalanceTheLoad) {
     EXPECT_NEAR(increment.reactions[0].x(), 0.0, 1e-10) << beam.ratio;
     EXPECT_NEAR(2.0 * increment.energy.elastic / tip(solution, beam.ratio), 1.0, 1e-4) << beam.ratio;
     EXPECT_THAT(texts_of(solution.warnings), testing::IsEmpty()) << beam.ratio;
+  }
+}
+
+// Of the default order 2 with sides longer than the depth, and of order 1 with any: the warning states what is missing,
+// to a factor of 1.5, and stays away where less than a hundredth is.
+TEST(SlenderBeam, OfLowOrderWithLongSidesIsWarnedOf) {
+  struct Case {
+    double ratio;
+    const char* mesh;
+    bool warned;
+  };
+  for (const Case& at :
+       {Case{10.0, "{size: 2.5}", true}, Case{20.0, "{size: 2.5}", true}, Case{100.0, "{size: 5}", true},
+        Case{1000.0, "{size: 20}", true}, Case{10.0, "{size: 0.5, order: 1}", true},
+        Case{20.0, "{size: 0.25, order: 1}", true}, Case{10.0, "{size: 1}", false},
+        Case{100.0, "{size: 5, order: 3}", false}, Case{10.0, "{size: 2.5, kind: fem}", false}}) {
+    const auto solution = run(cantilever(at.ratio, at.mesh));
+    const double missing = 1.0 - tip(solution, at.ratio) / deflection(at.ratio);
+    EXPECT_THAT(texts_of(solution.warnings),
+                at.warned ? testing::Matcher<std::vector<std::string>>(
+                                testing::Contains(testing::HasSubstr("bends too little")))
+                          : testing::Matcher<std::vector<std::string>>(
+                                testing::Not(testing::Contains(testing::HasSubstr("bends too little")))))
+        << at.ratio << " " << at.mesh;
+    const double stated = analysis::stiffened_in_bending(solution.mesh.bodies[0]);
+    if (at.warned) {
+      EXPECT_GT(missing, stated / 1.5) << at.ratio << " " << at.mesh;
+      EXPECT_LT(missing, stated * 1.5) << at.ratio << " " << at.mesh;
+    } else {
+      EXPECT_LT(missing, 0.01) << at.ratio << " " << at.mesh;
+    }
   }
 }
 

@@ -47,8 +47,8 @@ std::string text_of(const Wall& wall) {
       const auto line = [&](const std::string& from, const std::string& to, const char* edge) {
         return fmt::format("{{line: {{from: {}, to: {}}}, name: {}}}", from, to, edge);
       };
-      bodies += fmt::format("  {}: {{material: s, mesh: {{size: {}, {}}}, shape: {{outline: [{}, {}, {}, {}]}}}}\n", name,
-                            0.25 * wall.unit, wall.mesh, line(at(left, z), at(right, z), "bottom"),
+      bodies += fmt::format("  {}: {{material: s, mesh: {{size: {}, {}}}, shape: {{outline: [{}, {}, {}, {}]}}}}\n",
+                            name, 0.25 * wall.unit, wall.mesh, line(at(left, z), at(right, z), "bottom"),
                             line(at(right, z), at(right, z + 1), "right"),
                             line(at(right, z + 1), at(left, z + 1), "top"), line(at(left, z + 1), at(left, z), "left"));
       if (z == 0) supports += fmt::format("  - {{on: {}.bottom, fix: normal}}\n", name);
@@ -71,8 +71,9 @@ std::string text_of(const Wall& wall) {
       if (b.course == a.course + 1 && std::min(a.right, b.right) > std::max(a.left, b.left))
         add(a.name + ".top", b.name + ".bottom");
     }
-  return fmt::format("scabo: 1\nanalysis: {{thickness: {}}}\nmaterials: {{s: {{young: {:.17g}, poisson: 0.2}}}}\nbodies:\n",
-                     wall.unit, 30e9 * per_area) +
+  return fmt::format(
+             "scabo: 1\nanalysis: {{thickness: {}}}\nmaterials: {{s: {{young: {:.17g}, poisson: 0.2}}}}\nbodies:\n",
+             wall.unit, 30e9 * per_area) +
          bodies + "supports:\n" + supports + "loads:\n" + loads + "contacts:\n" + contacts;
 }
 
@@ -127,8 +128,8 @@ TEST(SmoothestForces, OfBlocksInBondAreUniform) {
 /// A shaft of radius 0.05 in a hub of 0.1, both cut into sectors that stick to each other, pressed into each other by
 /// 5e-5: p = d E (1 - (a / b)^2) / (2 a) (Lame).
 std::string press_fit(int sectors) {
-  std::string text =
-      "scabo: 1\nanalysis: {plane: stress}\nmaterials: {st: {young: 210e9, poisson: 0.3}}\nbodies:\n", contacts, hold;
+  std::string text = "scabo: 1\nanalysis: {plane: stress}\nmaterials: {st: {young: 210e9, poisson: 0.3}}\nbodies:\n",
+              contacts, hold;
   const auto at = [&](int k, double radius) {
     const double angle = 2.0 * 3.14159265358979323846 * k / sectors;
     return fmt::format("[{:.17g}, {:.17g}]", radius * std::cos(angle), radius * std::sin(angle));
@@ -149,10 +150,12 @@ std::string press_fit(int sectors) {
     contacts += fmt::format("  bs{0}: {{between: [s{0}.hi, s{1}.lo], bond: true}}\n", k, next);
     contacts += fmt::format("  bh{0}: {{between: [h{0}.hi, h{1}.lo], bond: true}}\n", k, next);
   }
-  const double c = std::cos(2.0 * 3.14159265358979323846 / sectors), s = std::sin(2.0 * 3.14159265358979323846 / sectors);
+  const double c = std::cos(2.0 * 3.14159265358979323846 / sectors),
+               s = std::sin(2.0 * 3.14159265358979323846 / sectors);
   hold = fmt::format(
       "supports:\n  - {{on: {{body: s0, near: [0, 0]}}, fix: [x, y]}}\n"
-      "  - {{on: {{body: s0, near: {}}}, fix: y}}\n  - {{on: {{body: h0, near: {}}}, fix: {{along: [{:.17g}, {:.17g}]}}}}\n",
+      "  - {{on: {{body: s0, near: {}}}, fix: y}}\n  - {{on: {{body: h0, near: {}}}, fix: {{along: [{:.17g}, "
+      "{:.17g}]}}}}\n",
       at(0, 0.05), at(1, 0.1), -s, c);
   return text + "contacts:\n" + contacts + hold;
 }
@@ -173,14 +176,14 @@ TEST(SmoothestForces, OfAPressFitInSectorsAreThoseOfLame) {
         }
       }
     }
-    EXPECT_TRUE(std::none_of(solution.warnings.begin(), solution.warnings.end(), [](const Warning& warning) {
-      return warning.kind == WarningKind::pressure;
-    }));
+    EXPECT_TRUE(std::none_of(solution.warnings.begin(), solution.warnings.end(),
+                             [](const Warning& warning) { return warning.kind == WarningKind::pressure; }));
   }
 }
 
 // A rigid block on a floor whose points are all held, under a force beside its middle: pressures along a line (Navier),
-// N / A (1 + 12 e x / b^2), where the shortest ones are looked for, and a triangle beyond the kern, where no pair pulls.
+// N / A (1 + 12 e x / b^2), where the shortest ones are looked for, and a triangle beyond the kern, where no pair
+// pulls.
 TEST(SmoothestForces, OfARigidBlockAreAlongALine) {
   const auto block = [](double place) {
     return fmt::format(

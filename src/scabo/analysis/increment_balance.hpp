@@ -19,7 +19,8 @@ struct Balance {
 /// motions.
 std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to);
 
-/// Of a part, what its stored energy is beyond 1/2 u'K u because its temperature has changed (system/thermal_energy.hpp).
+/// Of a part, what its stored energy is beyond 1/2 u'K u because its temperature has changed
+/// (system/thermal_energy.hpp).
 double thermal_energy(const Prepared& prepared, const Factors& factors, std::size_t p, const Vector& u);
 /// Nodal forces of the temperatures of a part; empty where there are none.
 Vector thermal_forces(const Prepared& prepared, const Factors& factors, std::size_t p);

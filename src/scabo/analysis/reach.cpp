@@ -46,7 +46,7 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
   else if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason +=
         "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
-        "stiff parts less stiff or rigid, give a slender body mesh {kind: fem}, or raise solver.tolerance";
+        "stiff parts less stiff or rigid, give a slender super-element mesh {kind: fem}, or raise solver.tolerance";
   else if (const std::string stiff = stiff_springs(prepared.model, prepared.structure, stiff_beside); !stiff.empty())
     reason += "; " + stiff;
   return reason;

@@ -83,8 +83,8 @@ void take_away(const Prepared& before, const std::vector<char>& absent, State& s
       continue;
     }
     if (!gone(p)) continue;
-    state.energy.external -= before.structure.parts[p]->elastic_energy(state.u[p]) +
-                             thermal_energy(before, state.factors, p, state.u[p]);
+    state.energy.external -=
+        before.structure.parts[p]->elastic_energy(state.u[p]) + thermal_energy(before, state.factors, p, state.u[p]);
     for (Vector* of : {&state.u[p], &state.forces[p], &state.reactions[p], &state.prescribed[p]}) of->setZero();
   }
   for (std::size_t p = 0; p < absent.size(); ++p)

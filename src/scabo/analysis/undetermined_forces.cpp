@@ -160,8 +160,7 @@ void give_smoothest_forces(const Prepared& prepared, const contact::Problem& pro
                            const contact::SolverOptions& options, contact::Solution& solution) {
   if (solution.status != contact::Status::solved || problem.pairs() < 2 || problem.dimension != 2) return;
   const contact::Scales scales = contact::Measure(problem, start.p, options.force_scale).scales(solution.p);
-  contact::SmoothestForces smooth =
-      contact::smoothest_forces(problem, solution, action_of_pairs(prepared), scales);
+  contact::SmoothestForces smooth = contact::smoothest_forces(problem, solution, action_of_pairs(prepared), scales);
   if (smooth.changed == 0) return;
   auto other = contact::with_forces(solution, std::move(smooth.p), problem, start, options);
   if (other) solution = std::move(*other);

@@ -312,8 +312,8 @@ double stiffened_in_bending(const mesh::BodyMesh& mesh) {
   const double half = 0.25 * perimeter, root = std::sqrt(std::max(half * half - area, 0.0));
   const double length = half + root, depth = area / length;
   if (length < least_slenderness * depth) return 0.0;
-  const double ratio = longest / depth,
-               x = order == 1 ? 0.08 * std::pow(ratio * length / depth, 2) : std::min(0.0022 * std::pow(ratio, 3), 0.06);
+  const double ratio = longest / depth, x = order == 1 ? 0.08 * std::pow(ratio * length / depth, 2)
+                                                       : std::min(0.0022 * std::pow(ratio, 3), 0.06);
   return x / (1.0 + x);
 }
 

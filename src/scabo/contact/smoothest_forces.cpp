@@ -14,10 +14,10 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr Index most_columns = 150;     // of a group, which is solved by dense matrices: 0.1 s
-constexpr double no_motion = 1e-12;     // of the length scale
-constexpr double dependent = 1e-10;     // of entries of A, which are parts of 1
-constexpr double shortness = 1e-5;      // sqrt(E)
+constexpr Index most_columns = 150;       // of a group, which is solved by dense matrices: 0.1 s
+constexpr double no_motion = 1e-12;       // of the length scale
+constexpr double dependent = 1e-10;       // of entries of A, which are parts of 1
+constexpr double shortness = 1e-5;        // sqrt(E)
 constexpr double worth_changing = 1e-12;  // of the largest force
 constexpr double no_force = 1e-13;        // of the largest force: such a pair is open
 
@@ -46,7 +46,8 @@ void add_limits(const Problem& problem, Index i, double p_n, double p_t, bool st
   const bool bound_by_friction = sticks && !std::isinf(cohesion);
   if (pulled && (bound_by_friction || !sticks)) add({-1.0, 0.0}, 0.0);  // beyond, the bound grows with mu
   if (!bound_by_friction) return;
-  const double forward = pulled ? 0.0 : problem.mu_against(i, -1.0), backward = pulled ? 0.0 : problem.mu_against(i, 1.0);
+  const double forward = pulled ? 0.0 : problem.mu_against(i, -1.0),
+               backward = pulled ? 0.0 : problem.mu_against(i, 1.0);
   add({forward, 1.0}, -cohesion);
   add({backward, -1.0}, -cohesion);
 }

@@ -1,8 +1,8 @@
 // The smoothest of contact forces that are not unique although all motions are.
 //
-// Forces dp of the pairs that change no force on any body, A dp = 0 (A: forces on the points of bodies and resultants of
-// rigid bodies by the forces of the pairs), move nothing: bodies that meet in a point may pass any force around it. Of
-// all forces that the laws admit for the motions of a solution,
+// Forces dp of the pairs that change no force on any body, A dp = 0 (A: forces on the points of bodies and resultants
+// of rigid bodies by the forces of the pairs), move nothing: bodies that meet in a point may pass any force around it.
+// Of all forces that the laws admit for the motions of a solution,
 //
 //     open         none                                 slip     p_n >= 0,  p_t = -+ (c + mu p_n)
 //     stick, touch p_n >= 0,  |p_t| <= c + mu p_n       bonded   any

@@ -29,8 +29,8 @@ struct SolverOptions {
 
 Solution solve(const Problem& problem, const Start& start = {}, const SolverOptions& options = {});
 
-/// A solution with other forces p that cause the same motions, judged anew; nothing if it is not solved with these. Gaps
-/// and slips stay those of `solution`, to the last bit.
+/// A solution with other forces p that cause the same motions, judged anew; nothing if it is not solved with these.
+/// Gaps and slips stay those of `solution`, to the last bit.
 std::optional<Solution> with_forces(const Solution& solution, Vector p, const Problem& problem, const Start& start,
                                     const SolverOptions& options);
 

@@ -87,12 +87,11 @@ double work_inside(const SuperElementSolution& solution, const std::vector<Radia
       }
       return columns;
     };
-    const Matrix of_one = beyond(one), products = of_one.transpose() * block.E0.llt().solve(
-                                                     &one == &other ? of_one : beyond(other));
+    const Matrix of_one = beyond(one),
+                 products = of_one.transpose() * block.E0.llt().solve(&one == &other ? of_one : beyond(other));
     for (Eigen::Index i = 0; i < products.rows(); ++i)
       for (Eigen::Index j = 0; j < products.cols(); ++j)
-        work += products(i, j) /
-                (one[static_cast<std::size_t>(i)].power + other[static_cast<std::size_t>(j)].power);
+        work += products(i, j) / (one[static_cast<std::size_t>(i)].power + other[static_cast<std::size_t>(j)].power);
   }
   return work;
 }

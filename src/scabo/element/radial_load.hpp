@@ -43,8 +43,8 @@ Vec2 face_normal(const Ring& ring, Face face);
 std::vector<RadialLoad> thermal_loads(const Ring& ring, const Elasticity& D, const std::vector<Vec3>& unit_strain,
                                       const LinearField& temperature, double thickness);
 
-/// Integral of `per_product` T T' over the volume inside, for two changes of temperature as functions of (x, y) relative
-/// to the scaling centre; `per_product`: one for all boundary elements or one for each.
+/// Integral of `per_product` T T' over the volume inside, for two changes of temperature as functions of (x, y)
+/// relative to the scaling centre; `per_product`: one for all boundary elements or one for each.
 double integral_of_product(const Ring& ring, const LinearField& one, const LinearField& other,
                            const std::vector<double>& per_product, double thickness);
 

@@ -166,7 +166,8 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       result.stress_zz = element::stress_zz(change, of_point, solution.model.analysis.plane, temperature) +
                          initial.zz_at(x, of_point, solution.model.analysis.plane);
       result.energy_density =
-          0.5 * change.dot(elastic) + 0.5 * element::heat_across(of_point, solution.model.analysis.plane) * temperature * temperature;
+          0.5 * change.dot(elastic) +
+          0.5 * element::heat_across(of_point, solution.model.analysis.plane) * temperature * temperature;
     }
   }
   return results;

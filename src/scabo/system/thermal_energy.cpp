@@ -62,9 +62,7 @@ double product_of(const TemperatureRemainder& one, const TemperatureRemainder& o
 }
 
 /// Of a linear field of absolute (x, y), that relative to `centre`.
-LinearField about(const LinearField& field, const Vec2& centre) {
-  return {field.at(centre), field.per_x, field.per_y};
-}
+LinearField about(const LinearField& field, const Vec2& centre) { return {field.at(centre), field.per_x, field.per_y}; }
 
 /// a'D a + E3 alpha3^2.
 double heat_of(const element::Mat3& D, const element::Vec3& unit_strain, const model::Material& material,
@@ -87,8 +85,7 @@ class OfSuperElement {
   double between(const InteriorLoads& one, const InteriorLoads& other) const {
     double sum = element::integral_of_product(cell_.ring, about(one.temperature, centre_),
                                               about(other.temperature, centre_), heat_, cell_.thickness);
-    if (moves_inside(one) && moves_inside(other))
-      sum -= element::work_inside(cell_.solution(), one.loads, other.loads);
+    if (moves_inside(one) && moves_inside(other)) sum -= element::work_inside(cell_.solution(), one.loads, other.loads);
     if (one.remainders.empty() && other.remainders.empty()) return sum;
     const Vector u = particular(one), u_other = particular(other);
     sum += u.dot(forces(other, u_other)) + u_other.dot(forces(one, u)) - u.dot(cell_.K() * u_other);
@@ -109,8 +106,8 @@ class OfSuperElement {
  private:
   /// Not of one temperature in one material.
   bool moves_inside(const InteriorLoads& loads) const {
-    return !loads.loads.empty() && (cell_.sectors.materials.size() > 1 || loads.temperature.per_x != 0.0 ||
-                                    loads.temperature.per_y != 0.0);
+    return !loads.loads.empty() &&
+           (cell_.sectors.materials.size() > 1 || loads.temperature.per_x != 0.0 || loads.temperature.per_y != 0.0);
   }
 
   /// u_p at the nodes, without its translation, which would leave rounding alone.
@@ -127,12 +124,12 @@ class OfSuperElement {
   Vector forces(const InteriorLoads& loads, const Vector& u) const {
     Vector f = element::equivalent_load(cell_.solution(), loads.loads) + cell_.K() * u;
     for (const TemperatureRemainder& r : loads.remainders) {
-      const element::Vec3 stress = element::particular_stress(cell_.sectors.D.of(0), cell_.sectors.unit_strain_of(0),
-                                                              r.direction(), r.motion());
-      f -= traction_forces(
-          cell_.ring.elements, nodes_, cell_.thickness,
-          [&](const Vec2& x, const Vec2& n) { return Vec2(element::traction_of(stress, n) * r.at(x)); },
-          {[&](const Vec2& x) { return r.direction().dot(x); }, r.places()});
+      const element::Vec3 stress =
+          element::particular_stress(cell_.sectors.D.of(0), cell_.sectors.unit_strain_of(0), r.direction(), r.motion());
+      f -=
+          traction_forces(cell_.ring.elements, nodes_, cell_.thickness,
+                          [&](const Vec2& x, const Vec2& n) { return Vec2(element::traction_of(stress, n) * r.at(x)); },
+                          {[&](const Vec2& x) { return r.direction().dot(x); }, r.places()});
     }
     return f;
   }
@@ -195,12 +192,12 @@ std::vector<ThermalEnergy> thermal_energies(const model::Model& model, const mes
         }
         const element::FiniteElement finite = element::finite_element_of(cell, mesh.bodies[body].nodes);
         const model::Material& material = model.materials[static_cast<std::size_t>(cell.materials.front())];
-        const double heat = heat_of(element::elasticity_matrix(material, model.analysis.plane),
-                                    element::thermal_strain(material, model.analysis.plane), material,
-                                    model.analysis.plane);
+        const double heat =
+            heat_of(element::elasticity_matrix(material, model.analysis.plane),
+                    element::thermal_strain(material, model.analysis.plane), material, model.analysis.plane);
         add([&](const InteriorLoads& one, const InteriorLoads& other) {
-          return heat * element::finite_element_product(finite, one.temperature, other.temperature,
-                                                        model.analysis.thickness);
+          return heat *
+                 element::finite_element_product(finite, one.temperature, other.temperature, model.analysis.thickness);
         });
       }
     }

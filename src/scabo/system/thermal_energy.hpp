@@ -19,8 +19,8 @@
 //
 //     u_p'f' + u_p''f - u_p'K u_p' + int r r' dV sigma_p'D^-1 sigma_p'                                          (4)
 //
-// with the particular displacements u_p, u_p', the whole forces f, f' of both changes and the stress sigma_p per unit of
-// temperature. r has no moments with the linear part, exactly in cells with straight sides.
+// with the particular displacements u_p, u_p', the whole forces f, f' of both changes and the stress sigma_p per unit
+// of temperature. r has no moments with the linear part, exactly in cells with straight sides.
 #pragma once
 
 #include <vector>
