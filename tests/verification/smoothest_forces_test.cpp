@@ -210,5 +210,28 @@ TEST(SmoothestForces, OfARigidBlockAreAlongALine) {
   }
 }
 
+// Sliding until a spring takes what friction does not, its pairs stay at the bound of friction, against the slip.
+TEST(SmoothestForces, OfARigidBlockThatSlidesAreAlongALine) {
+  for (const double side : {1.0, -1.0}) {
+    const analysis::StaticSolution solution =
+        run(fmt::format("scabo: 1\nmaterials: {{s: {{young: 1e9, poisson: 0.2}}}}\nbodies:\n"
+                        "  floor: {{material: s, shape: {{rectangle: {{corner: [0, -1], size: [2, 1]}}}}, mesh: "
+                        "{{size: 0.25, order: 1}}}}\n"
+                        "  block: {{rigid: true, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}}}\n"
+                        "supports: [{{on: floor.top, fix: [x, y]}}]\nsprings: [{{on: block.right, k_n: 500, k_t: 0}}]\n"
+                        "loads: {{press: {{on: block, force: [{}, -10]}}}}\n"
+                        "contacts: {{base: {{between: [floor.top, block.bottom], friction: 0.2}}}}\n",
+                        4.0 * side));
+    const std::vector<analysis::PairResult>& pairs = contact_of(last(solution)).pairs;
+    ASSERT_EQ(pairs.size(), 9u);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      EXPECT_EQ(pairs[i].state, contact::ContactState::slip);
+      EXPECT_NEAR(pairs[i].shear, -side * 0.2 * pairs[i].pressure, 1e-9);
+      if (i > 1)
+        EXPECT_NEAR(pairs[i].pressure - 2.0 * pairs[i - 1].pressure + pairs[i - 2].pressure, 0.0, 1e-8) << side << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification
