@@ -43,10 +43,16 @@ std::string why_not(const Node& list, const std::string& path, const std::string
   return fmt::format("{} is a list: write a number from 0 to {}, not {}", path, count - 1, quoted_name(number));
 }
 
-/// Replaces one value; copies the nodes on its path, since aliases share nodes.
+/// `null` or `~` was written: the key or the item is to be taken away. A value left out is not that, but a mistake.
+bool takes_away(const Override& override, const Node& value) {
+  return value.kind == Node::Kind::null && override.value.find_first_not_of(" \t\r\n") != std::string::npos;
+}
+
+/// Replaces or takes away one value; copies the nodes on its path, since aliases share nodes.
 class Replacement {
  public:
-  Replacement(const Override& override, NodePtr value) : keys_(split_path(override.path)), value_(std::move(value)) {}
+  Replacement(const Override& override, NodePtr value)
+      : keys_(split_path(override.path)), value_(std::move(value)), takes_away_(takes_away(override, *value_)) {}
 
   /// The new tree, or nullptr with the reason in why() if the path does not exist.
   NodePtr in(const NodePtr& root) { return replace(root, 0, ""); }
@@ -66,6 +72,10 @@ class Replacement {
       auto entry = find(key);
       if (entry == copy->entries.end() && key == "on") entry = find("true");  // as changed by writers of YAML 1.1
       if (entry != copy->entries.end()) {
+        if (ends_at(level)) {
+          copy->entries.erase(entry);
+          return copy;
+        }
         const NodePtr inner = replace(entry->value, level + 1, here);
         if (!inner) return nullptr;
         entry->value = inner;
@@ -83,6 +93,10 @@ class Replacement {
         why_ = why_not(*node, path, key);
         return nullptr;
       }
+      if (ends_at(level)) {
+        copy->items.erase(copy->items.begin() + static_cast<std::ptrdiff_t>(index));
+        return copy;
+      }
       const NodePtr inner = replace(node->items[index], level + 1, here);
       if (!inner) return nullptr;
       copy->items[index] = inner;
@@ -92,11 +106,14 @@ class Replacement {
     return nullptr;
   }
 
+  /// What stands at this level is to be taken away.
+  bool ends_at(std::size_t level) const { return takes_away_ && level + 1 == keys_.size(); }
+
   /// Adds a key that does not exist yet.
   NodePtr add(const Node& map, std::size_t level, const std::string& path) {
-    if (level + 1 == keys_.size()) return value_;
+    if (level + 1 == keys_.size() && !takes_away_) return value_;
     // Sections may be absent from the file, but an absent body or contact is a mistake in the path.
-    if (level == 0 && level + 2 == keys_.size()) {
+    if (!takes_away_ && level == 0 && level + 2 == keys_.size()) {
       auto section = std::make_shared<Node>();
       section->kind = Node::Kind::map;
       section->override_path = value_->override_path;
@@ -112,6 +129,7 @@ class Replacement {
 
   std::vector<std::string> keys_;
   NodePtr value_;
+  bool takes_away_;
   std::string why_;
 };
 

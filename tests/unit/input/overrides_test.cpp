@@ -47,6 +47,25 @@ TEST(Overrides, AddKeysAndSections) {
 
 TEST(Overrides, TheLastOneHolds) { EXPECT_EQ(parse(block(), {{"title", "a"}, {"title", "b"}}).title, "b"); }
 
+TEST(Overrides, NullTakesAKeyOrAnItemAway) {
+  const Model model =
+      parse(block("title: a\n"), {{"supports", "[{on: block.left, fix: y}, {on: block.bottom, fix: [x, y]}]"},
+                                  {"supports.0", "~"},
+                                  {"materials.steel.density", "null"},
+                                  {"title", " null "}});
+  ASSERT_EQ(model.supports.size(), 1U);
+  EXPECT_TRUE(model.supports[0].displacement[0]);
+  EXPECT_FALSE(model.materials[0].density);
+  EXPECT_EQ(model.title, "");
+  EXPECT_EQ(mistakes_in(block(), {{"materials.steel.young", "null"}}),
+            "model.yaml:2:20: materials.steel: 'young' is missing");
+  EXPECT_EQ(mistakes_in(block(), {{"loads.pull", "null"}}),
+            "model.yaml: --set loads.pull: loads has no 'pull' (available: push)");
+  EXPECT_EQ(mistakes_in(block(), {{"solver.tolerance", "null"}}),
+            "model.yaml: --set solver.tolerance: the model has no 'solver' (available: scabo, materials, bodies, "
+            "supports, loads)");
+}
+
 TEST(Overrides, ChangeOnlyTheAliasTheyName) {
   const std::string text =
       "scabo: 1\nmaterials: {m: &m {young: 1, poisson: 0}, n: *m}\n"
