@@ -28,6 +28,7 @@ plt.rcParams["savefig.dpi"] = 130
 
 BLUE, RED, GREEN, GREY = style.BLUE, style.RED, style.GREEN, style.GREY
 SIGNED, MAGNITUDE = style.SIGNED, style.MAGNITUDE
+BOX_ON_LINES = style.BOX_ON_LINES
 triangles_of, outline, moved_points, signed_levels = geometry.triangles, geometry.outline, geometry.moved, style.signed_levels
 
 

@@ -129,6 +129,19 @@ std::vector<std::string> spread_settings(const std::vector<std::string>& words) 
   return spread;
 }
 
+/// A name or value that is given but empty, as by a variable of a shell script that is not set.
+void refuse_empty_words(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_min() == 0) continue;  // flags, and values that may be left out
+    for (const std::string& word : option->results())
+      if (word.empty())
+        throw CLI::ValidationError(
+            option->get_positional()
+                ? fmt::format("{}: is empty: name one", option->get_name())
+                : fmt::format("{}: is empty: give a value, or leave the option out", option->get_name()));
+  }
+}
+
 /// Reads the command line; throws CLI::ParseError for help, version and mistakes.
 class CommandLine {
  public:
@@ -141,10 +154,9 @@ class CommandLine {
     app_.get_formatter()->column_width(24);
 
     run_->add_option("MODEL", run_options_.model, model_help)->required()->option_text(" ");
-    output_ = run_->add_option("-o,--output", run_options_.output,
-                               "Results directory; default: model.results, beside model.yaml")
-                  ->type_name("DIR")
-                  ->option_text("DIR");
+    run_->add_option("-o,--output", run_options_.output, "Results directory; default: model.results, beside model.yaml")
+        ->type_name("DIR")
+        ->option_text("DIR");
     add_settings(*run_, run_options_.settings);
     run_->add_option("--threads", run_options_.threads,
                      "Largest number of threads, 1 or more; default: one for each processor. Small models use one")
@@ -267,8 +279,7 @@ class CommandLine {
     words_ = words;
     std::reverse(words.begin(), words.end());  // the order that CLI11 expects
     app_.parse(std::move(words));
-    if (*run_ && output_->count() > 0 && run_options_.output.empty())
-      throw CLI::ValidationError("--output: the name of the directory is empty: name one, or leave the option out");
+    for (const CLI::App* command : app_.get_subcommands()) refuse_empty_words(*command);
     for (const CLI::App* command : {run_, resume_})
       if (!cluster_ && *command && command->get_option("--divide-from")->count() > 0)
         throw CLI::ValidationError("--divide-from is for runs by mpirun: start it so, or leave the option out");
@@ -411,7 +422,6 @@ class CommandLine {
   CLI::App* exponents_ = app_.add_subcommand("exponents", "Prints the exponents of every super-element");
   CLI::App* contact_ = app_.add_subcommand("contact", "Solves and certifies a discrete contact problem from a file");
   CLI::Option* trace_ = nullptr;
-  CLI::Option* output_ = nullptr;
   CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON Schema of the model file");
   CLI::App* plot_ = app_.add_subcommand("plot", "Draws pictures of results");
   CLI::App* report_ = app_.add_subcommand("report", "Writes results as one page for the browser");

@@ -42,7 +42,8 @@ def picture(options):
     drawn = pictures.draw(left, mesh, -1e3 * mesh.point_data["displacement"][:, 1], np.linspace(0, 45, 10))
     pictures.draw_cells(left, options.results)
     left.add_patch(plt.Polygon([(-15, -3.5), (-8, -5), (-1, -4), (-6, -2.2)], fill=False, linewidth=1.6, edgecolor=pictures.BLUE))
-    left.annotate("soft clay", (-13, -3.9), (-18, -6.4), color=pictures.BLUE, arrowprops={"arrowstyle": "-", "lw": 0.8, "color": pictures.BLUE})
+    left.annotate("soft clay", (-13, -3.9), (-18, -6.4), color=pictures.BLUE, bbox=pictures.BOX_ON_LINES,
+                  arrowprops={"arrowstyle": "-", "lw": 0.8, "color": pictures.BLUE})
     pictures.colour_bar(figure, drawn, left, "settlement (mm)", count=4, location="bottom", shrink=0.7)
     left.set(title="weight and traffic: settlement, and the super-elements")
 

@@ -4,6 +4,8 @@ its error against the degrees of freedom, with equal cells too."""
 import pathlib
 import sys
 
+import matplotlib.ticker
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import pictures
 from pictures import np, plt
@@ -101,6 +103,8 @@ def convergence(curves):
     for (name, points), style, colour in zip(curves.items(), ("o-", "s--"), (pictures.RED, pictures.BLUE)):
         axis.loglog(*zip(*points), style, color=colour, markersize=4, label=name)
     axis.set(xlabel="degrees of freedom", ylabel="error of the pressure / pressure of Hertz")
+    axis.set_xticks([2000, 5000, 10_000, 20_000, 50_000, 100_000], labels=["2,000", "5,000", "10,000", "20,000", "50,000", "100,000"])
+    axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
     axis.legend()
     axis.grid(True, which="both")
     return figure

@@ -45,7 +45,7 @@ def draw_forces(axis, summary):
         axis.axvline(where, color="0.85", linewidth=0.8, zorder=0)
     axis.set(xlim=(0, WAY), ylim=(0, 1.25 * normal.max() / 1e6), xlabel="way (m)", ylabel="force (MN/m)",
              title="forces; grey: pairs found anew")
-    axis.legend(loc="lower right", frameon=True, framealpha=1, edgecolor="white")
+    axis.legend(loc="lower right")
 
 
 def draw_pressure(axis, results, summary):

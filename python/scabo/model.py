@@ -175,6 +175,8 @@ def read(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None) 
     ``set`` replaces values, as ``--set`` of the program does: ``{"contacts.joint.friction": 0.5}``; text is read as YAML.
     Raises ``ModelError`` with every mistake, its line, its column and its remedy.
     """
+    if set is not None and not isinstance(set, Mapping):
+        raise TypeError(f"set must be a dictionary, as in {{'contacts.joint.friction': 0.5}}, not {type(set).__name__}")
     settings = [_setting(path, value) for path, value in (set or {}).items()]
     document = _core.read(os.fsdecode(file), settings)
     model = Model(document.data(), file=document.file)

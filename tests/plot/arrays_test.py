@@ -364,6 +364,18 @@ class Curves(WithResults):
         drawn = figure.axes[0].lines[0]
         np.testing.assert_array_equal(drawn.get_ydata(), [1.0, 0.1, curves.LEAST])
 
+    def test_problems_with_fewer_pairs_are_told_apart(self):
+        numbers, fewer = np.array([0, 1, 2, 2, 3]), np.array([True, True, True, False, False])
+        attempt = curves.Attempt(1, 1, True, numbers, np.array([1.0, 0.5, 1e-15, 0.1, 1e-16]), fewer)
+        self.assertEqual(curves.words_for_iterations([attempt]),
+                         "1 iteration, and 2 on fewer pairs, whose solution is the start of the next problem")
+        self.assertEqual(curves.words_for_iterations([curves.Attempt(1, 1, True, numbers[:3], np.ones(3), np.zeros(3, dtype=bool))]),
+                         "2 iterations")
+        axis = style.plt.figure().subplots()
+        curves.draw_attempt(axis, attempt, 1)
+        drawn = [list(line.get_xdata()) for line in axis.lines if line.get_linestyle() == "-"]
+        self.assertEqual(drawn, [[0, 1, 2], [2, 3]], "no line from the solution of one problem to the start of the next")
+
     def test_a_name_that_begins_with_an_underscore_is_in_the_legend(self):
         figure = plot.history(self.results, "hysteresis")
         self.assertEqual([text.get_text().strip() for text in figure.axes[0].get_legend().get_texts()], ["bend", "_seat"])
@@ -382,9 +394,11 @@ class NoOverlap(WithResults):
                 warnings.simplefilter("error")  # a layout that does not fit
                 figure.canvas.draw()
             renderer = figure.canvas.get_renderer()
-            texts = list(figure.texts)
+            texts = list(figure.texts) + [text for legend in figure.legends for text in legend.get_texts()]
             for axis in figure.axes:
                 if axis.get_visible():
+                    if legend := axis.get_legend():
+                        self.assertTrue(legend.get_frame_on() and legend.get_frame().get_alpha() == 1, "lines go through a legend")
                     texts += [axis.title, axis._left_title, axis.xaxis.label, axis.yaxis.label]
                     for scale, (low, high) in ((axis.xaxis, sorted(axis.get_xlim())), (axis.yaxis, sorted(axis.get_ylim()))):
                         texts += [tick.label1 for tick in scale.get_major_ticks() if low <= tick.get_loc() <= high]

@@ -182,6 +182,9 @@ class Dictionaries(InTemporaryDirectory):
                 self.assertEqual(f"{problems_of(lambda: scabo.read(BEAM, set=settings))}\n", said)
         with self.assertRaisesRegex(TypeError, "contacts.joint.friction"):
             scabo.read(BEAM, set={"contacts.joint.friction": object()})
+        with self.assertRaisesRegex(TypeError, "set must be a dictionary, as in .*, not str"):
+            scabo.read(BEAM, set="contacts.joint.friction=0.5")
+        self.assertEqual(scabo.read(BEAM, set={"contacts.joint.friction": None})["contacts"]["joint"], {"between": ["lower.top", "upper.bottom"]})
 
     def test_values_that_no_model_contains(self):
         for value, path in ((object(), "contacts.base.friction"), ({1, 2}, "contacts.base.friction"),

@@ -41,6 +41,18 @@ class CommandLine(support.InTemporaryDirectory):
                 self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
                 self.assertRegex(run.stderr, r"^scabo: .* \(see `scabo.* --help`\)\n$")
 
+    def test_empty_names_are_not_taken_for_none(self):
+        for arguments, name in [(["run", ""], "MODEL"), (["check", ""], "MODEL"), (["run", BEAM, "-o", ""], "--output"),
+                                (["sweep", BEAM, "--vary", "contacts.joint.friction=0.1,0.2", "-o", ""], "--output"),
+                                (["new", "beam", "-o", ""], "--output"), (["plot", ""], "DIR"), (["plot", "x", "-o", ""], "--output"),
+                                (["report", "x", "-o", ""], "--output"), (["contact", "problem.hdf5", "--save", ""], "--save"),
+                                (["resume", ""], "DIR"), (["run", BEAM, "--set", ""], "--set")]:
+            with self.subTest(arguments=arguments):
+                run = scabo(*arguments, cwd=self.directory)
+                self.assertEqual((run.returncode, run.stdout), (WRONG_INPUT, ""))
+                self.assertRegex(run.stderr, rf"^scabo: {name}: is empty: .* \(see `scabo {arguments[0]} --help`\)\n$")
+                self.assertEqual(list(self.directory.iterdir()), [])
+
     def test_numbers_out_of_range_say_what_they_may_be(self):
         for option, value, message in [
             ("--threads", "0", "must be a whole number from 1 to 1024, not '0'"),

@@ -1,10 +1,12 @@
 """The page of a report without a browser: packing of arrays, the choice of increments, messages, texts of the user."""
 import base64
 import json
+import os
 import pathlib
 import re
 import sys
 import tempfile
+import threading
 import unittest
 import zlib
 
@@ -135,6 +137,17 @@ class Pages(unittest.TestCase):
         self.assertTrue((self.directory / "model.report.html").read_text(encoding="utf-8").startswith("<title>"))
         self.assertEqual(self.report(self.results, "-q", "-o", self.directory / "x.html"), "")
         self.assertEqual(sorted(path.name for path in self.directory.iterdir()), ["model.report.html", "model.results", "x.html"])
+
+    def test_a_pipe_stays_a_pipe(self):
+        pipe = self.directory / "pipe"
+        os.mkfifo(pipe)
+        read = []
+        reader = threading.Thread(target=lambda: read.append(pipe.read_text(encoding="utf-8")))
+        reader.start()
+        self.report(self.results, "-o", pipe)
+        reader.join(30)
+        self.assertTrue(read[0].startswith("<title>"))
+        self.assertTrue(pipe.is_fifo(), "a device in its place would be lost to all programs")
 
     def test_messages(self):
         self.report("nowhere", status=1, says="nowhere: there is no such directory")

@@ -92,7 +92,7 @@ def room_for_legend(axis, columns, entries):
     low, high = axis.get_ylim()
     part = 0.04 + 0.085 * -(-entries // columns)
     axis.set_ylim(low, low + (high - low) / (1 - part))
-    axis.legend(loc="upper left", ncols=columns, handlelength=2.0, labelspacing=0.2, borderaxespad=0.0, columnspacing=1.0, borderpad=0.1)
+    axis.legend(loc="upper left", ncols=columns, handlelength=2.0, labelspacing=0.2, borderaxespad=0.25, columnspacing=1.0, borderpad=0.1)
 
 
 def contact_names(results, most=MOST_CURVES):
@@ -279,11 +279,10 @@ def convergence(results):
         legend = [(Line2D([], [], color=colour_of(k, count), marker=mark_of(k, count), markersize=4, linewidth=0.9), f"increment {k}")
                   for k in accepted]
     if any(attempt.coarse.any() for attempt in attempts):
-        legend.append((Line2D([], [], color="0.4", marker="o", markersize=4, markerfacecolor="white", linewidth=0.8), "with fewer pairs"))
+        legend.append((Line2D([], [], color="0.4", marker="o", markersize=4, markerfacecolor="white", linewidth=0.8), "on fewer pairs"))
     if any(not attempt.accepted for attempt in attempts):
         legend.append((Line2D([], [], color=style.RED, linestyle="--", marker="x", markersize=4, linewidth=0.9), "not accepted"))
-    subtitle = f"convergence of the contact solver: {sum(map(taken_by, attempts))} iterations, " \
-               f"{count} increment{'s' * several}"
+    subtitle = f"convergence of the contact solver: {words_for_iterations(attempts)}; {count} increment{'s' * several}"
     if len(attempts) > MOST_ATTEMPTS:
         subtitle += f"; residuals of about {MOST_ATTEMPTS} attempts"
     figure = style.new_figure(style.WIDTH, 3.1, results.title, subtitle, legend)
@@ -322,6 +321,14 @@ def taken_by(attempt):
     return int(attempt.iterations[-1])
 
 
+def words_for_iterations(attempts):
+    """Those of the whole problem and those on fewer pairs, as the program prints them."""
+    fewer = sum(int(attempt.iterations[attempt.coarse].max(initial=0)) for attempt in attempts)
+    whole = sum(map(taken_by, attempts)) - fewer
+    words = f"{whole} iteration{'s' * (whole != 1)}"
+    return f"{words}, and {fewer} on fewer pairs, whose solution is the start of the next problem" if fewer else words
+
+
 def colour_of(number, count):
     """From dark to light over the increments, never too light to see."""
     return style.plt.get_cmap("viridis")(0.85 * (number - 1) / max(1, count - 1))
@@ -334,7 +341,10 @@ def mark_of(number, count):
 def draw_attempt(axis, attempt, count):
     residuals = np.where(np.isfinite(attempt.residuals), np.maximum(attempt.residuals, LEAST), np.nan)
     colour = colour_of(attempt.number, count) if attempt.accepted else style.RED
-    axis.plot(attempt.iterations, residuals, color=colour, linestyle="-" if attempt.accepted else "--", linewidth=0.9)
+    dashes = "-" if attempt.accepted else "--"
+    starts = np.flatnonzero(np.diff(attempt.iterations) <= 0) + 1  # of the next problem, whose residual is another one
+    for rows in np.split(np.arange(len(residuals)), starts):
+        axis.plot(attempt.iterations[rows], residuals[rows], color=colour, linestyle=dashes, linewidth=0.9)
     mark = mark_of(attempt.number, count) if attempt.accepted else "x"
     for coarse in (False, True):
         chosen = attempt.coarse == coarse

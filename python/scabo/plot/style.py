@@ -13,7 +13,9 @@ from matplotlib.tri import Triangulation
 from . import geometry, vtu
 
 SETTINGS = {"font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.labelsize": 9, "legend.fontsize": 8.5,
-            "legend.frameon": False, "axes.linewidth": 0.7, "axes.grid": False, "axes.axisbelow": True, "grid.color": "0.88",
+            "legend.frameon": True, "legend.framealpha": 1.0,
+            "legend.facecolor": "white", "legend.edgecolor": "none", "legend.fancybox": False,  # no grid through a legend
+            "axes.linewidth": 0.7, "axes.grid": False, "axes.axisbelow": True, "grid.color": "0.88",
             "grid.linewidth": 0.6, "lines.linewidth": 1.3, "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 5),
             "axes.formatter.use_mathtext": True, "figure.dpi": 130, "savefig.dpi": 200, "pdf.fonttype": 42,
             "figure.constrained_layout.wspace": 0.05}
@@ -24,6 +26,7 @@ CURVES = ((BLUE, "-", "o"), (RED, "--", "^"), (GREEN, "-.", "s"), (ORANGE, ":", 
 # state: colour, mark, filled
 STATES = {"stick": (BLUE, "o", True), "slip": (RED, "^", True), "open": ("0.35", "s", False)}
 WIDTH = 6.7  # inches of text on a page
+BOX_ON_LINES = {"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none"}  # no lines through a text
 
 
 def apply():

@@ -106,6 +106,9 @@ def write(directory, output=None, units=None, megabytes=MEGABYTES):
     if path.is_dir():
         raise ResultsError(f"-o {path}: is a directory: name a file, as in -o {path / 'report.html'}")
     text = page_of(directory, units, megabytes)
+    if path.exists() and not path.is_file():  # a device or a pipe, which a new file must not replace
+        path.write_text(text, encoding="utf-8")
+        return path
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:
         with open(handle, "w", encoding="utf-8") as file:

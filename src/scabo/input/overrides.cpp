@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 
+#include "scabo/input/numbers.hpp"
 #include "scabo/input/suggestions.hpp"
 
 namespace scabo::input {
@@ -46,6 +47,13 @@ std::string why_not(const Node& list, const std::string& path, const std::string
 /// `null` or `~` was written: the key or the item is to be taken away. A value left out is not that, but a mistake.
 bool takes_away(const Override& override, const Node& value) {
   return value.kind == Node::Kind::null && override.value.find_first_not_of(" \t\r\n") != std::string::npos;
+}
+
+/// Whether the item of a list stands for its place, as in `displacement: [null, 1e-3]`: others may not move up.
+bool holds_a_place(const Node& item) {
+  if (item.kind == Node::Kind::null) return true;
+  return item.kind == Node::Kind::scalar && !item.quoted &&
+         (item.text.starts_with("${") || std::holds_alternative<double>(parse_number(item.text)));
 }
 
 /// Replaces or takes away one value; copies the nodes on its path, since aliases share nodes.
@@ -93,7 +101,7 @@ class Replacement {
         why_ = why_not(*node, path, key);
         return nullptr;
       }
-      if (ends_at(level)) {
+      if (ends_at(level) && !holds_a_place(*node->items[index])) {
         copy->items.erase(copy->items.begin() + static_cast<std::ptrdiff_t>(index));
         return copy;
       }
@@ -102,7 +110,10 @@ class Replacement {
       copy->items[index] = inner;
       return copy;
     }
-    why_ = path.empty() ? std::string("the model file is empty") : fmt::format("{} is empty", path);
+    if (node->kind == Node::Kind::scalar)
+      why_ = fmt::format("{} is {}, which has no keys: replace it as a whole", path, quoted_name(node->text));
+    else
+      why_ = path.empty() ? std::string("the model file is empty") : fmt::format("{} is empty", path);
     return nullptr;
   }
 

@@ -99,8 +99,9 @@ class Axes {
                    top, right - left, bottom - top);
     fmt::format_to(to, "<text class=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">iteration</text>\n", 0.5 * (left + right),
                    bottom + 44);
-    fmt::format_to(to, "<text class=\"middle\" transform=\"translate(26 {:.1f}) rotate(-90)\">residual</text>\n",
-                   0.5 * (top + bottom));
+    fmt::format_to(
+        to, "<text class=\"middle\" transform=\"translate(26 {:.1f}) rotate(-90)\">residual / largest force</text>\n",
+        0.5 * (top + bottom));
   }
 
  private:

@@ -66,6 +66,12 @@ void write_as(const std::filesystem::path& at, const std::filesystem::path& path
 void write_file(const std::filesystem::path& path, std::string_view content) { write_as(path, path, content); }
 
 void replace_file(const std::filesystem::path& path, std::string_view content) {
+  std::error_code ignored;
+  const auto there = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(there) && std::filesystem::is_other(there)) {  // a device or a pipe stays one
+    write_file(path, content);
+    return;
+  }
   std::filesystem::path part = path;
   part += ".part";
   write_as(part, path, content);

@@ -66,6 +66,19 @@ TEST(Overrides, NullTakesAKeyOrAnItemAway) {
             "supports, loads)");
 }
 
+TEST(Overrides, NullInAListOfNumbersKeepsTheirPlaces) {
+  const std::vector<Override> moved = {{"supports", "[{on: block.left, displacement: [1, 2]}]"}};
+  auto overrides = moved;
+  overrides.push_back({"supports.0.displacement.0", "null"});
+  const Model model = parse(block(), overrides);
+  EXPECT_FALSE(model.supports[0].displacement[0]);
+  EXPECT_TRUE(model.supports[0].displacement[1]);
+  overrides.push_back({"supports.0.displacement.0", "~"});  // once more
+  EXPECT_FALSE(parse(block(), overrides).supports[0].displacement[0]);
+  EXPECT_EQ(mistakes_in(block(), {{"loads.push.force.0", "null"}}),
+            "model.yaml: --set loads.push.force.0: must be a number, not nothing");
+}
+
 TEST(Overrides, ChangeOnlyTheAliasTheyName) {
   const std::string text =
       "scabo: 1\nmaterials: {m: &m {young: 1, poisson: 0}, n: *m}\n"
@@ -93,7 +106,8 @@ TEST(Overrides, MistakesNameTheOverride) {
   EXPECT_EQ(
       mistake("title.of.it", "x"),
       "model.yaml: --set title.of.it: the model has no 'title' (available: scabo, materials, bodies, supports, loads)");
-  EXPECT_EQ(mistake("scabo.version", "1"), "model.yaml: --set scabo.version: scabo is empty");
+  EXPECT_EQ(mistake("scabo.version", "1"),
+            "model.yaml: --set scabo.version: scabo is '1', which has no keys: replace it as a whole");
   EXPECT_THAT(mistake("loads.push.force", "[0, "), HasSubstr("model.yaml: --set loads.push.force: not valid YAML"));
   EXPECT_THAT(mistake("materials.steel.young", ""), HasSubstr("has no value: give one"));
   EXPECT_THAT(mistake("bodies.block.mesh.order", ""),

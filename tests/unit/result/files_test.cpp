@@ -1,7 +1,10 @@
 #include "scabo/result/files.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "unit/result/solutions.hpp"
 
@@ -55,6 +58,19 @@ TEST(Files, ReplacingKeepsTheOldContentWhenItFails) {
   replace_file(file, "new");
   EXPECT_EQ(content_of(file), "new");
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "file.part"));
+}
+
+TEST(Files, ReplacingWritesIntoAPipe) {
+  const TemporaryDirectory directory;
+  const auto pipe = directory.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  replace_file(pipe, "content");
+  std::string read(7, ' ');
+  EXPECT_EQ(::read(reader, read.data(), read.size()), 7);
+  ::close(reader);
+  EXPECT_EQ(read, "content");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(GrowingFile, IsCompleteAfterEveryWrite) {
